@@ -17,6 +17,7 @@
 #include "compare/comparison_folder.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "overlay/font.h"
 #include "scene/scene.h"
 #include "study/comparison_film.h"
 #include "study/run_list.h"
@@ -130,7 +131,8 @@ class CompareSession {
     ComparisonFolder folder(folder_);
     std::unique_ptr<SideBySide> film;
     if (options_.compare.video)
-      film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles));
+      film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles),
+                                          find_font("the text of a film", "leave --video out"));
     const auto files = write_comparison(
         folder.place(), plan, count, [&](std::size_t number) { return differences.run(number); }, watch);
     if (film) {

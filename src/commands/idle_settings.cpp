@@ -1,4 +1,4 @@
-// A setting of an output that is not written may still matter: a video takes values of `frames`. The outputs with and
+// A setting of an output that is not written may still matter: pictures take values of each other. The outputs with and
 // without the setting answer that. Keys for pictures alone matter only to outputs that are drawn. A mesh is one of them
 // unless it has `fit`, which gives the body the mesh's volume: the motions with and without the setting then differ.
 #include "commands/idle_settings.h"
@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "commands/text.h"
+#include "export/picture_streams.h"
 #include "files/manifest.h"
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
@@ -26,6 +27,15 @@ const OutputKind* output_set(std::string_view path) {
   const auto kinds = output_kinds();
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const OutputKind& k) { return k.name == name; });
   return found == kinds.end() ? nullptr : &*found;
+}
+
+/// The outputs with their settings, and what the sheet's pictures take from the others.
+std::string written_text(const Scene& scene) {
+  const std::string outputs = outputs_text(scene.output);
+  if (!scene.output.sheet) return outputs;
+  const PictureStream picture = still_stream(scene, 0);
+  return fmt::format("{} {} {} {} {} {}", outputs, picture.size.width, picture.size.height, picture.samples,
+                     picture.interval, picture.speed);
 }
 
 bool draws(const Output& output) {
@@ -55,8 +65,7 @@ std::vector<std::string> idle_settings(const std::vector<std::string>& set, cons
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::string_view path = std::string_view(set[i]).substr(0, set[i].find('='));
     if (const OutputKind* kind = output_set(path); kind != nullptr && !kind->asked(written.output)) {
-      if (is_same_without(i, [](const Scene& scene) { return outputs_text(scene.output); }))
-        report(set[i], fmt::format("the output `{}` is not written", kind->name));
+      if (is_same_without(i, written_text)) report(set[i], fmt::format("the output `{}` is not written", kind->name));
     } else if (is_drawn(path) && !draws(written.output)) {
       if (!path.ends_with(".mesh") || is_same_without(i, [](const Scene& scene) { return motion_text(scene); }))
         report(set[i], "no output is drawn");

@@ -139,10 +139,11 @@ void read_steps(Options& options, const Words& words) {
 
 std::string_view only_help() {
   constexpr std::size_t width = 56;  // columns
-  static const std::string text =
-      wrapped(fmt::format("write only these outputs, of {}; one that the scene lacks is written with default settings",
-                          joined(output_names(), ", ")),
-              0, width);
+  static const std::string text = wrapped(
+      fmt::format("write only these outputs, of {}; one that the scene lacks is written with default settings; frames, "
+                  "video and sheet take theirs from each other",
+                  joined(output_names(), ", ")),
+      0, width);
   return text;
 }
 

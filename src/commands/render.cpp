@@ -39,7 +39,17 @@ void refuse_tables(const Options& options) {
   const std::vector<std::string> drawn = names_of(with_all({}), true);
   for (const std::string& name : options.only.value_or(std::vector<std::string>{}))
     if (std::find(drawn.begin(), drawn.end(), name) == drawn.end())
-      throw UsageError(fmt::format("render makes {}: carom run writes {}", joined(drawn, ", "), name));
+      throw UsageError(fmt::format("render makes {}: carom {} {}", joined(drawn, ", "),
+                                   name == plot_files.folder ? "plot makes" : "run writes", name));
+}
+
+/// Charts show tables and flights, whatever the pictures.
+void refuse_charts(const Options& options, const std::string& folder) {
+  const std::string path = fmt::format("output.{}", plot_files.folder);
+  for (const std::string& set : options.set)
+    if (set.substr(0, set.find('=')) == path)
+      throw ExportError(fmt::format("--set {}: render makes no {}\n  carom plot {} makes them", printable(set),
+                                    plot_files.whats, printable(folder)));
 }
 
 /// As typed in a shell.
@@ -57,6 +67,7 @@ class Planner {
     const auto start = std::chrono::steady_clock::now();
     settle_folder(planned.file);
     settle_folder(planned.folder);
+    refuse_charts(options_, planned.file);
     const std::string path = former_scene_file(planned.file);
     LoadOptions load = load_options(options_, true);
     load.set.clear();
@@ -172,7 +183,7 @@ const CommandText& render_text() {
        {"--set"},
        {"--only",
         "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
-        "settings"},
+        "settings;\nframes, video and sheet take theirs from each other"},
        {"--at",
         "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
        {"--jobs", "N runs at a time (1); changes no result"},

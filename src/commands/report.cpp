@@ -26,11 +26,18 @@ namespace {
 
 constexpr std::size_t label_width = 12;
 
+/// Whether a run that is drawn again in its own folder left this file as it was.
+bool is_kept(const PlannedScene& planned, const std::string& file) {
+  return planned.former && planned.former->folder == planned.folder && output_of(file) != nullptr &&
+         !is_picture(file) && planned.former->has(file);
+}
+
 // "a.csv, b.csv and 60 pictures in frames/".
-std::string file_list(const std::string& folder) {
+std::string written_files(const PlannedScene& planned) {
   std::vector<std::string> names;
   std::map<const OutputKind*, std::uint64_t> series;
-  for (const std::string& file : files_in(folder)) {
+  for (const std::string& file : files_in(planned.folder)) {
+    if (is_kept(planned, file)) continue;
     if (const OutputKind* kind = series_of(file)) {
       ++series[kind];
     } else {
@@ -166,7 +173,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   describe(block, summary.warnings);
   for (const LeftOut& file : result.facts.left_out)
     block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
-  block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
+  block.line("wrote", fmt::format("{}: {}", printable(planned.folder), written_files(planned)));
   block.line(
       "time",
       fmt::format("{}: load {}, simulate {}, draw {}, write {}", wait_text(result.facts.load_s + result.wall_s),

@@ -79,7 +79,7 @@ struct Exports::Impl {
     }
     if (output.frames) frames.emplace(*folder, std::min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
-    if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
+    if (output.sheet) sheet.emplace(*output.sheet, sheet_model(scene).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
   }
 

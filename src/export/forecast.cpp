@@ -1,5 +1,6 @@
 // Estimates rows, pictures, bytes and wall time from the scene alone, with typical constants.
 // The time of the simulation itself is not included.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,17 +10,32 @@
 #include "export/writer.h"
 #include "numerics/whole.h"
 #include "physics/world.h"
+#include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 
 namespace carom {
 namespace {
 
-// Bytes of a pixel of a rendered picture as PNG. In 1280 x 720 the scenes in scenes/ have 0.07 to 0.41, on average
-// 0.15. Crowds have more: 0.65 with 10,000 balls of tests/benchmark/pictures.
-constexpr double png_bytes_per_pixel = 0.2;
-// Bytes of a pixel of a picture in a film at crf 18. They halve for each 6 more.
-constexpr double film_bytes_per_pixel = 0.02;
+// Bytes of pictures, measured with scenes/*.yaml. Bodies have more of them than the ground and the sky.
+
+// Of a pixel of a rendered picture as PNG: in 1280 x 720 from 0.07 with 1 body to 0.41 with 200.
+constexpr double png_pixel_bytes = 0.1;
+// For the root of the number of bodies.
+constexpr double png_body_bytes = 0.022;
+// With 10,000 balls of tests/benchmark/pictures.
+constexpr double png_most_bytes = 0.65;
+
+// Of a picture in an MP4 at crf 18: with few bodies 180 to 580 in 1280 x 720. They halve for each 6 more.
+constexpr double film_picture_bytes = 150;
+// Of each of its pixels.
+constexpr double film_pixel_bytes = 0.0002;
+// Of a body, for the root of the pixels: with 200 bodies 106 in 1280 x 720 and 55 in 640 x 360.
+constexpr double film_body_bytes = 0.1;
+// Of a pixel of a crowd: 0.073 with 2,000 balls in gas_in_a_room, most of them hidden.
+constexpr double film_most_bytes = 0.08;
+// Other formats in the bytes of an MP4: 4 to 11 and 1.0 to 1.9.
+constexpr double gif_bytes = 6.5, webp_bytes = 1.4;
 
 // Wall times, in s, on two cores of 3 GHz.
 
@@ -46,6 +62,26 @@ double pixels(Size size) {
   return static_cast<double>(size.width) * size.height;
 }
 
+double png_bytes(double area, double bodies) {
+  return area * std::min(png_pixel_bytes + png_body_bytes * std::sqrt(bodies), png_most_bytes);
+}
+
+/// Of one picture.
+double film_bytes(const VideoOutput& video, double area, double bodies) {
+  const double of_bodies = std::min(bodies * film_body_bytes * std::sqrt(area), area * film_most_bytes);
+  const double at_18 = film_picture_bytes + area * film_pixel_bytes + of_bodies;
+  const double by_crf = std::exp2((18 - video.crf) / 6.0);
+  switch (film_format(video.file).value_or(FilmFormat::mp4)) {
+    case FilmFormat::gif:
+      return at_18 * gif_bytes;
+    case FilmFormat::webp:
+      return at_18 * webp_bytes * by_crf;
+    case FilmFormat::mp4:
+      break;
+  }
+  return at_18 * by_crf;
+}
+
 }  // namespace
 
 Forecast forecast(const Scene& scene) {
@@ -69,8 +105,8 @@ Forecast forecast(const Scene& scene) {
     if (count > 0) seconds += first_picture_s + count * area * (pixel_s + sample_s * plan.streams[i].samples);
     if (plan.uses[i].frames) seconds += count * area * png_pixel_s;
     if (plan.uses[i].film) seconds += count * area * film_pixel_s;
-    if (plan.uses[i].frames || plan.uses[i].sheet) bytes += count * area * png_bytes_per_pixel;
-    if (plan.uses[i].film) bytes += count * area * film_bytes_per_pixel * std::exp2((18 - output.video->crf) / 6.0);
+    if (plan.uses[i].frames || plan.uses[i].sheet) bytes += count * png_bytes(area, bodies);
+    if (plan.uses[i].film) bytes += count * film_bytes(*output.video, area, bodies);
   }
   return {whole(rows), whole(frames), whole(bytes), seconds};
 }

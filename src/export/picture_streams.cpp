@@ -36,9 +36,15 @@ void add(PictureStreams& plan, Size size, const PictureOutput& model, double spe
   plan.ticks.push_back(ticks);
 }
 
+/// The outputs that the sheet's pictures follow: --only may leave frames and film out.
+const Output& models_of(const Scene& scene) {
+  return scene.requested.frames || scene.requested.video ? scene.requested : scene.output;
+}
+
 /// The speed of sheet_model().
-double model_speed(const Output& output) {
-  return output.frames || !output.video ? 1 : output.video->speed;
+double model_speed(const Scene& scene) {
+  const Output& models = models_of(scene);
+  return models.frames || !models.video ? 1 : models.video->speed;
 }
 
 /// Whether the pictures of the frames are those of the film.
@@ -52,14 +58,15 @@ bool shows_film(const Scene& scene, const PictureStream& frames, const Ticks& of
 
 }  // namespace
 
-PictureOutput sheet_model(const Output& output) {
-  if (output.frames) return *output.frames;
-  return output.video ? static_cast<const PictureOutput&>(*output.video) : PictureOutput{};
+PictureOutput sheet_model(const Scene& scene) {
+  const Output& models = models_of(scene);
+  if (models.frames) return *models.frames;
+  return models.video ? static_cast<const PictureOutput&>(*models.video) : PictureOutput{};
 }
 
 PictureStream still_stream(const Scene& scene, double time) {
-  const PictureOutput model = sheet_model(scene.output);
-  const double speed = model_speed(scene.output);
+  const PictureOutput model = sheet_model(scene);
+  const double speed = model_speed(scene);
   return {model.size, model.samples, 0, speed / model.fps, speed, Ticks::even(1, time, time).decimals()};
 }
 
@@ -78,8 +85,13 @@ PictureStreams plan_pictures(const Scene& scene) {
   const Output& output = scene.output;
   const double duration = scene.simulate.duration;
   PictureStreams plan;
-  if (const auto& frames = output.frames)
-    add(plan, frames->size, *frames, 1, ticks_of(*frames, duration), {true, false, false});
+  if (const auto& frames = output.frames) {
+    const Ticks ticks = ticks_of(*frames, duration);
+    if (ticks.count() < 1)
+      throw ExportError(std::string("cannot make frames: no picture falls between `from` and `until`; ") +
+                        "a frame is at a whole multiple of 1/fps");
+    add(plan, frames->size, *frames, 1, ticks, {true, false, false});
+  }
   if (const auto& video = output.video) {
     const Ticks ticks = ticks_of(*video, duration);
     if (ticks.count() < 1)
@@ -93,10 +105,9 @@ PictureStreams plan_pictures(const Scene& scene) {
       plan.uses.front().film = true;
   }
   if (output.sheet) {
-    const PictureOutput model = sheet_model(output);
+    const PictureOutput model = sheet_model(scene);
     const Sheet sheet(*output.sheet, model.size);
-    add(plan, sheet.picture_size(), model, model_speed(output), ticks_of(*output.sheet, duration),
-        {false, false, true});
+    add(plan, sheet.picture_size(), model, model_speed(scene), ticks_of(*output.sheet, duration), {false, false, true});
   }
   return plan;
 }

@@ -35,14 +35,15 @@ struct PictureStreams {
 /// Throws ExportError for a film or a sheet that is impossible.
 PictureStreams plan_pictures(const Scene& scene);
 
-/// One picture at `time` (s) as a frame shows it, or without frames the film.
+/// One picture at `time` (s), like those of the sheet.
 PictureStream still_stream(const Scene& scene, double time);
 
 /// The instants of all pictures that the scene requests, whichever of them --only leaves. If it requests none, those of
 /// the pictures that --only adds, else the keyframes of gltf.
 std::vector<Ticks> shown_instants(const Scene& scene);
 
-/// The shape and quality of the sheet's pictures: those of the frames, else of the film, else the defaults of frames.
-PictureOutput sheet_model(const Output& output);
+/// The shape and quality of the sheet's pictures: those of the requested frames, else of the film, else the defaults of
+/// frames. Whether --only leaves them does not matter.
+PictureOutput sheet_model(const Scene& scene);
 
 }  // namespace carom

@@ -1,39 +1,59 @@
-// Builds one ffmpeg filter graph for all films: equal frame rate, size and length, a label, then xstack.
-// Times are aligned by simulated time. Labels are passed in files, so that no text of a scene enters the graph.
+// Builds one ffmpeg filter graph for all films: equal frame rate, size and length, a label above each, then xstack.
+// Times are aligned by simulated time. Labels and their font are passed in files, so that no text of a scene and no
+// path enters the graph. A label on a film would meet its caption.
 #include "export/side_by_side.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
 
 #include "files/open_folder.h"
 #include "files/run_folder.h"
+#include "files/stored_file.h"
 #include "numerics/whole.h"
 #include "scene/film_format.h"
 
 namespace carom {
 namespace {
 
-constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr const char* font_file = "font.ttf";  // of the labels, in the temporary folder
+constexpr std::uint64_t most_font_bytes = 50'000'000;
 constexpr int widest = 3840, highest = 2160;  // pixels, of the whole film
 constexpr int crf = 18;
 
-/// The layout in columns and rows, and a tile's size in pixels.
-/// Both sides are even, because colour has half the resolution.
+constexpr double label_height = 1.0 / 22;  // of a letter, in heights of a film, where the width allows it
+constexpr int least_label = 8;             // pixels, of a letter
+constexpr double line_height = 1.45;       // in heights of a letter
+
+/// The layout in columns and rows, the size of a film and the height of the strip above it, in pixels.
+/// All sides are even, because colour has half the resolution.
 struct Grid {
-  int columns, rows, width, height;
+  int columns, rows, width, height, letter, strip;
 };
 
 int even(double pixels) {
   return std::max(2, 2 * static_cast<int>(pixels / 2));
 }
 
-Grid grid_of(const std::vector<FilmFacts>& films) {
+std::size_t most_lines(const std::vector<FilmTile>& tiles) {
+  std::size_t lines = 1;
+  for (const FilmTile& tile : tiles) lines = std::max(lines, tile.labels.size());
+  return lines;
+}
+
+/// The largest size at which the longest line fits. A letter of this font is about 0.6 of its size wide.
+int letter_of(const std::vector<FilmTile>& tiles, int width, int height) {
+  std::size_t longest = 1;
+  for (const FilmTile& tile : tiles)
+    for (const std::string& line : tile.labels) longest = std::max(longest, line.size());
+  const double by_width = (width - 16) / (0.62 * static_cast<double>(longest));
+  return std::max(least_label, static_cast<int>(std::min(by_width, height * label_height)));
+}
+
+Grid grid_of(const std::vector<FilmTile>& tiles, const std::vector<FilmFacts>& films) {
   int columns = 1;
   while (static_cast<std::size_t>(columns * columns) < films.size()) ++columns;
   const int rows = (static_cast<int>(films.size()) + columns - 1) / columns;
@@ -42,9 +62,14 @@ Grid grid_of(const std::vector<FilmFacts>& films) {
     width = std::max(width, film.width);
     height = std::max(height, film.height);
   }
-  const double scale =
-      std::min({1.0, widest / static_cast<double>(width * columns), highest / static_cast<double>(height * rows)});
-  return {columns, rows, even(width * scale), even(height * scale)};
+  // A strip has its lines and half a letter above and below them.
+  const double letters = line_height * static_cast<double>(most_lines(tiles)) + 1;
+  const double whole_height = height * (1 + letters * label_height);
+  const double scale = std::min({1.0, widest / static_cast<double>(width * columns), highest / (whole_height * rows)});
+  Grid grid{columns, rows, even(width * scale), even(height * scale), 0, 0};
+  grid.letter = letter_of(tiles, grid.width, grid.height);
+  grid.strip = even(letters * grid.letter);
+  return grid;
 }
 
 /// Whether `a` has the higher frame rate.
@@ -68,34 +93,32 @@ Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& faste
           static_cast<std::uint64_t>(std::max<std::int64_t>(1, nearest_whole(frames)))};
 }
 
-/// The largest size at which the longest line fits. A letter of this font is about 0.6 of its size wide.
-int font_size(const std::vector<FilmTile>& tiles, const Grid& grid) {
-  std::size_t longest = 1;
-  for (const FilmTile& tile : tiles)
-    for (const std::string& line : tile.labels) longest = std::max(longest, line.size());
-  const double by_width = (grid.width - 16) / (0.62 * static_cast<double>(longest));
-  return std::max(8, static_cast<int>(std::min(by_width, grid.height / 22.0)));
-}
-
 void write_label(const FilePlace& place, const std::string& name, const FilmTile& tile) {
   OutputFile file(place, name);
   for (std::size_t k = 0; k < tile.labels.size(); ++k) file.write((k > 0 ? "\n" : "") + tile.labels[k]);
   file.publish();
 }
 
+/// False: it cannot be read.
+bool copy_font(const std::string& font, const FilePlace& place) {
+  const std::filesystem::path path(canonical(font));
+  const Descriptor folder = open_folder(AT_FDCWD, path.parent_path().string(), true);
+  const auto bytes = folder ? read_text(folder.get(), path.filename().string(), most_font_bytes) : std::nullopt;
+  if (!bytes) return false;
+  OutputFile file(place, font_file);
+  file.write(*bytes);
+  file.publish();
+  return true;
+}
+
 }  // namespace
 
-SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles)
-    : tools_(find_film_tools()), file_(place, name, tools_, {}), tiles_(std::move(tiles)) {
+SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles,
+                       const std::string& font)
+    : tools_(find_film_tools()), file_(place, name, tools_, {}), tiles_(std::move(tiles)), font_(font) {
   if (tiles_.size() < 2 || tiles_.size() > most_tiles)
     file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name {}", most_tiles, tiles_.size(),
                                 tiles_.size() < 2 ? "more" : "fewer"));
-  if (access(font, R_OK) != 0 && !is_absent(errno)) fail("read", {AT_FDCWD, ""}, font);
-  if (access(font, R_OK) != 0)
-    file_.fail_with(
-        fmt::format("the font of its labels, {}, is not there: install it (on Debian: apt install "
-                    "fonts-dejavu-core)",
-                    font));
   for (const FilmTile& tile : tiles_) {
     const Descriptor folder = open_folder(AT_FDCWD, tile.folder, true);
     if (!folder) fail("open", {-1, tile.folder}, "");
@@ -104,12 +127,12 @@ SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vec
 }
 
 void SideBySide::complete() {
-  const Grid grid = grid_of(facts_);
+  const Grid grid = grid_of(tiles_, facts_);
   const FilmFacts& fastest =
       *std::max_element(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) { return is_faster(b, a); });
   double start = tiles_.front().from;
   for (const FilmTile& tile : tiles_) start = std::min(start, tile.from);
-  const int size = font_size(tiles_, grid);
+  if (!copy_font(font_, file_.workshop())) file_.fail_with("the font of its labels cannot be read: " + font_);
 
   std::vector<std::string> input;
   std::string graph, stacked, layout;
@@ -133,18 +156,18 @@ void SideBySide::complete() {
     if (film.width != grid.width || film.height != grid.height)
       graph += fmt::format(
           "scale={0}:{1}:force_original_aspect_ratio=decrease:force_divisible_by=2:flags=bicubic+accurate_rnd+"
-          "full_chroma_int+bitexact,pad={0}:{1}:(ow-iw)/2:(oh-ih)/2,setsar=1,",
+          "full_chroma_int+bitexact,setsar=1,",
           grid.width, grid.height);
+    graph += fmt::format("pad={0}:{1}+{2}:(ow-iw)/2:{2}+({1}-ih)/2,", grid.width, grid.height, grid.strip);
     // Give each film the same number of frames: the first one repeated before, the last one after.
     graph += fmt::format("tpad=start={}:start_mode=clone:stop=-1:stop_mode=clone,trim=end_frame={}", spans[k].before,
                          frames);
     graph += fmt::format(
-        ",drawtext=fontfile={}:textfile={}:expansion=none:fontsize={}:fontcolor=white:line_spacing={}:x={}:y={}:box=1:"
-        "boxcolor=black@0.6:boxborderw={}[t{}];",
-        font, label, size, size / 4, size / 2 + 2, size / 2 + 2, size / 3, k);
+        ",drawtext=fontfile={}:textfile={}:expansion=none:fontsize={}:fontcolor=white:line_spacing={}:x={}:y={}[t{}];",
+        font_file, label, grid.letter, grid.letter / 4, grid.letter / 2 + 2, grid.letter / 2, k);
     stacked += fmt::format("[t{}]", k);
     const int row = static_cast<int>(k) / grid.columns, column = static_cast<int>(k) % grid.columns;
-    layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * grid.height);
+    layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * (grid.height + grid.strip));
   }
   graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
   FfmpegRun run = std::move(input);

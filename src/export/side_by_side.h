@@ -21,12 +21,13 @@ inline constexpr std::size_t most_tiles = 16;
 /// H.264 as for every film. The same films give the same bytes. Time is simulated time.
 /// A film that begins later shows its first frame until then, and one that ends earlier keeps its last.
 /// Films of different sizes keep their aspect ratios. The highest frame rate applies to all.
+/// Labels stand above their films, because a film may have text anywhere.
 /// The grid is as square as possible.
 class SideBySide {
  public:
-  /// Reads the properties of the films.
+  /// Reads the properties of the films. `font`: the file of the labels' typeface.
   /// Throws ExportError, as all functions of this class do. Its text names what is missing and the remedy.
-  SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles);
+  SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles, const std::string& font);
 
   /// Makes the film.
   void complete();
@@ -38,6 +39,7 @@ class SideBySide {
   FilmFile file_;
   std::vector<FilmTile> tiles_;
   std::vector<FilmFacts> facts_;  // by tile
+  std::string font_;
 };
 
 }  // namespace carom

@@ -71,15 +71,19 @@ double pixels(FT_Pos units) {
 
 }  // namespace
 
-std::string find_font() {
+std::string find_font(std::string_view user, std::string_view instead) {
   for (const fs::path& folder : font_folders()) {
     const std::string found = found_in(folder);
     if (!found.empty()) return found;
   }
-  throw RenderError(
-      fmt::format("text in pictures needs the typeface DejaVu Sans, and no folder of fonts has {}: install it (on "
-                  "Debian: apt install fonts-dejavu-core), or leave out `caption`, `arrows` and `color: {{by: ...}}`",
-                  font_file));
+  throw RenderError(fmt::format(
+      "{} needs the typeface DejaVu Sans, and no folder of fonts has {}: install it (on Debian: apt install "
+      "fonts-dejavu-core), or {}",
+      user, font_file, instead));
+}
+
+std::string find_font() {
+  return find_font("text in pictures", "leave out `caption`, `arrows` and `color: {by: ...}`");
 }
 
 struct Font::Face {

@@ -23,6 +23,9 @@ struct Coverage {
 };
 
 /// The file of the typeface, from the system's folders of fonts. Throws RenderError with the remedy.
+/// `user` needs it, and `instead` can be done without it.
+std::string find_font(std::string_view user, std::string_view instead);
+/// For the text of a scene's pictures.
 std::string find_font();
 
 class Font {

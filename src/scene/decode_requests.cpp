@@ -118,6 +118,7 @@ class Requests {
                        "expected an even width and height: its colours (yuv420p) are stored for 2 x 2 pixels");
     }
     if (format == FilmFormat::gif) check_gif(part, video);
+    if (format) check_limits(part, video, *format);
     check_window(part, video.from, video.until);
   }
 
@@ -131,11 +132,32 @@ class Requests {
       diagnostics_.add(sheet.size ? part.place("size") : output.place("sheet"), problem->message, problem->remedy);
   }
 
+  void check_limits(const View& part, const VideoOutput& video, FilmFormat format) {
+    const FilmLimits limits = limits_of(format);
+    const Size size = video.size;
+    const std::string film = fmt::format("{} of {} x {} pixels", film_name(format), size.width, size.height);
+    if (std::max(size.width, size.height) > limits.longest_side)
+      diagnostics_.add(part.place("size"), film,
+                       fmt::format("expected at most {} pixels a side, the limit of this format, or a `file` ending in "
+                                   ".mp4",
+                                   limits.longest_side - limits.longest_side % 2));
+    else if (!fits_ffmpeg(size))
+      diagnostics_.add(part.place("size"), film,
+                       "expected fewer pixels, such as [16384, 16128]: ffmpeg takes (width + 128) x (height + 128) up "
+                       "to 268435455");
+    if (format != FilmFormat::gif && (video.fps < limits.lowest_fps || video.fps > limits.highest_fps))
+      diagnostics_.add(part.place("fps"),
+                       fmt::format("{} of {} pictures a second", film_name(format), shortest(video.fps)),
+                       fmt::format("expected a number {}: {}", describe({limits.lowest_fps, limits.highest_fps}),
+                                   limits.why_of_fps));
+  }
+
   /// A rate of the film's own stays as it is. That of frames, or the default, becomes one that a GIF keeps.
   void check_gif(const View& part, VideoOutput& video) {
     const Node* own = part.own() == nullptr ? nullptr : part.own()->find("fps");
     if (own == nullptr) {
       video.fps = gif_rate(video.fps);
+      if (part.given("fps") == nullptr && scene_.output.frames) scene_.output.frames->fps = video.fps;
       return;
     }
     if (own->bad || keeps_rate(FilmFormat::gif, video.fps)) return;

@@ -50,11 +50,10 @@ constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .ran
 // A film stores colours for blocks of 2 x 2 pixels.
 constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .of = size_names, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
 constexpr Field samples{.key = "samples", .type = Type::choice, .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
-constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before this time.", .example = "0.5", .title = "Start"};
-// The window of a film is its own: a window of frames/ is often a single picture.
+constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before this time.", .example = "0.5", .title = "Start", .own = true};
+// The windows are not shared: a window of frames/ is often a single picture.
 constexpr Field film_from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the first picture.", .example = "0.5", .title = "Start", .own = true};
-constexpr Field film_until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End", .own = true};
-constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End"};
+constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End", .own = true};
 
 constexpr Field frames_fields[] = {
     with(fps, fills<FramesOutput, &FramesOutput::fps>),
@@ -72,14 +71,14 @@ constexpr Field video_fields[] = {
     {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst. Not of a GIF; quality 100 to 0 of a WebP.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
     with(samples, fills<VideoOutput, &VideoOutput::samples>),
     with(film_from, fills<VideoOutput, &VideoOutput::from>),
-    with(film_until, fills<VideoOutput, &VideoOutput::until>),
+    with(until, fills<VideoOutput, &VideoOutput::until>),
     {.key = "speed", .type = Type::number, .range = {1e-6, 1e6}, .doc = "Seconds of motion a second of film; 0.125 is eightfold slow motion.", .example = "0.125", .title = "Seconds of motion a second of film", .member = fills<VideoOutput, &VideoOutput::speed>},
 };
 
 constexpr Field sheet_fields[] = {
     {.key = "columns", .type = Type::whole, .range = {1, 100}, .doc = "Pictures side by side.", .example = "5", .member = fills<SheetOutput, &SheetOutput::columns>},
     {.key = "rows", .type = Type::whole, .range = {1, 100}, .doc = "Pictures one below another.", .example = "2", .member = fills<SheetOutput, &SheetOutput::rows>},
-    {.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of the whole sheet. Default: by the columns and the shape of frames, at most 1920 wide.", .example = "1080p", .title = "Width and height", .member = fills_if_given<SheetOutput, &SheetOutput::size>},
+    {.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of the whole sheet. Default: by the columns and the shape of frames, else of video, at most 1920 wide.", .example = "1080p", .title = "Width and height", .member = fills_if_given<SheetOutput, &SheetOutput::size>},
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the first picture.", .example = "0.5", .title = "Start", .member = fills<SheetOutput, &SheetOutput::from>},
     {.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the last picture. Default: the duration.", .example = "1.5", .title = "End", .member = fills<SheetOutput, &SheetOutput::until>},
 };
@@ -115,7 +114,8 @@ constexpr OutputMember part = {[](const Output& output) { return (output.*member
                                },
                                every_in<member>(), fills_if_given<Output, member>};
 
-/// Pictures. If `requested` lacks this output, it takes rate, size and samples of the other picture output, `like`.
+/// Pictures. If `requested` lacks this output, it takes rate, size and samples of the other picture output, `like`, as
+/// a map without these keys does by OutputKind::beneath.
 template <auto member, auto like>
 constexpr OutputMember pictures = {[](const Output& output) { return (output.*member).has_value(); },
                                    [](Output& to, const Output& requested) {
@@ -176,7 +176,8 @@ constexpr OutputKind all_kinds[] = {
      .doc = "frames/frame_00000.png and so on.",
      .example = "{fps: 30, size: [1280, 720]}",
      .keys = frames_fields,
-     .keys_doc = "One PNG a picture.",
+     .keys_doc = "One PNG a picture; `fps`, `size` and `samples` left out are those of video.",
+     .beneath = "video",
      .member = pictures<&Output::frames, &Output::video>,
      .series = frame_files,
      .draws = true},

@@ -80,7 +80,7 @@ struct OutputKind {
 std::span<const OutputKind> output_kinds();
 
 /// The outputs named in `only`, with the scene's settings. An output that the scene lacks gets default settings.
-/// Frames and video take each other's settings.
+/// Frames and video take each other's rate, size and samples.
 /// The scene's resolved text stays unchanged, so that runs with different outputs are recognised as runs of one scene.
 Output restricted(const Output& requested, const std::vector<std::string>& only);
 

@@ -231,7 +231,7 @@ void add_beneath_rules(const Field& field, Json& rules) {
   if (kind == nullptr || kind->beneath.empty()) return;
   for (const Field& own : kind->fields) {
     const Field* below = find_field(kind_named(kind->beneath), own.key);
-    if (below == nullptr || below->range.even == own.range.even) continue;
+    if (below == nullptr || !own.range.even || below->range.even) continue;
     Json unsuited = required({own.key}), when = required({kind->beneath});
     unsuited["type"] = "object";
     unsuited.update(at(own.key, {{"not", value_schema(own)}}));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "compare/charts.h"
@@ -14,6 +15,8 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "scene/film_format.h"
+#include "scene/sweep.h"
+#include "study/sweep_folder.h"
 #include "yaml/value_json.h"
 #include "yaml/values.h"
 
@@ -21,6 +24,16 @@ namespace carom {
 namespace {
 
 constexpr std::size_t most_labels = 4;  // values below a run's id
+
+/// Commands after which the film of this run has another setting. A sweep refuses a run that was drawn again, so its
+/// runs are drawn elsewhere.
+std::string redrawing(const std::string& run, std::string_view setting) {
+  const std::filesystem::path runs = std::filesystem::path(absolute(run)).parent_path();
+  if (!is_sweep_file((runs.parent_path() / stored_sweep).string()))
+    return fmt::format("carom render {} --set output.video.{}", run, setting);
+  return fmt::format("carom render {} -o OTHER --set output.video.{}, then carom compare OTHER/* --video",
+                     (std::filesystem::path(run).parent_path() / "*").string(), setting);
+}
 
 FilmTile tile_of(const ListedRun& run) {
   FilmTile tile{run.folder, {}, 0, {run.id}};
@@ -44,19 +57,16 @@ FilmTile tile_of(const ListedRun& run) {
   tile.from = from.get<double>();
   tile.speed = speed.get<double>();
   if (film_format(tile.file) == FilmFormat::webp)
-    throw ExportError(
-        fmt::format("{0} has a film that ffmpeg cannot read, {1}: draw it as .mp4 (carom render {0} --set "
-                    "output.video.file=animation.mp4)",
-                    run.folder, tile.file));
+    throw ExportError(fmt::format("{} has a film that ffmpeg cannot read, {}: draw it as .mp4 ({})", run.folder,
+                                  tile.file, redrawing(run.folder, "file=animation.mp4")));
   return tile;
 }
 
 void refuse_other_speed(const FilmTile& tile, const FilmTile& first) {
   if (tile.speed == first.speed) return;
-  throw ExportError(fmt::format(
-      "the films of {} and {} have the speeds {} and {}: draw one of them again (carom render {} --set "
-      "output.video.speed={})",
-      first.folder, tile.folder, shortest(first.speed), shortest(tile.speed), tile.folder, shortest(first.speed)));
+  throw ExportError(fmt::format("the films of {} and {} have the speeds {} and {}: draw one of them again ({})",
+                                first.folder, tile.folder, shortest(first.speed), shortest(tile.speed),
+                                redrawing(tile.folder, "speed=" + shortest(first.speed))));
 }
 
 }  // namespace

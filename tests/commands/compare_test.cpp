@@ -189,13 +189,53 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
   const Finished probe = here.shell(
       "ffprobe -v error -count_packets -show_entries stream=width,height,r_frame_rate,nb_read_packets -of csv=p=0 "
       "output/comparison/comparison.mp4");
-  EXPECT_EQ(probe.out, "128,96,20/1,32\n")
-      << "1.5 s and the frame of 0, twice as often; three tiles of 64 x 48 in a square";
+  EXPECT_EQ(probe.out, "128,156,20/1,32\n")
+      << "1.5 s and the frame of 0, twice as often; three tiles of 64 x 48 in a square, two lines of 8 "
+         "pixels and their margins above each";
   const std::string film = here.read("output/comparison/comparison.mp4");
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer", "runs/other", "--video", "--force"}).code, 0);
   EXPECT_EQ(here.read("output/comparison/comparison.mp4"), film);
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer"}).code, 0);
   EXPECT_FALSE(here.has("output/comparison/comparison.mp4"));
+}
+
+// A caption is at the top left of a film, where a label on the film would be too.
+TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\ncaption: \"WWWWWW\"\n"
+                                     "output: {video: {fps: 10, size: [320, 240], crf: 1}}\n"));
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/first"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/second"}).code, 0);
+  // A font in a folder with characters that have a meaning in ffmpeg's filter graphs.
+  ASSERT_EQ(here.shell("mkdir -p \"a [b], 'c;/fonts\" && cp \"$(find /usr/share/fonts /usr/local/share/fonts -name "
+                       "DejaVuSans.ttf 2>/dev/null | head -n 1)\" \"a [b], 'c;/fonts\"")
+                .code,
+            0);
+  const Finished run = here.shell(
+      "XDG_DATA_HOME= HOME= XDG_DATA_DIRS=\"$PWD/a [b], 'c;\" $CAROM compare runs/first runs/second --video");
+  ASSERT_EQ(run.code, 0) << run.err;
+  // One line of 10 pixels, two margins of 5 above and below.
+  constexpr int strip = 24;
+  const auto grey = [&](const std::string& film, const std::string& cut) {
+    return here
+        .shell("ffmpeg -v error -i " + film + " -vf crop=" + cut + " -frames:v 1 -f rawvideo -pix_fmt gray pipe:1")
+        .out;
+  };
+  const std::string compared = grey("output/comparison/comparison.mp4", "320:240:0:" + std::to_string(strip));
+  const std::string own = grey("runs/first/animation.mp4", "320:240:0:0");
+  ASSERT_EQ(compared.size(), 320u * 240);
+  ASSERT_EQ(own.size(), compared.size());
+  int most = 0;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    most = std::max(most, std::abs(static_cast<unsigned char>(compared[i]) - static_cast<unsigned char>(own[i])));
+  EXPECT_LT(most, 60) << "the film below its label is unchanged, but for the second encoding";
+  const std::string label = grey("output/comparison/comparison.mp4", "320:" + std::to_string(strip) + ":0:0");
+  const auto letters = std::count_if(label.begin(), label.end(), [](char c) { return (c & 0x80) != 0; });
+  EXPECT_GT(letters, 20) << "the run's name in white";
+  EXPECT_EQ(
+      here.shell("XDG_DATA_HOME= HOME= XDG_DATA_DIRS=$PWD $CAROM compare runs/first runs/second --video -o other").err,
+      "carom: the text of a film needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf: install "
+      "it (on Debian: apt install fonts-dejavu-core), or leave --video out\n");
 }
 
 TEST(CompareCommand, FilmOfSlowMotionStaysInStep) {
@@ -236,6 +276,23 @@ TEST(CompareCommand, FilmMixesGifsAndNamesTheRemedyForOthers) {
   EXPECT_EQ(here.carom({"compare", "runs/first", "runs/slow", "--video", "--force"}).err,
             "carom: the films of runs/first and runs/slow have the speeds 1 and 0.5: draw one of them again (carom "
             "render runs/slow --set output.video.speed=1)\n");
+}
+
+// A sweep would refuse runs that were drawn again in their own folders.
+TEST(CompareCommand, RemedyForTheFilmsOfASweepWorksAndLeavesTheSweepAsItIs) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
+                                     "output: {video: {file: film.webp, fps: 4, size: [64, 48]}}\n"));
+  here.write("pair.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.restitution: [0.5, 1]}\n");
+  ASSERT_EQ(here.carom({"sweep", "pair.yaml", "-o", "pair", "-q"}).code, 0);
+  EXPECT_EQ(here.carom({"compare", "pair", "--video"}).err,
+            "carom: pair/runs/r0001 has a film that ffmpeg cannot read, film.webp: draw it as .mp4 (carom render "
+            "pair/runs/* -o OTHER --set output.video.file=animation.mp4, then carom compare OTHER/* --video)\n");
+  const Finished remedy = here.shell(
+      "$CAROM render pair/runs/* -o OTHER -q --set output.video.file=animation.mp4 && $CAROM compare OTHER/* --video");
+  EXPECT_EQ(remedy.code, 0) << remedy.err;
+  EXPECT_TRUE(here.has("output/comparison/comparison.mp4"));
+  EXPECT_NE(here.carom({"sweep", "pair.yaml", "-o", "pair"}).out.find("up to date"), std::string::npos);
 }
 
 TEST(CompareCommand, FilmOfTooManyRunsIsRefused) {

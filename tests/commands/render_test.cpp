@@ -78,6 +78,10 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   const Finished done = here.carom(render);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("run: From above\n"), std::string::npos);
+  EXPECT_NE(done.out.find("  wrote       run: animation.glb, manifest.json, scene.yaml, summary.csv, surfaces.vtp,\n"
+                          "              trajectory.pvd, 4 pictures in frames/ and 31 instants in vtk/\n"),
+            std::string::npos)
+      << done.out << "not collisions.csv, energy.csv and flights.bin, which stay";
   Words fresh = {"run", "balls.yaml", "-o", "fresh"};
   fresh.insert(fresh.end(), set.begin(), set.end());
   here.carom(fresh);
@@ -184,6 +188,21 @@ TEST(Render, RefusesOtherTables) {
   EXPECT_EQ(render.err,
             "run: --set changes one of energy, which render leaves as they are\n  carom run writes them\n"
             "carom: 1 error; nothing was run\n");
+}
+
+TEST(Render, RefusesChartsAndNamesTheCommandThatDrawsThem) {
+  const Workplace here;
+  here.write("balls.yaml",
+             two_balls(near_camera + "output: {energy: {every: 0.5}, frames: {fps: 2, size: [64, 36]}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Files before = here.files("run");
+  const Finished render = here.carom({"render", "run", "--set", "output.plots=true"});
+  EXPECT_EQ(render.code, 2);
+  EXPECT_EQ(render.err,
+            "run: --set output.plots=true: render makes no plots\n  carom plot run makes them\n"
+            "carom: 1 error; nothing was run\n");
+  EXPECT_EQ(here.files("run"), before);
+  EXPECT_NE(here.carom({"render", "run", "--only", "plots"}).err.find(": carom plot makes plots\n"), std::string::npos);
 }
 
 TEST(Render, RefusesWhatIsNoWholeRun) {

@@ -192,6 +192,37 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   EXPECT_FALSE(here.has("output/none/collisions.csv"));
 }
 
+/// The sizes of all pictures of a run, as ffprobe prints them, each once.
+std::string sizes(const Workplace& here, const std::string& pattern) {
+  return here
+      .shell("for p in " + pattern +
+             "; do ffprobe -v error -show_entries stream=width,height -of csv=p=0 $p; done | sort -u")
+      .out;
+}
+
+TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
+  const Workplace here;
+  here.write("film.yaml", two_balls("output: {video: {fps: 20, size: [64, 64], samples: 1}}\n"));
+  const auto frames = [&](const std::string& folder) { return here.files(folder + "/frames").size(); };
+  ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "frames", "-o", "plain"}).code, 0);
+  EXPECT_EQ(frames("plain"), 21u);
+  EXPECT_EQ(sizes(here, "plain/frames/*"), "64,64\n");
+  ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "frames", "-o", "late", "--set", "output.frames.from=0.5"}).code,
+            0);
+  EXPECT_EQ(frames("late"), 11u);
+  EXPECT_EQ(sizes(here, "late/frames/*"), "64,64\n");
+  EXPECT_EQ(here.read("late/frames/frame_00015.png"), here.read("plain/frames/frame_00015.png"));
+
+  ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "sheet", "-o", "sheet"}).code, 0);
+  // Four columns and three rows of 470 pixels each, and gaps of 8.
+  EXPECT_EQ(sizes(here, "sheet/sheet.png"), "1920,1442\n") << "square pictures, as those of the film";
+  const Finished flat =
+      here.carom({"run", "film.yaml", "--only", "sheet", "-o", "flat", "--set", "output.video.size=[64, 32]"});
+  EXPECT_EQ(flat.code, 0);
+  EXPECT_EQ(flat.err.find("changes nothing"), std::string::npos) << flat.err;
+  EXPECT_EQ(sizes(here, "flat/sheet.png"), "1920,737\n");
+}
+
 TEST(Run, JobsChangeNoResult) {
   const Workplace here;
   here.write("balls.yaml", two_balls());

@@ -320,6 +320,17 @@ TEST(Film, AFilmOfNothingIsRefusedBeforeAnythingIsWritten) {
   EXPECT_FALSE(fs::exists(temp / "run"));
 }
 
+TEST(Film, FramesOfNoInstantAreRefusedBeforeAnythingIsWritten) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.output.frames = FramesOutput{10, {32, 32}, 4, 0.11, 0.12};
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
+            "cannot make frames: no picture falls between `from` and `until`; a frame is at a whole multiple of 1/fps");
+  EXPECT_FALSE(fs::exists(temp / "run"));
+  scene.output.frames->until = 0.2;
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "no error");
+}
+
 TEST(Film, WithoutFfmpegNothingIsBegun) {
   TempFolder temp;
   const Scene scene = scene_with_film();

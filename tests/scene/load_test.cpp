@@ -180,6 +180,52 @@ TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
   EXPECT_EQ(errors_of(text, options), "");
 }
 
+TEST(LoadScene, AFilmHasASizeAndARateThatItsFormatCanHold) {
+  const auto error = [](const std::string& video) { return errors_of(start + "output: {video: {" + video + "}}\n"); };
+  EXPECT_EQ(error("size: [16384, 16384]"),
+            "scene.yaml:3:24: error: an MP4 of 16384 x 16384 pixels\n"
+            "   3 | output: {video: {size: [16384, 16384]}}\n"
+            "     |                        ^\n"
+            "     = expected fewer pixels, such as [16384, 16128]: ffmpeg takes (width + 128) x (height + 128) up to "
+            "268435455\n");
+  EXPECT_EQ(error("size: [16384, 16128]"), "");
+  EXPECT_NE(error("size: [16384, 16130]"), "");
+  EXPECT_EQ(error("file: x.webp, size: [16384, 1024]"),
+            "scene.yaml:3:38: error: a WebP of 16384 x 1024 pixels\n"
+            "   3 | output: {video: {file: x.webp, size: [16384, 1024]}}\n"
+            "     |                                      ^\n"
+            "     = expected at most 16382 pixels a side, the limit of this format, or a `file` ending in .mp4\n");
+  EXPECT_EQ(error("file: x.webp, size: [16382, 1024]"), "");
+  EXPECT_EQ(error("file: x.webp, fps: 1001"),
+            "scene.yaml:3:37: error: a WebP of 1001 pictures a second\n"
+            "   3 | output: {video: {file: x.webp, fps: 1001}}\n"
+            "     |                                     ^~~~\n"
+            "     = expected a number from 0.00006 to 1000: a WebP shows a picture for 1 to 16777215 thousandths of a "
+            "second\n");
+  EXPECT_EQ(error("file: x.webp, fps: 1000"), "");
+  EXPECT_EQ(error("file: x.webp, fps: 6e-5"), "");
+  EXPECT_EQ(error("fps: 1e-9"),
+            "scene.yaml:3:23: error: an MP4 of 1e-09 pictures a second\n"
+            "   3 | output: {video: {fps: 1e-9}}\n"
+            "     |                       ^~~~\n"
+            "     = expected a number from 0.00001 to 1000000: an MP4 shows a picture for a millionth of a second to "
+            "100000 s\n");
+  EXPECT_EQ(error("fps: 1e-5"), "");
+}
+
+TEST(LoadScene, FramesAndVideoTakeRateSizeAndSamplesFromEachOther) {
+  const Output film =
+      load_text(start + "output: {video: {fps: 60, size: [64, 64], samples: 8, from: 0.5}, frames: {samples: 2}}\n")
+          .output;
+  EXPECT_EQ(*film.frames, (FramesOutput{60, {64, 64}, 2, 0, {}}));
+  const Output frames = load_text(start + "output: {frames: {fps: 60, until: 0.5}, video: {size: [64, 64]}}\n").output;
+  EXPECT_EQ(*frames.frames, (FramesOutput{60, {64, 64}, 4, 0, 0.5}));
+  EXPECT_EQ(frames.video->fps, 60);
+  EXPECT_EQ(frames.video->until, std::nullopt);
+  EXPECT_EQ(load_text(start + "output: {frames: true, video: {file: x.gif}}\n").output.frames->fps, 25);
+  EXPECT_EQ(load_text(start + "output: {frames: true}\n").output.frames->fps, 30);
+}
+
 TEST(LoadScene, DensityMakesTheMass) {
   // A steel ball: 7850 kg/m^3, 2 cm across. 4/3 pi r^3 rho = 0.0328820...
   const Scene scene = load_text(start + "balls: {a: {density: 7850, radius: 0.01, position: [0, 0, 0]}}\n");
