@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-
 #include "overlay/arrows.h"
 #include "overlay/body_colors.h"
 #include "scene/scene.h"
