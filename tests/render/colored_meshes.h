@@ -64,7 +64,7 @@ inline std::string data_uri(const std::string& base64, const std::string& kind =
 /// of its baseColorTexture; `metallic`: of its pbrMetallicRoughness; `sampler`: members of the sampler.
 struct GltfSquare {
   std::string image;
-  std::string material = "", metallic = "", texture = "";
+  std::string material{}, metallic{}, texture{};
   std::string sampler = R"("magFilter": 9728)";
   bool has_material = true, vertex_colors = false;
 
