@@ -104,7 +104,7 @@ const std::string& PngEncoder::encode() {
     file_.append(reinterpret_cast<const char*>(room_.get()), size);
   });
   put_chunk(file_, "IEND", [] {});
-  // ISA-L 2.30 does not. With it a picture of 100,000 balls is drawn in 88 ms, else in 98 ms.
+  // ISA-L 2.30 does not. Without it the next picture of 100,000 balls takes a tenth longer to draw.
   end_wide_vectors();
   return file_;
 }

@@ -18,28 +18,6 @@
 
 namespace carom::raster {
 
-namespace {
-
-/// Bytes of the sRGB curve, by the root of the light, which spreads the dark values.
-struct Encoding {
-  static constexpr int steps = 1 << 14;
-  std::array<std::uint8_t, steps + 1> bytes{};
-  Encoding() {
-    for (int i = 0; i <= steps; ++i) {
-      const double root = static_cast<double>(i) / steps;
-      bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * srgb_of_light(root * root)));
-    }
-  }
-};
-
-/// Computed for the first picture: it takes as long as a small run.
-const Encoding& encoding() {
-  static const Encoding bytes;
-  return bytes;
-}
-
-}  // namespace
-
 #ifdef __x86_64__
 namespace bits128 {
 #define WIDTH 128

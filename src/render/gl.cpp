@@ -61,9 +61,7 @@ Context::Context() {
   if (!context_)
     throw RenderError(
         "cannot make an OpenGL 4.5 context for meshes in pictures. Remedy: install libosmesa6 22.3 or later with "
-        "llvmpipe "
-        "(Debian: "
-        "apt-get install libosmesa6), or run without frames, video and sheet.");
+        "llvmpipe (Debian: apt-get install libosmesa6), or run without frames, video and sheet.");
   // Without its threads, a context cannot even be destroyed.
   check_threads();
   try {

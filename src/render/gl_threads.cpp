@@ -77,8 +77,7 @@ void check_threads() {
     if (std::chrono::steady_clock::now() > limit)
       throw RenderError(
           "cannot draw: the system has no threads left. Remedy: end other programs or raise the limit of processes, "
-          "or "
-          "set LP_NUM_THREADS=0.");
+          "or set LP_NUM_THREADS=0.");
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

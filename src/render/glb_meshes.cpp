@@ -72,11 +72,10 @@ std::unique_ptr<aiMesh> mesh_of(const Mesh& mesh, std::size_t material, const st
 
 constexpr float roughness = 0.6F;
 
-std::unique_ptr<aiMaterial> material_of(const Color& color, bool two_sided, const std::string& name) {
+/// `base`: linear.
+std::unique_ptr<aiMaterial> material_of(const aiColor4D& base, bool two_sided, const std::string& name) {
   auto out = std::make_unique<aiMaterial>();
-  const auto c = linear(color);
   const aiString named(name);
-  const aiColor4D base(c[0], c[1], c[2], 1);
   const float metallic = 0;
   const int sides = two_sided ? 1 : 0;
   out->AddProperty(&named, AI_MATKEY_NAME);
@@ -142,7 +141,11 @@ int mode_of_axis(Wrap wrap) {
 std::size_t GlbMeshes::material(const Color& color, bool two_sided) {
   const auto [found, is_new] =
       material_numbers_.try_emplace({Srgb{color.r, color.g, color.b}, two_sided}, materials_.size());
-  if (is_new) materials_.push_back(material_of(color, two_sided, hex_text(color) + (two_sided ? ", two-sided" : "")));
+  if (is_new) {
+    const auto c = linear(color);
+    materials_.push_back(
+        material_of({c[0], c[1], c[2], 1}, two_sided, hex_text(color) + (two_sided ? ", two-sided" : "")));
+  }
   return found->second;
 }
 
@@ -159,17 +162,9 @@ std::size_t GlbMeshes::texture(const MeshTexture& picture) {
 
 std::size_t GlbMeshes::material(const MeshPart& part, const std::vector<std::size_t>& textures,
                                 const std::string& name) {
-  auto out = std::make_unique<aiMaterial>();
-  const aiString named(name);
-  const aiColor4D base(part.factor[0], part.factor[1], part.factor[2], part.factor[3]);
-  const float metallic = 0;
+  const auto& f = part.factor;
   // Pictures show both sides.
-  const int sides = 1;
-  out->AddProperty(&named, AI_MATKEY_NAME);
-  out->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
-  out->AddProperty(&metallic, 1, AI_MATKEY_METALLIC_FACTOR);
-  out->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
-  out->AddProperty(&sides, 1, AI_MATKEY_TWOSIDED);
+  std::unique_ptr<aiMaterial> out = material_of({f[0], f[1], f[2], f[3]}, true, name);
   if (part.cutoff > 0) {
     const aiString mask("MASK");
     out->AddProperty(&mask, AI_MATKEY_GLTF_ALPHAMODE);

@@ -11,26 +11,20 @@
 namespace carom {
 namespace {
 
-struct Tables {
-  static constexpr int steps = 1 << 14;
-  std::array<float, 256> light{};               // of a byte
-  std::array<std::uint8_t, steps + 1> bytes{};  // of the root of light
-  Tables() {
+/// By byte.
+const std::array<float, 256>& lights() {
+  static const std::array<float, 256> made = [] {
+    std::array<float, 256> light{};
     for (std::size_t i = 0; i < light.size(); ++i)
       light[i] = static_cast<float>(light_of_srgb(static_cast<double>(i) / 255));
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-      const double root = static_cast<double>(i) / steps;
-      bytes[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_of_light(root * root)));
-    }
-  }
-  std::uint8_t byte(float linear) const {
-    return bytes[static_cast<std::size_t>(std::lround(std::sqrt(std::clamp(linear, 0.0F, 1.0F)) * steps))];
-  }
-};
-
-const Tables& tables() {
-  static const Tables made;
+    return light;
+  }();
   return made;
+}
+
+std::uint8_t byte_of(float light) {
+  const float root = std::sqrt(std::clamp(light, 0.0F, 1.0F));
+  return srgb_bytes().of_root[static_cast<std::size_t>(std::lround(root * SrgbBytes::steps))];
 }
 
 /// The share of one long pixel in a short one.
@@ -55,11 +49,11 @@ using Pixel = std::array<float, 4>;
 
 Pixel loaded(const std::uint8_t* rgba) {
   const float opacity = static_cast<float>(rgba[3]) / 255;
-  return {tables().light[rgba[0]], tables().light[rgba[1]], tables().light[rgba[2]], opacity};
+  return {lights()[rgba[0]], lights()[rgba[1]], lights()[rgba[2]], opacity};
 }
 
 void store(const Pixel& sum, std::uint8_t* rgba) {
-  for (std::size_t c = 0; c < 3; ++c) rgba[c] = sum[3] > 0 ? tables().byte(sum[c] / sum[3]) : 0;
+  for (std::size_t c = 0; c < 3; ++c) rgba[c] = sum[3] > 0 ? byte_of(sum[c] / sum[3]) : 0;
   rgba[3] = static_cast<std::uint8_t>(std::lround(std::clamp(sum[3], 0.0F, 1.0F) * 255));
 }
 
