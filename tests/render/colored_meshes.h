@@ -1,31 +1,11 @@
 #pragma once
 // Small mesh files with colours, made as text: a square from (-1, -1, 0) to (1, 1, 0).
-#include <gtest/gtest.h>
-#include <stdlib.h>
-
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
-namespace carom::test {
+#include "render/mesh_folder.h"
 
-/// A temporary folder.
-struct MeshFolder {
-  MeshFolder() {
-    std::string name = ::testing::TempDir() + "carom_colors_XXXXXX";
-    if (!mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder";
-    path = name + "/";
-  }
-  ~MeshFolder() { std::filesystem::remove_all(path); }
-  MeshFolder(const MeshFolder&) = delete;
-  MeshFolder& operator=(const MeshFolder&) = delete;
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path + name, std::ios::binary) << bytes;
-    return path + name;
-  }
-  std::string path;
-};
+namespace carom::test {
 
 inline std::string from_base64(std::string_view text) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

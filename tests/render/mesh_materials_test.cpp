@@ -18,16 +18,9 @@ using test::data_uri;
 using test::GltfSquare;
 using test::MeshFolder;
 
-/// The error of read_painted_mesh after the path; "" if it is read.
+/// "" if the file is read.
 std::string painted_trouble(const std::string& path, const MeshLimits& limits = {}) {
-  try {
-    read_painted_mesh(path, limits);
-    return "";
-  } catch (const std::runtime_error& error) {
-    const std::string text = error.what(), start = "cannot read the mesh " + path + ": ";
-    EXPECT_EQ(text.substr(0, start.size()), start);
-    return text.substr(std::min(start.size(), text.size()));
-  }
+  return test::trouble_of(read_painted_mesh, path, limits);
 }
 
 TEST(ReadPaintedMesh, HasNoPaintWithoutMaterials) {

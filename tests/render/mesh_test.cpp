@@ -11,42 +11,24 @@
 #include <fstream>
 #include <iterator>
 
+#include "render/mesh_folder.h"
+
 namespace carom {
 namespace {
 
+using test::MeshFolder;
+
 const std::string data = DATA_DIR "/meshes/";
 const std::string scenes = SCENES_DIR "/meshes/";
-
-/// A temporary folder.
-struct Folder {
-  Folder() {
-    std::string name = ::testing::TempDir() + "carom_mesh_XXXXXX";
-    if (!mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder";
-    path = name + "/";
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path + name, std::ios::binary) << bytes;
-    return path + name;
-  }
-  std::string path;
-};
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The error of read_mesh for a file, after its path; "" if it is read.
+/// "" if the file is read.
 std::string trouble(const std::string& path, const MeshLimits& limits = {}) {
-  try {
-    read_mesh(path, limits);
-    return "";
-  } catch (const std::runtime_error& error) {
-    const std::string text = error.what(), start = "cannot read the mesh " + path + ": ";
-    EXPECT_EQ(text.substr(0, start.size()), start);
-    return text.substr(std::min(start.size(), text.size()));
-  }
+  return test::trouble_of(read_mesh, path, limits);
 }
 
 const char* const triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -75,7 +57,7 @@ TEST(ReadMesh, NodesOfGltfMoveTurnAndScale) {
 }
 
 TEST(ReadMesh, PolygonsAreCutCornersJoinedAndRoundedShapesSmooth) {
-  const Folder folder;
+  const MeshFolder folder;
   const Mesh square = read_mesh(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
   EXPECT_EQ(square.triangles.size(), 6U);
   EXPECT_EQ(square.vertices.size(), 4U);
@@ -107,7 +89,7 @@ TEST(ReadMesh, ThePinHasItsPublishedSize) {
 }
 
 TEST(ReadMesh, ReportsErrorsOfFiles) {
-  const Folder folder;
+  const MeshFolder folder;
   EXPECT_EQ(trouble(folder.path + "none.obj"), "No such file or directory");
   EXPECT_EQ(trouble(folder.write("a.ply", "ply")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
   EXPECT_EQ(trouble(folder.write("noending", "x")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
@@ -124,12 +106,12 @@ TEST(ReadMesh, ReportsErrorsOfFiles) {
 }
 
 TEST(ReadMesh, EndingsMayBeInCapitals) {
-  const Folder folder;
+  const MeshFolder folder;
   EXPECT_EQ(trouble(folder.write("A.OBJ", triangle)), "");
 }
 
 TEST(ReadMesh, OtherFormatsUnderAKnownEndingAreNotRead) {
-  const Folder folder;
+  const MeshFolder folder;
   const std::string x = "xof 0303txt 0032\nMesh m { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;; }\n";
   for (const char* name : {"a.obj", "a.stl", "a.gltf"}) EXPECT_NE(trouble(folder.write(name, x)), "") << name;
 }
@@ -150,7 +132,7 @@ TEST(ReadMesh, RefusesMoreThanItsLimits) {
 
 TEST(ReadMesh, MaterialsOfOtherFoldersAreNotOpened) {
   // Opening a queue without a writer would block: the reader must not open it.
-  const Folder folder;
+  const MeshFolder folder;
   std::filesystem::create_directory(folder.path + "in");
   ASSERT_EQ(mkfifo((folder.path + "queue").c_str(), 0600), 0);
   ASSERT_EQ(mkfifo((folder.path + "in/queue").c_str(), 0600), 0);
@@ -169,7 +151,7 @@ TEST(ReadMesh, WhatTakesTooLongIsEnded) {
 }
 
 TEST(ReadMesh, TooLittleMemoryIsReported) {
-  const Folder folder;
+  const MeshFolder folder;
   std::string text;
   for (int i = 0; i < 150'000; ++i) text += "v " + std::to_string(i) + " 0 0\n";
   for (int i = 3; i < 150'000; ++i) text += "f 1 2 " + std::to_string(i) + "\n";
@@ -180,7 +162,7 @@ TEST(ReadMesh, TooLittleMemoryIsReported) {
 
 // By the robustness notes one in a few thousand crashes the reader, or hangs it; each must end in a mesh or a text.
 TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
-  const Folder folder;
+  const MeshFolder folder;
   MeshLimits limits;
   limits.seconds = 2;
   std::uint64_t seed = 21;
