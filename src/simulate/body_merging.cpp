@@ -81,7 +81,7 @@ void BodyMerging::move_out(Entity whole) {
     bool free = true;
     for (const Entity e : bodies_.neighbours_of(whole)) {
       if (world.is_body(e)) continue;
-      const Touch there = touch(world, whole, f.x, e, world.fixed_position(e));
+      const Touch there = touch(world, whole, f.x, e, bodies_.fixed_position(e));
       if (!(there.gap < 0)) continue;
       const Vec3 out = there.gap * there.normal;
       bodies_.log.add_work(bodies_.merged.potential(whole, f.x + out) - bodies_.merged.potential(whole, f.x));

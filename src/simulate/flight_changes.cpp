@@ -57,6 +57,8 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
 }
 
 void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
+  if (bodies_.moving.any() && !bodies_.in_group(i))
+    bodies_.contact_work.change(i, bodies_.now, bodies_.in_lasting_contact(i) ? 0 : flat_.power(i));
   bodies_.body[i].set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
@@ -127,6 +129,7 @@ void FlightChanges::release(Entity i) {
   Islands& islands = bodies_.islands;
   book_taking(i, bodies_.now);
   take(i, 0);
+  bodies_.contact_work.change(i, bodies_.now, 0);
   const Vec3 pending = (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
@@ -267,6 +270,7 @@ void FlightChanges::book_last(double time) {
     bodies_.hold_to_bounds(i, time, x, v);
     bodies_.log.note_speed(v.norm());
     book(i, x, at);
+    bodies_.contact_work.change(i, at, 0);
     if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
   }
 }

@@ -19,6 +19,11 @@ constexpr std::size_t few = 12;
 // Number of cells in the cache.
 constexpr std::size_t most_cells = 65536;
 
+/// Half the edges of the box around a wall (m).
+Vec3 half_of(const Wall& wall) {
+  return wall.half_width * wall.right.cwiseAbs() + wall.half_height * wall.up.cwiseAbs();
+}
+
 }  // namespace
 
 std::size_t SurfacesNear::Hash::operator()(const Cell& cell) const {
@@ -34,12 +39,47 @@ SurfacesNear::SurfacesNear(const World& world) : world_(world) {
   for (const Plane& plane : world.planes)
     planes_.push_back({plane.normal, plane.point.dot(plane.normal), 0x1p-48 * plane.point.cwiseAbs().sum()});
   for (Entity k = 0; k < world.fixed_count(); ++k) all_.push_back(world.body_count() + k);
+  if (!world.moves()) return;
+  for (const Entity e : all_) sweep(e);
+}
+
+/// Finds the places of a thing's centre: those at the starts of its legs, and in the direction of the last one.
+void SurfacesNear::sweep(Entity e) {
+  const Vec3& start = world_.fixed_position(e);
+  Places& places = places_.emplace_back(Places{start, start});
+  if (!world_.moves(e)) return;
+  const auto include = [&](const Vec3& x) {
+    places.low = places.low.cwiseMin(x);
+    places.high = places.high.cwiseMax(x);
+    if (!world_.is_plane(e)) return;
+    HalfSpace& plane = planes_[e - world_.body_count()];
+    plane.offset = std::max(plane.offset, plane.normal.dot(x));
+    plane.rounding = std::max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
+  };
+  const std::vector<MotionLeg>& legs = world_.legs(e);
+  for (const MotionLeg& leg : legs) include(place_on(start, leg, {leg.from, 0}));
+  const Vec3& last = legs.back().velocity;
+  if (world_.is_plane(e)) {
+    HalfSpace& plane = planes_[e - world_.body_count()];
+    if (plane.normal.dot(last) > 0) plane.offset = never;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (last[axis] < 0) places.low[axis] = -never;
+    if (last[axis] > 0) places.high[axis] = never;
+  }
 }
 
 bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
   if (world_.is_plane(e)) {
     const HalfSpace& plane = planes_[e - world_.body_count()];
     return center.dot(plane.normal) - plane.offset <= reach + plane.rounding + 0x1p-48 * center.cwiseAbs().sum();
+  }
+  if (world_.moves(e)) {
+    // The nearest of its places.
+    const Places& places = places_[e - world_.body_count()];
+    const Vec3 half = world_.is_obstacle(e) ? world_.obstacle(e).volume.half : half_of(world_.wall(e));
+    const Vec3 nearest = center.cwiseMax(places.low).cwiseMin(places.high);
+    return ((center - nearest).cwiseAbs() - half).cwiseMax(0).squaredNorm() <= reach * reach;
   }
   if (world_.is_obstacle(e)) {
     const Obstacle& o = world_.obstacle(e);
