@@ -115,7 +115,7 @@ FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, 
 }
 
 /// The latest end of body i's flight.
-Instant ExactCollisionTimes::end_of(Entity i) const {
+inline Instant ExactCollisionTimes::end_of(Entity i) const {
   return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
 }
 

@@ -56,12 +56,18 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   end_change(i, origin);
 }
 
-void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
-  if (bodies_.moving.any() && !bodies_.in_group(i))
-    bodies_.contact_work.change(i, bodies_.now, bodies_.in_lasting_contact(i) ? 0 : flat_.power(i));
+inline void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
+  if (bodies_.moving.any()) [[unlikely]]
+    note_power(i);
   bodies_.body[i].set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
+}
+
+/// Stores the power of moving surfaces that carry body i by itself. That of islands is stored with their steps.
+void FlightChanges::note_power(Entity i) {
+  if (!bodies_.in_group(i))
+    bodies_.contact_work.change(i, bodies_.now, bodies_.in_lasting_contact(i) ? 0 : flat_.power(i));
 }
 
 /// Starts a step of body i's flight: by the scene's method if it is free, otherwise by that of contact.

@@ -69,23 +69,32 @@ void SurfacesNear::sweep(Entity e) {
   }
 }
 
-bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
+inline bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
   if (world_.is_plane(e)) {
     const HalfSpace& plane = planes_[e - world_.body_count()];
     return center.dot(plane.normal) - plane.offset <= reach + plane.rounding + 0x1p-48 * center.cwiseAbs().sum();
-  }
-  if (world_.moves(e)) {
-    // The nearest of its places.
-    const Places& places = places_[e - world_.body_count()];
-    const Vec3 half = world_.is_obstacle(e) ? world_.obstacle(e).volume.half : half_of(world_.wall(e));
-    const Vec3 nearest = center.cwiseMax(places.low).cwiseMin(places.high);
-    return ((center - nearest).cwiseAbs() - half).cwiseMax(0).squaredNorm() <= reach * reach;
   }
   if (world_.is_obstacle(e)) {
     const Obstacle& o = world_.obstacle(e);
     return ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).squaredNorm() <= reach * reach;
   }
   return (center - nearest_on_wall(world_.wall(e), center)).squaredNorm() <= reach * reach;
+}
+
+/// The same where things move: whether the surface is ever near.
+bool SurfacesNear::comes_near(Entity e, const Vec3& center, double reach) const {
+  if (!world_.moves(e) || world_.is_plane(e)) return is_near(e, center, reach);
+  const Places& places = places_[e - world_.body_count()];
+  const Vec3 half = world_.is_obstacle(e) ? world_.obstacle(e).volume.half : half_of(world_.wall(e));
+  const Vec3 nearest = center.cwiseMax(places.low).cwiseMin(places.high);
+  return ((center - nearest).cwiseAbs() - half).cwiseMax(0).squaredNorm() <= reach * reach;
+}
+
+/// Adds those that are ever near.
+void SurfacesNear::take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
+                               std::vector<Entity>& found) const {
+  for (const Entity e : from)
+    if (comes_near(e, center, reach)) found.push_back(e);
 }
 
 void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
@@ -104,13 +113,14 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
       const Vec3 middle = width * Vec3(static_cast<double>(cell.x) + 0.5, static_cast<double>(cell.y) + 0.5,
                                        static_cast<double>(cell.z) + 0.5);
       std::vector<Entity> in_reach;
-      for (const Entity e : all_)
-        // Half of the cell's diagonal.
-        if (is_near(e, middle, (0.5 + 0.8661) * width)) in_reach.push_back(e);
+      // Half of the cell's diagonal.
+      take_ever_near(all_, middle, (0.5 + 0.8661) * width, in_reach);
       known = cells_.emplace(cell, std::move(in_reach)).first;
     }
     candidates = &known->second;
   }
+  if (world_.moves()) [[unlikely]]
+    return take_ever_near(*candidates, center, reach, found);
   for (const Entity e : *candidates)
     if (is_near(e, center, reach)) found.push_back(e);
 }

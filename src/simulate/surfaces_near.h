@@ -41,7 +41,10 @@ class SurfacesNear {
   };
 
   void sweep(Entity e);
-  bool is_near(Entity e, const Vec3& center, double reach) const;
+  [[gnu::always_inline]] bool is_near(Entity e, const Vec3& center, double reach) const;
+  bool comes_near(Entity e, const Vec3& center, double reach) const;
+  [[gnu::noinline]] void take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
+                                     std::vector<Entity>& found) const;
 
   const World& world_;
   std::vector<HalfSpace> planes_;  // of a plane that moves: the farthest out along its normal
