@@ -61,7 +61,10 @@ void BodyMerging::join(Entity whole, Entity part) {
     const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
     bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.fade)});
   }
-  for (const Entity i : {whole, part}) flat_.clear(i);
+  for (const Entity i : {whole, part}) {
+    flat_.clear(i);
+    bodies_.contact_work.change(i, bodies_.now, 0);
+  }
   bodies_.neighbours.remove(part);
   flights_.count(part);
   bodies_.body[part].event = {};
