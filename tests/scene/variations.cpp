@@ -120,7 +120,7 @@ title: Balls
 seed: 3
 gravity: [0, -1, 0]
 restitution: {default: 0.9, combine: minimum, pairs: [{between: [red, blue], value: 0.5}]}
-planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
+planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
 walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
@@ -143,7 +143,7 @@ bodies:
   bag: {fit: sphere, mesh: box.stl, position: [6, 3, 0]}
   ball: {radius: 0.5, position: [-3, 3, 0]}
 obstacles:
-  post: {cylinder: {radius: 0.1, height: 1}, position: [0, -3, 0]}
+  post: {cylinder: {radius: 0.1, height: 1}, position: [0, -3, 0], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}
   edge: {box: [1, 1, 1], position: [3, -3, 0], visible: false, restitution: 0.5}
   rock: {fit: box, mesh: box.stl, position: [6, -3, 0], color: tan}
   globe: {radius: 0.5, position: [-3, -3, 0]}

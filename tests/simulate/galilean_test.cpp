@@ -181,7 +181,9 @@ void expect_same(const Case& of, const Vec3& u, Integrator integrator, double st
   const double books = step > 0 ? 1e-4 * scale : 1e-12 * scale;
   EXPECT_NEAR(unbooked(moved, b), unbooked(still, a), books) << of.name;
   EXPECT_NEAR(residual(moved, b), residual(still, a), books) << of.name;
-  if (still.world.forces.empty()) EXPECT_NEAR(b.tally.work, work_by_momentum(moved, b, u), 1e-12 * scale) << of.name;
+  if (still.world.forces.empty()) {
+    EXPECT_NEAR(b.tally.work, work_by_momentum(moved, b, u), 1e-12 * scale) << of.name;
+  }
 }
 
 Problem heap() {
