@@ -239,14 +239,19 @@ void write_summary(OutputFile& file, const Summary& s) {
   file.write(
       "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,last_collision_s,"
       "energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,momentum_drift_kg_m_per_s,max_overlap_m,"
-      "max_speed_m_per_s,resting,frames,stepped_contact_s\n");
+      "max_speed_m_per_s,resting,frames,stepped_contact_s");
+  for (const Measured& measure : s.measures) file.write("," + measure.name);
+  file.write("\n");
   CsvRow row(file);
   row.text(valid_utf8(s.run)).text(valid_utf8(s.title)).text(s.engine).text(s.status).number(s.duration);
   row.count(s.bodies).count(s.collisions).count(s.body_body).count(s.body_fixed);
   row.number(s.first_collision).number(s.last_collision);
   row.number(s.energy.start).number(s.energy.end).number(s.energy.lost).number(s.energy.work).number(s.energy.residual);
   row.number(s.momentum_drift).number(s.max_overlap).number(s.max_speed);
-  row.count(s.resting).count(s.frames).number(s.stepped_contact).end();
+  row.count(s.resting).count(s.frames).number(s.stepped_contact);
+  for (const Measured& measure : s.measures)
+    measure.text.empty() ? row.number(measure.value) : row.text(valid_utf8(measure.text));
+  row.end();
 }
 
 }  // namespace carom

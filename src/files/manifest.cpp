@@ -123,7 +123,9 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
       {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
   json["peak_memory_bytes"] = facts.peak_memory;
   for (const Measured& measure : facts.measures)
-    json["measures"][measure.name] = std::isfinite(measure.value) ? Json(measure.value) : Json();
+    json["measures"][measure.name] = !measure.text.empty()          ? Json(valid_utf8(measure.text))
+                                     : std::isfinite(measure.value) ? Json(measure.value)
+                                                                    : Json();
   for (const LeftOut& file : facts.left_out) json["left_out"][file.name] = file.why;
   json["status"] = summary.status;
   for (const Warning& warning : summary.warnings)
@@ -168,7 +170,8 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
       manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
   if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
     for (const auto& [measure, value] : measures->items())
-      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
+      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan(""),
+                                   value.is_string() ? value.get<std::string>() : std::string()});
   if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
     for (const Json& warning : *warnings)
       manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});

@@ -1,6 +1,7 @@
 #pragma once
 // The results of a run: the row of summary.csv, and what manifest.json holds besides.
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct ContactCounts {
   TakenUp taken_up;
 };
 
+/// A measure of a run: a number, or a text.
+struct Measured {
+  std::string name;  // "balls.red.speed_m_per_s"
+  double value = std::numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
+  std::string text{};  // empty: a number, or undefined
+};
+
 /// The row of summary.csv, in the order of its columns.
 struct Summary {
   std::string run, title, engine, status;
@@ -55,14 +63,10 @@ struct Summary {
   /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
   double stepped_contact = 0;
 
+  std::vector<Measured> measures;  // those that the scene defines, columns after all others
+
   ContactCounts contact;
   std::vector<Warning> warnings;  // with any, the status is `doubtful`
-};
-
-/// A requested quantity at the end of the run. Not finite: undefined.
-struct Measured {
-  std::string name;  // "balls.red.speed_m_per_s"
-  double value = 0;
 };
 
 /// The course of a run, only for manifest.json. Nothing here may appear in a CSV file.

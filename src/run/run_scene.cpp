@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "files/manifest.h"
 #include "run/account.h"
 #include "run/stopwatch.h"
 #include "run/survey.h"
@@ -33,7 +34,7 @@ class Run {
       stages_.emplace_back();
       guarded(i, [&] {
         check_flights(*shows[i].scene);
-        stages_[i] = std::make_unique<Stage>(shows[i], settings.durability);
+        stages_[i] = std::make_unique<Stage>(shows[i], settings.durability, measures_of(*shows[i].scene));
       });
     }
     const Stopwatch stopwatch(simulate_s_);
@@ -44,6 +45,13 @@ class Run {
       const OverlayNeeds needs = overlay_needs(*show.scene);
       recording.collisions = recording.collisions || show.scene->output.needs_collisions() || needs.collisions;
       recording.paths = recording.paths || show.scene->output.flights || needs.paths;
+    }
+    for (const auto& stage : stages_) {
+      first_watched_.push_back(recording.watch.size());
+      if (!stage) continue;
+      recording.collisions = recording.collisions || stage->measuring.needs_collisions();
+      const std::vector<WatchedQuantity>& watched = stage->measuring.watched();
+      recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
     }
     simulator_ = settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), recording, engine_.steps);
     record({}, simulator_->paths());
@@ -67,6 +75,14 @@ class Run {
   }
 
  private:
+  /// The measures of a scene and those of the settings, unless a former run has them.
+  std::vector<Measure> measures_of(const Scene& of) const {
+    if (settings_.former != nullptr) return {};
+    std::vector<Measure> measures = own_measures(of);
+    measures.insert(measures.end(), settings_.measures.begin(), settings_.measures.end());
+    return measures;
+  }
+
   // All shows have the same motion.
   const Scene& scene() const { return *shows_.front().scene; }
 
@@ -155,8 +171,8 @@ class Run {
     const State& end = simulator_->state();
     result.engine = engine_;
     result.summary = account_of(stage.scene, engine_, start_, end, simulator_->tally());
-    result.summary.warnings = settings_.warnings
-                                  ? *settings_.warnings
+    result.summary.warnings = settings_.former != nullptr
+                                  ? settings_.former->warnings
                                   : warnings_of(stage.scene, engine_, end, result.summary, simulator_->tally());
     result.summary.status = result.summary.warnings.empty() ? "done" : "doubtful";
     result.summary.frames = stage.exports.frames();
@@ -164,8 +180,25 @@ class Run {
     result.facts.simulate_s = simulate_s_;
     result.facts.peak_memory = peak_memory();
     result.facts.left_out = stage.exports.end(simulator_->tally());
-    if (settings_.measure) result.facts.measures = settings_.measure(stage.scene, end, result.summary);
+    take_measures(i, end, result);
     stage.exports.finish(result.summary, result.facts);
+  }
+
+  void take_measures(std::size_t i, const State& end, RunResult& result) const {
+    const Stage& stage = *stages_[i];
+    if (const Manifest* former = settings_.former; former != nullptr) {
+      if (result.summary.collisions != former->collisions)
+        throw ExportError(fmt::format("the motion differs: {} collisions, not {}", result.summary.collisions,
+                                      former->collisions));
+      result.facts.measures = former->measures;
+    } else {
+      const std::vector<Extremes> all = simulator_->extremes();
+      const auto own = std::span(all).subspan(first_watched_[i], stage.measuring.watched().size());
+      result.facts.measures = stage.measuring.values({end, result.summary, own});
+    }
+    for (const OwnMeasure& own : stage.scene.measures)
+      for (const Measured& measured : result.facts.measures)
+        if (measured.name == own.name) result.summary.measures.push_back(measured);
   }
 
   std::span<const Show> shows_;
@@ -176,6 +209,7 @@ class Run {
   /// By show. Null: it has failed.
   std::vector<std::unique_ptr<Stage>> stages_;
   std::unique_ptr<Simulator> simulator_;
+  std::vector<std::size_t> first_watched_;  // by show: the first of its quantities among all that are watched
   StoredEnergy start_;     // at time 0
   double simulate_s_ = 0;  // wall time
 };

@@ -22,8 +22,9 @@ const Scene& with_font(const Scene& scene) {
 
 }  // namespace
 
-Stage::Stage(const Show& show, Durability durability)
+Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measures)
     : scene(with_font(*show.scene)),
+      measuring(scene, std::move(measures)),
       exports(scene, show.folder, durability,
               {[](const Scene& of, const Extent& seen) { return still_things(of, seen, false); }, glb,
                [this](const State& state) { return of_model_.at(state); }},
@@ -54,6 +55,7 @@ double Stage::time() {
 
 void Stage::record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
   exports.record(collisions);
+  measuring.record(collisions);
   exports.record_paths(paths);
   history_.record(collisions);
   history_.record_paths(paths);

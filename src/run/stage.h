@@ -8,6 +8,7 @@
 #include "export/exports.h"
 #include "overlay/history.h"
 #include "render/moving_camera.h"
+#include "run/measuring.h"
 #include "run/picture_series.h"
 #include "simulate/simulator.h"
 
@@ -34,8 +35,8 @@ struct StageWatch {
 
 class Stage {
  public:
-  /// Opens the folder. Throws ExportError, RenderError.
-  Stage(const Show& show, Durability durability);
+  /// Opens the folder, and takes these measures. Throws ExportError, RenderError, MeasureError.
+  Stage(const Show& show, Durability durability, std::vector<Measure> measures);
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
@@ -53,6 +54,7 @@ class Stage {
 
   const Scene& scene;
   RunFacts facts;
+  Measuring measuring;
   Exports exports;
   bool more = false;  // whether a next instant exists
 

@@ -111,6 +111,13 @@ struct Light {
   double intensity = 1;
 };
 
+/// A measure that the scene defines: a column of its summary.csv.
+struct OwnMeasure {
+  std::string name;
+  std::string text;   // a measure, or '= ' and an expression of measures (run/measure.h)
+  std::string where;  // "scene.yaml:12:9", for errors
+};
+
 struct Scene {
   std::string file;  // as given on the command line
   std::string title;
@@ -126,6 +133,7 @@ struct Scene {
   bool transparent = false;  // there is no background
   Overlay overlay;
   Output output;
+  std::vector<OwnMeasure> measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
   std::vector<MeshFile> meshes;  // each file once

@@ -39,6 +39,7 @@ class BookSimulator final : public Simulator {
   const State& state() override;
   std::span<const Collision> collisions() const override { return log_.collisions(); }
   const Tally& tally() const override { return log_.tally(); }
+  std::vector<Extremes> extremes() const override { return extremes_; }
 
  private:
   double frame_time(std::uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
@@ -50,6 +51,7 @@ class BookSimulator final : public Simulator {
   void handle_pair(Entity a, Entity b);
   void handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal);
   void record(const Collision& collision);
+  void take_extremes();
 
   const World& world_;
   const BookOptions options_;
@@ -60,6 +62,7 @@ class BookSimulator final : public Simulator {
   std::vector<Vec3> x_, v_, force_;
   State state_;
   EventLog log_;
+  std::vector<Extremes> extremes_;  // by options_.watch, at the frames
 };
 
 BookSimulator::BookSimulator(const World& world, const State& initial, const BookOptions& options)
@@ -69,8 +72,18 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       x_(initial.position),
       v_(initial.velocity),
       force_(world.body_count()),
-      log_(options.max_collisions, options.record_collisions) {
+      log_(options.max_collisions, options.record_collisions),
+      extremes_(options.watch.size()) {
   for (const Vec3& v : v_) log_.note_speed(v.norm());
+  take_extremes();
+}
+
+void BookSimulator::take_extremes() {
+  for (std::size_t k = 0; k < extremes_.size(); ++k) {
+    const WatchedQuantity& watched = options_.watch[k];
+    for (Entity i = watched.first; i < watched.first + watched.count; ++i)
+      extremes_[k].take(quantity_of(watched.quantity, x_[i], v_[i], world_.mass[i]), frame_time(frames_));
+  }
 }
 
 void BookSimulator::record(const Collision& collision) {
@@ -130,6 +143,7 @@ void BookSimulator::do_frame() {
   handle_surfaces();
   move();
   ++frames_;
+  take_extremes();
 }
 
 /// The impulse of a scene is a force that lasts for the first frame only.

@@ -30,6 +30,7 @@ class ExactSimulator final : public Simulator {
   std::span<const Collision> collisions() const override { return bodies_.log.collisions(); }
   std::span<const PathPiece> paths() const override { return paths_.pieces(); }
   const Tally& tally() const override { return bodies_.log.tally(); }
+  std::vector<Extremes> extremes() const override { return paths_.extremes().up_to(time_); }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
 

@@ -27,6 +27,8 @@ void PathLog::begin_advance() {
 }
 
 void PathLog::note(Entity i) {
+  if (extremes_.any()) extremes_.note(i);
+  if (!bodies_.options.record_paths) return;
   if (changed_at_ != bodies_.now) record_changes();
   changed_at_ = bodies_.now;
   changed_.push_back(i);

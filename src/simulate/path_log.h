@@ -6,31 +6,36 @@
 
 #include "physics/path_piece.h"
 #include "simulate/exact_bodies.h"
+#include "simulate/path_extremes.h"
 
 namespace carom {
 
 class PathLog {
  public:
-  /// Records nothing unless options.record_paths.
-  explicit PathLog(const ExactBodies& bodies) : bodies_(bodies) {}
+  /// Records nothing unless options.record_paths, and watches nothing unless options.watch.
+  explicit PathLog(const ExactBodies& bodies)
+      : bodies_(bodies), extremes_(bodies), noting_(bodies.options.record_paths || extremes_.any()) {}
 
   /// Empties the buffer for the next advance.
   void begin_advance();
   /// Call this before body i gets another path at the present instant, or before any data of its path change.
   void note_change(Entity i) {
-    if (bodies_.options.record_paths) [[unlikely]]
+    if (noting_) [[unlikely]]
       note(i);
   }
   /// Records the paths that have changed.
   void record_changes();
   bool full() const { return full_; }
   std::span<const PathPiece> pieces() const { return pieces_; }  // in order
+  const PathExtremes& extremes() const { return extremes_; }
 
  private:
   void note(Entity i);
   PathPiece piece_of(Entity i, double from) const;
 
   const ExactBodies& bodies_;
+  PathExtremes extremes_;
+  const bool noting_;  // a change of a path concerns the record or the extremes
   std::vector<PathPiece> pieces_;
   // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
   std::vector<Entity> changed_;

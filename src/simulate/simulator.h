@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "physics/collision.h"
 #include "physics/contact_force.h"
+#include "physics/extremes.h"
 #include "physics/path_piece.h"
 #include "physics/state.h"
 #include "physics/tally.h"
@@ -39,6 +41,8 @@ class Simulator {
   /// if they are not recorded.
   virtual std::span<const PathPiece> paths() const { return {}; }
   virtual const Tally& tally() const = 0;       // up to time()
+  /// The extremes of the watched quantities from time 0 to time(), in the order in which they are watched.
+  virtual std::vector<Extremes> extremes() const { return {}; }
   virtual Effort effort() const { return {}; }  // up to the present; zero where it is not counted
   /// At time(), ordered by a, then b. Valid until the next advance_to.
   virtual std::span<const ContactForce> contacts() { return {}; }
