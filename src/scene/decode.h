@@ -51,6 +51,8 @@ struct Inventory {
   };
   // Looked up only, never iterated.
   std::unordered_map<std::string, Range> names;
+  /// Repeated things, whose members have names in `names` too.
+  std::unordered_map<std::string, Range> families;
 };
 
 /// Numbers all things. Checks that names are unique and that the number of bodies is within `budget`.

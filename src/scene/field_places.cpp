@@ -30,6 +30,10 @@ void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::
     std::vector<std::string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
+    if (field.type == Type::values) {
+      here.push_back(any_name);
+      found.push_back({&kind, &field, here});
+    }
     const Kind* held = held_kind(field);
     if (held == nullptr) continue;
     if (field.type == Type::named && held->also != nullptr) {

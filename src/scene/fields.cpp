@@ -25,8 +25,9 @@ constexpr Field scene_fields[] = {
     {.key = "scene", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format.", .example = "1", .title = "Format"},
     {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "Title of the scene, one line.", .example = "Two bowling balls meet near the origin"},
     {.key = "seed", .type = Type::whole, .range = from_0, .initial = "0", .doc = "The only source of randomness.", .example = "7"},
+    {.key = "let", .type = Type::values, .doc = "Numbers with names. Wherever a number may stand, a text that begins with = is an expression of them.", .example = "{r: 0.05, gap: '= r / 10'}", .title = "Numbers with names"},
     {.key = "gravity", .type = Type::vector, .unit = "m/s^2", .initial = "[0, -9.80665, 0]", .doc = "Acceleration of every body; y is up.", .example = "[0, 0, 0]"},
-    {.key = "restitution", .type = Type::part, .of = "restitution", .doc = "How bodies bounce off one another.", .example = "{default: 0.9, combine: minimum}"},
+    {.key = "restitution", .type = Type::part, .of = "restitution", .doc = "How bodies bounce off one another. A number alone is `default`.", .example = "{default: 0.9, combine: minimum}", .plain = "default"},
     {.key = "defaults", .type = Type::part, .of = "defaults", .doc = "Default values for things of each kind.", .example = "{ball: {mass: 10, radius: 0.11, restitution: 0.9}}"},
     {.key = "balls", .type = Type::named, .of = "ball", .doc = "Single balls by name.", .example = "{red: {mass: 10, radius: 0.11, position: [3, 1, 0], velocity: [-2, 0, 0], color: crimson}}"},
     {.key = "bodies", .type = Type::named, .of = "body", .doc = "Movable bodies with any bounding volume.", .example = "{crate: {mass: 2, box: [0.4, 0.3, 0.4], position: [-1, 1, 0]}}"},
@@ -56,7 +57,7 @@ constexpr Field restitution_fields[] = {
 };
 
 // A name, a group's member, or a side of the room.
-constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)))?$)";
+constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
 
 constexpr Field pair_fields[] = {
     {.key = "between", .type = Type::two_names, .needed = true,
@@ -84,9 +85,12 @@ template <typename Keys> constexpr Field color{.key = "color", .type = Type::col
 constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", .example = "meshes/duck.obj", .drawn = true, .member = fills<BodyKeys, &BodyKeys::mesh>};
 constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<BodyKeys, &BodyKeys::position>};
 
+// The members of a repeated thing replace it before its map is checked and decoded (repeat.h).
+constexpr Field repeat{.key = "repeat", .type = Type::repeat, .doc = "Makes members name.0, name.1, ... of this map. Its expressions may contain the index i, or the indices named here; the last one varies fastest.", .example = "{i: 6, j: 4}", .title = "Number of members", .own = true};
+
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh,
+    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh, repeat,
 };
 
 constexpr std::string_view volumes = "radius|cylinder|box|fit";
@@ -101,7 +105,7 @@ template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::fi
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
-    ball_position, ball_velocity, ball_restitution, impulse, body_color_field,
+    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, repeat,
 };
 
 constexpr Field cylinder_fields[] = {
@@ -119,6 +123,7 @@ constexpr Field group_fields[] = {
      .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal", .member = fills<GroupKeys, &GroupKeys::arrange>},
     {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
     {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
+    repeat,
 };
 
 constexpr Field in_fields[] = {
@@ -132,7 +137,7 @@ template <typename Keys> constexpr Field visible{.key = "visible", .type = Type:
 constexpr Field plane_fields[] = {
     {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, 0, 0]", .title = "A point of the plane", .member = fills<PlaneKeys, &PlaneKeys::point>},
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the free side; any length.", .example = "[0, 1, 0]", .member = fills<PlaneKeys, &PlaneKeys::normal>},
-    fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>,
+    fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>, repeat,
 };
 
 constexpr Field wall_fields[] = {
@@ -140,7 +145,7 @@ constexpr Field wall_fields[] = {
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Perpendicular to the rectangle; any length.", .example = "[-1, 0, 0]", .member = fills<WallKeys, &WallKeys::normal>},
     {.key = "size", .type = Type::extent, .unit = "m", .range = above_0, .needed = true, .doc = "Width and height.", .example = "[2, 2]", .title = "Width and height", .member = fills<WallKeys, &WallKeys::size>},
     {.key = "up", .type = Type::direction, .doc = "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", .example = "[0, 1, 0.5]", .title = "Direction of the height", .member = fills<WallKeys, &WallKeys::up>},
-    fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>,
+    fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>, repeat,
 };
 
 constexpr Field room_fields[] = {
@@ -154,7 +159,7 @@ constexpr Field obstacle_color{.key = "color", .type = Type::color, .doc = "Colo
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
-    fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>,
+    fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
 };
 
 constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";
@@ -169,6 +174,7 @@ constexpr Field force_fields[] = {
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the force starts.", .example = "0.5", .title = "Start", .member = fills<ForceKeys, &ForceKeys::from>},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<ForceKeys, &ForceKeys::until>},
     {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn. Default: true.", .example = "false", .with = "spring", .drawn = true, .member = fills_if_given<ForceKeys, &ForceKeys::visible>},
+    repeat,
 };
 
 constexpr Field drag_fields[] = {
@@ -243,6 +249,7 @@ constexpr Field light_fields[] = {
     {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Position of a lamp, instead of direction.", .example = "[0, 5, 0]", .member = fills<Light, &Light::position>},
     {.key = "color", .type = Type::color, .doc = "Its colour.", .example = "lightyellow", .member = fills<Light, &Light::color>},
     {.key = "intensity", .type = Type::number, .range = from_0, .doc = "Brightness; 1 is usual.", .example = "0.8", .member = fills<Light, &Light::intensity>},
+    repeat,
 };
 
 // clang-format on

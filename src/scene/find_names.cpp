@@ -4,9 +4,20 @@
 #include <algorithm>
 
 #include "scene/decode.h"
+#include "scene/expand.h"
 #include "yaml/values.h"
 
 namespace carom {
+namespace {
+
+/// The number of members of a repeated thing. A repeated group has more bodies than members.
+Entity members_of(const Inventory& inventory, const std::string& family) {
+  Entity count = 0;
+  while (inventory.names.contains(fmt::format("{}.{}", family, count))) ++count;
+  return count;
+}
+
+}  // namespace
 
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
                                            Diagnostics& diagnostics) {
@@ -27,6 +38,13 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
           it->count == 0 ? "it has none" : fmt::format("expected {}.0 to {}.{}", group, group, it->count - 1));
       return std::nullopt;
     }
+  }
+  if (const auto family = inventory.families.find(std::string(family_of(name.text))); family != inventory.families.end()) {
+    const Entity count = members_of(inventory, family->first);
+    diagnostics.add(name.place, fmt::format("there is no {}: {} has {} member{}", in_backticks(name.text), in_backticks(family->first), count,
+                                            count == 1 ? "" : "s"),
+                    count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
+    return std::nullopt;
   }
   std::vector<std::string> all;
   for (const BodyEntry& body : inventory.bodies) all.push_back(body.key->text);

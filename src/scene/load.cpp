@@ -9,6 +9,7 @@
 
 #include "scene/check.h"
 #include "scene/decode.h"
+#include "scene/expand.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -47,6 +48,7 @@ struct SceneFile::Impl {
       stop_if_wrong(parsing, options);
     }
     root = std::move(*tree);
+    write_out(root);
   }
 
   Scene scene(const std::vector<Setting>& settings) {
@@ -56,14 +58,18 @@ struct SceneFile::Impl {
       sources.push_back({setting.where.empty() ? "--set " + setting.text : setting.where, setting.text, true});
     Diagnostics diagnostics = parsing;
     Node tree = root;
-    for (std::uint32_t i = 1; i < sources.size(); ++i) apply_setting(tree, sources, i, diagnostics);
+    for (std::uint32_t i = 1; i < sources.size(); ++i) {
+      apply_setting(tree, sources, i, diagnostics);
+      write_out(tree);
+    }
     return resolve(tree, diagnostics);
   }
 
   Scene resolve(Node& tree, Diagnostics& diagnostics) const {
     const std::string folder = folder_of(path);
-    check_scene(tree, folder, diagnostics);
     Scene scene;
+    scene.expressions = expand(tree, options.budget, diagnostics);
+    check_scene(tree, folder, diagnostics);
     scene.file = path;
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
@@ -81,7 +87,7 @@ struct SceneFile::Impl {
     stop_if_wrong(diagnostics, options);
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
-    scene.resolved = resolved_text(tree, inventory, scene);
+    scene.resolved = resolved_text(tree, inventory, scene, folder);
     return scene;
   }
 

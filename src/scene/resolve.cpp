@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "scene/check.h"
 #include "scene/colors.h"
 #include "scene/engines.h"
 #include "scene/member.h"
@@ -39,8 +40,8 @@ std::string flow(const View& view, const Overrides& overrides = {}) {
 
 class Resolver {
  public:
-  Resolver(const Node& root, const Inventory& inventory, const Scene& scene)
-      : root_(root), inventory_(inventory), scene_(scene) {}
+  Resolver(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder)
+      : root_(root), inventory_(inventory), scene_(scene), folder_(folder) {}
 
   std::string run() {
     const Kind& kind = kind_named("scene");
@@ -48,6 +49,7 @@ class Resolver {
     line("scene", "1");
     line("title", flow_text(*whole.find("title")));
     line("seed", std::to_string(scene_.seed));
+    if (const Node* let = root_.find("let"); let != nullptr && !let->items.empty()) line("let", flow_text(*let));
     line("gravity", flow_text(*whole.find("gravity")));
     line("restitution", flow(scene_part(root_, "restitution")));
     // The order of these keys in the file is the order of the bodies and of the planes.
@@ -117,6 +119,25 @@ class Resolver {
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
     }
+    without_members(key, kind);
+  }
+
+  /// Writes the things of a map that are repeated no time, as they stand in the file.
+  void without_members(std::string_view key, std::string_view kind) {
+    const Node& map = *root_.find(key);
+    for (std::size_t i = 0; i < map.keys.size(); ++i) {
+      if (map.items[i].find_key("repeat") == nullptr) continue;
+      std::string text;
+      for (std::size_t k = 0; k < map.items[i].keys.size(); ++k) {
+        const std::string& name = map.items[i].keys[k].text;
+        const Node& value = map.items[i].items[k];
+        const bool is_file = find_field(kind_named(kind), name)->type == Type::file && !value.cancels;
+        text += fmt::format("{}{}: {}", k == 0 ? "" : ", ", name,
+                            is_file ? in_quotes(std::filesystem::absolute(beneath(folder_, value.text)).string())
+                                    : flow_text(value));
+      }
+      entry(map.keys[i].text, "{" + text + "}");
+    }
   }
 
   void fixed(std::string_view key, std::string_view kind) {
@@ -124,6 +145,7 @@ class Resolver {
     for (const FixedEntry& thing : inventory_.fixed) {
       if (thing.kind->name == kind) entry(thing.key->text, fixed_text(thing));
     }
+    without_members(key, kind);
   }
 
   std::string fixed_text(const FixedEntry& thing) const {
@@ -143,6 +165,10 @@ class Resolver {
     if (node->items.empty()) return line("forces", "[]");
     heading("forces", false);
     for (const Node& item : node->items) {
+      if (item.find_key("repeat") != nullptr) {
+        out_ += fmt::format("  - {}\n", flow_text(item));
+        continue;
+      }
       out_ += fmt::format("  - {}\n", flow(View(&item, kind_named("force"), item.place)));
     }
   }
@@ -173,10 +199,12 @@ class Resolver {
     if (node == nullptr) return;
     heading("lights", node->items.empty());
     for (std::size_t i = 0; i < node->keys.size(); ++i) {
+      if (node->items[i].find_key("repeat") != nullptr) continue;
       const bool ambient = node->keys[i].text == "ambient";
       entry(node->keys[i].text,
             ambient ? flow_text(node->items[i]) : flow(View(&node->items[i], kind_named("light"), Place{})));
     }
+    without_members("lights", "light");
   }
 
   void overlay() {
@@ -221,6 +249,7 @@ class Resolver {
   const Node& root_;
   const Inventory& inventory_;
   const Scene& scene_;
+  const std::string& folder_;  // of the scene file
   std::string out_;
 };
 
@@ -249,8 +278,8 @@ std::string flow_text(const Node& node) {
   return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
 }
 
-std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene) {
-  return Resolver(root, inventory, scene).run();
+std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder) {
+  return Resolver(root, inventory, scene, folder).run();
 }
 
 }  // namespace carom

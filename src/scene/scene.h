@@ -2,6 +2,7 @@
 // The whole request of a scene file, checked and constant from here on. Types only; load.h reads files into them.
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -137,6 +138,8 @@ struct Scene {
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
   std::vector<MeshFile> meshes;  // each file once
+  /// The texts of expressions in the file, by their paths (expand.h).
+  std::map<std::string, std::string> expressions;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
   std::string resolved;
 };

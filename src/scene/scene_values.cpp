@@ -42,6 +42,10 @@ class Flattener {
         for (std::size_t i = 0; i < node.items.size(); ++i)
           map(path + "." + node.keys[i].text, node.items[i], kind_named(field.of));
         return;
+      case Type::values:
+        if (!node.is(Node::Kind::map)) return leaf(path, node, {});
+        for (std::size_t i = 0; i < node.items.size(); ++i) leaf(path + "." + node.keys[i].text, node.items[i], {});
+        return;
       case Type::list:
         if (!node.is(Node::Kind::sequence)) return leaf(path, node, {});
         for (std::size_t i = 0; i < node.items.size(); ++i)
