@@ -19,6 +19,7 @@
 #include "files/publication.h"
 #include "physics/world.h"
 #include "render/mesh.h"
+#include "run/measure.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -112,6 +113,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.budget.enforced = !options.force;
   if (lifted) load.budget = load.budget.without_outputs();
   load.chooses_outputs = lifted;
+  load.measure_fault = measure_fault;
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;

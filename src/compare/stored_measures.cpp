@@ -109,6 +109,10 @@ double StoredMeasures::number(const Measure& measure, const std::vector<std::str
       return meetings(measure).count;
     case MeasureForm::expression:
       return evaluated(measure, summary);
+    case MeasureForm::given: {
+      const auto found = scene().numbers.find(measure.things[0]);
+      return found == scene().numbers.end() ? undefined : found->second;
+    }
     default:
       throw ExportError(fmt::format("{} did not measure {}: run its scene.yaml again with this in `measures`", path_,
                                     measure.name));

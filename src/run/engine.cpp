@@ -31,6 +31,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
+  options.watch = request.recording.watch;
   return options;
 }
 
@@ -71,6 +72,7 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   options.as_printed = simulate.as_printed;
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
+  options.watch = request.recording.watch;
   return make_book_simulator(request.world, request.initial, options);
 }
 

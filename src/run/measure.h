@@ -22,6 +22,7 @@
 
 namespace carom {
 
+struct OwnMeasure;
 struct Scene;
 
 /// "x_m", ..., "speed_m_per_s", "kinetic_J".
@@ -82,6 +83,8 @@ Measure parse_measure(std::string_view name, std::span<const std::string> own = 
 Measure parse_measure(std::string_view name, const Scene& scene);
 /// The measures that the scene defines, each with its name. Throws MeasureError.
 std::vector<Measure> own_measures(const Scene& scene);
+/// The fault of one of them; empty: none. For LoadOptions.
+std::string measure_fault(const Scene& scene, const OwnMeasure& measure);
 
 /// The value of a measure's formula with these values of its parts. NaN: undefined, as with a part that is, or where a
 /// division by zero occurs.

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <optional>
 
+#include "scene/formula.h"
 #include "scene/scene.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
@@ -121,6 +122,14 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
     case MeasureForm::hits:
       for (const std::string& name : measure.things) things_named(name, measure, scene);
       return;
+    case MeasureForm::given:
+      if (!scene.numbers.contains(measure.things[0])) {
+        std::vector<std::string_view> names;
+        for (const auto& [name, number] : scene.numbers) names.push_back(name);
+        throw MeasureError(fmt::format("`let` has no {}{}", in_backticks(measure.things[0]),
+                                       near_name(measure.things[0], names)));
+      }
+      return;
     case MeasureForm::own: {
       if (std::find(above.begin(), above.end(), measure.things[0]) != above.end())
         throw MeasureError(
@@ -135,6 +144,16 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
   }
 }
 
+Measure own_measure(const OwnMeasure& own, const Scene& scene) {
+  if (find_summary_column(own.name) != nullptr || is_formula_word(own.name))
+    throw MeasureError(fmt::format("{} is already a {}; give the measure another name", in_backticks(own.name),
+                                   is_formula_word(own.name) ? "function" : "column of summary.csv"));
+  std::vector<std::string> above = {own.name};
+  Measure measure = defined(own.name, scene);
+  check(measure, scene, above);
+  return measure;
+}
+
 }  // namespace
 
 Measure parse_measure(std::string_view name, const Scene& scene) {
@@ -146,12 +165,17 @@ Measure parse_measure(std::string_view name, const Scene& scene) {
 
 std::vector<Measure> own_measures(const Scene& scene) {
   std::vector<Measure> measures;
-  for (const OwnMeasure& own : scene.measures) {
-    std::vector<std::string> above = {own.name};
-    measures.push_back(defined(own.name, scene));
-    check(measures.back(), scene, above);
-  }
+  for (const OwnMeasure& own : scene.measures) measures.push_back(own_measure(own, scene));
   return measures;
+}
+
+std::string measure_fault(const Scene& scene, const OwnMeasure& measure) {
+  try {
+    own_measure(measure, scene);
+    return {};
+  } catch (const MeasureError& error) {
+    return error.what();
+  }
 }
 
 }  // namespace carom

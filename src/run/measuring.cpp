@@ -121,6 +121,8 @@ double Measuring::value(const Measure& measure, const RunEnd& run) const {
       return counted(measure, run);
     case MeasureForm::expression:
       return evaluated(measure, run);
+    case MeasureForm::given:
+      return scene_.numbers.at(measure.things[0]);
     case MeasureForm::own:
       return value(*std::find_if(measures_.begin(), measures_.end(),
                                  [&](const Measure& other) { return other.name == measure.things[0]; }),

@@ -268,6 +268,8 @@ class Checker : ValueChecker {
         return part(value, field, key, partial);
       case Type::values:
         return values(value, field, name, required);
+      case Type::texts:
+        return texts(value, name, required);
       case Type::repeat:
         // Things with good counts have become their members (expand.h). Defaults are those of each member.
         if (partial) refuse(value, "`repeat` in `defaults`", "expected it in each thing that is repeated");
@@ -364,6 +366,18 @@ class Checker : ValueChecker {
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const std::string shown = in_backticks(value.keys[i].text);
       number(value.items[i], each, shown, each.range);
+    }
+  }
+
+  void texts(Node& value, const std::string& name, const std::string& required) {
+    if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const std::string shown = in_backticks(value.keys[i].text);
+      if (!is_name(value.keys[i].text) || value.keys[i].text.find('-') != std::string::npos)
+        diagnostics_.add(value.keys[i].place, shown + " is no name of a measure",
+                         "a name has letters, digits and _, and begins with a letter or _");
+      else
+        text(value.items[i], shown, required);
     }
   }
 

@@ -48,6 +48,7 @@ bool is_text(const Field& field) {
     case Type::text_or_flag:
     case Type::file:
     case Type::values:  // `let` itself
+    case Type::texts:
     case Type::repeat:
       return true;
     case Type::choice: {

@@ -30,7 +30,7 @@ void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::
     std::vector<std::string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
-    if (field.type == Type::values) {
+    if (field.type == Type::values || field.type == Type::texts) {
       here.push_back(any_name);
       found.push_back({&kind, &field, here});
     }

@@ -225,6 +225,8 @@ std::string expected(const Field& field) {
       return "true, false or a map of keys";
     case Type::values:
       return "a map from names to numbers, such as {r: 0.05}";
+    case Type::texts:
+      return fmt::format("a map from names to texts, such as {}", field.example);
     case Type::repeat:
       return "a whole number of at least 0, or a map from names of indices to such numbers, such as {i: 6, j: 4}";
     case Type::named:

@@ -46,6 +46,7 @@ constexpr Field scene_fields[] = {
     {.key = "flash", .type = Type::flag, .doc = "Whether bodies glow white for 0.1 s of film after a collision, and fade to their colour.", .example = "true", .title = "Flash of collisions", .drawn = true},
     {.key = "arrows", .type = Type::names, .of = "velocity|force", .doc = "Arrows at the bodies. velocity; force: gravity and `forces`, without contact. The legend has their scale.", .example = "[velocity]", .drawn = true},
     {.key = "shutter", .type = Type::number, .range = {0, 1}, .doc = "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", .example = "0.5", .title = "Open part of the interval between pictures", .drawn = true},
+    {.key = "measures", .type = Type::texts, .doc = "Measures of the run by name, columns of summary.csv: a number of summary.csv, a quantity at the end (balls.red.y_m), max, min, time_of_max or time_of_min of one over the run, first(a, b) in s, hits(a, b), regions.NAME.entries, inside, first_s or first, count(y_m < 0). Or an expression of these that begins with =.", .example = "{height_m: max(balls.red.y_m), share: '= hits(red, blue) / collisions'}", .title = "Measures of the run"},
     {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes. Default: trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
 };
 

@@ -36,6 +36,7 @@ enum class Type : std::uint8_t {
   /// A map of kind Field::of, true (a map of defaults) or false (absent).
   part_or_flag,
   values,  // a map from names to numbers
+  texts,   // a map from names to texts of one line
   /// How many members a thing has: a whole number, or a map from names of indices to such numbers.
   repeat,
   named,     // a map from names to kind Field::of

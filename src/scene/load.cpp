@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 #include "scene/check.h"
@@ -14,6 +15,7 @@
 #include "scene/scene.h"
 #include "scene/settings.h"
 #include "yaml/document.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -83,12 +85,32 @@ struct SceneFile::Impl {
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);
+    take_measures(tree, scene, diagnostics);
     if (diagnostics.empty() && options.budget.enforced) check_steps(tree, scene, options.budget, diagnostics);
     stop_if_wrong(diagnostics, options);
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
     scene.resolved = resolved_text(tree, inventory, scene, folder);
     return scene;
+  }
+
+  /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
+  void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
+    if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
+      for (std::size_t i = 0; i < let->items.size(); ++i)
+        if (const auto number = parse_number(let->items[i].text)) scene.numbers[let->keys[i].text] = *number;
+    const Node* measures = tree.find("measures");
+    if (measures == nullptr || !measures->is(Node::Kind::map)) return;
+    for (std::size_t i = 0; i < measures->items.size(); ++i)
+      if (!measures->items[i].bad) scene.measures.push_back({measures->keys[i].text, measures->items[i].text});
+    if (!diagnostics.empty() || !options.measure_fault) return;
+    for (std::size_t i = 0; i < measures->items.size(); ++i) {
+      const std::string fault = options.measure_fault(scene, scene.measures[i]);
+      const std::size_t remedy = std::min(fault.find("; "), fault.size());
+      if (!fault.empty())
+        diagnostics.add(measures->items[i].place, fault.substr(0, remedy),
+                        remedy < fault.size() ? fault.substr(remedy + 2) : std::string());
+    }
   }
 
   std::string path;

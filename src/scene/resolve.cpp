@@ -64,6 +64,8 @@ class Resolver {
     }
     forces();
     simulate();
+    if (const Node* measures = root_.find("measures"); measures != nullptr && !measures->items.empty())
+      line("measures", flow_text(*measures));
     camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));

@@ -115,8 +115,7 @@ struct Light {
 /// A measure that the scene defines: a column of its summary.csv.
 struct OwnMeasure {
   std::string name;
-  std::string text;   // a measure, or '= ' and an expression of measures (run/measure.h)
-  std::string where;  // "scene.yaml:12:9", for errors
+  std::string text;  // a measure, or '=' and an expression of measures (run/measure.h)
 };
 
 struct Scene {
@@ -134,6 +133,7 @@ struct Scene {
   bool transparent = false;  // there is no background
   Overlay overlay;
   Output output;
+  std::map<std::string, double> numbers;  // of `let`
   std::vector<OwnMeasure> measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;

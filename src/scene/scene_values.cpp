@@ -43,6 +43,7 @@ class Flattener {
           map(path + "." + node.keys[i].text, node.items[i], kind_named(field.of));
         return;
       case Type::values:
+      case Type::texts:
         if (!node.is(Node::Kind::map)) return leaf(path, node, {});
         for (std::size_t i = 0; i < node.items.size(); ++i) leaf(path + "." + node.keys[i].text, node.items[i], {});
         return;

@@ -190,6 +190,8 @@ Json value_schema(const Field& field) {
       return {{"anyOf", Json::array({{{"type", "boolean"}}, reference(field.of)})}};
     case Type::values:
       return variables_schema(number_schema(field.range));
+    case Type::texts:
+      return variables_schema(text_schema(field));
     case Type::repeat:
       return repeat_schema();
     case Type::named:

@@ -158,7 +158,8 @@ class Walk {
     switch (field_->type) {
       case Type::named:
         return into_named(step);
-      case Type::values: {
+      case Type::values:
+      case Type::texts: {
         Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
         if (child == nullptr) return refuse_name(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)));
         node_ = child;
