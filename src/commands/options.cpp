@@ -82,15 +82,18 @@ void read_set(Options& options, const Words& words) {
   }
 }
 
-/// The parts between commas, of all words.
+/// The parts between commas outside parentheses, of all words.
 std::vector<std::string> split_lists(const Words& words) {
   std::vector<std::string> parts;
   for (const std::string& list : words) {
-    for (std::size_t begin = 0; begin <= list.size();) {
-      const std::size_t end = std::min(list.find(',', begin), list.size());
-      parts.push_back(list.substr(begin, end - begin));
-      begin = end + 1;
+    std::string part;
+    int depth = 0;
+    for (const char c : list) {
+      depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      if (c != ',' || depth > 0) part += c;
+      if (c == ',' && depth <= 0) parts.push_back(std::exchange(part, {}));
     }
+    parts.push_back(part);
   }
   return parts;
 }

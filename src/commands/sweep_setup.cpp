@@ -127,7 +127,7 @@ void check_comparison(SweepJob& job) {
   for (const SweepMeasure& measure : sweep.measures) check(measure.where, [&] { parse_measure(measure.name, scene); });
   for (const SweepChart& chart : sweep.charts) {
     check(chart.where, [&] {
-      ComparisonPlan plan = comparison_plan(sweep);
+      ComparisonPlan plan = comparison_plan(sweep, job.base_text());
       plan.measures.clear();
       plan.charts = {{chart.x, chart.y, chart.by}};
       check_charts(plan);

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "compare/stored_measures.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
-#include "compare/stored_measures.h"
 #include "files/stored_file.h"
 #include "physics/world.h"
 #include "render/mesh.h"

@@ -33,10 +33,10 @@ struct ComparisonPlan {
   std::vector<Parameter> parameters;
   std::vector<std::string> measures;  // names accepted by parse_measure
   std::vector<Chart> charts;          // empty: default charts of what varies
-  /// The names of the measures that the runs' scenes define. All of them are columns.
-  std::vector<std::string> own{};
   /// The parameter that distinguishes repeats, if there are repeats.
   std::optional<std::size_t> seed;
+  /// The names of the measures that the runs' scenes define. All of them are columns.
+  std::vector<std::string> own{};
 };
 
 struct ComparedRun {

@@ -113,9 +113,11 @@ double StoredMeasures::number(const Measure& measure, const std::vector<std::str
       const auto found = scene().numbers.find(measure.things[0]);
       return found == scene().numbers.end() ? undefined : found->second;
     }
+    case MeasureForm::own:
+      return undefined;
     default:
-      throw ExportError(fmt::format("{} did not measure {}: run its scene.yaml again with this in `measures`", path_,
-                                    measure.name));
+      throw ExportError(
+          fmt::format("{} did not measure {}: run its scene.yaml again with this in `measures`", path_, measure.name));
   }
 }
 
@@ -158,7 +160,8 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   if (!time || !kind || !a || !b) return found;
   while (const std::vector<std::string_view>* row = table.next()) {
     if (row->size() <= std::max({*time, *kind, *a, *b}) || (*row)[*kind] == "rest") continue;
-    if (!meet(measure.things, [&](const std::string& name, bool first) { return is_of((*row)[first ? *a : *b], name); }))
+    if (!meet(measure.things,
+              [&](const std::string& name, bool first) { return is_of((*row)[first ? *a : *b], name); }))
       continue;
     if (found.count == 0) found.first = number_in((*row)[*time]).value_or(undefined);
     ++found.count;

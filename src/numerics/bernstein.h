@@ -1,7 +1,7 @@
 #pragma once
 // Roots of a polynomial of any degree in [0, 1] by its Bernstein coefficients.
-// Their changes of sign bound the number of roots, and halving an interval splits them (Lane & Riesenfeld, BIT 21 (1981)
-// 112). No root can be missed.
+// Their changes of sign bound the number of roots, and halving an interval splits them (Lane & Riesenfeld, BIT 21
+// (1981) 112). No root can be missed.
 #include <span>
 #include <vector>
 

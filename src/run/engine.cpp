@@ -107,8 +107,8 @@ EngineChoice choose_engine(const Scene& scene) {
     choice.why = appended(choice.why, "dop853, adaptive steps" + limit);
   } else {
     choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
-    choice.why = appended(choice.why,
-                        fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
+    choice.why = appended(
+        choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
   }
   return choice;
 }
@@ -146,8 +146,8 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
   if (engine.engine == Engine::stepped)
     engine.why =
         appended(engine.why, chooses_steps(way)
-                               ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
-                               : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+                                 ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
+                                 : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
   const bool known = accuracy.right_until >= way.duration;
   if (accuracy.reached && known)
     engine.why =

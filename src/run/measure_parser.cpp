@@ -65,10 +65,8 @@ struct RelationText {
 };
 
 // A longer sign comes before its beginning.
-constexpr std::array<RelationText, 4> relations = {{{"<=", Relation::at_most},
-                                                        {">=", Relation::at_least},
-                                                        {"<", Relation::less},
-                                                        {">", Relation::greater}}};
+constexpr std::array<RelationText, 4> relations = {
+    {{"<=", Relation::at_most}, {">=", Relation::at_least}, {"<", Relation::less}, {">", Relation::greater}}};
 
 const Call* find_call(std::string_view name) {
   const auto found = std::find_if(calls.begin(), calls.end(), [&](const Call& call) { return call.name == name; });
@@ -133,8 +131,8 @@ std::size_t closing_of(std::string_view text, std::size_t open) {
     depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
     if (depth == 0) return i;
   }
-  throw MeasureError(fmt::format("{} lacks a closing parenthesis; in YAML, a measure with a comma needs quotes",
-                                 in_backticks(text)));
+  throw MeasureError(
+      fmt::format("{} lacks a closing parenthesis; in YAML, a measure with a comma needs quotes", in_backticks(text)));
 }
 
 /// Reads an expression, and takes the measures in it as parts.
@@ -206,8 +204,8 @@ class FormulaParts {
   void part(std::size_t end) {
     const Measure part = parse_measure(text_.substr(at_, end - at_), own_);
     if (part.is_text())
-      throw MeasureError(fmt::format("{} is a name, not a number, and cannot stand in an expression",
-                                     in_backticks(part.name)));
+      throw MeasureError(
+          fmt::format("{} is a name, not a number, and cannot stand in an expression", in_backticks(part.name)));
     measure_.formula += fmt::format("m{}", measure_.parts.size());
     measure_.parts.push_back(part);
     at_ = end;
@@ -229,7 +227,7 @@ std::vector<std::string> names_of_parts(const Measure& measure) {
 void read_formula(std::string_view text, std::span<const std::string> own, Measure& measure) {
   FormulaParts(text, own, measure).read();
   try {
-    const Formula checked(measure.formula, names_of_parts(measure));
+    const Formula checked(measure.formula, names_of_parts(measure), "expected a measure, let.NAME or a number");
   } catch (const FormulaError& error) {
     throw MeasureError(fmt::format("{}: {}{}{}", in_backticks(measure.name), error.message,
                                    error.remedy.empty() ? "" : "; ", error.remedy));
@@ -240,7 +238,8 @@ void read_count(std::string_view inside, std::span<const std::string> own, Measu
   for (const RelationText& text : relations) {
     const std::size_t at = inside.find(text.sign);
     if (at == std::string_view::npos) continue;
-    const std::string_view quantity = trimmed(inside.substr(0, at)), limit = trimmed(inside.substr(at + text.sign.size()));
+    const std::string_view quantity = trimmed(inside.substr(0, at)),
+                           limit = trimmed(inside.substr(at + text.sign.size()));
     measure.relation = text.relation;
     read_quantity(quantity, false, measure);
     if (limit.empty()) break;
@@ -256,7 +255,8 @@ void read_call(const Call& call, std::string_view inside, std::span<const std::s
   if (call.form == MeasureForm::count) return read_count(trimmed(inside), own, measure);
   const auto arguments = arguments_of(inside);
   const bool of_things = call.form == MeasureForm::first_hit || call.form == MeasureForm::hits;
-  const bool empty = std::any_of(arguments.begin(), arguments.end(), [](std::string_view text) { return text.empty(); });
+  const bool empty =
+      std::any_of(arguments.begin(), arguments.end(), [](std::string_view text) { return text.empty(); });
   if (empty || arguments.size() > (of_things ? 2 : 1))
     throw MeasureError(fmt::format("{}: expected {}, such as {}", in_backticks(measure.name),
                                    of_things ? "one or two names" : "one quantity", call.example));
@@ -268,7 +268,8 @@ void read_call(const Call& call, std::string_view inside, std::span<const std::s
 void read_region(std::string_view text, Measure& measure) {
   const std::size_t last = text.rfind('.');
   const std::string_view word = text.substr(last + 1);
-  const auto found = std::find_if(of_regions.begin(), of_regions.end(), [&](const auto& of) { return of.name == word; });
+  const auto found =
+      std::find_if(of_regions.begin(), of_regions.end(), [&](const auto& of) { return of.name == word; });
   constexpr std::string_view begin = "regions.";
   if (found == of_regions.end() || last < begin.size()) {
     std::vector<std::string_view> names;

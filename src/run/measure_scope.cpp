@@ -17,7 +17,8 @@ namespace {
 
 const BodyRange* find_range(const Scene& scene, std::string_view name) {
   const auto& bodies = scene.roster.bodies;
-  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const BodyRange& range) { return range.name == name; });
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const BodyRange& range) { return range.name == name; });
   return found == bodies.end() ? nullptr : &*found;
 }
 
@@ -98,15 +99,15 @@ std::vector<std::string> own_names(const Scene& scene) {
 
 /// The scene's own measure of this name.
 Measure defined(const std::string& name, const Scene& scene) {
-  const auto found =
-      std::find_if(scene.measures.begin(), scene.measures.end(), [&](const OwnMeasure& own) { return own.name == name; });
+  const auto found = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                  [&](const OwnMeasure& own) { return own.name == name; });
   Measure measure = parse_measure(found->text, own_names(scene));
   measure.name = name;
   return measure;
 }
 
-/// Throws MeasureError unless the scene has all that the measure names. `above`: the scene's own measures of which it is
-/// a part.
+/// Throws MeasureError unless the scene has all that the measure names. `above`: the scene's own measures of which it
+/// is a part.
 void check(const Measure& measure, const Scene& scene, std::vector<std::string>& above) {
   for (const Measure& part : measure.parts) check(part, scene, above);
   switch (measure.form) {
@@ -126,8 +127,8 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
       if (!scene.numbers.contains(measure.things[0])) {
         std::vector<std::string_view> names;
         for (const auto& [name, number] : scene.numbers) names.push_back(name);
-        throw MeasureError(fmt::format("`let` has no {}{}", in_backticks(measure.things[0]),
-                                       near_name(measure.things[0], names)));
+        throw MeasureError(
+            fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), near_name(measure.things[0], names)));
       }
       return;
     case MeasureForm::own: {

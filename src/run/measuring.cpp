@@ -29,7 +29,8 @@ WatchedQuantity watched_by(const Measure& measure, const Scene& scene) {
 
 }  // namespace
 
-Measuring::Measuring(const Scene& scene, std::vector<Measure> measures) : scene_(scene), measures_(std::move(measures)) {
+Measuring::Measuring(const Scene& scene, std::vector<Measure> measures)
+    : scene_(scene), measures_(std::move(measures)) {
   for (const Measure& measure : measures_) prepare(measure);
 }
 
@@ -98,7 +99,8 @@ const Extremes& Measuring::extremes(const Measure& measure, const RunEnd& run) c
 
 double Measuring::value(const Measure& measure, const RunEnd& run) const {
   const auto meeting = [&]() -> const Meeting& {
-    return *std::find_if(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return m.things == measure.things; });
+    return *std::find_if(meetings_.begin(), meetings_.end(),
+                         [&](const Meeting& m) { return m.things == measure.things; });
   };
   switch (measure.form) {
     case MeasureForm::column:

@@ -188,8 +188,8 @@ class Run {
     const Stage& stage = *stages_[i];
     if (const Manifest* former = settings_.former; former != nullptr) {
       if (result.summary.collisions != former->collisions)
-        throw ExportError(fmt::format("the motion differs: {} collisions, not {}", result.summary.collisions,
-                                      former->collisions));
+        throw ExportError(
+            fmt::format("the motion differs: {} collisions, not {}", result.summary.collisions, former->collisions));
       result.facts.measures = former->measures;
     } else {
       const std::vector<Extremes> all = simulator_->extremes();
@@ -210,8 +210,8 @@ class Run {
   std::vector<std::unique_ptr<Stage>> stages_;
   std::unique_ptr<Simulator> simulator_;
   std::vector<std::size_t> first_watched_;  // by show: the first of its quantities among all that are watched
-  StoredEnergy start_;     // at time 0
-  double simulate_s_ = 0;  // wall time
+  StoredEnergy start_;                      // at time 0
+  double simulate_s_ = 0;                   // wall time
 };
 
 }  // namespace

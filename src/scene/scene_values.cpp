@@ -103,4 +103,16 @@ std::vector<SceneValue> scene_values(const std::string& name, const std::string&
   return std::move(flattener.found);
 }
 
+std::vector<std::string> own_measure_names(const std::string& text) {
+  constexpr std::string_view start = "measures.";
+  std::vector<std::string> names;
+  try {
+    for (const SceneValue& value : scene_values("scene.yaml", text))
+      if (value.path.starts_with(start)) names.push_back(value.path.substr(start.size()));
+  } catch (const SceneError&) {
+    return {};
+  }
+  return names;
+}
+
 }  // namespace carom

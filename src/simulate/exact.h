@@ -26,9 +26,9 @@ struct ExactOptions {
   double step_error = exact_tolerance::step_error;  // of dop853, as a share of a radius and of speeds
   // false: dop853 computes all flights that bend.
   bool closed_forms = true;
-  bool merge = false;             // bodies that meet become one
-  bool record_collisions = true;  // false: there is no buffer, and collisions() stays empty
-  bool record_paths = false;      // false: there is no buffer for paths()
+  bool merge = false;                    // bodies that meet become one
+  bool record_collisions = true;         // false: there is no buffer, and collisions() stays empty
+  bool record_paths = false;             // false: there is no buffer for paths()
   std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 

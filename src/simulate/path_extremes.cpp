@@ -77,7 +77,8 @@ void turns_of(const Part& part, Quantity quantity, double from, double to, const
   if (part.flight.is_straight() && (plain || is_place(quantity)))
     return turns_of_parabola(part.flight, quantity, from, to, take);
   // A position follows the flight's own velocity.
-  const Part path{part.flight, is_place(quantity) ? std::array<Vec3, 3>{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()} : part.more};
+  const Part path{part.flight,
+                  is_place(quantity) ? std::array<Vec3, 3>{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()} : part.more};
   for (double t = from; t < to;) {
     const double length = std::min(to - t, part.flight.span_of_fade(t));
     if (!(t + length > t)) return;

@@ -125,7 +125,8 @@ void name_all(std::vector<ListedRun>& runs) {
 }
 
 bool is_parameter(const std::string& path) {
-  return path != "scene" && path != "title" && path != "caption" && !path.starts_with("output.");
+  return path != "scene" && path != "title" && path != "caption" && !path.starts_with("output.") &&
+         !path.starts_with("measures.");
 }
 
 /// The numbers of these runs in a sweep, by their ids. Empty if one does not belong to it.
@@ -229,7 +230,7 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_ch
 }
 
 RunSet::RunSet(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
-  const ComparisonPlan plan = comparison_plan(sweep);
+  const ComparisonPlan plan = comparison_plan(sweep, {});
   parameters_ = plan.parameters;
   seed_ = plan.seed;
   in_sweep_ = numbers_in(sweep, runs_);

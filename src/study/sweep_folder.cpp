@@ -100,7 +100,8 @@ std::vector<std::string> stored_failures(const std::string& path) {
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-                         const std::function<void()>& stop_check) {
+                         const std::function<void()>& stop_check)
+    : base_text_(base_text) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail("make", {-1, path}, "", error.message());
@@ -168,7 +169,7 @@ void SweepFolder::put(const char* name, const std::string& text) {
   if (auto record = read_record(place_.folder, name)) begun_.push_back(std::move(*record));
 }
 
-ComparisonPlan comparison_plan(const Sweep& sweep) {
+ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text) {
   ComparisonPlan plan;
   plan.title = sweep.title;
   for (const std::string& path : sweep.paths) {
@@ -177,6 +178,7 @@ ComparisonPlan comparison_plan(const Sweep& sweep) {
   }
   for (const SweepMeasure& measure : sweep.measures) plan.measures.push_back(measure.name);
   for (const SweepChart& chart : sweep.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
+  plan.own = own_measure_names(base_text);
   if (sweep.seeds > 0) plan.seed = sweep.paths.size() - 1;
   return plan;
 }
@@ -208,7 +210,7 @@ void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statu
     return run;
   };
   std::vector<std::unique_ptr<OutputFile>> files =
-      write_comparison(place_, comparison_plan(sweep), sweep.size(), compared, watch);
+      write_comparison(place_, comparison_plan(sweep, base_text_), sweep.size(), compared, watch);
 
   Json failed = Json::array();
   for (std::size_t number = 0; number < statuses.size(); ++number)

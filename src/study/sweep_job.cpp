@@ -148,7 +148,7 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
 void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_progress) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
-  measures_ = measures_of(comparison_plan(sweep_));
+  measures_ = measures_of(comparison_plan(sweep_, base_.text()));
   // Errors by the first run of the batch.
   std::map<std::size_t, std::string> wrong;
   Tasks tasks;
