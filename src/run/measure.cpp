@@ -83,7 +83,11 @@ const BodyRange* find_range(const Scene& scene, std::string_view name) {
 
 /// The number of a measure's body. Throws MeasureError if the scene does not have it.
 Entity entity_of(const Measure& measure, const Scene& scene) {
-  const std::size_t dot = measure.body.find('.');
+  // A member of a repeated thing is a body of its own, with a dot in its name.
+  if (const BodyRange* member = find_range(scene, measure.body);
+      member != nullptr && !member->group && measure.kind != "groups")
+    return member->first;
+  const std::size_t dot = measure.kind == "groups" ? measure.body.rfind('.') : measure.body.find('.');
   const std::string name = measure.body.substr(0, dot);
   const BodyRange* range = find_range(scene, name);
   if (range == nullptr || range->group != (measure.kind == "groups")) {
@@ -145,9 +149,6 @@ Measure parse_measure(std::string_view name) {
   if (measure.kind == "groups" && !has_member)
     throw MeasureError(fmt::format("{} has no member: expected one such as groups.{}.0.{}", in_backticks(name),
                                    measure.body, quantity));
-  if (measure.kind != "groups" && has_member)
-    throw MeasureError(
-        fmt::format("{}: only groups have members: {}.NAME.{}", in_backticks(name), measure.kind, quantity));
   return measure;
 }
 

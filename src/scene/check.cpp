@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "scene/check_values.h"
-#include "scene/expand.h"
+#include "scene/scene.h"
 #include "scene/view.h"
 #include "yaml/values.h"
 
@@ -214,8 +214,22 @@ class Checker : ValueChecker {
              "paths are relative to the folder of the scene");
   }
 
+  /// Whether a value is a number, or a vector of numbers, within limits. Texts of errors take longer than this.
+  static bool is_good_number(const Node& value, const Field& field) {
+    if (field.type != Type::number && field.type != Type::vector) return false;
+    const Range limits = limited_range(field);
+    const auto is_good = [&](const Node& one) {
+      const bool plain = one.is(Node::Kind::scalar) && !one.quoted && !one.bad;
+      const std::optional<double> number = plain ? parse_number(one.text) : std::nullopt;
+      return number && contains(field.range, *number) && contains(limits, *number);
+    };
+    if (field.type == Type::number) return is_good(value);
+    return value.is(Node::Kind::sequence) && value.items.size() == 3 &&
+           std::all_of(value.items.begin(), value.items.end(), is_good);
+  }
+
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
-    if (value.bad) return;
+    if (value.bad || is_good_number(value, field)) return;
     const std::string name = in_backticks(field.key);
     const std::string required = "expected " + expected(field);
     switch (field.type) {

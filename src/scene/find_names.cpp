@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "scene/decode.h"
-#include "scene/expand.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {
