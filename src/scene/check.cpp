@@ -44,7 +44,7 @@ class Checker : ValueChecker {
       wrong_type(node, what, "expected a map of keys");
       return;
     }
-    if (!kind.defaults.empty() && !partial) mark_cancelled(node, kind);
+    if (!kind.defaults.empty()) mark_cancelled(node, kind);
     for (std::size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
     if (partial) return;
     const Node* defaults = defaults_for(root_, kind);
@@ -124,9 +124,11 @@ class Checker : ValueChecker {
   static void mark_cancelled(Node& node, const Kind& kind) {
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
       Node& value = node.items[i];
-      if (value.text != "none" || value.quoted || !value.is(Node::Kind::scalar)) continue;
+      if (value.text != "none" || !value.is(Node::Kind::scalar)) continue;
       const Field* field = find_field(kind, node.keys[i].text);
       if (field == nullptr || field->type == Type::text || field->type == Type::color_or_none || field->own) continue;
+      // A file may have this name, in quotes.
+      if (field->type == Type::file && value.quoted) continue;
       const std::vector<std::string_view> all =
           field->type == Type::choice ? choices(*field) : std::vector<std::string_view>();
       value.cancels = std::find(all.begin(), all.end(), "none") == all.end();
@@ -135,7 +137,8 @@ class Checker : ValueChecker {
 
   static bool has(const Node& node, const Node* defaults, std::string_view key) {
     if (const Node* own = node.find(key)) return !own->cancels;
-    return defaults != nullptr && defaults->find_key(key) != nullptr;
+    const Node* given = defaults == nullptr ? nullptr : defaults->find(key);
+    return given != nullptr && !given->cancels;
   }
   static bool has_any(const Node& node, const Node* defaults, const Field& field) {
     const std::vector<std::string_view> others = substitutes(field);

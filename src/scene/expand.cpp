@@ -45,6 +45,7 @@ std::size_t count_values(const Node& node) {
 
 /// Whether values of this field hold neither numbers nor names of things.
 bool is_text(const Field& field) {
+  if (field.range.min == field.range.max) return true;  // the version of the format
   switch (field.type) {
     case Type::flag:
     case Type::text:

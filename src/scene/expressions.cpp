@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_names = 1000;
 
 std::string hint_for(const NamedNumbers& numbers) {
-  return numbers.names.empty() ? "numbers have names in `let`, such as let: {r: 0.05}" : "";
+  return numbers.names.empty() ? "numbers have names in `let`, such as let: {r: 0.05}, and indices in things with `repeat`" : "";
 }
 
 /// Evaluates `let` in the order of its dependences.

@@ -47,11 +47,16 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
     return std::nullopt;
   }
   std::vector<std::string> all;
-  for (const BodyEntry& body : inventory.bodies) all.push_back(body.key->text);
+  const auto add = [&](const std::string& thing) {
+    const std::string_view family = family_of(thing);
+    const std::string_view shown = family.empty() ? std::string_view(thing) : family;
+    if (all.empty() || all.back() != shown) all.emplace_back(shown);
+  };
+  for (const BodyEntry& body : inventory.bodies) add(body.key->text);
   const bool bodies_alone = sought == Sought::bodies;
   for (const FixedEntry& fixed : inventory.fixed) {
     if (bodies_alone) break;
-    all.push_back(fixed.key->text);
+    add(fixed.key->text);
     for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}) {
       if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
     }

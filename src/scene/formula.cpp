@@ -364,10 +364,12 @@ class Reader {
     std::vector<std::string_view> known = formula_functions();
     if (!is_call) {
       known.assign(names_.begin(), names_.end());
-      known.emplace_back("pi");
+      if (name.size() > 1) known.emplace_back("pi");
     }
     const std::string near = nearest(name, known);
-    const std::string any = is_call || hint_.empty() ? "expected " + listed(known) : std::string(hint_);
+    const std::string any = !is_call && !hint_.empty() ? std::string(hint_)
+                            : known.empty()            ? "expected pi"
+                                                       : "expected " + listed(known);
     fail(token, fmt::format("no {} is named {}", is_call ? "function" : "number", in_backticks(name)),
          near.empty() ? any : fmt::format("did you mean {}?", in_backticks(near)));
   }
