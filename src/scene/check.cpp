@@ -196,7 +196,9 @@ class Checker : ValueChecker {
     const Key* other = nullptr;
     for (const std::string_view rival : rivals(*field)) {
       const Key* found = map_node.find_key(rival);
-      if (found != nullptr && !map_node.find(rival)->cancels && is_before(found->place, other == nullptr ? key.place : other->place)) other = found;
+      if (found != nullptr && !map_node.find(rival)->cancels &&
+          is_before(found->place, other == nullptr ? key.place : other->place))
+        other = found;
     }
     if (other != nullptr) {
       diagnostics_.add(key.place,

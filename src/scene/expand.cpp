@@ -126,7 +126,8 @@ class Expander {
     scalar(node, path);
     if (!node.is(Node::Kind::sequence)) return;
     for (std::size_t i = 0; i < node.items.size(); ++i)
-      if (is_expression(node.items[i]) || has_braces(node.items[i])) scalar(node.items[i], path + "." + step_of(field, i));
+      if (is_expression(node.items[i]) || has_braces(node.items[i]))
+        scalar(node.items[i], path + "." + step_of(field, i));
   }
 
   void note(const std::string& path, const Node& node) {
@@ -157,7 +158,8 @@ class Expander {
         note_defaults_of(things->items[i], kind, path);
         for (const Field& part : kind.fields)
           if (part.type == Type::part && things->items[i].find(part.key) != nullptr)
-            note_defaults_of(*things->items[i].find(part.key), kind_named(part.of), fmt::format("{}.{}", path, part.key));
+            note_defaults_of(*things->items[i].find(part.key), kind_named(part.of),
+                             fmt::format("{}.{}", path, part.key));
       }
     }
   }
@@ -221,7 +223,8 @@ class Expander {
     for (std::size_t i = 0; i < whole.keys.size(); ++i) {
       const Key& key = whole.keys[i];
       made.clear();
-      if (!is_repeated(whole.items[i], kind) || !members(whole.items[i], key.place, kind, path + "." + key.text, made)) {
+      if (!is_repeated(whole.items[i], kind) ||
+          !members(whole.items[i], key.place, kind, path + "." + key.text, made)) {
         node.keys.push_back(key);
         node.items.push_back(std::move(whole.items[i]));
         continue;
@@ -287,9 +290,12 @@ class Expander {
     work_ += work;
     values_ += static_cast<double>(count_of_values) * counts.members;
     if (values_ > most_values || work_ > most_work) {
-      diagnostics_.add(where, values_ > most_values ? fmt::format("with these members the scene has {} values; the limit is {}", values_, most_values)
-                                                    : "evaluating the expressions of so many members takes too long",
-                       "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
+      diagnostics_.add(
+          where,
+          values_ > most_values
+              ? fmt::format("with these members the scene has {} values; the limit is {}", values_, most_values)
+              : "evaluating the expressions of so many members takes too long",
+          "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
       return false;
     }
     made.reserve(made.size() + static_cast<std::size_t>(counts.members));

@@ -39,11 +39,14 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
       return std::nullopt;
     }
   }
-  if (const auto family = inventory.families.find(std::string(family_of(name.text))); family != inventory.families.end()) {
+  if (const auto family = inventory.families.find(std::string(family_of(name.text)));
+      family != inventory.families.end()) {
     const Entity count = members_of(inventory, family->first);
-    diagnostics.add(name.place, fmt::format("there is no {}: {} has {} member{}", in_backticks(name.text), in_backticks(family->first), count,
-                                            count == 1 ? "" : "s"),
-                    count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
+    diagnostics.add(
+        name.place,
+        fmt::format("there is no {}: {} has {} member{}", in_backticks(name.text), in_backticks(family->first), count,
+                    count == 1 ? "" : "s"),
+        count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
     return std::nullopt;
   }
   std::vector<std::string> all;

@@ -101,8 +101,7 @@ class Census {
   void number(std::uint64_t total) {
     inventory_.body_count = static_cast<Entity>(total);
     inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size());
-    for (const BodyEntry& body : inventory_.bodies)
-      add(body.key->text, {body.first, static_cast<Entity>(body.count)});
+    for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
       const Entity first = inventory_.body_count + entry.first;

@@ -119,7 +119,8 @@ Json field_schema(const Field& field);
 Json named_schema(const Kind& kind) {
   Json schema = {{"type", "object"}};
   const bool repeats = find_field(kind, "repeat") != nullptr;
-  schema["propertyNames"] = {{"type", "string"}, {"pattern", repeats ? member_pattern : name_pattern}, {"maxLength", longest_name}};
+  schema["propertyNames"] = {
+      {"type", "string"}, {"pattern", repeats ? member_pattern : name_pattern}, {"maxLength", longest_name}};
   if (kind.also != nullptr) schema["properties"] = {{std::string(kind.also->key), field_schema(*kind.also)}};
   schema["additionalProperties"] = reference(kind.name);
   return schema;
@@ -361,7 +362,8 @@ void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& ru
   for (const Field& field : kind.fields) {
     if (field.with.empty()) continue;
     // The rule holds where the key is present, and where the default takes effect because no rival hides it.
-    const Json beside = {{"dependencies", {{std::string(field.key), if_present(kind, field.key, present(kind, field.with))}}}};
+    const Json beside = {
+        {"dependencies", {{std::string(field.key), if_present(kind, field.key, present(kind, field.with))}}}};
     rules.push_back({{"if", has_default(kind, {field.with})}, {"else", each(beside)}});
     std::vector<std::string_view> hiding = rivals(field);
     hiding.push_back(field.with);

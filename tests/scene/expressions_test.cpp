@@ -158,7 +158,7 @@ output:
 
 constexpr const char* with_numbers = R"(scene: 1
 seed: 1099511627776
-gravity: [3.351797404594768, -9.208987881655705, 0]
+gravity: [3.3517974045915535, -9.208987683701903, 0]
 restitution: {default: 0.75}
 defaults: {ball: {mass: 0.1, radius: 0.05}}
 balls:
@@ -168,7 +168,7 @@ groups:
 walls:
   fence: {center: [5, 1, 0], normal: [-0.9396926207859084, 0.3420201433256687, 0], size: [0.1, 2]}
 forces:
-  - {drag: {linear: 0.0005}, from: 0.05, until: 0.5}
+  - {drag: {linear: 5e-04}, from: 0.05, until: 0.5}
 simulate: {duration: 2, engine: exact}
 camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 40}
 title: = a title
@@ -226,13 +226,13 @@ TEST(Expressions, KeepTheTextsOfWhatFollowsFromLet) {
 TEST(ExpressionErrors, PointIntoTheExpression) {
   const std::string start_r = "scene: 1\nsimulate: {duration: 1}\nlet: {r: 0.05}\n";
   EXPECT_EQ(errors_of(start_r + "balls:\n  red: {mass: \"= 2 * rr\", radius: = r / 0, position: [0, 0, 0]}\n"),
-            "scene.yaml:5:21: error: no number is named `rr`\n"
+            "scene.yaml:5:22: error: no number is named `rr`\n"
             "   5 |   red: {mass: \"= 2 * rr\", radius: = r / 0, position: [0, 0, 0]}\n"
-            "     |                     ^~\n"
+            "     |                      ^~\n"
             "     = did you mean `r`?\n"
-            "scene.yaml:5:38: error: division by zero\n"
+            "scene.yaml:5:39: error: division by zero\n"
             "   5 |   red: {mass: \"= 2 * rr\", radius: = r / 0, position: [0, 0, 0]}\n"
-            "     |                                      ^\n"
+            "     |                                       ^\n"
             "     = expected a divisor other than 0\n");
   EXPECT_EQ(marked_errors(start_r + "balls: {a: {mass: = -r, radius: '= -r', position: [= r, = q, 0]}}\n"),
             (Marked{{"= -r", "`mass` is -0.05"}, {"'= -r'", "`radius` is -0.05"}, {"q", "no number is named `q`"}}));

@@ -118,7 +118,8 @@ TEST(Repeat, TakesSettingsOfTheThingAndOfAMember) {
 
 TEST(RepeatErrors, PointAtTheCount) {
   const auto of = [](const std::string& repeat) {
-    return marked_errors(start + "balls:\n  row: {repeat: " + repeat + ", mass: 1, radius: 0.1, position: [= i, 0, 0]}\n");
+    return marked_errors(start + "balls:\n  row: {repeat: " + repeat +
+                         ", mass: 1, radius: 0.1, position: [= i, 0, 0]}\n");
   };
   EXPECT_EQ(of("-1"), (Marked{{"-1", "`repeat` is `-1`"}}));
   EXPECT_EQ(of("2.5"), (Marked{{"2.5", "`repeat` is `2.5`"}}));
@@ -132,13 +133,13 @@ TEST(RepeatErrors, PointAtTheCount) {
   EXPECT_EQ(of("1e9"), (Marked{{"1e9", "`repeat` makes 1000000000 members; the limit is 2000000"}}));
   EXPECT_EQ(of("{i: 1e5, j: 1e5}"), (Marked{{"{", "`repeat` makes 10000000000 members; the limit is 2000000"}}));
   EXPECT_EQ(of("1e300"), (Marked{{"1e300", "`repeat` makes 1e+300 members; the limit is 2000000"}}));
-  EXPECT_EQ(of("2e6"),
-            (Marked{{"repeat", "with these members the scene has 14000012 values; the limit is 6000000"}}));
+  EXPECT_EQ(of("2e6"), (Marked{{"repeat", "with these members the scene has 14000013 values; the limit is 6000000"}}));
   EXPECT_EQ(of("{sin: 2, i: 2}"), (Marked{{"sin", "`sin` is a function of expressions"}}));
   EXPECT_EQ(of("{a-b: 2, i: 2}"), (Marked{{"a-b", "`a-b` is not a name for an index"}}));
   EXPECT_EQ(of("{k: 2}"), (Marked{{"i", "no number is named `i`"}}));
-  EXPECT_EQ(marked_errors(start + "let: {i: 3}\nballs: {row: {repeat: 2, mass: 1, radius: 1, position: [= i, 0, 0]}}\n"),
-            (Marked{{"2", "the index `i` is a name of `let`, too"}}));
+  EXPECT_EQ(
+      marked_errors(start + "let: {i: 3}\nballs: {row: {repeat: 2, mass: 1, radius: 1, position: [= i, 0, 0]}}\n"),
+      (Marked{{"2", "the index `i` is a name of `let`, too"}}));
   EXPECT_EQ(marked_errors(start + "defaults: {ball: {repeat: 3}}\n"), (Marked{{"3", "`repeat` in `defaults`"}}));
 }
 
