@@ -106,6 +106,7 @@ std::string manifest_text(const Scene& scene, const std::string& outputs, const 
   of_scene["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
                        {"title", scene.title},
                        {"sha256", sha256(scene.resolved)}};
+  if (!scene.expressions.empty()) of_scene["scene"]["expressions"] = scene.expressions;
   Json meshes = Json::object();
   if (!scene.meshes.empty()) meshes["meshes"] = json_of_text(meshes_text(scene));
   return whole_text(of_scene, outputs, meshes, facts, files);
@@ -165,6 +166,9 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = text_of_json(*meshes);
   manifest.collisions = whole_member(json.value("counts", Json()), "collisions");
   manifest.scene_file = text_member(json.value("scene", Json()), "file");
+  if (const Json of_scene = json.value("scene", Json()); of_scene.is_object() && of_scene.contains("expressions"))
+    for (const auto& [path, expression] : of_scene["expressions"].items())
+      if (expression.is_string()) manifest.expressions.emplace(path, expression.get<std::string>());
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
     for (const auto& [file, why] : left_out->items())
       manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});

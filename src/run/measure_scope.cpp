@@ -47,44 +47,52 @@ std::string near_name(std::string_view word, const std::vector<std::string_view>
 
 EntityRange bodies_of(const Measure& measure, const Scene& scene) {
   if (measure.kind.empty()) return {0, scene.world.body_count()};
-  const std::size_t dot = measure.body.find('.');
-  const std::string name = measure.body.substr(0, dot);
-  const BodyRange* range = find_range(scene, name);
   const bool groups = measure.kind == "groups";
-  if (range == nullptr || range->group != groups) {
+  const auto fits = [&](const BodyRange& range) { return range.group == groups && is_of(range.name, measure.body); };
+  // A name stands for one thing, or for all members of a repeated one, which follow one another.
+  EntityRange bodies;
+  bool found = false;
+  for (const BodyRange& range : scene.roster.bodies) {
+    if (!fits(range)) continue;
+    if (!found) bodies.first = range.first;
+    found = true;
+    bodies.count += range.count;
+  }
+  const std::size_t dot = measure.body.rfind('.');
+  if (!found && groups && dot != std::string::npos)
+    if (const BodyRange* range = find_range(scene, measure.body.substr(0, dot)); range != nullptr && range->group)
+      return member_of(*range, std::string_view(measure.body).substr(dot + 1), measure);
+  if (!found) {
     std::vector<std::string_view> names;
-    for (const BodyRange& other : scene.roster.bodies)
-      if (other.group == groups) names.push_back(other.name);
-    throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind, in_backticks(name),
-                                   near_name(name, names)));
+    for (const BodyRange& range : scene.roster.bodies)
+      if (range.group == groups) names.push_back(range.name);
+    throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind,
+                                   in_backticks(measure.body), near_name(measure.body, names)));
   }
-  if (dot == std::string::npos) {
-    if (measure.form == MeasureForm::at_end && range->group)
-      throw MeasureError(fmt::format("{} has no member: expected one such as {}.{}.0.{}", in_backticks(measure.name),
-                                     measure.kind, name, name_of(measure.quantity)));
-    return {range->first, range->count};
-  }
-  if (!range->group)
-    throw MeasureError(fmt::format("{}: only groups have members: {}.NAME.{}", in_backticks(measure.name), measure.kind,
-                                   name_of(measure.quantity)));
-  return member_of(*range, std::string_view(measure.body).substr(dot + 1), measure);
+  const BodyRange* whole = find_range(scene, measure.body);
+  if (measure.form == MeasureForm::at_end && (whole == nullptr || whole->group))
+    throw MeasureError(fmt::format("{} has no member; expected one such as {}.{}.0.{}", in_backticks(measure.name),
+                                   measure.kind, measure.body, name_of(measure.quantity)));
+  return bodies;
 }
 
 std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene) {
-  if (const BodyRange* range = find_range(scene, name)) return {{range->first, range->count}};
-  const std::size_t dot = name.rfind('.');
-  if (dot != std::string_view::npos)
-    if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
-      return {member_of(*range, name.substr(dot + 1), measure)};
   std::vector<EntityRange> things;
   std::vector<std::string_view> names;
-  for (const BodyRange& range : scene.roster.bodies) names.push_back(range.name);
+  for (const BodyRange& range : scene.roster.bodies) {
+    names.push_back(range.name);
+    if (is_of(range.name, name)) things.push_back({range.first, range.count});
+  }
   for (std::size_t k = 0; k < scene.roster.fixed.size(); ++k) {
     const std::string_view fixed = scene.roster.fixed[k].name;
     names.push_back(fixed);
     if (is_of(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
   }
   if (!things.empty()) return things;
+  const std::size_t dot = name.rfind('.');
+  if (dot != std::string_view::npos)
+    if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
+      return {member_of(*range, name.substr(dot + 1), measure)};
   throw MeasureError(
       fmt::format("{}: nothing is named {}{}", in_backticks(measure.name), in_backticks(name), near_name(name, names)));
 }

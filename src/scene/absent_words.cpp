@@ -57,13 +57,14 @@ constexpr AbsentWord all_words[] = {
      "camera.path|camera.follow"},
     {"auto camera|autofit|framing|bounding view|zoom to fit|default camera",
      "Without a camera, or with `fit: motion`, the camera frames where the bodies go.", "camera.fit"},
-    {"loop|repeat|for|foreach|array|instances|copies|clone|duplicate",
-     "A scene has no loops. Many balls made by rule are a group; many runs with other values are a sweep.",
-     "group|grid"},
-    {"variable|parameter|constant|let|define|macro|expression|formula|function|arithmetic",
-     "A scene has no variables. `defaults` holds values that things share, `--set PATH=VALUE` changes one for a run, a "
-     "sweep varies it over runs.",
-     "defaults|sweep"},
+    {"loop|for|foreach|array|instances|copies|clone|duplicate|grid of bodies|row of bodies",
+     "A thing with `repeat` stands for many: `repeat: 7` makes seven, and expressions place each by its index i. Many "
+     "balls placed by rule are a group; many runs with other values are a sweep.",
+     "ball.repeat|group|sweep"},
+    {"variable|parameter|constant|define|macro|expression|formula|function|arithmetic|calculation",
+     "`let` gives names to numbers, and a text that begins with = is an expression of them. `--set let.NAME=VALUE` "
+     "changes one for a run, a sweep varies it over runs.",
+     "let|sweep"},
     {"sphere|particle|marble|point mass|circle|disc|disk", "A sphere that moves is a ball.", "ball|balls"},
     {"cube|cuboid|block|brick|crate|rigid body|rigidbody|object|solid|prism|shape|volume|collider",
      "An axis-aligned box is a body with `box: [x, y, z]`; an upright cylinder is one with `cylinder`.",

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "scene/check_values.h"
-#include "scene/expand.h"
+#include "scene/scene.h"
 #include "scene/view.h"
 #include "yaml/values.h"
 
@@ -44,7 +44,7 @@ class Checker : ValueChecker {
       wrong_type(node, what, "expected a map of keys");
       return;
     }
-    if (!kind.defaults.empty() && !partial) mark_cancelled(node, kind);
+    if (!kind.defaults.empty()) mark_cancelled(node, kind);
     for (std::size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
     if (partial) return;
     const Node* defaults = defaults_for(root_, kind);
@@ -124,9 +124,11 @@ class Checker : ValueChecker {
   static void mark_cancelled(Node& node, const Kind& kind) {
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
       Node& value = node.items[i];
-      if (value.text != "none" || value.quoted || !value.is(Node::Kind::scalar)) continue;
+      if (value.text != "none" || !value.is(Node::Kind::scalar)) continue;
       const Field* field = find_field(kind, node.keys[i].text);
       if (field == nullptr || field->type == Type::text || field->type == Type::color_or_none || field->own) continue;
+      // A file may have this name, in quotes.
+      if (field->type == Type::file && value.quoted) continue;
       const std::vector<std::string_view> all =
           field->type == Type::choice ? choices(*field) : std::vector<std::string_view>();
       value.cancels = std::find(all.begin(), all.end(), "none") == all.end();
@@ -135,7 +137,8 @@ class Checker : ValueChecker {
 
   static bool has(const Node& node, const Node* defaults, std::string_view key) {
     if (const Node* own = node.find(key)) return !own->cancels;
-    return defaults != nullptr && defaults->find_key(key) != nullptr;
+    const Node* given = defaults == nullptr ? nullptr : defaults->find(key);
+    return given != nullptr && !given->cancels;
   }
   static bool has_any(const Node& node, const Node* defaults, const Field& field) {
     const std::vector<std::string_view> others = substitutes(field);
@@ -193,7 +196,9 @@ class Checker : ValueChecker {
     const Key* other = nullptr;
     for (const std::string_view rival : rivals(*field)) {
       const Key* found = map_node.find_key(rival);
-      if (found != nullptr && !map_node.find(rival)->cancels && is_before(found->place, other == nullptr ? key.place : other->place)) other = found;
+      if (found != nullptr && !map_node.find(rival)->cancels &&
+          is_before(found->place, other == nullptr ? key.place : other->place))
+        other = found;
     }
     if (other != nullptr) {
       diagnostics_.add(key.place,
@@ -214,8 +219,22 @@ class Checker : ValueChecker {
              "paths are relative to the folder of the scene");
   }
 
+  /// Whether a value is a number, or a vector of numbers, within limits. Texts of errors take longer than this.
+  static bool is_good_number(const Node& value, const Field& field) {
+    if (field.type != Type::number && field.type != Type::vector) return false;
+    const Range limits = limited_range(field);
+    const auto is_good = [&](const Node& one) {
+      const bool plain = one.is(Node::Kind::scalar) && !one.quoted && !one.bad;
+      const std::optional<double> number = plain ? parse_number(one.text) : std::nullopt;
+      return number && contains(field.range, *number) && contains(limits, *number);
+    };
+    if (field.type == Type::number) return is_good(value);
+    return value.is(Node::Kind::sequence) && value.items.size() == 3 &&
+           std::all_of(value.items.begin(), value.items.end(), is_good);
+  }
+
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
-    if (value.bad) return;
+    if (value.bad || is_good_number(value, field)) return;
     const std::string name = in_backticks(field.key);
     const std::string required = "expected " + expected(field);
     switch (field.type) {

@@ -11,6 +11,7 @@
 
 #include "scene/expressions.h"
 #include "scene/fields.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -23,6 +24,8 @@ constexpr double most_work = 5e8;
 /// Of things that are not repeated. Each is read by itself, in 10 microseconds.
 constexpr std::size_t most_expressions = 200'000;
 constexpr std::size_t most_indices = 8;
+/// Of expressions that a manifest lists.
+constexpr std::size_t most_texts = 10'000;
 
 constexpr std::string_view repeat_key = "repeat";
 
@@ -42,6 +45,7 @@ std::size_t count_values(const Node& node) {
 
 /// Whether values of this field hold neither numbers nor names of things.
 bool is_text(const Field& field) {
+  if (field.range.min == field.range.max) return true;  // the version of the format
   switch (field.type) {
     case Type::flag:
     case Type::text:
@@ -68,6 +72,16 @@ std::string step_of(const Field& field, std::size_t i) {
   return std::to_string(i);
 }
 
+/// The parts of a path before and after the number of a member: "bodies.bricks" and ".mass" of "bodies.bricks.3.mass".
+/// The first is empty if the path has none.
+std::pair<std::string, std::string> without_member(std::string_view path) {
+  const std::size_t name = path.find('.'), number = path.find('.', name + 1);
+  if (name == std::string_view::npos || number == std::string_view::npos) return {};
+  const std::size_t end = std::min(path.find('.', number + 1), path.size());
+  if (!parse_index(path.substr(number + 1, end - number - 1))) return {};
+  return {std::string(path.substr(0, number)), std::string(path.substr(end))};
+}
+
 class Expander {
  public:
   Expander(const Budget& budget, Diagnostics& diagnostics) : budget_(budget), diagnostics_(diagnostics) {}
@@ -79,6 +93,8 @@ class Expander {
       numbers_ = read_let(*let, diagnostics_);
     }
     map(root, kind_named("scene"), "");
+    note_defaults(root);
+    if (texts_.size() > most_texts) texts_.clear();
     return std::move(texts_);
   }
 
@@ -111,11 +127,55 @@ class Expander {
     scalar(node, path);
     if (!node.is(Node::Kind::sequence)) return;
     for (std::size_t i = 0; i < node.items.size(); ++i)
-      if (is_expression(node.items[i]) || has_braces(node.items[i])) scalar(node.items[i], path + "." + step_of(field, i));
+      if (is_expression(node.items[i]) || has_braces(node.items[i]))
+        scalar(node.items[i], path + "." + step_of(field, i));
   }
 
   void note(const std::string& path, const Node& node) {
-    if (is_expression(node) && !in_list_) texts_.emplace(path, node.text);
+    if (is_expression(node) && !in_list_ && texts_.size() <= most_texts) texts_.emplace(path, node.text);
+  }
+
+  void note_repeat(const std::string& path, const Node& repeat) {
+    std::string text;
+    bool any = is_expression(repeat);
+    for (const Node& item : repeat.items) {
+      any = any || is_expression(item);
+      text += item.text + ";";
+    }
+    if (any && !in_list_) texts_.emplace(path + ".repeat", repeat.text + text);
+  }
+
+  /// Notes the expressions of defaults once more for each thing that uses them.
+  void note_defaults(const Node& root) {
+    if (texts_.lower_bound("defaults.") == texts_.lower_bound("defaults/")) return;
+    for (const Field& field : kind_named("scene").fields) {
+      const Node* things = field.type == Type::named ? root.find(field.key) : nullptr;
+      if (things == nullptr || !things->is(Node::Kind::map)) continue;
+      const Kind& kind = kind_named(field.of);
+      for (std::size_t i = 0; i < things->keys.size(); ++i) {
+        const std::string_view family = family_of(things->keys[i].text);
+        const std::string path =
+            fmt::format("{}.{}", field.key, family.empty() ? std::string_view(things->keys[i].text) : family);
+        note_defaults_of(things->items[i], kind, path);
+        for (const Field& part : kind.fields)
+          if (part.type == Type::part && things->items[i].find(part.key) != nullptr)
+            note_defaults_of(*things->items[i].find(part.key), kind_named(part.of),
+                             fmt::format("{}.{}", path, part.key));
+      }
+    }
+  }
+
+  void note_defaults_of(const Node& thing, const Kind& kind, const std::string& path) {
+    if (kind.defaults.empty()) return;
+    const std::string start = fmt::format("defaults.{}.", kind.defaults);
+    for (auto text = texts_.lower_bound(start); text != texts_.end() && text->first.starts_with(start); ++text) {
+      const std::string rest = text->first.substr(start.size());
+      const Field* field = find_field(kind, std::string_view(rest).substr(0, rest.find('.')));
+      if (field == nullptr || thing.find_key(field->key) != nullptr || texts_.size() > most_texts) continue;
+      const std::vector<std::string_view> others = rivals(*field);
+      if (std::none_of(others.begin(), others.end(), [&](auto key) { return thing.find_key(key) != nullptr; }))
+        texts_.emplace(path + "." + rest, text->second);
+    }
   }
 
   void scalar(Node& node, const std::string& path) {
@@ -164,7 +224,8 @@ class Expander {
     for (std::size_t i = 0; i < whole.keys.size(); ++i) {
       const Key& key = whole.keys[i];
       made.clear();
-      if (!is_repeated(whole.items[i], kind) || !members(whole.items[i], key.place, kind, path + "." + key.text, made)) {
+      if (!is_repeated(whole.items[i], kind) ||
+          !members(whole.items[i], key.place, kind, path + "." + key.text, made)) {
         node.keys.push_back(key);
         node.items.push_back(std::move(whole.items[i]));
         continue;
@@ -196,6 +257,7 @@ class Expander {
   /// Adds the members of a repeated thing to `made`. False: it has none, and stays as it is.
   bool members(Node& thing, Place where, const Kind& kind, const std::string& path, std::vector<Node>& made) {
     const std::size_t errors = diagnostics_.count(), before = numbers_.names.size(), first = made.size();
+    note_repeat(path, *thing.find(repeat_key));
     const std::optional<Counts> counts = read_counts(*thing.find(repeat_key), where);
     bool good = counts && counts->members > 0;
     if (good) {
@@ -229,9 +291,12 @@ class Expander {
     work_ += work;
     values_ += static_cast<double>(count_of_values) * counts.members;
     if (values_ > most_values || work_ > most_work) {
-      diagnostics_.add(where, values_ > most_values ? fmt::format("with these members the scene has {} values; the limit is {}", values_, most_values)
-                                                    : "evaluating the expressions of so many members takes too long",
-                       "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
+      diagnostics_.add(
+          where,
+          values_ > most_values
+              ? fmt::format("with these members the scene has {} values; the limit is {}", values_, most_values)
+              : "evaluating the expressions of so many members takes too long",
+          "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
       return false;
     }
     made.reserve(made.size() + static_cast<std::size_t>(counts.members));
@@ -363,13 +428,21 @@ void write_out(Node& root) {
   }
 }
 
-ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics) {
-  return has_shorthands(root) ? Expander(budget, diagnostics).run(root) : ExpressionTexts{};
+const std::string* expression_at(const ExpressionTexts& texts, std::string_view path) {
+  if (const auto found = texts.find(std::string(path)); found != texts.end()) return &found->second;
+  const auto [family, rest] = without_member(path);
+  const auto found = family.empty() ? texts.end() : texts.find(family + rest);
+  return found == texts.end() ? nullptr : &found->second;
 }
 
-std::string_view family_of(std::string_view name) {
-  const std::size_t dot = name.rfind('.');
-  return dot != std::string_view::npos && parse_index(name.substr(dot + 1)) ? name.substr(0, dot) : std::string_view();
+const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path) {
+  const std::string family = without_member(path).first;
+  const auto found = family.empty() ? texts.end() : texts.find(family + ".repeat");
+  return found == texts.end() ? nullptr : &found->second;
+}
+
+ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics) {
+  return has_shorthands(root) ? Expander(budget, diagnostics).run(root) : ExpressionTexts{};
 }
 
 }  // namespace carom

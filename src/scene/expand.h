@@ -2,6 +2,7 @@
 // The tree of a scene file without its shorthands: expressions become numbers, repeated things their members.
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "scene/budget.h"
 #include "yaml/diagnostics.h"
@@ -9,9 +10,15 @@
 
 namespace carom {
 
-/// The texts of expressions, by their paths in the file as --set takes them: "balls.red.position.x".
-/// Those of repeated entries of a list, which have no name, are absent.
+/// The texts of expressions, by paths as --set takes them: "balls.red.position.x". A repeated thing has one for all its
+/// members, and "bricks.repeat" for their number. A thing has those of its defaults that it uses.
+/// Expressions of repeated entries of a list, which have no name, are absent. Of very many none is kept.
 using ExpressionTexts = std::map<std::string, std::string>;
+
+/// The text of the expression that made the value at a path of a resolved scene. Null: none did, or it is not known.
+const std::string* expression_at(const ExpressionTexts& texts, std::string_view path);
+/// The same for the number of members of the repeated thing that the path belongs to.
+const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path);
 
 /// Writes short forms out in full: `restitution: 0.3` is `restitution: {default: 0.3}`. It costs nothing to repeat.
 void write_out(Node& root);
@@ -20,8 +27,5 @@ void write_out(Node& root);
 /// Adds errors, and marks values bad whose expression has no number. A thing with `repeat: 0` stays as it is.
 /// More values than a file may have, or more members than `budget` has bodies, are refused before they are made.
 ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics);
-
-/// The name of the repeated thing that a member belongs to: `bricks` of `bricks.3`. Empty: it is no member.
-std::string_view family_of(std::string_view name);
 
 }  // namespace carom

@@ -17,7 +17,9 @@ namespace {
 constexpr std::size_t most_names = 1000;
 
 std::string hint_for(const NamedNumbers& numbers) {
-  return numbers.names.empty() ? "numbers have names in `let`, such as let: {r: 0.05}" : "";
+  return numbers.names.empty()
+             ? "numbers have names in `let`, such as let: {r: 0.05}, and indices in things with `repeat`"
+             : "";
 }
 
 /// Evaluates `let` in the order of its dependences.
@@ -50,7 +52,8 @@ class LetReader {
       diagnostics_.add(key.place, fmt::format("{} is not a name for a number", shown),
                        "expected letters, digits and _, a letter or _ first");
     else if (is_formula_word(key.text))
-      diagnostics_.add(key.place, fmt::format("{} is a {} of expressions", shown, key.text == "pi" ? "number" : "function"),
+      diagnostics_.add(key.place,
+                       fmt::format("{} is a {} of expressions", shown, key.text == "pi" ? "number" : "function"),
                        "expected another name");
   }
 
@@ -74,7 +77,8 @@ class LetReader {
     try {
       const Formula formula(std::string_view(node.text).substr(1), numbers_.names);
       for (const std::size_t used : formula.used()) {
-        if (states_[used] == State::open) throw formula.at_name(used, circle(used), "expected numbers without a circle");
+        if (states_[used] == State::open)
+          throw formula.at_name(used, circle(used), "expected numbers without a circle");
         settle(used);
         if (!numbers_.known[used]) node.bad = true;
       }
@@ -135,7 +139,9 @@ Place place_in(const Node& node, std::size_t at, const FormulaError& error) {
   // An escaped or folded text has no place for each character.
   const std::size_t quotes = node.quoted ? 2 : 0;
   if (node.place.length != node.text.size() + quotes) return node.place;
-  return {node.place.source, static_cast<std::uint32_t>(node.place.offset + quotes / 2 + at + error.offset),
+  // What is missing at the end of a text is shown at its last character.
+  const std::size_t offset = std::min(at + error.offset, std::max<std::size_t>(node.text.size(), 1) - 1);
+  return {node.place.source, static_cast<std::uint32_t>(node.place.offset + quotes / 2 + offset),
           static_cast<std::uint32_t>(error.length)};
 }
 

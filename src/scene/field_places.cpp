@@ -27,6 +27,8 @@ struct Spot {
 /// Collects every place of every key of a map of `kind`, in the order of the table. `steps`: the path of the map.
 void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::vector<Spot>& found) {
   for (const Field& field : kind.fields) {
+    // Defaults are those of each member.
+    if (field.type == Type::repeat && !steps.empty() && steps.front() == "defaults") continue;
     std::vector<std::string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});

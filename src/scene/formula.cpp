@@ -127,9 +127,9 @@ void define(mu::ParserBase& parser, const std::string& name) {
 }
 
 constexpr Function functions[] = {
-    {"sqrt", 1, define<square_root_of>}, {"abs", 1, define<magnitude>},    {"min", 0, define<least>},
-    {"max", 0, define<greatest>},        {"floor", 1, define<round_down>}, {"sin", 1, define<sine>},
-    {"cos", 1, define<cosine>},          {"tan", 1, define<tangent>},      {"asin", 1, define<arc_sine>},
+    {"sqrt", 1, define<square_root_of>}, {"abs", 1, define<magnitude>},        {"min", 0, define<least>},
+    {"max", 0, define<greatest>},        {"floor", 1, define<round_down>},     {"sin", 1, define<sine>},
+    {"cos", 1, define<cosine>},          {"tan", 1, define<tangent>},          {"asin", 1, define<arc_sine>},
     {"acos", 1, define<arc_cosine>},     {"atan2", 2, define<arc_tangent_of>},
 };
 
@@ -237,7 +237,8 @@ class Reader {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
     const std::size_t at = at_;
     // The end of the expression is shown at its last character.
-    if (at == text_.size()) return {Token::Sort::end, std::max<std::size_t>(text_.find_last_not_of(" \n") + 1, 1) - 1, 1};
+    if (at == text_.size())
+      return {Token::Sort::end, std::max<std::size_t>(text_.find_last_not_of(" \n") + 1, 1) - 1, 1};
     const char c = text_[at];
     if (is_digit(c) || (c == '.' && at + 1 < text_.size() && is_digit(text_[at + 1]))) return number();
     if (is_name_character(c) && c != '.') {
@@ -329,9 +330,8 @@ class Reader {
   void apply_above(int precedence, bool from_right) {
     while (!waiting_.empty() && waiting_.back().sort != Waiting::Sort::open) {
       const Waiting& last = waiting_.back();
-      const bool waits_on =
-          last.precedence < precedence ||
-          (last.precedence == precedence && from_right && last.sort == Waiting::Sort::binary);
+      const bool waits_on = last.precedence < precedence ||
+                            (last.precedence == precedence && from_right && last.sort == Waiting::Sort::binary);
       if (waits_on) return;
       calls.push_back(last.token);
       waiting_.pop_back();
@@ -343,8 +343,7 @@ class Reader {
     if (find_function(name) != nullptr) {
       const Token after = next();
       if (after.sort != Token::Sort::open)
-        fail(token, fmt::format("{} without parentheses", in_backticks(name)),
-             fmt::format("expected {}(...)", name));
+        fail(token, fmt::format("{} without parentheses", in_backticks(name)), fmt::format("expected {}(...)", name));
       waiting_.push_back({Waiting::Sort::function, 100, token});
       return open(after);
     }
@@ -364,10 +363,12 @@ class Reader {
     std::vector<std::string_view> known = formula_functions();
     if (!is_call) {
       known.assign(names_.begin(), names_.end());
-      known.emplace_back("pi");
+      if (name.size() > 1) known.emplace_back("pi");
     }
     const std::string near = nearest(name, known);
-    const std::string any = is_call || hint_.empty() ? "expected " + listed(known) : std::string(hint_);
+    const std::string any = !is_call && !hint_.empty() ? std::string(hint_)
+                            : known.empty()            ? "expected pi"
+                                                       : "expected " + listed(known);
     fail(token, fmt::format("no {} is named {}", is_call ? "function" : "number", in_backticks(name)),
          near.empty() ? any : fmt::format("did you mean {}?", in_backticks(near)));
   }
@@ -381,7 +382,8 @@ class Reader {
     const std::size_t after = text_.find_first_not_of(" \n", at_);
     if (after >= text_.size() || text_[after] != ')') return;
     if (is_argument_list())
-      fail(waiting_[waiting_.size() - 2].token, fmt::format("{} has no argument", in_backticks(of(waiting_[waiting_.size() - 2].token))),
+      fail(waiting_[waiting_.size() - 2].token,
+           fmt::format("{} has no argument", in_backticks(of(waiting_[waiting_.size() - 2].token))),
            "expected a number between the parentheses");
     fail(token, "nothing stands between these parentheses", "expected a number or a name");
   }

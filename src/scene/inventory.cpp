@@ -4,8 +4,8 @@
 
 #include "scene/check.h"
 #include "scene/decode.h"
-#include "scene/expand.h"
 #include "scene/member.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -100,8 +100,8 @@ class Census {
 
   void number(std::uint64_t total) {
     inventory_.body_count = static_cast<Entity>(total);
-    for (const BodyEntry& body : inventory_.bodies)
-      add(body.key->text, {body.first, static_cast<Entity>(body.count)});
+    inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size());
+    for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
       const Entity first = inventory_.body_count + entry.first;
@@ -110,6 +110,7 @@ class Census {
         inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
       }
     }
+    for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
     for (const Empty& none : empty_) {
       const bool last = none.before == inventory_.bodies.size();
       const Entity first = !none.is_body ? inventory_.body_count + static_cast<Entity>(none.before)
@@ -126,7 +127,6 @@ class Census {
     if (family.empty()) return;
     const auto [whole, fresh] = inventory_.families.try_emplace(std::string(family), range);
     if (!fresh) whole->second.count += range.count;
-    inventory_.names[std::string(family)] = whole->second;
   }
 
   /// A thing that is repeated no time.

@@ -134,9 +134,9 @@ class Resolver {
         const std::string& name = map.items[i].keys[k].text;
         const Node& value = map.items[i].items[k];
         const bool is_file = find_field(kind_named(kind), name)->type == Type::file && !value.cancels;
-        text += fmt::format("{}{}: {}", k == 0 ? "" : ", ", name,
-                            is_file ? in_quotes(std::filesystem::absolute(beneath(folder_, value.text)).string())
-                                    : flow_text(value));
+        text += fmt::format(
+            "{}{}: {}", k == 0 ? "" : ", ", name,
+            is_file ? in_quotes(std::filesystem::absolute(beneath(folder_, value.text)).string()) : flow_text(value));
       }
       entry(map.keys[i].text, "{" + text + "}");
     }

@@ -2,8 +2,19 @@
 #include <algorithm>
 
 #include "scene/scene.h"
+#include "yaml/values.h"
 
 namespace carom {
+
+std::string_view family_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot != std::string_view::npos && parse_index(name.substr(dot + 1)) ? name.substr(0, dot) : std::string_view();
+}
+
+std::string_view BodyRange::thing() const {
+  const std::string_view family = family_of(name);
+  return family.empty() ? std::string_view(name) : family;
+}
 
 const BodyRange& Roster::range_of(Entity body) const {
   // Find the last range that begins at or before this body.

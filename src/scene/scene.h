@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "numerics/vec3.h"
@@ -35,6 +36,9 @@ struct MeshFile {
   std::string copy;
 };
 
+/// The name of the repeated thing that a member belongs to: `bricks` of `bricks.3`. Empty: it is no member.
+std::string_view family_of(std::string_view name);
+
 /// A name of the scene file and its bodies: one ball or body, or a group's members name.0, name.1, ...
 struct BodyRange {
   std::string name;
@@ -44,6 +48,9 @@ struct BodyRange {
   Color color;
   std::optional<MeshUse> mesh = std::nullopt;
   std::optional<Coloring> coloring = std::nullopt;  // takes the place of `color` in pictures
+
+  /// The name in the file: that of the repeated thing of which this is a member, or its own.
+  std::string_view thing() const;
 };
 
 struct FixedName {

@@ -38,17 +38,30 @@ Json required(const std::vector<std::string_view>& keys) {
   return {{"required", keys}};
 }
 
-/// At least one of the keys is present.
-Json one_required(const std::vector<std::string_view>& keys) {
-  if (keys.size() == 1) return required(keys);
-  Json any = Json::array();
-  for (const std::string_view key : keys) any.push_back(required({key}));
-  return {{"anyOf", any}};
-}
-
 /// The value below `key` matches `schema`.
 Json at(std::string_view key, Json schema) {
   return {{"properties", {{std::string(key), std::move(schema)}}}};
+}
+
+/// The word none, which cancels a default.
+const Json& cancelled() {
+  static const Json word = {{"const", "none"}};
+  return word;
+}
+
+/// The key is present, and does not cancel its default.
+Json present(const Kind& kind, std::string_view key) {
+  Json schema = required({key});
+  if (!kind.defaults.empty()) schema.update(at(key, {{"not", cancelled()}}));
+  return schema;
+}
+
+/// At least one of the keys is present.
+Json one_required(const Kind& kind, const std::vector<std::string_view>& keys) {
+  if (keys.size() == 1) return present(kind, keys.front());
+  Json any = Json::array();
+  for (const std::string_view key : keys) any.push_back(present(kind, key));
+  return {{"anyOf", any}};
 }
 
 /// Finite numbers. The largest double is a bound under `not`.
@@ -106,7 +119,8 @@ Json field_schema(const Field& field);
 Json named_schema(const Kind& kind) {
   Json schema = {{"type", "object"}};
   const bool repeats = find_field(kind, "repeat") != nullptr;
-  schema["propertyNames"] = {{"type", "string"}, {"pattern", repeats ? member_pattern : name_pattern}, {"maxLength", longest_name}};
+  schema["propertyNames"] = {
+      {"type", "string"}, {"pattern", repeats ? member_pattern : name_pattern}, {"maxLength", longest_name}};
   if (kind.also != nullptr) schema["properties"] = {{std::string(kind.also->key), field_schema(*kind.also)}};
   schema["additionalProperties"] = reference(kind.name);
   return schema;
@@ -222,12 +236,6 @@ Json field_schema(const Field& field) {
   return schema;
 }
 
-/// The word none, which cancels a default.
-const Json& cancelled() {
-  static const Json word = {{"const", "none"}};
-  return word;
-}
-
 /// A rule for maps in which `key` is present. If the kind has defaults, its value may cancel one, and no rule holds.
 Json if_present(const Kind& kind, std::string_view key, Json rule) {
   if (kind.defaults.empty()) return rule;
@@ -261,10 +269,10 @@ Json engine_rule(const Field& field) {
 }
 
 /// Field::with, of a kind without defaults.
-Json beside_rule(const Field& field) {
+Json beside_rule(const Kind& kind, const Field& field) {
   std::vector<std::string_view> keys = parts_of(field.spared_by);
   keys.insert(keys.begin(), field.with);
-  return {{"if", required({field.key})}, {"then", one_required(keys)}};
+  return {{"if", required({field.key})}, {"then", one_required(kind, keys)}};
 }
 
 /// Kind::beneath: if a value of the map beneath is invalid in the map that would inherit it, that map needs its own.
@@ -319,7 +327,7 @@ Json kind_schema(const Kind& kind) {
     Json& property = properties[std::string(field.key)] = field_schema(field);
     if (!kind.defaults.empty() && !field.own && field.type != Type::text) property = or_none(std::move(property));
     if (!field.engines.empty()) rules.push_back(engine_rule(field));
-    if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(field));
+    if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(kind, field));
     add_beneath_rules(field, rules);
   }
   if (kind.defaults.empty()) {
@@ -327,11 +335,11 @@ Json kind_schema(const Kind& kind) {
       if (need.size() == 1) {
         keys.push_back(need.front());
       } else {
-        rules.push_back(one_required(need));
+        rules.push_back(one_required(kind, need));
       }
     }
   }
-  if (!kind.any_of.empty()) rules.push_back(one_required(parts_of(kind.any_of)));
+  if (!kind.any_of.empty()) rules.push_back(one_required(kind, parts_of(kind.any_of)));
   schema["properties"] = properties;
   if (!keys.empty()) schema["required"] = keys;
   schema["additionalProperties"] = false;
@@ -343,7 +351,7 @@ Json kind_schema(const Kind& kind) {
 /// `defaults` has one of these keys for maps of this kind.
 Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
   Json part = required({kind.defaults});
-  part.update(at(kind.defaults, one_required(keys)));
+  part.update(at(kind.defaults, one_required(kind, keys)));
   Json whole = required({"defaults"});
   whole.update(at("defaults", std::move(part)));
   return whole;
@@ -352,17 +360,20 @@ Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
 /// Adds the required keys of a kind that has defaults. `each` wraps a schema of one map into one of the root.
 void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& rules) {
   for (const auto& need : needs_of(kind))
-    rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(need))}});
+    rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(kind, need))}});
   for (const Field& field : kind.fields) {
     if (field.with.empty()) continue;
     // The rule holds where the key is present, and where the default takes effect because no rival hides it.
-    const Json beside = {{"dependencies", {{std::string(field.key), if_present(kind, field.key, required({field.with}))}}}};
+    const Json beside = {
+        {"dependencies", {{std::string(field.key), if_present(kind, field.key, present(kind, field.with))}}}};
     rules.push_back({{"if", has_default(kind, {field.with})}, {"else", each(beside)}});
     std::vector<std::string_view> hiding = rivals(field);
     hiding.push_back(field.with);
+    Json hidden = Json::array({one_required(kind, hiding), required({field.key})});
+    hidden[1].update(at(field.key, cancelled()));
     rules.push_back(
         {{"if", {{"allOf", Json::array({has_default(kind, {field.key}), {{"not", has_default(kind, {field.with})}}})}}},
-         {"then", each(one_required(hiding))}});
+         {"then", each({{"anyOf", std::move(hidden)}})}});
   }
 }
 
@@ -373,7 +384,7 @@ void add_part_rules(const Kind& owner, const Field& field, const std::function<J
       kind, [&](Json schema) { return each(at(field.key, std::move(schema))); }, rules);
   for (const auto& need : needs_of(kind)) {
     Json part = required({owner.defaults}), owned = required({field.key});
-    owned.update(at(field.key, one_required(need)));
+    owned.update(at(field.key, one_required(kind, need)));
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));

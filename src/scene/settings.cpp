@@ -159,9 +159,11 @@ class Walk {
       case Type::named:
         return into_named(step);
       case Type::values:
-      case Type::texts: {
+      case Type::texts:
+      case Type::repeat: {
         Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
-        if (child == nullptr) return refuse_name(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)));
+        if (child == nullptr)
+          return refuse_name(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)));
         node_ = child;
         done_ = true;
         return true;
@@ -214,7 +216,8 @@ class Walk {
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
     if (child == nullptr) child = member(step);
     if (child == nullptr && !family_.empty()) return true;
-    if (child == nullptr) return refuse_name(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)));
+    if (child == nullptr)
+      return refuse_name(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)));
     node_ = child;
     if (kind.also != nullptr && step.text == kind.also->key) {
       done_ = true;
@@ -244,7 +247,7 @@ class Walk {
   /// The kind of the map that node_ is. Null: node_ is a value of field_.
   const Kind* kind_;
   const Field* field_ = nullptr;
-  bool done_ = false;  // node_ has no parts
+  bool done_ = false;   // node_ has no parts
   std::string family_;  // see member()
   std::string before_ = "scene";
   /// The first map that a step changed, the key that it got, and those that this key replaced. Null: no step did.

@@ -68,7 +68,7 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
   EXPECT_EQ(error_of("= let.r", scene), "`let` has no `r`");
   EXPECT_EQ(error_of("= hits(red) + nothing", scene),
             "`= hits(red) + nothing`: no number is named `nothing`; expected a measure, let.NAME or a number");
-  EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member: expected one such as groups.gas.0.x_m");
+  EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member; expected one such as groups.gas.0.x_m");
   EXPECT_EQ(error_of("groups.gas.3.x_m", scene), "`groups.gas.3.x_m`: the members of `gas` are 0 to 2");
   EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: only groups have members: balls.NAME.x_m");
   EXPECT_NE(error_of("", scene), "");

@@ -84,6 +84,9 @@ struct Beyond {
 const std::vector<Beyond>& beyond_schemas() {
   static const std::vector<Beyond> all = {
       {"nothing is named", "which names there are"},
+      {"no number is named", "which names there are"},
+      {"there is no `", "which members there are"},
+      {"`repeat` in `defaults`", "defaults have the definition of their things"},
       {"never move, so they never meet", "what a name stands for"},
       {"does not meet itself", "two names against one another"},
       {"never moves: no force acts on it", "what a name stands for"},
