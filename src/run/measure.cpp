@@ -183,7 +183,7 @@ double value_of(const Measure& measure, const Scene& scene, const State& state, 
   } catch (const MeasureError&) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  if (is_part_of_another(state, body)) return std::numeric_limits<double>::quiet_NaN();
+  if (is_gone(state, body)) return std::numeric_limits<double>::quiet_NaN();
   const double mass = mass_now(scene.world, state, body);
   return quantity_of(measure.quantity, state.position[body], state.velocity[body], mass);
 }

@@ -26,6 +26,8 @@ struct RunSettings {
   Durability durability = Durability::synced;
   /// Further results for the manifest at a run's end. May be unset.
   std::function<std::vector<Measured>(const Scene&, const State& end, const Summary&)> measure;
+  /// Whether the result has the crossings of regions.
+  bool keep_crossings = false;
   /// The warnings of a former run with this motion. Unset: determined anew.
   std::optional<std::vector<Warning>> warnings{};
   /// Makes a simulator that replaces the scene's engine. May be unset.
@@ -36,6 +38,8 @@ struct RunResult {
   Summary summary;
   RunFacts facts;
   EngineChoice engine{};  // with its steps settled
+  /// All crossings of regions, by time, region and body. Empty without RunSettings::keep_crossings.
+  std::vector<RegionCrossing> crossings{};
   /// The whole run, including finishing the files.
   double wall_s = 0;
   /// The error of this show alone: RenderError or ExportError. If it is set, all other members are meaningless.
