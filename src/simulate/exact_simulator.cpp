@@ -44,7 +44,8 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       removal_(bodies_, group_, flat_, flights_, queue_),
       guard_(world.body_count(), options.duration),
       impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}),
-      watches_(crossings_.any() || options.stop_at_rest || options.stop_collisions > 0) {
+      watches_(crossings_.any() || options.stop_at_rest || options.stop_collisions > 0),
+      attends_(watches_ || world.body_count() > cached_bodies) {
   start(initial);
 }
 
@@ -88,12 +89,13 @@ void ExactSimulator::advance_to(double time) {
   do {
     while (queue_.first_time() <= until.hi) {
       const Entity i = queue_.first();
-      if (bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
-      const bool leaves = queue_.leaves_first(i);
-      if (!leaves && !(bodies_.body[i].event.time <= until)) break;
-      if (watches_) [[unlikely]] {
+      if (attends_ && bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
+      if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
+      if (attends_ && watches_) [[unlikely]] {
         if (is_over()) break;
-        if (happens_before(leaves ? Instant{queue_.first_time(), 0} : bodies_.body[i].event.time, false)) continue;
+        if (happens_before(queue_.leaves_first(i) ? Instant{queue_.first_time(), 0} : bodies_.body[i].event.time,
+                           false))
+          continue;
       }
       take_event(i);
       // After many events without a result, the caller may need to check the clock.
@@ -102,7 +104,7 @@ void ExactSimulator::advance_to(double time) {
         return crossings_.sort();
       }
       // A buffer is full. Stop just before the present instant, because more may happen at it.
-      if (paths_.full() || crossings_.full() || !bodies_.log.has_room(collisions_of_event)) {
+      if (paths_.full() || (attends_ && crossings_.full()) || !bodies_.log.has_room(collisions_of_event)) {
         time_ = std::max(time_, before_now());
         return crossings_.sort();
       }

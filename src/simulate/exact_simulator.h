@@ -70,8 +70,8 @@ class ExactSimulator final : public Simulator {
   ExactImpacts impacts_;
   Effort effort_;
   double time_ = 0;  // s: time that advance_to has reached
-  // Whether the paths between events matter: to regions, or to the run's end.
-  const bool watches_;
+  // Whether the paths between events matter: to regions, or to the run's end. The second: or events are prefetched.
+  const bool watches_, attends_;
   Entity awake_ = 0;  // a body that moved when it was last looked for
   State state_;
   bool state_fresh_ = false;
