@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "compare/compared_run.h"
 #include "files/run_folder.h"
@@ -35,6 +37,11 @@ const char* table_of(const Measure& measure) {
     case MeasureForm::first_hit:
     case MeasureForm::hits:
       return "collisions.csv";
+    case MeasureForm::entries:
+    case MeasureForm::inside:
+    case MeasureForm::first_entry:
+    case MeasureForm::first_entrant:
+      return "regions.csv";
     default:
       return nullptr;
   }
@@ -85,7 +92,9 @@ bool StoredMeasures::have(std::span<const Measure> measures) {
 Measured StoredMeasures::value(const Measure& measure, const std::vector<std::string>& summary) {
   if (measure.form != MeasureForm::column)
     if (const Measured* known = measured(measure.name)) return *known;
-  return {measure.name, number(measure, summary), {}};
+  Measured value{measure.name, number(measure, summary), {}};
+  if (measure.is_text()) value.text = visits(measure).entrant;
+  return value;
 }
 
 double StoredMeasures::number(const Measure& measure, const std::vector<std::string>& summary) {
@@ -107,6 +116,14 @@ double StoredMeasures::number(const Measure& measure, const std::vector<std::str
       return meetings(measure).first;
     case MeasureForm::hits:
       return meetings(measure).count;
+    case MeasureForm::entries:
+      return visits(measure).entries;
+    case MeasureForm::inside:
+      return visits(measure).inside;
+    case MeasureForm::first_entry:
+      return visits(measure).first;
+    case MeasureForm::first_entrant:
+      return undefined;
     case MeasureForm::expression:
       return evaluated(measure, summary);
     case MeasureForm::given: {
@@ -166,6 +183,32 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
     if (found.count == 0) found.first = number_in((*row)[*time]).value_or(undefined);
     ++found.count;
   }
+  return found;
+}
+
+StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
+  StoredTable table(open_stored(folder_, "regions.csv"));
+  const auto time = table.find("time_s"), region = table.find("region"), body = table.find("body"),
+             what = table.find("what");
+  Visits found{0, 0, undefined, {}};
+  if (!time || !region || !body || !what) return found;
+  std::set<std::string> removing;
+  for (std::size_t r = 0; r < scene().world.regions.size(); ++r)
+    if (scene().world.regions[r].removes) removing.insert(scene().roster.regions[r]);
+  std::set<std::pair<std::string, std::string>> inside;  // region, body
+  while (const std::vector<std::string_view>* row = table.next()) {
+    if (row->size() <= std::max({*time, *region, *body, *what})) continue;
+    const std::string in((*row)[*region]), who((*row)[*body]);
+    const bool enters = (*row)[*what] == "enter";
+    if (enters && removing.contains(in)) std::erase_if(inside, [&](const auto& of) { return of.second == who; });
+    if (!is_of(in, measure.things[0])) continue;
+    if (!enters) inside.erase({in, who});
+    if (enters && !removing.contains(in)) inside.insert({in, who});
+    if (!enters) continue;
+    if (found.entries == 0) found.first = number_in((*row)[*time]).value_or(undefined), found.entrant = who;
+    ++found.entries;
+  }
+  found.inside = static_cast<double>(inside.size());
   return found;
 }
 

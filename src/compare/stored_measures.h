@@ -29,6 +29,12 @@ class StoredMeasures {
     double count = 0, first;
   };
 
+  /// The crossings of a region.
+  struct Visits {
+    double entries = 0, inside = 0, first;  // the number of entries, of bodies inside at the end; s, of the first entry
+    std::string entrant;                    // the body of the first entry
+  };
+
   const Manifest* manifest();
   const Measured* measured(const std::string& name);
   bool has_file(const char* name) const;
@@ -41,6 +47,7 @@ class StoredMeasures {
   double counted(const Measure& measure, const std::vector<std::string>& summary);
   double evaluated(const Measure& measure, const std::vector<std::string>& summary);
   Meetings meetings(const Measure& measure);
+  Visits visits(const Measure& measure);
 
   const int folder_;
   const std::string path_;

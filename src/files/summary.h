@@ -22,6 +22,7 @@ struct EnergyTotals {
   // By impacts, both recorded and taken up by contact.
   double lost = 0;
   double work = 0;  // of forces without a potential
+  double removed = 0;  // of bodies that regions have removed
   /// What neither impacts nor work account for: the error of the method, and rounding.
   double residual = 0;
   /// A lower bound of the energy that changed its form: kinetic at both ends, potential, lost, work.
@@ -39,6 +40,7 @@ struct Warning {
 /// Counts for the report only, not columns.
 struct ContactCounts {
   std::uint64_t merges = 0;
+  std::uint64_t removed = 0;  // bodies
   std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
 };
@@ -62,6 +64,8 @@ struct Summary {
   std::uint64_t resting = 0, frames = 0;
   /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
   double stepped_contact = 0;
+  /// "duration", "rest", "collisions" or "region pocket".
+  std::string ended_by{};
 
   std::vector<Measured> measures;  // those that the scene defines, columns after all others
 

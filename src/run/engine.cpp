@@ -32,6 +32,8 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
   options.watch = request.recording.watch;
+  options.stop_at_rest = simulate.stop_at_rest;
+  options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
   return options;
 }
 

@@ -97,6 +97,20 @@ std::vector<EntityRange> things_named(std::string_view name, const Measure& meas
       fmt::format("{}: nothing is named {}{}", in_backticks(measure.name), in_backticks(name), near_name(name, names)));
 }
 
+std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene) {
+  const std::string& name = measure.things[0];
+  std::vector<std::uint32_t> regions;
+  std::vector<std::string_view> names;
+  for (std::uint32_t r = 0; r < scene.roster.regions.size(); ++r) {
+    names.push_back(scene.roster.regions[r]);
+    if (is_of(scene.roster.regions[r], name)) regions.push_back(r);
+  }
+  if (regions.empty())
+    throw MeasureError(fmt::format("{}: no region is named {}{}", in_backticks(measure.name), in_backticks(name),
+                                   near_name(name, names)));
+  return regions;
+}
+
 namespace {
 
 std::vector<std::string> own_names(const Scene& scene) {
@@ -130,6 +144,12 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
     case MeasureForm::first_hit:
     case MeasureForm::hits:
       for (const std::string& name : measure.things) things_named(name, measure, scene);
+      return;
+    case MeasureForm::entries:
+    case MeasureForm::inside:
+    case MeasureForm::first_entry:
+    case MeasureForm::first_entrant:
+      regions_named(measure, scene);
       return;
     case MeasureForm::given:
       if (!scene.numbers.contains(measure.things[0])) {

@@ -26,4 +26,7 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene);
 /// Throws MeasureError.
 std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene);
 
+/// The regions of a measure of regions: one, or all members of a repeated one; ascending. Throws MeasureError.
+std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene);
+
 }  // namespace carom

@@ -22,6 +22,11 @@ bool is_extreme(MeasureForm form) {
          form == MeasureForm::least_time;
 }
 
+bool is_of_region(MeasureForm form) {
+  return form == MeasureForm::entries || form == MeasureForm::inside || form == MeasureForm::first_entry ||
+         form == MeasureForm::first_entrant;
+}
+
 WatchedQuantity watched_by(const Measure& measure, const Scene& scene) {
   const EntityRange bodies = bodies_of(measure, scene);
   return {measure.quantity, bodies.first, bodies.count};
@@ -41,6 +46,9 @@ void Measuring::prepare(const Measure& measure) {
     const WatchedQuantity watched = watched_by(measure, scene_);
     if (std::find(watched_.begin(), watched_.end(), watched) == watched_.end()) watched_.push_back(watched);
   }
+  if (is_of_region(measure.form) && std::none_of(visits_.begin(), visits_.end(),
+                                                 [&](const Visits& visits) { return visits.name == measure.things[0]; }))
+    visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
   if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
   if (std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return m.things == measure.things; }))
     return;
@@ -49,7 +57,16 @@ void Measuring::prepare(const Measure& measure) {
   meetings_.push_back(std::move(meeting));
 }
 
-void Measuring::record(std::span<const Collision> collisions) {
+void Measuring::record(std::span<const Collision> collisions, std::span<const RegionCrossing> crossings) {
+  for (Visits& visits : visits_) {
+    for (const RegionCrossing& c : crossings) {
+      if (!std::binary_search(visits.regions.begin(), visits.regions.end(), c.region)) continue;
+      visits.inside[{c.region, c.body}] = c.enters;
+      if (!c.enters) continue;
+      if (visits.entries == 0) visits.first = c.time, visits.entrant = c.body;
+      ++visits.entries;
+    }
+  }
   for (Meeting& meeting : meetings_) {
     for (const Collision& c : collisions) {
       if (c.kind == CollisionKind::rest) continue;
@@ -63,27 +80,28 @@ void Measuring::record(std::span<const Collision> collisions) {
   }
 }
 
-std::vector<Measured> Measuring::values(const RunEnd& run) const {
+std::vector<Measured> Measuring::values(const MeasuredRun& run) const {
   std::vector<Measured> values;
   for (const Measure& measure : measures_) {
     Measured& measured = values.emplace_back(measure.name);
     measured.value = value(measure, run);
+    if (measure.is_text()) measured.text = first_entrant(measure);
   }
   return values;
 }
 
 double Measuring::at_end(const Measure& measure, Entity body, const State& end) const {
-  if (is_part_of_another(end, body)) return undefined;
+  if (is_gone(end, body)) return undefined;
   return quantity_of(measure.quantity, end.position[body], end.velocity[body], mass_now(scene_.world, end, body));
 }
 
-double Measuring::evaluated(const Measure& measure, const RunEnd& run) const {
+double Measuring::evaluated(const Measure& measure, const MeasuredRun& run) const {
   std::vector<double> values;
   for (const Measure& part : measure.parts) values.push_back(value(part, run));
   return formula_value(measure, values);
 }
 
-double Measuring::counted(const Measure& measure, const RunEnd& run) const {
+double Measuring::counted(const Measure& measure, const MeasuredRun& run) const {
   const double limit = evaluated(measure, run);
   const EntityRange bodies = bodies_of(measure, scene_);
   double count = 0;
@@ -92,12 +110,28 @@ double Measuring::counted(const Measure& measure, const RunEnd& run) const {
   return count;
 }
 
-const Extremes& Measuring::extremes(const Measure& measure, const RunEnd& run) const {
+const Extremes& Measuring::extremes(const Measure& measure, const MeasuredRun& run) const {
   const auto found = std::find(watched_.begin(), watched_.end(), watched_by(measure, scene_));
   return run.extremes[static_cast<std::size_t>(found - watched_.begin())];
 }
 
-double Measuring::value(const Measure& measure, const RunEnd& run) const {
+/// Bodies inside a region that are still in the world.
+double Measuring::inside(const Visits& visits, const State& end) const {
+  double count = 0;
+  for (const auto& [of, is_inside] : visits.inside) count += is_inside && !is_gone(end, of.second) ? 1 : 0;
+  return count;
+}
+
+std::string Measuring::first_entrant(const Measure& measure) const {
+  const auto found =
+      std::find_if(visits_.begin(), visits_.end(), [&](const Visits& v) { return v.name == measure.things[0]; });
+  return found->entrant == no_entity ? std::string() : scene_.roster.name(found->entrant);
+}
+
+double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
+  const auto visits = [&]() -> const Visits& {
+    return *std::find_if(visits_.begin(), visits_.end(), [&](const Visits& v) { return v.name == measure.things[0]; });
+  };
   const auto meeting = [&]() -> const Meeting& {
     return *std::find_if(meetings_.begin(), meetings_.end(),
                          [&](const Meeting& m) { return m.things == measure.things; });
@@ -119,6 +153,12 @@ double Measuring::value(const Measure& measure, const RunEnd& run) const {
       return meeting().first;
     case MeasureForm::hits:
       return meeting().count;
+    case MeasureForm::entries:
+      return visits().entries;
+    case MeasureForm::inside:
+      return inside(visits(), run.state);
+    case MeasureForm::first_entry:
+      return visits().first;
     case MeasureForm::count:
       return counted(measure, run);
     case MeasureForm::expression:

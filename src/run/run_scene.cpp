@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -29,19 +30,24 @@ std::uint64_t peak_memory() {
 class Run {
  public:
   Run(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch)
-      : shows_(shows), settings_(settings), watch_(watch), engine_(engine), results_(shows.size()) {
-    for (std::size_t i = 0; i < shows.size(); ++i) {
+      : shows_(shows.begin(), shows.end()),
+        settings_(settings),
+        watch_(watch),
+        engine_(engine),
+        results_(shows.size()) {
+    if (std::any_of(shows_.begin(), shows_.end(), [](const Show& show) { return needs_end(*show.scene); })) find_end();
+    for (std::size_t i = 0; i < shows_.size(); ++i) {
       stages_.emplace_back();
       guarded(i, [&] {
-        check_flights(*shows[i].scene);
-        stages_[i] = std::make_unique<Stage>(shows[i], settings.durability, measures_of(*shows[i].scene));
+        check_flights(*shows_[i].scene);
+        stages_[i] = std::make_unique<Stage>(shows_[i], settings.durability, measures_of(*shows_[i].scene));
       });
     }
     const Stopwatch stopwatch(simulate_s_);
-    if (!settings.simulator) settle_steps(scene(), engine_, watch_.stop_check);
+    settle();
     frame_motion();
     Recording recording;
-    for (const Show& show : shows) {
+    for (const Show& show : shows_) {
       const OverlayNeeds needs = overlay_needs(*show.scene);
       recording.collisions = recording.collisions || show.scene->output.needs_collisions() || needs.collisions;
       recording.paths = recording.paths || show.scene->output.flights || needs.paths;
@@ -54,13 +60,17 @@ class Run {
       recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
     }
     simulator_ = settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), recording, engine_.steps);
-    record({}, simulator_->paths());
+    record();
     start_ = stored_energy(scene(), simulator_->state());
   }
 
   void go() {
     while (const std::optional<double> time = next_instant()) {
       carry_to(*time);
+      if (const std::optional<RunEnd>& end = simulator_->tally().end; end && !ended_ && !(*time < end->time)) {
+        end_at(end->time);
+        continue;
+      }
       for (std::size_t i = 0; i < stages_.size(); ++i) {
         if (stages_[i] && stages_[i]->more && stages_[i]->time() <= *time)
           guarded(i, [&] { stages_[i]->sample(*simulator_, {watch_.stop_check, [this] { report_progress(); }}); });
@@ -86,6 +96,49 @@ class Run {
   // All shows have the same motion.
   const Scene& scene() const { return *shows_.front().scene; }
 
+  void settle() {
+    if (!settings_.simulator && !std::exchange(settled_, true)) settle_steps(scene(), engine_, watch_.stop_check);
+  }
+
+  std::unique_ptr<Simulator> make_ahead() const {
+    return settings_.simulator ? settings_.simulator(scene()) : make_simulator(scene(), {}, engine_.steps);
+  }
+
+  void watch_ahead() const {
+    watch_.stop_check();
+    watch_.report_progress(0, 0, 0);
+  }
+
+  /// Whether something that the scene requests is spread over the whole run, which may end early.
+  static bool needs_end(const Scene& scene) {
+    const auto whole = [](const Output& output) { return output.plots || (output.sheet && !output.sheet->until); };
+    return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
+  }
+
+  /// Finds the end of a run that stops early, by a simulation in advance, and gives it to the scenes.
+  void find_end() {
+    const Stopwatch stopwatch(simulate_s_);
+    settle();
+    const auto ahead = make_ahead();
+    const double duration = scene().simulate.duration;
+    if (!ahead->tally().end) carry_ahead(*ahead, duration);
+    const std::optional<RunEnd> end = ahead->tally().end;
+    if (!end || !(end->time < duration)) return;
+    for (Show& show : shows_) {
+      ending_.push_back(*show.scene);
+      ending_.back().ends_at = end->time;
+      show.scene = &ending_.back();
+    }
+  }
+
+  /// The errors of the run itself come later.
+  void carry_ahead(Simulator& ahead, double duration) const {
+    try {
+      carom::carry_to(ahead, duration, duration, [this] { watch_ahead(); });
+    } catch (const SimulationError&) {
+    }
+  }
+
   /// Gives the cameras that frame the motion what they need, by a simulation in advance.
   void frame_motion() {
     std::vector<MovingCamera*> cameras;
@@ -95,11 +148,8 @@ class Run {
         if (camera->frames_motion()) cameras.push_back(camera);
     }
     if (cameras.empty()) return;
-    const auto ahead = settings_.simulator ? settings_.simulator(scene()) : make_simulator(scene(), {}, engine_.steps);
-    survey(cameras, *ahead, [this] {
-      watch_.stop_check();
-      watch_.report_progress(0, 0, 0);
-    });
+    const auto ahead = make_ahead();
+    survey(cameras, *ahead, [this] { watch_ahead(); });
   }
 
   /// A failure of one of several shows does not affect the others.
@@ -128,7 +178,7 @@ class Run {
   void carry_to(double time) {
     const double slice = scene().simulate.duration / 1000;
     watch_.stop_check();
-    while (simulator_->time() < time) {
+    while (simulator_->time() < time && !is_over()) {
       const double before = simulator_->time();
       const std::uint64_t collisions_before = simulator_->tally().collisions();
       const double next = std::min(time, before + slice);
@@ -136,26 +186,38 @@ class Run {
         const Stopwatch watch(simulate_s_);
         simulator_->advance_to(next > before ? next : time);
       }
-      const std::span<const Collision> collisions = simulator_->collisions();
-      const std::span<const PathPiece> paths = simulator_->paths();
-      record(collisions, paths);
-      if (collisions.empty() && paths.empty() && !(simulator_->time() > before) &&
-          simulator_->tally().collisions() == collisions_before)
+      if (!record() && !(simulator_->time() > before) && simulator_->tally().collisions() == collisions_before &&
+          !is_over())
         throw SimulationError("the simulator makes no progress");
       watch_.stop_check();
       report_progress();
     }
   }
 
-  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
-    if (collisions.empty() && paths.empty()) return;
+  /// Whether the run has ended before its duration.
+  bool is_over() const {
+    const std::optional<RunEnd>& end = simulator_->tally().end;
+    return end && !(simulator_->time() < end->time);
+  }
+
+  void end_at(double time) {
+    ended_ = true;
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      if (stages_[i]) guarded(i, [&] { stages_[i]->end_at(time); });
+  }
+
+  /// Returns whether there was anything to record.
+  bool record() {
+    const std::span<const RegionCrossing> crossings = simulator_->crossings();
+    if (simulator_->collisions().empty() && simulator_->paths().empty() && crossings.empty()) return false;
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       if (!stages_[i]) continue;
       guarded(i, [&] {
         const Stopwatch watch(stages_[i]->facts.export_s);
-        stages_[i]->record(collisions, paths);
+        stages_[i]->record(*simulator_);
       });
     }
+    return true;
   }
 
   void report_progress() const {
@@ -201,7 +263,8 @@ class Run {
         if (measured.name == own.name) result.summary.measures.push_back(measured);
   }
 
-  std::span<const Show> shows_;
+  std::vector<Show> shows_;
+  std::deque<Scene> ending_;  // those of shows of a run that is known to end early
   const RunSettings& settings_;
   const RunWatch& watch_;
   EngineChoice engine_;
@@ -210,8 +273,9 @@ class Run {
   std::vector<std::unique_ptr<Stage>> stages_;
   std::unique_ptr<Simulator> simulator_;
   std::vector<std::size_t> first_watched_;  // by show: the first of its quantities among all that are watched
-  StoredEnergy start_;                      // at time 0
-  double simulate_s_ = 0;                   // wall time
+  StoredEnergy start_;     // at time 0
+  double simulate_s_ = 0;  // wall time
+  bool settled_ = false, ended_ = false;  // the steps; the timelines
 };
 
 }  // namespace

@@ -53,9 +53,17 @@ double Stage::time() {
   return next;
 }
 
-void Stage::record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+void Stage::end_at(double time) {
+  exports.end_at(time);
+  aim();
+}
+
+void Stage::record(const Simulator& simulator) {
+  const std::span<const Collision> collisions = simulator.collisions();
+  const std::span<const PathPiece> paths = simulator.paths();
   exports.record(collisions);
-  measuring.record(collisions);
+  measuring.record(collisions, simulator.crossings());
+  exports.record_crossings(simulator.crossings());
   exports.record_paths(paths);
   history_.record(collisions);
   history_.record_paths(paths);

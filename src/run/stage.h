@@ -46,7 +46,9 @@ class Stage {
   double time();  // s, of its next instant
 
   /// Takes what the simulator has recorded since the last call.
-  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths);
+  void record(const Simulator& simulator);
+  /// Ends its timeline at `time` (s), the run's end, which is after all instants that are done. Throws ExportError.
+  void end_at(double time);
 
   /// Writes and draws what is due at the next instant, which must be the simulator's time.
   /// Throws ExportError, RenderError.

@@ -360,7 +360,14 @@ class Checker : ValueChecker {
     }
     if (field.needs_entries && value.items.empty())
       refuse(value, fmt::format("{} has no entries", name), "expected at least one");
-    for (Node& item : value.items) map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+    const std::vector<std::string_view> words = parts_of(field.words);
+    for (Node& item : value.items) {
+      if (words.empty() || !item.is(Node::Kind::scalar))
+        map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+      else if (item.quoted || std::find(words.begin(), words.end(), item.text) == words.end())
+        refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
+               fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(kind_named(field.of)))));
+    }
   }
 
   void cases(Node& value, const std::string& name, const std::string& required) {

@@ -232,7 +232,7 @@ std::string expected(const Field& field) {
     case Type::named:
       return "a map from names to entries";
     case Type::list:
-      return "a list";
+      return field.words.empty() ? "a list" : fmt::format("a list of maps, or {}", listed(parts_of(field.words)));
     case Type::settings:
       return "a map from paths to values, such as {balls.red.mass: 2}";
     case Type::axes:

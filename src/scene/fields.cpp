@@ -36,6 +36,7 @@ constexpr Field scene_fields[] = {
     {.key = "walls", .type = Type::named, .of = "wall", .doc = "Two-sided fixed rectangles.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
     {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that face inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
     {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
+    {.key = "regions", .type = Type::named, .of = "region", .doc = "Regions of space that the centres of bodies enter and leave. They touch nothing, and pictures do not show them.", .example = "{pocket: {radius: 0.3, position: [-6, 0, 0], action: remove}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}", .drawn = true},
@@ -163,6 +164,23 @@ constexpr Field obstacle_fields[] = {
     fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
 };
 
+constexpr std::string_view region_shapes = "radius|cylinder|box|plane";
+
+constexpr Field region_fields[] = {
+    {.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = region_shapes, .needed = true, .doc = "Radius of a sphere.", .example = "0.3", .member = fills<RegionKeys, &RegionKeys::radius>},
+    {.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = region_shapes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}", .member = fills<RegionKeys, &RegionKeys::cylinder>},
+    {.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = region_shapes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]", .member = fills<RegionKeys, &RegionKeys::box>},
+    {.key = "plane", .type = Type::part, .of = "side", .one_of = "radius|cylinder|box|plane|position", .doc = "One side of a plane.", .example = "{point: [0, -1, 0], normal: [0, -1, 0]}", .member = fills<RegionKeys, &RegionKeys::plane>},
+    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "position|plane", .needed = true, .doc = "Centre.", .example = "[-6, 0, 0]", .member = fills<RegionKeys, &RegionKeys::position>},
+    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that enter and leave it. Default: all.", .example = "[red, gas.3]", .title = "Bodies that enter and leave it", .pattern = reference, .member = fills<RegionKeys, &RegionKeys::on>},
+    {.key = "action", .type = Type::choice, .of = "none|remove|stop", .doc = "What happens when a body's centre enters. remove: the body leaves the world; stop: the run ends.", .example = "remove", .member = fills<RegionKeys, &RegionKeys::action>},
+};
+
+constexpr Field side_fields[] = {
+    {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, -1, 0]", .title = "A point of the plane", .member = fills<SideKeys, &SideKeys::point>},
+    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the side that is the region; any length.", .example = "[0, -1, 0]", .member = fills<SideKeys, &SideKeys::normal>},
+};
+
 constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";
 
 constexpr Field force_fields[] = {
@@ -199,6 +217,7 @@ constexpr Field attractor_fields[] = {
 
 constexpr Field simulate_fields[] = {
     {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "Simulated time.", .example = "2", .member = fills<Simulate, &Simulate::duration>},
+    {.key = "stop", .type = Type::list, .of = "stop", .doc = "What ends the run before its duration, as soon as one of these holds. rest: all bodies are at rest.", .example = "[rest, {collisions: 100}]", .title = "Ends of the run", .needs_entries = true, .words = "rest"},
     {.key = "engine", .type = Type::choice, .of = engine_names,
      .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact", .member = fills<Simulate, &Simulate::engine>},
     {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines stepped and book; with dop853 the longest one. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
@@ -208,6 +227,11 @@ constexpr Field simulate_fields[] = {
     {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Integrator of engine stepped. dop853: Dormand-Prince, order 8, chooses its steps; euler: semi-implicit, order 1; verlet: velocity Verlet, order 2; rk4: Runge-Kutta, order 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
     {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},
     {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Tolerance of positions, instead of step. If it cannot be met, a warning gives the time until which it holds and the error after that. The scene is simulated several times.", .example = "0.000001", .engines = "auto|exact|stepped", .member = fills<Simulate, &Simulate::tolerance>},
+};
+
+constexpr Field stop_fields[] = {
+    {.key = "collisions", .type = Type::whole, .range = from_1, .one_of = "collisions|region", .needed = true, .doc = "After so many collisions, and those at the same instant.", .example = "100", .title = "Number of collisions", .member = fills<StopKeys, &StopKeys::collisions>},
+    {.key = "region", .type = Type::name, .one_of = "collisions|region", .doc = "When a body enters this region.", .example = "pocket", .pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.[0-9]+)?$)", .member = fills<StopKeys, &StopKeys::region>},
 };
 
 constexpr Field camera_fields[] = {
@@ -271,12 +295,15 @@ constexpr Kind kinds_of_scenes[] = {
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},
     {"obstacle", "an", "A body that never moves.", obstacle_fields, nullptr, "obstacle"},
+    {"region", "a", "A region of space that the centres of bodies enter and leave.", region_fields},
+    {"side", "", "One side of a plane.", side_fields},
     {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},
     {"drag", "", "Drag of a medium, against a body's velocity relative to it.", drag_fields, nullptr, "",
      "linear|quadratic"},
     {"spring", "", "A spring from a fixed point, with a damper in parallel.", spring_fields},
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
+    {"stop", "a", "A condition that ends the run.", stop_fields},
     {"camera", "", "Camera of the pictures.", camera_fields},
     {"keyframe", "a", "A view at a time.", keyframe_fields},
     {"light", "a", "A light.", light_fields, &ambient},

@@ -95,6 +95,8 @@ struct Field {
   /// Of a map: the key for which a plain value in place of the map stands.
   std::string_view plain = {};
   bool needs_entries = false;  // a list must not be empty
+  /// Of a list: words that may stand in place of maps, separated by |.
+  std::string_view words = {};
   bool own = false;            // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
   bool drawn = false;

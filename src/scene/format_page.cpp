@@ -56,7 +56,8 @@ std::string value_text(const Field& field) {
     case Type::named:
       return "by name: " + link;
     case Type::list:
-      return "a list: " + link;
+      return field.words.empty() ? "a list: " + link
+                                 : fmt::format("a list of {} or maps: {}", quoted_list(parts_of(field.words)), link);
     default:
       return expected(field) + ": " + link;
   }

@@ -81,6 +81,7 @@ struct SceneFile::Impl {
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
     decode_requests(tree, inventory, options, scene, diagnostics);
+    if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);

@@ -62,6 +62,7 @@ class Resolver {
       if (key.text == "walls") fixed("walls", "wall");
       if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
+    regions();
     forces();
     simulate();
     if (const Node* measures = root_.find("measures"); measures != nullptr && !measures->items.empty())
@@ -161,6 +162,14 @@ class Resolver {
     return flow(view, overrides);
   }
 
+  void regions() {
+    const Node* node = root_.find("regions");
+    if (node == nullptr) return;
+    heading("regions", node->items.empty());
+    for (std::size_t i = 0; i < node->keys.size(); ++i)
+      entry(node->keys[i].text, flow(View(&node->items[i], kind_named("region"), Place{})));
+  }
+
   void forces() {
     const Node* node = root_.find("forces");
     if (node == nullptr) return;
@@ -228,10 +237,11 @@ class Resolver {
     }
   }
 
-  /// Whether the text of a scene has this flag. `plots` is absent unless it is true, as an output with settings is.
+  /// Whether the text of a scene has this flag. `plots` and `regions` are absent unless they are true, as an output with
+  /// settings is.
   bool is_said(const OutputKind& kind) const {
     if (kind.name == "flights") return flights_matter();
-    return kind.name != "plots" || kind.asked(scene_.output);
+    return (kind.name != "plots" && kind.name != "regions") || kind.asked(scene_.output);
   }
 
   std::string output_text(const View& view, const OutputKind& kind) const {

@@ -33,4 +33,10 @@ std::string Roster::name(Entity e) const {
   return fixed.at(e - body_count).name;
 }
 
+bool may_stop(const Scene& scene) {
+  const std::vector<WorldRegion>& regions = scene.world.regions;
+  return scene.simulate.stop_at_rest || scene.simulate.stop_collisions ||
+         std::any_of(regions.begin(), regions.end(), [](const WorldRegion& region) { return region.stops; });
+}
+
 }  // namespace carom

@@ -66,6 +66,7 @@ struct Roster {
   std::vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
   std::vector<FixedName> fixed;
+  std::vector<std::string> regions;  // by number in World::regions
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
@@ -144,11 +145,21 @@ struct Scene {
   std::vector<OwnMeasure> measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
+  /// In s: where the run is known to end, if that is before its duration. The loader does not know.
+  std::optional<double> ends_at{};
   std::vector<MeshFile> meshes;  // each file once
   /// The texts of expressions in the file, by their paths (expand.h).
   std::map<std::string, std::string> expressions;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
   std::string resolved;
 };
+
+/// The end of the run as far as it is known (s).
+inline double end_of(const Scene& scene) {
+  return scene.ends_at.value_or(scene.simulate.duration);
+}
+
+/// Whether the run may end before its duration.
+bool may_stop(const Scene& scene);
 
 }  // namespace carom

@@ -49,8 +49,11 @@ class Flattener {
         return;
       case Type::list:
         if (!node.is(Node::Kind::sequence)) return leaf(path, node, {});
-        for (std::size_t i = 0; i < node.items.size(); ++i)
-          map(path + "." + std::to_string(i), node.items[i], kind_named(field.of));
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+          const std::string entry = path + "." + std::to_string(i);
+          node.items[i].is(Node::Kind::scalar) ? leaf(entry, node.items[i], {})
+                                               : map(entry, node.items[i], kind_named(field.of));
+        }
         return;
       case Type::vector:
       case Type::direction:

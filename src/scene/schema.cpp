@@ -211,7 +211,9 @@ Json value_schema(const Field& field) {
     case Type::named:
       return named_schema(kind_named(field.of));
     case Type::list: {
-      Json schema = {{"type", "array"}, {"items", reference(field.of)}};
+      Json entry = reference(field.of);
+      if (!field.words.empty()) entry = {{"anyOf", Json::array({{{"enum", parts_of(field.words)}}, entry})}};
+      Json schema = {{"type", "array"}, {"items", std::move(entry)}};
       if (field.needs_entries) schema["minItems"] = 1;
       return schema;
     }

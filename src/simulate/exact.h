@@ -26,9 +26,12 @@ struct ExactOptions {
   double step_error = exact_tolerance::step_error;  // of dop853, as a share of a radius and of speeds
   // false: dop853 computes all flights that bend.
   bool closed_forms = true;
-  bool merge = false;                    // bodies that meet become one
-  bool record_collisions = true;         // false: there is no buffer, and collisions() stays empty
-  bool record_paths = false;             // false: there is no buffer for paths()
+  bool merge = false;             // bodies that meet become one
+  bool record_collisions = true;  // false: there is no buffer, and collisions() stays empty
+  bool record_paths = false;      // false: there is no buffer for paths()
+  // What ends the run before the duration, beside regions of the World.
+  bool stop_at_rest = false;
+  std::uint64_t stop_collisions = 0;  // 0: none
   std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 

@@ -89,13 +89,6 @@ Vec3 ExactBodies::bent_force_at(Entity i, const Vec3& x, const Vec3& v) const {
   return free_acceleration(world, i, now.hi, x, v);
 }
 
-Instant ExactBodies::flight_end(Entity i) const {
-  Instant end{never, 0};
-  if (in_group(i)) end = islands.due(i);
-  if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
-  return end;
-}
-
 std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {
   const std::span<const Entity> near = neighbours.near(i);
   std::vector<Entity> all(near.begin(), near.end());

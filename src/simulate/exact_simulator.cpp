@@ -28,7 +28,8 @@ std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State&
 
 ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
     : bodies_(world, options),
-      paths_(bodies_),
+      crossings_(bodies_),
+      paths_(bodies_, crossings_),
       collapses_(bodies_),
       flat_(bodies_, collapses_),
       group_(bodies_, flat_, collapses_, paths_),
@@ -40,8 +41,11 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       stepping_(bodies_, group_, flights_, predictor_),
       constrained_(bodies_, group_, flat_, collapses_, flights_, predictor_),
       merging_(bodies_, flat_, flights_, queue_, predictor_, paths_),
+      removal_(bodies_, group_, flat_, flights_, queue_),
       guard_(world.body_count(), options.duration),
-      impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}) {
+      impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}),
+      watches_(crossings_.any() || options.stop_at_rest || options.stop_collisions > 0),
+      attends_(watches_ || world.body_count() > cached_bodies) {
   start(initial);
 }
 
@@ -77,27 +81,37 @@ void ExactSimulator::start(const State& initial) {
 void ExactSimulator::advance_to(double time) {
   bodies_.log.begin_advance();
   paths_.begin_advance();
+  crossings_.begin_advance();
   state_fresh_ = false;
   const Instant until{std::min(time, bodies_.options.duration), 0};
   const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
   std::uint32_t events = 0;
-  while (queue_.first_time() <= until.hi) {
-    const Entity i = queue_.first();
-    if (bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
-    if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
-    take_event(i);
-    // After many events without a result, the caller may need to check the clock.
-    if (++events % events_at_a_time == 0 && before_now() > time_) {
-      time_ = before_now();
-      return;
+  do {
+    while (queue_.first_time() <= until.hi) {
+      const Entity i = queue_.first();
+      if (attends_ && bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
+      if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
+      if (attends_ && watches_) [[unlikely]] {
+        if (is_over()) break;
+        if (happens_before(queue_.leaves_first(i) ? Instant{queue_.first_time(), 0} : bodies_.body[i].event.time,
+                           false))
+          continue;
+      }
+      take_event(i);
+      // After many events without a result, the caller may need to check the clock.
+      if (++events % events_at_a_time == 0 && before_now() > time_) {
+        time_ = before_now();
+        return crossings_.sort();
+      }
+      // A buffer is full. Stop just before the present instant, because more may happen at it.
+      if (paths_.full() || (attends_ && crossings_.full()) || !bodies_.log.has_room(collisions_of_event)) {
+        time_ = std::max(time_, before_now());
+        return crossings_.sort();
+      }
     }
-    // A buffer is full. Stop just before the present instant, because more may happen at it.
-    if (paths_.full() || !bodies_.log.has_room(collisions_of_event)) {
-      time_ = std::max(time_, before_now());
-      return;
-    }
-  }
+  } while (watches_ && happens_before(until, true));
   paths_.record_changes();
+  crossings_.sort();
   time_ = std::max(time, time_);
   if (time_ >= bodies_.options.duration) flights_.book_last(time_);
 }
@@ -201,6 +215,80 @@ void ExactSimulator::end_flight(Entity i) {
   predictor_.predict(i);
 }
 
+/// When everything at the present instant has happened, and the next event is at `next`: ends the run, or takes a
+/// crossing before that. `at_it`: or at that instant. Returns whether either has happened.
+bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
+  if (is_over()) return false;
+  if (!at_it && !(bodies_.now < next)) return false;
+  paths_.record_changes();
+  const ExactOptions& options = bodies_.options;
+  if (options.stop_collisions > 0 && tally().collisions() >= options.stop_collisions) {
+    end_run(bodies_.now.hi, EndReason::collisions, 0);
+    return true;
+  }
+  if (options.stop_at_rest && all_rest()) {
+    end_run(bodies_.now.hi, EndReason::rest, 0);
+    return true;
+  }
+  const Instant sure = crossings_.first_sure();
+  if (!(at_it ? sure <= next : sure < next)) return false;
+  if (!take_crossing(crossings_.take())) return true;
+  // The run has ended. What else crosses at that instant is recorded too.
+  const double end = tally().end->time;
+  while (const std::optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
+  return true;
+}
+
+/// Does what a region does to a body that enters it. Returns whether the run ends.
+bool ExactSimulator::take_crossing(const Crossings::Taken& taken) {
+  const RegionCrossing& crossing = taken.crossing;
+  const WorldRegion& region = bodies_.world.regions[crossing.region];
+  if (!crossing.enters || !(region.removes || region.stops)) return false;
+  if (bodies_.now < taken.at) bodies_.now = taken.at;
+  if (region.removes) {
+    paths_.note_change(crossing.body);
+    for (const Entity k : removal_.remove(crossing.body))
+      if (bodies_.in_group(k)) step_island(k);
+    guard_.count(StallGuard::Happened::other, bodies_.now.hi);
+  }
+  if (!region.stops || is_over()) return false;
+  end_run(bodies_.now.hi, EndReason::region, crossing.region);
+  return true;
+}
+
+/// Ends the run at `time` (s), the present instant or just before it.
+void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region) {
+  time = std::max(time, time_);
+  bodies_.log.end({time, reason, region});
+  paths_.end(time);
+  flights_.book_last(time);
+}
+
+/// Whether body i stays where it is until something else comes.
+bool ExactSimulator::rests(Entity i) const {
+  if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) return true;
+  if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, bodies_.now.hi) < bodies_.options.duration)
+    return false;
+  if (bodies_.body[i].state == ContactState::asleep) return true;
+  for (std::size_t k = 0; k < flat_.of(i).count; ++k)
+    if (flat_.of(i).at[k].settling) return false;
+  const Flight f = bodies_.flights[i];
+  if (!f.v.isZero(0) || bodies_.is_stepped(i)) return false;
+  if (f.curve == nullptr) return f.a.isZero(0);
+  return std::all_of(f.curve->displacement.begin(), f.curve->displacement.end(),
+                     [](const Vec3& term) { return term.isZero(0); });
+}
+
+/// Whether all bodies rest. The search begins at a body that moved before, so that it seldom goes far.
+bool ExactSimulator::all_rest() {
+  const Entity n = bodies_.world.body_count();
+  for (Entity looked = 0; looked < n; ++looked) {
+    if (!rests(awake_)) return false;
+    awake_ = awake_ + 1 == n ? 0 : awake_ + 1;
+  }
+  return true;
+}
+
 /// Takes the next step of body i's island.
 void ExactSimulator::step_island(Entity i) {
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
@@ -218,8 +306,8 @@ Effort ExactSimulator::effort() const {
 const State& ExactSimulator::state() {
   if (state_fresh_) return state_;
   const World& world = bodies_.world;
-  const Instant at{time_, 0};
-  state_.time = time_;
+  state_.time = is_over() ? tally().end->time : time_;
+  const Instant at{state_.time, 0};
   state_.position.resize(world.body_count());
   state_.velocity.resize(world.body_count());
   for (Entity i = 0; i < world.body_count(); ++i) {

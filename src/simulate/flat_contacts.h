@@ -38,7 +38,7 @@ class FlatContacts {
   FlatContacts(ExactBodies& bodies, CollapseDetector& collapses)
       : bodies_(bodies), collapses_(collapses), contacts_(bodies.body.size()) {}
 
-  const FlatContactList& of(Entity i) const { return contacts_[i]; }
+  [[gnu::always_inline]] const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carry(Entity i, Entity surface) const;
   /// Whether body i cannot strike this fixed thing, because it lies behind a surface that carries the body.
   bool hide(Entity i, Entity fixed) const;

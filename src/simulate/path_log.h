@@ -10,21 +10,24 @@
 
 namespace carom {
 
+class Crossings;
+
 class PathLog {
  public:
-  /// Records nothing unless options.record_paths, and watches nothing unless options.watch.
-  explicit PathLog(const ExactBodies& bodies)
-      : bodies_(bodies), extremes_(bodies), noting_(bodies.options.record_paths || extremes_.any()) {}
+  /// Records nothing unless options.record_paths, and watches nothing unless options.watch. The crossings follow the paths that have changed.
+  PathLog(const ExactBodies& bodies, Crossings& crossings);
 
   /// Empties the buffer for the next advance.
   void begin_advance();
   /// Call this before body i gets another path at the present instant, or before any data of its path change.
   void note_change(Entity i) {
-    if (noting_) [[unlikely]]
+    if (wanted_) [[unlikely]]
       note(i);
   }
   /// Records the paths that have changed.
   void record_changes();
+  /// Ends the run at `time` (s). What changes at this instant holds from there on.
+  void end(double time);
   bool full() const { return full_; }
   std::span<const PathPiece> pieces() const { return pieces_; }  // in order
   const PathExtremes& extremes() const { return extremes_; }
@@ -35,11 +38,13 @@ class PathLog {
 
   const ExactBodies& bodies_;
   PathExtremes extremes_;
-  const bool noting_;  // a change of a path concerns the record or the extremes
+  Crossings& crossings_;
+  const bool wanted_;
   std::vector<PathPiece> pieces_;
   // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
   std::vector<Entity> changed_;
   Instant changed_at_;
+  double end_ = never, latest_ = 0;  // s: the run's end, and the last piece's start
   bool full_ = false;
 };
 

@@ -70,7 +70,8 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
             "`= hits(red) + nothing`: no number is named `nothing`; expected a measure, let.NAME or a number");
   EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member; expected one such as groups.gas.0.x_m");
   EXPECT_EQ(error_of("groups.gas.3.x_m", scene), "`groups.gas.3.x_m`: the members of `gas` are 0 to 2");
-  EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: only groups have members: balls.NAME.x_m");
+  EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: balls has no `red.0`; did you mean `red`?");
+  EXPECT_EQ(error_of("regions.hole.entries", scene), "`regions.hole.entries`: no region is named `hole`");
   EXPECT_NE(error_of("", scene), "");
   EXPECT_NE(error_of("...", scene), "");
 }
