@@ -189,7 +189,8 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
   std::optional<std::vector<SceneValue>> own;  // of the scene
   for (std::size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
-    if (run.values[p]) continue;
+    // The scene of a run has the number of an expression.
+    if (!out.values.back().empty() && !out.values.back().starts_with('=')) continue;
     if (!own) {
       const Descriptor place = open_folder(AT_FDCWD, folder, true);
       const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : std::nullopt;
