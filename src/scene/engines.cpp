@@ -48,6 +48,7 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (simulate.tolerance) lack("tolerance", "`tolerance`", "`step`");
   if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
+  if (world.moves()) lack("engine", "fixed things that move", "`engine: exact`");
   if (!world.forces.empty())
     lack("forces", "forces other than gravity",
          varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");

@@ -35,7 +35,7 @@ constexpr Field scene_fields[] = {
     {.key = "planes", .type = Type::named, .of = "plane", .doc = "Unbounded fixed surfaces, free on one side.", .example = "{floor: {point: [0, 0, 0], normal: [0, 1, 0], color: tan}}"},
     {.key = "walls", .type = Type::named, .of = "wall", .doc = "Two-sided fixed rectangles.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
     {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that face inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
-    {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
+    {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that no impact moves.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
     {.key = "regions", .type = Type::named, .of = "region", .doc = "Regions of space that the centres of bodies enter and leave. They touch nothing, and pictures do not show them.", .example = "{pocket: {radius: 0.3, position: [-6, 0, 0], action: remove}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
@@ -136,10 +136,18 @@ constexpr Field in_fields[] = {
 template <typename Keys> constexpr Field fixed_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution. Default: the moving body's.", .example = "0.5", .member = fills<Keys, &Keys::restitution>};
 template <typename Keys> constexpr Field visible{.key = "visible", .type = Type::flag, .doc = "Whether it is drawn.", .example = "false", .drawn = true, .member = fills<Keys, &Keys::visible>};
 
+constexpr Field motion{.key = "motion", .type = Type::list, .of = "motion", .doc = "Windows of time in which it moves at a constant velocity, in order; outside them it stands where it has arrived. Of a plane only the part along the normal counts.", .example = "[{from: 0, until: 2, velocity: [0, 0.5, 0]}]"};
+
+constexpr Field motion_fields[] = {
+    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the motion starts.", .example = "0.5", .title = "Start", .member = fills<MotionKeys, &MotionKeys::from>},
+    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the motion ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<MotionKeys, &MotionKeys::until>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .needed = true, .doc = "Its velocity in this window.", .example = "[0, 0.5, 0]", .member = fills<MotionKeys, &MotionKeys::velocity>},
+};
+
 constexpr Field plane_fields[] = {
     {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, 0, 0]", .title = "A point of the plane", .member = fills<PlaneKeys, &PlaneKeys::point>},
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the free side; any length.", .example = "[0, 1, 0]", .member = fills<PlaneKeys, &PlaneKeys::normal>},
-    fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>, repeat,
+    motion, fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>, repeat,
 };
 
 constexpr Field wall_fields[] = {
@@ -147,7 +155,7 @@ constexpr Field wall_fields[] = {
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Perpendicular to the rectangle; any length.", .example = "[-1, 0, 0]", .member = fills<WallKeys, &WallKeys::normal>},
     {.key = "size", .type = Type::extent, .unit = "m", .range = above_0, .needed = true, .doc = "Width and height.", .example = "[2, 2]", .title = "Width and height", .member = fills<WallKeys, &WallKeys::size>},
     {.key = "up", .type = Type::direction, .doc = "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", .example = "[0, 1, 0.5]", .title = "Direction of the height", .member = fills<WallKeys, &WallKeys::up>},
-    fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>, repeat,
+    motion, fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>, repeat,
 };
 
 constexpr Field room_fields[] = {
@@ -161,7 +169,7 @@ constexpr Field obstacle_color{.key = "color", .type = Type::color, .doc = "Colo
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
-    fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
+    motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
 };
 
 constexpr std::string_view region_shapes = "radius|cylinder|box|plane";
@@ -174,6 +182,7 @@ constexpr Field region_fields[] = {
     {.key = "position", .type = Type::vector, .unit = "m", .one_of = "position|plane", .needed = true, .doc = "Centre.", .example = "[-6, 0, 0]", .member = fills<RegionKeys, &RegionKeys::position>},
     {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that enter and leave it. Default: all.", .example = "[red, gas.3]", .title = "Bodies that enter and leave it", .pattern = reference, .member = fills<RegionKeys, &RegionKeys::on>},
     {.key = "action", .type = Type::choice, .of = "none|remove|stop", .doc = "What happens when a body's centre enters. remove: the body leaves the world; stop: the run ends.", .example = "remove", .member = fills<RegionKeys, &RegionKeys::action>},
+    repeat,
 };
 
 constexpr Field side_fields[] = {
@@ -294,7 +303,8 @@ constexpr Kind kinds_of_scenes[] = {
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},
-    {"obstacle", "an", "A body that never moves.", obstacle_fields, nullptr, "obstacle"},
+    {"obstacle", "an", "A body that no impact moves.", obstacle_fields, nullptr, "obstacle"},
+    {"motion", "a", "A window of time in which a fixed thing moves.", motion_fields},
     {"region", "a", "A region of space that the centres of bodies enter and leave.", region_fields},
     {"side", "", "One side of a plane.", side_fields},
     {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},

@@ -64,6 +64,13 @@ struct GroupKeys {
   std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
 };
 
+/// A window of time in which a fixed thing moves.
+struct MotionKeys {
+  double from = 0;                                         // s
+  double until = std::numeric_limits<double>::infinity();  // s
+  std::optional<Vec3> velocity;                            // m/s
+};
+
 /// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
 template <std::uint32_t rgb>
 struct FixedKeys {

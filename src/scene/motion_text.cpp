@@ -21,7 +21,7 @@ class MotionText {
 
   std::string run() {
     simulate();
-    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, forces, gravity, combine,
+    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity, combine,
                  pairs, regions] = scene_.world;
     line("gravity", gravity, "combine", static_cast<int>(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
@@ -35,6 +35,9 @@ class MotionText {
     for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
       line("wall", center, normal, right, up, half_width, half_height, own);
     for (const auto& [center, shape, own] : obstacles) line("obstacle", center, shape, own);
+    for (std::size_t fixed = 0; fixed < motions.size(); ++fixed)
+      for (const auto& [from, velocity, start, start_low] : motions[fixed])
+        line("motion", fixed, from, velocity, start, start_low);
     for (const Force& force : forces) write(force);
     for (const WorldRegion& region : regions) write(region);
     return std::move(text_);

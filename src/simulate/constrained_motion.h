@@ -37,6 +37,9 @@ class ConstrainedMotion {
   /// Gives body i the velocity of its path from this instant on. Its events stay as they are.
   void settle(Entity i);
 
+  /// Books the work of moving things along the path of an island's step until `at`, the step's end. Call it once.
+  void book_work(const Island& island, const Instant& at);
+
   /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
@@ -46,11 +49,13 @@ class ConstrainedMotion {
     Instant start;
     std::unique_ptr<DenseMotion> motion;
     double room;  // m, allowed difference of the parabolas from it
+    // Where things that move take part: the forces, to integrate their work.
+    std::unique_ptr<ConstrainedSystem> forces = nullptr;
     Instant end() const { return start + motion->length(); }
   };
   /// The path that a body follows, if it is still on this flight.
   struct Following {
-    std::shared_ptr<const Path> path;
+    std::shared_ptr<Path> path;
     std::uint32_t place = 0;    // number in the path
     std::uint16_t version = 0;  // of the flight
     double piece = 0;           // s, the last parabola's length
@@ -89,6 +94,7 @@ class ConstrainedMotion {
   void find_contacts(Step& step) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
+  double surface_speed(const Vec3& normal, Entity e) const;
   std::vector<std::uint8_t> record_fast(const Step& step, const std::vector<Vec3>& met) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
@@ -108,8 +114,8 @@ class ConstrainedMotion {
   void clear_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
-  // The same of a velocity or an acceleration: fixed things have none.
-  Vec3 rate(const std::vector<Vec3>& v, Entity e) const;
+  Vec3 rate(const std::vector<Vec3>& v, Entity e) const;          // m/s
+  Vec3 acceleration(const std::vector<Vec3>& a, Entity e) const;  // m/s^2
 
   ExactBodies& bodies_;
   ExactGroup& group_;

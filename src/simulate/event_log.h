@@ -42,6 +42,11 @@ class EventLog {
     work_.add(work);
     tally_.work = work_.value();
   }
+  /// Books work (J) of moving things in lasting contact. It is part of what is booked as deviation.
+  void carry(double work) {
+    add_work(work);
+    deviate(work);
+  }
   /// Books work (J) of a force of the World, by its number there.
   void add_work(std::size_t force, double work) {
     add_work(work);
@@ -62,8 +67,8 @@ class EventLog {
   void take_up(double approach, double energy);
   /// The same for all pairs that press in a solution for the velocities `after` from those before (m/s). `inverse_mass`
   /// (1/kg) is by body. Approaches within a pair's slack, or within path errors, do not count. `recorded`: by pair,
-  /// whether the impact is recorded, or empty. Their energy is booked as lost, and removed from the deviation, because
-  /// the caller books the whole change of velocities as deviation.
+  /// whether the impact is recorded, or empty. Their energy is booked as lost, and that of moving things as work. Both
+  /// are removed from the deviation, because the caller books the whole change of velocities as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
   /// Books energy (J) of impacts that are already counted, in lasting contact.

@@ -15,6 +15,7 @@ class ExactCollisionTimes {
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
 
  private:
+  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, std::uint8_t& feature) const;
   Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                     std::uint8_t& feature) const;
   FeatureTime of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq, double length,

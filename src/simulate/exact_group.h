@@ -16,7 +16,14 @@ class PathLog;
 /// One end of a contact with a force. The list of the lower body has the other end.
 struct PressingContact {
   Entity partner;
-  double force;  // N
+  double force;        // N
+  double surface = 0;  // m/s, of a partner that moves: its speed along the normal, away from the body
+};
+
+/// A flat fixed thing that carries a body.
+struct Floor {
+  Vec3 normal;    // towards the body
+  Vec3 velocity;  // m/s
 };
 
 class ExactGroup {
@@ -25,8 +32,7 @@ class ExactGroup {
 
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what pressed on it in the last step
   LazyArray<std::vector<Entity>> partners;           // by body: things that constrained motion keeps it in contact with
-  // By body: normals, towards it, of the flat fixed things that carry it.
-  LazyArray<std::vector<Vec3>> floors;
+  LazyArray<std::vector<Floor>> floors;  // by body: the flat fixed things that carry it
   // Scratch of a step: a member's index in it, or ContactConstraint::fixed.
   LazyArray<std::uint32_t> index;
   LazyArray<std::uint32_t> impacts;  // by member: impacts that ended in contact since the last step
@@ -72,6 +78,14 @@ class ExactGroup {
   /// Whether body i cannot strike this fixed thing, because it lies behind one that constrained motion keeps the body
   /// on.
   bool hides(Entity i, Entity fixed) const;
+
+  /// Whether something that presses on body i changes its velocity at the present instant.
+  bool switches(Entity i) const;
+  /// Stores the power of the moving things that press on member i from this instant on.
+  void note_power(Entity i);
+  /// The same for an impulse that stops member i's approach (m/s) in the rest of its time step. `surface`: the speed of
+  /// the thing along the normal (m/s).
+  void carry(Entity i, double approach, double surface);
 
   /// Appends the forces of sleeping bodies, and of members between steps of time stepping.
   void report(Entity i, std::vector<ContactForce>& forces) const;

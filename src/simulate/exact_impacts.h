@@ -50,6 +50,7 @@ class ExactImpacts {
     bool flat;
     bool began_now;   // the flight began at this instant
     Vec3 x, v;        // m, m/s
+    Vec3 u;           // m/s, of the fixed thing
     Touch there;      // the contact of the two
     double e;         // restitution
     double approach;  // m/s
@@ -66,6 +67,7 @@ class ExactImpacts {
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
   bool over_at_once(const FixedImpact& impact, double left) const;
   bool ends_in_contact(const FixedImpact& impact);
+  void check_room(const FixedImpact& impact) const;
 
   ExactBodies& bodies_;
   const ImpactParts parts_;

@@ -113,7 +113,10 @@ void ExactSimulator::advance_to(double time) {
   paths_.record_changes();
   crossings_.sort();
   time_ = std::max(time, time_);
-  if (time_ >= bodies_.options.duration) flights_.book_last(time_);
+  if (time_ < bodies_.options.duration) return;
+  if (bodies_.moving.any())
+    bodies_.islands.for_each([&](const Island& island) { constrained_.book_work(island, {time_, 0}); });
+  flights_.book_last(time_);
 }
 
 /// Takes body i's next event, or its exit from its region.
@@ -152,8 +155,7 @@ void ExactSimulator::process(Entity i) {
       impacts_.collide_fixed(i, event.partner, event.feature);
       break;
     case Kind::force:
-      flights_.end_step(i);
-      switch_forces(i);
+      take_switch(i);
       break;
     case Kind::rest:
       flat_.end_bounces(i);
@@ -177,7 +179,19 @@ void ExactSimulator::process(Entity i) {
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
 }
 
-/// Applies the start or end of a force on body i at the present instant.
+/// Applies a switch at the present instant to body i: of a force on it, or of the velocity of things that carry it.
+/// Otherwise the body flies on, and may meet such things elsewhere.
+void ExactSimulator::take_switch(Entity i) {
+  if (bodies_.moving.any()) {
+    const bool forced =
+        !bodies_.world.forces.empty() && bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
+    if (!forced && !flat_.switches(i) && !group_.switches(i)) return predictor_.predict(i);
+  }
+  flights_.end_step(i);
+  switch_forces(i);
+}
+
+/// Ends body i's flight, and begins the next under the present forces and on the present surfaces.
 void ExactSimulator::switch_forces(Entity i) {
   const Vec3 x = bodies_.position(i);
   Vec3 v = bodies_.velocity(i);
@@ -291,6 +305,7 @@ bool ExactSimulator::all_rest() {
 
 /// Takes the next step of body i's island.
 void ExactSimulator::step_island(Entity i) {
+  if (bodies_.moving.any()) constrained_.book_work(bodies_.islands.of(i), bodies_.now);
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
   if (bodies_.islands.of(i).busy || !constrained_.advance(i)) stepping_.advance(i);
 }

@@ -41,6 +41,7 @@ class ExactSimulator final : public Simulator {
   void start(const State& initial);
   void take_event(Entity i);
   void process(Entity i);
+  void take_switch(Entity i);
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);
   void end_flight(Entity i);

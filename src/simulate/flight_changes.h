@@ -81,7 +81,8 @@ class FlightChanges {
   void end_closed(Entity i);
   void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
-  void end_change(Entity i, const FlightOrigin& origin);
+  [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
+  [[gnu::noinline]] void note_power(Entity i);
   void book_stepped(Entity i, const Instant& end);
   void book_taking(Entity i, const Instant& end);
   void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);

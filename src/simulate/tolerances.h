@@ -78,6 +78,9 @@ inline constexpr double waking_lift = 1e-4;
 // Volume of three unit normals that hold a body on all sides.
 inline constexpr double least_volume = 1e-3;
 
+// Share of a radius: in less room between things that certainly close in on a body, the run ends with an error.
+inline constexpr double least_gap = 0x1p-10;
+
 // The contact group (exact_group.h).
 
 // Share of a radius: bodies within this gap of a waking body wake too.

@@ -32,6 +32,8 @@ inline Motion mirrored(Motion m, int axis) {
     for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
     w.right = -w.right;  // right x up = normal
   }
+  for (std::vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) flip(leg.velocity), flip(leg.start), flip(leg.start_low);
   for (Force& f : world.forces) {
     if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
     if (auto* even = std::get_if<UniformAcceleration>(&f.law)) flip(even->value);
@@ -60,6 +62,8 @@ inline Motion scaled(Motion m, const Units& units) {
   for (Plane& p : world.planes) p.point *= l;
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
   for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
+  for (std::vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
   for (Force& f : world.forces) {
     f.from *= t;
     f.until *= t;
@@ -116,7 +120,8 @@ inline std::string difference(const Observed& a, const Observed& b, double lost,
   return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
 }
 
-/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. first:
+/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. Fixed
+/// things of neither move. first:
 /// whether this one's bodies come first.
 inline Motion together(const Motion& motion, Motion other, bool first) {
   const Vec3 away(1024, 512, -2048);
