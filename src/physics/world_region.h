@@ -20,6 +20,9 @@ struct WorldRegion {
   bool is_side() const { return !normal.isZero(0); }
 };
 
+/// Whether a point is inside, m.
+bool holds(const WorldRegion& region, const Vec3& x);
+
 /// A body's centre enters or leaves a region.
 struct RegionCrossing {
   double time = 0;  // s

@@ -75,6 +75,8 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
   options.watch = request.recording.watch;
+  options.stop_at_rest = simulate.stop_at_rest;
+  options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
   return make_book_simulator(request.world, request.initial, options);
 }
 

@@ -177,6 +177,8 @@ class Run {
   // Sampling changes nothing in the simulator, so the slices do not change the motion by a bit.
   void carry_to(double time) {
     const double slice = scene().simulate.duration / 1000;
+    // A known end is the run's own only when it has been found again, which may take a moment more.
+    if (scene().ends_at && !(time < *scene().ends_at)) time = scene().simulate.duration;
     watch_.stop_check();
     while (simulator_->time() < time && !is_over()) {
       const double before = simulator_->time();

@@ -11,10 +11,12 @@ namespace carom {
 struct World;
 
 struct BookOptions {
-  double step = 1.0 / 60;                // s, of a frame
-  bool as_printed = false;               // listings 8.3 and 8.4 with their slips
-  std::uint64_t max_collisions = 0;      // limit, an error beyond it; 0: no limit
-  bool record_collisions = true;         // false: there is no buffer, and collisions() stays empty
+  double step = 1.0 / 60;            // s, of a frame
+  bool as_printed = false;           // listings 8.3 and 8.4 with their slips
+  std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
+  bool record_collisions = true;     // false: there is no buffer, and collisions() stays empty
+  bool stop_at_rest = false;
+  std::uint64_t stop_collisions = 0;  // 0: none
   std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 

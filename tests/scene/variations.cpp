@@ -116,6 +116,18 @@ std::vector<std::string> right_scenes() {
   return {"{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
           R"(
 scene: 1
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
+regions:
+  pocket: {radius: 0.3, position: [-6, 0, 0], on: [red], action: remove}
+  can: {cylinder: {radius: 0.1, height: 1}, position: [0, 3, 0]}
+  crate: {box: [1, 1, 1], position: [3, 3, 0], action: stop}
+  below: {plane: {point: [0, -1, 0], normal: [0, -1, 0]}}
+simulate: {duration: 1, stop: [rest, {collisions: 100}, {region: pocket}]}
+output: {regions: true, trajectory: {every: 0.1}}
+)",
+          R"(
+scene: 1
 title: Balls
 seed: 3
 gravity: [0, -1, 0]
