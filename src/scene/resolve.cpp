@@ -125,22 +125,32 @@ class Resolver {
     without_members(key, kind);
   }
 
-  /// Writes the things of a map that are repeated no time, as they stand in the file.
-  void without_members(std::string_view key, std::string_view kind) {
+  /// Writes the things of a map that are repeated no time. Their own expressions have no numbers, and stay.
+  void without_members(std::string_view key, std::string_view name) {
     const Node& map = *root_.find(key);
+    const Kind& kind = kind_named(name);
     for (std::size_t i = 0; i < map.keys.size(); ++i) {
       if (map.items[i].find_key("repeat") == nullptr) continue;
-      std::string text;
-      for (std::size_t k = 0; k < map.items[i].keys.size(); ++k) {
-        const std::string& name = map.items[i].keys[k].text;
-        const Node& value = map.items[i].items[k];
-        const bool is_file = find_field(kind_named(kind), name)->type == Type::file && !value.cancels;
-        text += fmt::format(
-            "{}{}: {}", k == 0 ? "" : ", ", name,
-            is_file ? in_quotes(std::filesystem::absolute(beneath(folder_, value.text)).string()) : flow_text(value));
+      const View view(&map.items[i], kind, map.keys[i].place, defaults_for(root_, kind));
+      Overrides overrides = whole_paths(view);
+      if (name == "group") {
+        const View each = member_view(root_, view);
+        overrides["ball"] = flow(each, whole_paths(each));
+        overrides["in"] = flow(view.part("in", "in"));
       }
-      entry(map.keys[i].text, "{" + text + "}");
+      entry(map.keys[i].text, flow(view, overrides));
     }
+  }
+
+  /// The files of a map that is not decoded, as absolute paths.
+  Overrides whole_paths(const View& view) const {
+    Overrides overrides;
+    for (const Field& field : view.kind().fields) {
+      const Node* file = field.type == Type::file ? view.find(field) : nullptr;
+      if (file != nullptr)
+        overrides[field.key] = in_quotes(std::filesystem::absolute(beneath(folder_, file->text)).string());
+    }
+    return overrides;
   }
 
   void fixed(std::string_view key, std::string_view kind) {

@@ -468,6 +468,29 @@ TEST(Sweep, VariesASceneFromTheCommandLine) {
   EXPECT_TRUE(here.has("output/balls.sweep/runs/r0006/summary.csv"));
 }
 
+TEST(Sweep, VariesNumbersOfLetAndTakesExpressionsOfThem) {
+  const Workplace here;
+  here.write("row.yaml", R"(scene: 1
+let: {r: 0.1, n: 2}
+balls: {row: {repeat: = n, radius: = r, mass: 1, position: [= 3 * r * i, 0, 0]}}
+simulate: {duration: 0.1}
+output: {energy: {every: 0.1}}
+)");
+  const Finished run = here.carom({"sweep", "row.yaml", "--grid", "let.n=1:3:3", "--grid", "let.r=0.2,= n / 8", "-q"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::istringstream table(here.files("output/row.sweep").at("summary.csv"));
+  std::string line, ends;
+  for (std::getline(table, line); std::getline(table, line);) {
+    const std::size_t last = line.rfind(','), before = line.rfind(',', last - 1);
+    ends += line.substr(before) + "\n";
+  }
+  EXPECT_EQ(ends, ",1,0.2\n,1,0.125\n,2,0.2\n,2,0.25\n,3,0.2\n,3,0.375\n");
+  EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.q=1,2"}).err.find("`let` has no `q`"),
+            std::string::npos);
+  EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.r=1,= q"}).err.find("no number is named `q`"),
+            std::string::npos);
+}
+
 TEST(Sweep, InterruptedIsResumedByTheSameCommand) {
   const Workplace here;
   prepare(here, "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.position.z: {from: 0, to: 0.2, count: 401}}\n");

@@ -104,6 +104,18 @@ restitution: {pairs: [{between: [row, red], value: 0.5}]}
             (Marked{{"radus", "unknown key `radus` in ball `row`"}}));
 }
 
+TEST(Repeat, OfNoMemberKeepsItsDefaultsInTheResolvedScene) {
+  const Scene scene = load_text(start + R"(let: {n: 0}
+defaults: {ball: {mass: 1, radius: = 1 / 4, color: red, velocity: [1, 0, 0]}, group: {speed: 1}}
+balls: {row: {repeat: = n, position: ['= i', 0, 0], color: none}}
+groups: {gas: {repeat: 0, count: 3, in: {min: [0, 0, '= i'], max: [1, 1, 1]}, ball: {restitution: 1}}}
+)");
+  EXPECT_NE(
+      scene.resolved.find("row: {mass: 1, radius: 0.25, position: [\"= i\", 0, 0], velocity: [1, 0, 0], repeat: 0}"),
+      std::string::npos);
+  EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
+}
+
 TEST(Repeat, TakesSettingsOfTheThingAndOfAMember) {
   LoadOptions options;
   options.set = {"bodies.bricks.box=[0.1, 0.1, 0.1]", "bodies.bricks.repeat.i=2"};
