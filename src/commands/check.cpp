@@ -13,6 +13,7 @@
 #include "commands/plan.h"
 #include "commands/preview.h"
 #include "commands/report.h"
+#include "commands/scene_outcome.h"
 #include "commands/text.h"
 #include "commands/volumes.h"
 #include "physics/world.h"
@@ -316,8 +317,7 @@ int check_command(const Options& options) {
     if (planned.errors > 0) {
       flush_out();
       write_err(planned.error);
-      entries.push_back(
-          {{"scene", planned.file}, {"status", "wrong"}, {"errors", planned.errors}, {"error", planned.error}});
+      entries.push_back(wrong_scene(planned).entry);
       continue;
     }
     if (options.quiet) continue;

@@ -8,6 +8,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "commands/error_list.h"
 #include "commands/report.h"
 #include "commands/text.h"
 #include "files/run_folder.h"
@@ -134,9 +135,10 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int fail_diff(const Options& options, const std::string& text, int code) {
+int fail_diff(const Options& options, const std::string& text, int code, const std::vector<ErrorRecord>& errors) {
   complain(options, text);
-  if (options.json) write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"error", text}}));
+  if (options.json)
+    write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"errors", errors_json(errors)}}));
   return code;
 }
 
@@ -174,11 +176,11 @@ int diff_command(const Options& options) {
     }
     return 0;
   } catch (const ExportError& error) {
-    return fail_diff(options, error.what(), 2);
+    return fail_diff(options, error.what(), 2, error_of_text(error.what()));
   } catch (const SceneError& error) {
-    return fail_diff(options, error.what(), 2);
+    return fail_diff(options, error.what(), 2, error.records);
   } catch (const std::bad_alloc&) {
-    return fail_diff(options, "not enough memory", 1);
+    return fail_diff(options, "not enough memory", 1, error_of_text("not enough memory"));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/bench_folder.h"
+#include "commands/error_list.h"
 #include "commands/idle_settings.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
@@ -45,11 +46,16 @@ void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
   }
 }
 
-void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& text) {
+void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& text, std::vector<ErrorRecord> records) {
   planned.scene.reset();
   planned.errors = errors;
+  planned.records = std::move(records);
   planned.error = text;
   if (planned.error.empty() || planned.error.back() != '\n') planned.error += '\n';
+}
+
+void mark_failed(PlannedScene& planned, const std::string& text) {
+  mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), text), error_of_text(text, planned.file));
 }
 
 void check(PlannedScene& planned, const Options& options, Purpose purpose) {
@@ -147,11 +153,11 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
     try {
       check_one(planned);
     } catch (const SceneError& error) {
-      mark_failed(planned, error.count, error.what());
+      mark_failed(planned, error.count, error.what(), error.records);
     } catch (const std::bad_alloc&) {
-      mark_failed(planned, 1, fmt::format("{}: not enough memory for this scene", printable(planned.file)));
+      mark_failed(planned, "not enough memory for this scene");
     } catch (const std::exception& error) {
-      mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), error.what()));
+      mark_failed(planned, error.what());
     }
   }
   return scenes;
@@ -161,11 +167,12 @@ void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& opti
   for (PlannedScene& planned : scenes) {
     const bool other = planned.content == FolderContent::other_run, more = planned.content == FolderContent::more;
     if (planned.errors > 0 || !(other || more) || options.force) continue;
-    planned.errors = 1;
-    planned.error = fmt::format(
-        "{}: the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force\n",
-        printable(planned.file), printable(planned.folder),
+    const std::string text = fmt::format(
+        "the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force", printable(planned.folder),
         other ? "another run, or files that no run wrote" : "more outputs of this scene, which this run would remove");
+    planned.errors = 1;
+    planned.error = fmt::format("{}: {}\n", printable(planned.file), text);
+    planned.records = error_of_text(text, planned.file);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "files/run_folder.h"
 #include "run/engine.h"
 #include "run/former_run.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 
@@ -21,6 +22,7 @@ struct PlannedScene {
   std::string folder;  // where its run goes
   std::string error;   // for the terminal, whole lines; empty: none
   std::size_t errors = 0;
+  std::vector<ErrorRecord> records;  // of the error, in parts
   std::unique_ptr<Scene> scene;
   double load_s = 0;  // wall time
   EngineChoice engine;
