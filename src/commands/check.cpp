@@ -140,6 +140,8 @@ std::string content_text(const PlannedScene& planned) {
       return "up to date";
     case FolderContent::incomplete:
       return "incomplete, will be run again";
+    case FolderContent::earlier:
+      return "holds a run of the scene as it was, will be replaced";
     case FolderContent::more:
       return "holds more outputs of this scene: run needs --force or another -o";
     case FolderContent::other_run:
@@ -156,6 +158,8 @@ std::string content_name(FolderContent content) {
       return "up to date";
     case FolderContent::incomplete:
       return "incomplete";
+    case FolderContent::earlier:
+      return "earlier run";
     case FolderContent::more:
       return "more outputs";
     case FolderContent::other_run:

@@ -68,6 +68,7 @@ struct Options {
   SweepWords sweep;
   std::optional<Shard> shard;
   bool plan = false;         // show, do not do
+  bool watch = false;        // of run: again at each save
   bool accuracy = false;     // of check and run: estimate the error by more runs
   bool page = false;         // of explain: the whole format
   std::optional<double> at;  // s, of render: the time of a still

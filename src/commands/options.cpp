@@ -235,6 +235,8 @@ const Option table[] = {
      [](Options& o, const Words&) { o.accuracy = true; }},
     {"--verbose", "-v", "", "also the expected error by its sources; takes four or\nmore runs",
      [](Options& o, const Words&) { o.accuracy = true; }},
+    {"--watch", "", "", "run scenes again whenever they, their meshes or textures\nare saved, until Ctrl-C",
+     [](Options& o, const Words&) { o.watch = true; }},
     {"--at", "", "SECONDS", "draw one picture, at this time",
      [](Options& o, const Words& w) { o.at = time_of(single(w, "--at"), "--at"); }},
     {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},

@@ -16,6 +16,8 @@
 #include "commands/idle_settings.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "files/earlier_run.h"
+#include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "physics/world.h"
@@ -58,6 +60,23 @@ void mark_failed(PlannedScene& planned, const std::string& text) {
   mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), text), error_of_text(text, planned.file));
 }
 
+SceneOrigin origin_of(const PlannedScene& planned, const Options& options) {
+  SceneOrigin origin{path_from(planned.folder, planned.file), {}};
+  for (const std::string& set : options.set) origin.settings.push_back(valid_utf8(set));
+  if (options.seed) origin.settings.push_back(fmt::format("seed={}", *options.seed));
+  return origin;
+}
+
+/// A run of this scene file before it was edited is no obstacle.
+void find_obstacle(PlannedScene& planned) {
+  const EarlierRun earlier = find_earlier_run(planned.folder, planned.origin);
+  if (earlier.is_replaceable()) planned.content = FolderContent::earlier;
+  if (!earlier.touched.empty())
+    planned.obstacle = fmt::format("a run of this scene with a changed file, {}", printable(earlier.touched));
+  else if (!earlier.foreign.empty())
+    planned.obstacle = fmt::format("{}, which the run there did not write", printable(earlier.foreign));
+}
+
 void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   const auto start = std::chrono::steady_clock::now();
   planned.scene = std::make_unique<Scene>(
@@ -85,7 +104,9 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
     planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench);
     return;
   }
+  planned.origin = origin_of(planned, options);
   planned.content = inspect_folder(planned.folder, *planned.scene);
+  if (planned.content == FolderContent::other_run) find_obstacle(planned);
   const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
   if (options.only && differs && holds_all(requested, *options.only)) {
     // A whole run of this scene has the named outputs and more.
@@ -135,13 +156,21 @@ void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_vi
   }
 }
 
-std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
+std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) {
   std::vector<PlannedScene> scenes(options.operands.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     scenes[i].file = options.operands[i];
     scenes[i].name = fs::path(options.operands[i]).stem().string();
     scenes[i].folder = folder_of(options, scenes[i].name, purpose);
   }
+  return scenes;
+}
+
+std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
+  return plan_scenes(named_scenes(options, purpose), options, purpose);
+}
+
+std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options, Purpose purpose) {
   return plan_scenes(std::move(scenes), [&](PlannedScene& planned) { check(planned, options, purpose); });
 }
 
@@ -169,7 +198,9 @@ void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& opti
     if (planned.errors > 0 || !(other || more) || options.force) continue;
     const std::string text = fmt::format(
         "the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force", printable(planned.folder),
-        other ? "another run, or files that no run wrote" : "more outputs of this scene, which this run would remove");
+        !other                     ? "more outputs of this scene, which this run would remove"
+        : planned.obstacle.empty() ? "another run, or files that no run wrote"
+                                   : planned.obstacle);
     planned.errors = 1;
     planned.error = fmt::format("{}: {}\n", printable(planned.file), text);
     planned.records = error_of_text(text, planned.file);

@@ -27,6 +27,7 @@ struct Manifest {
   std::string meshes;   // meshes_text()
   std::vector<FileRecord> files;
   std::string scene_file{};  // the file name, without a folder
+  SceneOrigin origin{};
   /// Files of the outputs that were given up.
   std::vector<LeftOut> left_out{};
   std::vector<Measured> measures{};

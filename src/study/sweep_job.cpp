@@ -441,7 +441,10 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     sync_file_system(folder_);
     synced = std::chrono::steady_clock::now();
   };
-  tasks.stop_check = settings_.stop_check;
+  tasks.stop_check = [&] {
+    settings_.stop_check();
+    report_progress(progress);
+  };
   work_off(tasks, std::min(settings_.jobs, std::max<std::size_t>(all.size(), 1)));
 }
 

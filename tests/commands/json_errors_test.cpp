@@ -8,7 +8,7 @@
 namespace carom::testing {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 /// The only error of a command that must fail with exit code 2. It is that of the first scene, if the document has any.
 Json error_of(const Workplace& here, std::vector<std::string> words) {
