@@ -13,6 +13,7 @@
 #include "commands/plan.h"
 #include "commands/preview.h"
 #include "commands/report.h"
+#include "commands/scene_outcome.h"
 #include "commands/text.h"
 #include "commands/volumes.h"
 #include "physics/world.h"
@@ -147,6 +148,8 @@ std::string content_text(const PlannedScene& planned) {
       return "up to date";
     case FolderContent::incomplete:
       return "incomplete, will be run again";
+    case FolderContent::earlier:
+      return "holds a run of the scene as it was, will be replaced";
     case FolderContent::more:
       return "holds more outputs of this scene: run needs --force or another -o";
     case FolderContent::other_run:
@@ -163,6 +166,8 @@ std::string content_name(FolderContent content) {
       return "up to date";
     case FolderContent::incomplete:
       return "incomplete";
+    case FolderContent::earlier:
+      return "earlier run";
     case FolderContent::more:
       return "more outputs";
     case FolderContent::other_run:
@@ -324,8 +329,7 @@ int check_command(const Options& options) {
     if (planned.errors > 0) {
       flush_out();
       write_err(planned.error);
-      entries.push_back(
-          {{"scene", planned.file}, {"status", "wrong"}, {"errors", planned.errors}, {"error", planned.error}});
+      entries.push_back(wrong_scene(planned).entry);
       continue;
     }
     if (options.quiet) continue;

@@ -10,6 +10,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/progress.h"
 #include "commands/report.h"
@@ -193,7 +194,7 @@ class CompareSession {
 
   int fail(const char* status, const std::string& text, int code) {
     complain(options_, text);
-    document_["error"] = text;
+    document_["errors"] = errors_json(error_of_text(text));
     return end(status, code);
   }
 

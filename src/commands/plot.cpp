@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/run.h"
@@ -136,7 +137,7 @@ SceneOutcome plot_one(const PlannedScene& planned, const std::string& gnuplot, c
     stop_if_interrupted();
     outcome.complaint = error.what();
   }
-  outcome.entry["error"] = outcome.complaint;
+  outcome.entry["errors"] = errors_json(error_of_text(outcome.complaint, planned.file));
   outcome.complaint = fmt::format("{}: {}", printable(planned.file), outcome.complaint);
   return outcome;
 }

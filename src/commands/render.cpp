@@ -101,6 +101,10 @@ class Planner {
       check_time(former->end());
     else
       check_content(planned);
+    if (planned.folder == planned.file && !former->manifest.origin.path.empty()) {
+      planned.origin = former->manifest.origin;
+      for (const std::string& set : options_.set) planned.origin.settings.push_back(valid_utf8(set));
+    }
     // One scene in memory is enough.
     former->scene = {};
     planned.former = std::move(former);

@@ -7,6 +7,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "files/earlier_run.h"
 #include "overlay/history.h"
 #include "scene/scene.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 Show show_of(const PlannedScene& planned) {
   Show show{planned.scene.get(), planned.folder, planned.load_s};
+  show.origin = planned.origin;
   if (planned.former && planned.former->folder == planned.folder) show.renewed = &planned.former->manifest;
   return show;
 }

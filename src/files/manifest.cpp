@@ -74,11 +74,35 @@ std::optional<FileRecord> file_record(const Json& json) {
   return record;
 }
 
+SceneOrigin origin_in(const Json& scene) {
+  SceneOrigin origin{text_member(scene, "path"), {}};
+  if (!scene.is_object() || !scene.contains("settings") || !scene["settings"].is_array()) return origin;
+  for (const Json& setting : scene["settings"])
+    if (setting.is_string()) origin.settings.push_back(setting.get<std::string>());
+  return origin;
+}
+
 Json files_json(const std::vector<FileRecord>& files) {
   Json list = Json::array();
   for (const FileRecord& file : files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   return list;
+}
+
+Json scene_json(const Scene& scene, const SceneOrigin& origin) {
+  Json json = {{"file", std::filesystem::path(scene.file).filename().string()}};
+  if (!origin.path.empty()) json["path"] = origin.path;
+  if (!origin.settings.empty()) json["settings"] = origin.settings;
+  json["title"] = scene.title;
+  json["sha256"] = sha256(scene.resolved);
+  if (!scene.expressions.empty()) json["expressions"] = scene.expressions;
+  return {{"scene", std::move(json)}};
+}
+
+Json meshes_json(const Scene& scene) {
+  Json meshes = Json::object();
+  if (!scene.meshes.empty()) meshes["meshes"] = json_of_text(meshes_text(scene));
+  return meshes;
 }
 
 std::string whole_text(const Json& of_scene, const std::string& outputs, const Json& meshes, const std::string& facts,
@@ -102,14 +126,7 @@ std::string outputs_text(const Output& output) {
 
 std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
                           const std::vector<FileRecord>& files) {
-  Json of_scene;
-  of_scene["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
-                       {"title", scene.title},
-                       {"sha256", sha256(scene.resolved)}};
-  if (!scene.expressions.empty()) of_scene["scene"]["expressions"] = scene.expressions;
-  Json meshes = Json::object();
-  if (!scene.meshes.empty()) meshes["meshes"] = json_of_text(meshes_text(scene));
-  return whole_text(of_scene, outputs, meshes, facts, files);
+  return whole_text(scene_json(scene, {}), outputs, meshes_json(scene), facts, files);
 }
 
 std::string manifest_text(const std::string& outputs, const std::string& facts, const std::vector<FileRecord>& files) {
@@ -131,7 +148,8 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   json["status"] = summary.status;
   for (const Warning& warning : summary.warnings)
     json["warnings"].push_back({{"code", warning.code}, {"text", warning.text}});
-  return manifest_text(scene, outputs_text(scene.output), text_of_json(json), files);
+  return whole_text(scene_json(scene, facts.origin), outputs_text(scene.output), meshes_json(scene), text_of_json(json),
+                    files);
 }
 
 std::string changed_manifest(const std::string& text, const Scene& scene, const std::vector<FileRecord>& files) {
@@ -169,6 +187,7 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (const Json of_scene = json.value("scene", Json()); of_scene.is_object() && of_scene.contains("expressions"))
     for (const auto& [path, expression] : of_scene["expressions"].items())
       if (expression.is_string()) manifest.expressions.emplace(path, expression.get<std::string>());
+  manifest.origin = origin_in(json.value("scene", Json()));
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
     for (const auto& [file, why] : left_out->items())
       manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});

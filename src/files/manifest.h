@@ -30,6 +30,7 @@ struct Manifest {
   std::string scene_file{};  // the file name, without a folder
   /// As in Scene.
   std::map<std::string, std::string> expressions{};
+  SceneOrigin origin{};
   /// Files of the outputs that were given up.
   std::vector<LeftOut> left_out{};
   std::vector<Measured> measures{};

@@ -73,11 +73,20 @@ struct Summary {
   std::vector<Warning> warnings;  // with any, the status is `doubtful`
 };
 
+/// The command that a run's scene comes from (earlier_run.h).
+struct SceneOrigin {
+  /// The scene file's path from the run's folder. Empty: the run does not name its file.
+  std::string path;
+  std::vector<std::string> settings;  // path=value: --set and --seed, in their order
+  friend bool operator==(const SceneOrigin&, const SceneOrigin&) = default;
+};
+
 /// The course of a run, only for manifest.json. Nothing here may appear in a CSV file.
 struct RunFacts {
   /// Wall times, of the thread that runs the scene.
   double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;
   std::uint64_t peak_memory = 0;  // bytes
+  SceneOrigin origin{};
   std::vector<Measured> measures{};
   std::vector<LeftOut> left_out{};
 };

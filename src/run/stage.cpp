@@ -32,6 +32,7 @@ Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measu
       history_(scene, overlay_needs(scene)),
       of_model_(scene, picture_size(scene.output)) {
   facts.load_s = show.load_s;
+  facts.origin = show.origin;
   for (const PictureStream& stream : exports.pictures())
     series_.emplace_back(scene, stream, history_, name_of_folder(show.folder));
   more = exports.timeline().advance();

@@ -26,6 +26,7 @@ struct Show {
   double load_s = 0;
   /// The manifest of the run in the folder, if only its pictures are replaced (exports.h).
   const Manifest* renewed = nullptr;
+  SceneOrigin origin{};  // for the manifest
 };
 
 /// Functions called between pictures. Both may throw.

@@ -301,6 +301,8 @@ class Checker : ValueChecker {
         return settings(value, name, required);
       case Type::axes:
         return axes(value, name, required);
+      case Type::spans:
+        return spans(value, field, name, required);
       case Type::cases:
         return cases(value, name, required);
     }
@@ -439,6 +441,12 @@ class Checker : ValueChecker {
           if (item.is(Node::Kind::null)) wrong_type(item, "an entry of " + path, "expected a value");
       }
     }
+  }
+
+  void spans(Node& value, const Field& field, const std::string& name, const std::string& required) {
+    if (!has_entries(value, name, required)) return;
+    for (std::size_t i = 0; i < value.keys.size(); ++i)
+      map(value.items[i], kind_named(field.of), in_backticks(value.keys[i].text), value.keys[i].place, false);
   }
 
   void named(Node& value, const Field& field, const std::string& name) {

@@ -155,6 +155,7 @@ const Kind* held_kind(const Field& field) {
     case Type::color_or_part:
     case Type::named:
     case Type::list:
+    case Type::spans:
       return &kind_named(field.of);
     case Type::axes:
       return &kind_named("range");
@@ -238,6 +239,8 @@ std::string expected(const Field& field) {
     case Type::axes:
       return "a map from paths to lists or ranges, such as {balls.red.mass: [1, 2]} or {balls.red.mass: {from: 1, to: "
              "2, count: 3}}";
+    case Type::spans:
+      return "a map from paths to ranges, such as {balls.red.mass: {from: 1, to: 2}}";
     case Type::cases:
       return "a list of maps from paths to values, such as [{balls.red.mass: 2}]";
   }

@@ -43,6 +43,7 @@ enum class Type : std::uint8_t {
   list,      // a list of maps of kind Field::of
   settings,  // a map from paths into a scene, such as balls.red.mass, to values
   axes,      // a map from paths to lists of values, or to maps of kind "range"
+  spans,     // a map from paths to maps of kind Field::of
   cases      // a list of maps from paths to values
 };
 

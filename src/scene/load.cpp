@@ -21,7 +21,7 @@ namespace carom {
 namespace {
 
 void stop_if_wrong(const Diagnostics& diagnostics, const LoadOptions& options) {
-  if (!diagnostics.empty()) throw SceneError(diagnostics.text(options.color), diagnostics.count());
+  if (!diagnostics.empty()) throw SceneError(diagnostics, options.color);
 }
 
 std::string folder_of(const std::string& path) {
@@ -131,7 +131,8 @@ auto within_memory(const std::string& path, const Work& work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    throw SceneError(fmt::format("{}: error: not enough memory for this scene\n   = expected fewer bodies\n", path), 1);
+    throw SceneError(fmt::format("{}: error: not enough memory for this scene\n   = expected fewer bodies\n", path), 1,
+                     {{path, 0, 0, "not enough memory for this scene", "expected fewer bodies", ""}});
   }
 }
 

@@ -100,7 +100,7 @@ std::vector<SceneValue> scene_values(const std::string& name, const std::string&
   Diagnostics diagnostics(sources);
   std::optional<Node> root;
   if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
-  if (!root || !diagnostics.empty()) throw SceneError(diagnostics.text(false), diagnostics.count());
+  if (!root || !diagnostics.empty()) throw SceneError(diagnostics, false);
   Flattener flattener;
   flattener.map("", *root, kind_named("scene"));
   return std::move(flattener.found);

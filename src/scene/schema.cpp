@@ -221,6 +221,8 @@ Json value_schema(const Field& field) {
       return settings_schema();
     case Type::axes:
       return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", axis_schema(*held_kind(field))}};
+    case Type::spans:
+      return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", reference(field.of)}};
     case Type::cases:
       return {{"type", "array"}, {"items", settings_schema()}, {"minItems", 1}};
   }

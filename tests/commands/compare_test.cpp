@@ -374,6 +374,28 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_NE(same.out.find("\n  equal       scenes, collisions and final positions\n"), std::string::npos);
 }
 
+TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
+  const Workplace here;
+  for (const std::string run : {"run", "same"})
+    ASSERT_EQ(here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", run, "--only", "collisions,trajectory"})
+                  .code,
+              0);
+  ASSERT_EQ(here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", "heavy", "--only",
+                        "collisions,trajectory", "--set", "defaults.ball.mass=2"})
+                .code,
+            0);
+  // Columns: run,title,engine,status,duration_s,bodies,collisions.
+  std::string row = here.read("run/summary.csv");
+  row.erase(0, row.find('\n') + 1);
+  for (int k = 0; k < 6; ++k) row.erase(0, row.find(',') + 1);
+  const std::string count = row.substr(0, row.find(','));
+  ASSERT_NE(here.read("run/collisions.csv").find(",rest,"), std::string::npos);
+  const Json same = Json::parse(here.carom({"diff", "run", "same", "--json"}).out);
+  EXPECT_EQ(std::to_string(same["collisions"]["a"].get<int>()), count);
+  EXPECT_EQ(std::to_string(same["collisions"]["same"].get<int>()), count);
+  EXPECT_EQ(same["equal"], true);
+}
+
 TEST(DiffCommand, ReportsWhatIsMissing) {
   const Workplace here;
   make_runs(here, "output: {energy: {every: 0.1}}\n");
