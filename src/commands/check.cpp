@@ -93,9 +93,10 @@ std::string camera_text(const Scene& scene, std::string_view kind) {
   if (kind == "path") return counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
   const auto& follow = scene.camera->follow;
   const BodyRange& range = scene.roster.range_of(follow->first);
-  return fmt::format("follows {}; ", follow->count == range.count  ? scene.roster.name(follow->first)
-                                     : follow->count < range.count ? scene.roster.name(follow->first)
-                                                                   : std::string(range.thing()));
+  const std::string name = follow->count == range.count  ? range.name
+                           : follow->count < range.count ? scene.roster.name(follow->first)
+                                                         : std::string(range.thing());
+  return fmt::format("follows {}; ", name);
 }
 
 std::string plus_x_text(const std::string& direction) {

@@ -42,6 +42,7 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
   if (const auto family = inventory.families.find(std::string(family_of(name.text)));
       family != inventory.families.end()) {
     const Entity count = members_of(inventory, family->first);
+    if (count == 0 && !diagnostics.empty()) return std::nullopt;  // perhaps its `repeat` is wrong
     diagnostics.add(
         name.place,
         fmt::format("there is no {}: {} has {} member{}", in_backticks(name.text), in_backticks(family->first), count,

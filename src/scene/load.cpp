@@ -24,6 +24,17 @@ void stop_if_wrong(const Diagnostics& diagnostics, const LoadOptions& options) {
   if (!diagnostics.empty()) throw SceneError(diagnostics, options.color);
 }
 
+/// The scene of a run must not be longer than a file that is read.
+void check_length(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
+  if (inventory.families.empty() || scene.resolved.size() <= max_source_bytes) return;
+  const auto member = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
+                                   [](const BodyEntry& body) { return !family_of(body.key->text).empty(); });
+  diagnostics.add(
+      member == inventory.bodies.end() ? inventory.fixed.front().key->place : member->key->place,
+      fmt::format("with its members the scene has {} bytes; the limit is {}", scene.resolved.size(), max_source_bytes),
+      "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
+}
+
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "" : slash == 0 ? "/" : path.substr(0, slash);
@@ -92,6 +103,8 @@ struct SceneFile::Impl {
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
     scene.resolved = resolved_text(tree, inventory, scene, folder);
+    check_length(inventory, scene, diagnostics);
+    stop_if_wrong(diagnostics, options);
     return scene;
   }
 

@@ -214,8 +214,12 @@ class Walk {
   bool into_named(const Step& step) {
     const Kind& kind = kind_named(field_->of);
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
+    const std::string family = family_;
     if (child == nullptr) child = member(step);
     if (child == nullptr && !family_.empty()) return true;
+    if (child == nullptr && !family.empty())
+      return refuse(step, fmt::format("{} has no member {}", in_backticks(family), in_backticks(step.text)),
+                    fmt::format("its members are {}.0 and so on", family));
     if (child == nullptr)
       return refuse_name(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)));
     node_ = child;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "scene/check.h"
 #include "scene/scene_values.h"
@@ -94,9 +95,12 @@ class PathWalk {
     const Node* entry = nullptr;
     if (field_->type == Type::named) {
       // Members stand in the tree as `row.0`, two steps of the path.
-      const std::string name = family_.empty() ? std::string(step) : fmt::format("{}.{}", family_, step);
-      family_.clear();
+      const std::string family = std::exchange(family_, {});
+      const std::string name = family.empty() ? std::string(step) : fmt::format("{}.{}", family, step);
       entry = node_->find(name);
+      if (entry == nullptr && !family.empty())
+        return fail(fmt::format("{} has no member {}", in_backticks(family), in_backticks(step)),
+                    fmt::format("its members are {}.0 and so on", family));
       if (entry == nullptr && node_->find_key(name + ".0") != nullptr) {
         family_ = name;
         return true;

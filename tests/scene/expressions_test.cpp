@@ -268,6 +268,16 @@ TEST(ExpressionErrors, OfLet) {
   EXPECT_EQ(marked_errors(start + "let: {a: big, b: = a}\nseed: = b\n"), (Marked{{"big", "`big` is not a number"}}));
 }
 
+TEST(Expressions, StandInCaptionsByTheirNames) {
+  const std::string scene = start +
+                            "let: {r: 0.05, a: = 2 * r}\n"
+                            "balls: {row: {repeat: 2, mass: = a, radius: = r, position: [= i, 0, 0]}}\n";
+  EXPECT_EQ(errors_of(scene + "caption: \"{let.a} {balls.row.1.mass}\"\n"), "");
+  EXPECT_EQ(marked_errors(scene + "caption: \"{let.q}\"\n"), (Marked{{"\"{let.q}\"", "`let` has no `q`"}}));
+  EXPECT_EQ(marked_errors(scene + "caption: \"{balls.row.mass}\"\n"),
+            (Marked{{"\"{balls.row.mass}\"", "`row` has no member `mass`"}}));
+}
+
 TEST(Expressions, ThatNothingUsesAreAllowed) {
   EXPECT_EQ(errors_of(start + "let: {a: 1, b: = a}\n"), "");
   EXPECT_EQ(errors_of(start + "let: {}\n"), "");

@@ -126,6 +126,8 @@ TEST(Repeat, TakesSettingsOfTheThingAndOfAMember) {
   EXPECT_EQ(load_text(load_text(bricks).resolved, options).initial.position[3].z(), 2);
   EXPECT_EQ(marked_errors(load_text(bricks).resolved, "bodies.bricks=1"),
             (Marked{{"bricks", "`bricks` has several members"}}));
+  EXPECT_EQ(marked_errors(load_text(bricks).resolved, "bodies.bricks.mass=1"),
+            (Marked{{"mass", "`bricks` has no member `mass`"}}));
 }
 
 TEST(RepeatErrors, PointAtTheCount) {
