@@ -20,7 +20,7 @@ TEST(SceneErrors, KeyOfAnotherPlaceNamesWhereItBelongs) {
             "   2 | simulate: {duration: 1, far: 3}\n"
             "     |                         ^~~\n"
             "     = `far` is a key of `camera`\n"
-            "     = expected duration, engine, step, as_printed, rest_speed, max_collisions, integrator, contact or "
+            "     = expected duration, stop, engine, step, as_printed, rest_speed, max_collisions, integrator, contact or "
             "tolerance\n");
 }
 

@@ -98,7 +98,7 @@ TEST(RegionErrors, OneShapeEach) {
   EXPECT_EQ(of_region("{radius: 1, box: [1, 1, 1], position: [0, 0, 0]}"),
             "scene.yaml:6:31: error: region `pocket` has both `radius` and `box`\n");
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 1, 0]}, position: [0, 0, 0]}"),
-            "scene.yaml:6:67: error: region `pocket` has both `plane` and `position`\n");
+            "scene.yaml:6:66: error: region `pocket` has both `plane` and `position`\n");
   EXPECT_EQ(of_region("{radius: 1}"), "scene.yaml:6:11: error: region `pocket` has no `position` and no `plane`\n");
   EXPECT_EQ(of_region("{}").substr(0, 52), "scene.yaml:6:11: error: region `pocket` has no `radi");
 }
@@ -106,7 +106,7 @@ TEST(RegionErrors, OneShapeEach) {
 TEST(RegionErrors, OfSizesAndPlaces) {
   EXPECT_EQ(of_region("{radius: 0, position: [0, 0, 0]}"), "scene.yaml:6:28: error: `radius` is 0\n");
   EXPECT_EQ(of_region("{radius: -1, position: [0, 0, 0]}"), "scene.yaml:6:28: error: `radius` is -1\n");
-  EXPECT_EQ(of_region("{box: [1, 0, 1], position: [0, 0, 0]}"), "scene.yaml:6:29: error: `box` has the number 0\n");
+  EXPECT_EQ(of_region("{box: [1, 0, 1], position: [0, 0, 0]}"), "scene.yaml:6:29: error: a number of `box` is 0\n");
   EXPECT_EQ(of_region("{cylinder: {radius: 1, height: 0}, position: [0, 0, 0]}"),
             "scene.yaml:6:50: error: `height` is 0\n");
   EXPECT_EQ(of_region("{cylinder: {radius: 1}, position: [0, 0, 0]}"),
@@ -114,7 +114,7 @@ TEST(RegionErrors, OfSizesAndPlaces) {
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 0, 0]}}"),
             "scene.yaml:6:54: error: `normal` has no length\n");
   EXPECT_EQ(of_region("{radius: 1e-9, position: [1e6, 0, 0]}"),
-            "scene.yaml:6:44: error: `pocket` is 2e-9 m wide and 1e6 m from the origin\n");
+            "scene.yaml:6:44: error: `pocket` is 2e-09 m wide and 1e+06 m from the origin\n");
 }
 
 TEST(RegionErrors, OfNamesAndActions) {
@@ -126,7 +126,7 @@ TEST(RegionErrors, OfNamesAndActions) {
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], on: [pocket]}"),
             "scene.yaml:6:57: error: nothing is named `pocket`\n");
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], action: kill}"),
-            "scene.yaml:6:60: error: `kill` is no value of `action`\n");
+            "scene.yaml:6:60: error: `action` is `kill`\n");
   EXPECT_EQ(errors_of(things + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n"),
             "scene.yaml:6:11: error: the name `red` is taken\n"
             "   6 | regions: {red: {radius: 1, position: [0, 0, 0]}}\n"

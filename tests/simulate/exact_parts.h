@@ -11,6 +11,7 @@
 #include "simulate/exact_group.h"
 #include "simulate/exact_impacts.h"
 #include "simulate/flight_changes.h"
+#include "simulate/crossings.h"
 #include "simulate/path_log.h"
 #include "simulate/simultaneous_impacts.h"
 #include "simulate/stall_guard.h"
@@ -22,7 +23,8 @@ struct ExactParts {
   explicit ExactParts(Problem given)
       : problem(std::move(given)),
         bodies(problem.world, problem.options),
-        paths(bodies),
+        crossings(bodies),
+        paths(bodies, crossings),
         collapses(bodies),
         flat(bodies, collapses),
         group(bodies, flat, collapses, paths),
@@ -43,6 +45,7 @@ struct ExactParts {
 
   const Problem problem;
   ExactBodies bodies;
+  Crossings crossings;
   PathLog paths;
   CollapseDetector collapses;
   FlatContacts flat;
