@@ -77,7 +77,8 @@ constexpr AbsentWord all_words[] = {
     {"static|fixed|kinematic|immovable|infinite mass|anchor point",
      "Things that never move are planes, walls, a room and obstacles.", "plane|wall|room|obstacle"},
     {"sensor|trigger|goal|zone|pocket|kill zone|finish line|drain|sink",
-     "`regions` are entered and left by the centres of bodies: `output.regions` writes when, and an `action` removes the "
+     "`regions` are entered and left by the centres of bodies: `output.regions` writes when, and an `action` removes "
+     "the "
      "body or stops the run.",
      "regions|region.action|output.regions"},
     {"air|air resistance|resistance|viscosity|damping|friction of air|medium|fluid|buoyancy",
@@ -114,7 +115,8 @@ constexpr AbsentWord all_words[] = {
     {"gif|webp|mp4|movie|film|animation",
      "A film is `output.video`. The ending of `video.file` chooses H.264, GIF or WebP.", "video|video.file"},
     {"csv|table|spreadsheet|excel|xlsx|data",
-     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into a "
+     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into "
+     "a "
      "workbook.",
      "output"},
     {"solver|physics engine|method|algorithm",

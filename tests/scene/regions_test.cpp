@@ -14,12 +14,13 @@ const std::string things =
 const std::string simulate = "simulate: {duration: 1}\n";
 
 TEST(RegionKeys, MakeShapesOnBodies) {
-  const Scene scene = load_text(things + simulate +
-                                "regions:\n"
-                                "  ball: {radius: 0.5, position: [1, 2, 3]}\n"
-                                "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
-                                "  crate: {box: [1, 2, 3], position: [1, 2, 3], action: remove}\n"
-                                "  below: {plane: {point: [0, -1, 0], normal: [0, -2, 0]}, on: [gas.1]}\n");
+  const Scene scene =
+      load_text(things + simulate +
+                "regions:\n"
+                "  ball: {radius: 0.5, position: [1, 2, 3]}\n"
+                "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
+                "  crate: {box: [1, 2, 3], position: [1, 2, 3], action: remove}\n"
+                "  below: {plane: {point: [0, -1, 0], normal: [0, -2, 0]}, on: [gas.1]}\n");
   const std::vector<WorldRegion>& regions = scene.world.regions;
   ASSERT_EQ(regions.size(), 4u);
   EXPECT_EQ(scene.roster.regions, (std::vector<std::string>{"ball", "can", "crate", "below"}));
@@ -37,9 +38,10 @@ TEST(RegionKeys, MakeShapesOnBodies) {
 }
 
 TEST(RegionKeys, OfStopsEndTheRun) {
-  const Scene scene = load_text(things +
-                                "regions: {pocket: {radius: 1, position: [9, 9, 9], action: remove}}\n"
-                                "simulate: {duration: 1, stop: [rest, {collisions: 9}, {region: pocket}, {collisions: 7}]}\n");
+  const Scene scene =
+      load_text(things +
+                "regions: {pocket: {radius: 1, position: [9, 9, 9], action: remove}}\n"
+                "simulate: {duration: 1, stop: [rest, {collisions: 9}, {region: pocket}, {collisions: 7}]}\n");
   EXPECT_TRUE(scene.simulate.stop_at_rest);
   EXPECT_EQ(scene.simulate.stop_collisions, 7u);
   EXPECT_TRUE(scene.world.regions[0].stops && scene.world.regions[0].removes);
@@ -49,7 +51,8 @@ TEST(RegionKeys, OfStopsEndTheRun) {
 
 TEST(RegionKeys, AreInTheResolvedScene) {
   const Scene scene = load_text(things +
-                                "regions: {pocket: {radius: 1, position: [9, 9, 9]}, low: {plane: {point: [0, 0, 0], normal: [0, -1, 0]}, on: [red]}}\n"
+                                "regions: {pocket: {radius: 1, position: [9, 9, 9]}, low: {plane: {point: [0, 0, 0], "
+                                "normal: [0, -1, 0]}, on: [red]}}\n"
                                 "simulate: {duration: 1, stop: [rest, {region: low}]}\n"
                                 "output: {regions: true}\n");
   EXPECT_NE(scene.resolved.find("regions:\n"
@@ -136,7 +139,8 @@ TEST(RegionErrors, OfNamesAndActions) {
 
 TEST(StopErrors, NameWhatIsWrong) {
   const auto of = [](const std::string& stop) {
-    return errors_of("scene: 1\nsimulate: {duration: 1, stop: " + stop + "}\n"
+    return errors_of("scene: 1\nsimulate: {duration: 1, stop: " + stop +
+                     "}\n"
                      "regions: {pocket: {radius: 1, position: [0, 0, 0]}}\n");
   };
   EXPECT_EQ(of("[{region: pokcet}]"),

@@ -318,8 +318,8 @@ TEST(Removal, KeepsTheMomentumOfAFreeGas) {
   problem.world.regions = {removing(region_at({0, 0, 0}, Volume::sphere(1.4)))};
   const WithRegions run = run_with(problem);
   ASSERT_GT(run.tally.removed.bodies, 3u);
-  const Vec3 drift = momentum(problem.world, run.end) + run.tally.removed.momentum -
-                     momentum(problem.world, problem.initial);
+  const Vec3 drift =
+      momentum(problem.world, run.end) + run.tally.removed.momentum - momentum(problem.world, problem.initial);
   EXPECT_LT(drift.norm(), 1e-13);
 }
 
@@ -392,7 +392,8 @@ TEST(Removal, OnABentPathBooksTheEnergyThere) {
 }
 
 TEST(Removal, OfASleeperInMidRunLetsTheOthersFall) {
-  // Three balls sleep on each other. A fourth strikes the lowest along the floor at t = 1, and drives it into the region.
+  // Three balls sleep on each other. A fourth strikes the lowest along the floor at t = 1, and drives it into the
+  // region.
   Problem problem;
   problem.world.gravity = Vec3(0, -10, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
@@ -416,7 +417,8 @@ TEST(Removal, InAPileKeepsTheBooks) {
   problem.room({-1.3, 0, -1.3}, {1.3, 30, 1.3});
   Random random;
   for (int k = 0; k < 60; ++k)
-    problem.ball({-0.8 + 0.8 * (k % 3), 0.5 + 0.8 * (k / 9), -0.8 + 0.8 * (k / 3 % 3)}, in_cube(random, 0.1), 1, 0.3, 0.4);
+    problem.ball({-0.8 + 0.8 * (k % 3), 0.5 + 0.8 * (k / 9), -0.8 + 0.8 * (k / 3 % 3)}, in_cube(random, 0.1), 1, 0.3,
+                 0.4);
   problem.world.regions = {removing(region_at({0.2, 0.3, 0.1}, Volume::cylinder(0.35, 0.1)))};
   problem.options.duration = 6;
   problem.options.stop_at_rest = true;
@@ -428,8 +430,8 @@ TEST(Removal, InAPileKeepsTheBooks) {
 }
 
 TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
-  // 20000 points in a cube of edge 2, with velocities of standard deviation 1 in each direction: A v / (4 V) of them hit
-  // an area A of a wall in a second. In so short a time none comes to it twice.
+  // 20000 points in a cube of edge 2, with velocities of standard deviation 1 in each direction: A v / (4 V) of them
+  // hit an area A of a wall in a second. In so short a time none comes to it twice.
   Problem problem;
   problem.room({-1, -1, -1}, {1, 1, 1});
   Random random;
