@@ -121,8 +121,8 @@ class Planner {
 
   void check_time(double end) const {
     if (*options_.at > end)
-      throw ExportError(fmt::format("--at {} is after its end\n  name a time from 0 to {} s", shortest(*options_.at),
-                                    shortest(end)));
+      throw ExportError(
+          fmt::format("--at {} is after its end\n  name a time from 0 to {} s", shortest(*options_.at), shortest(end)));
   }
 
   void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene,

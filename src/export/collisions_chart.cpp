@@ -17,8 +17,7 @@ const std::array<CollisionsChart::Row, 3> CollisionsChart::rows = {
 
 void CollisionsChart::add(double time, CollisionKind kind) {
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].kind == kind)
-      ++counts_[k][static_cast<std::size_t>(interval_of(time, 0, end_of(scene_), intervals))];
+    if (rows[k].kind == kind) ++counts_[k][static_cast<std::size_t>(interval_of(time, 0, end_of(scene_), intervals))];
 }
 
 std::uint64_t CollisionsChart::total() const {

@@ -55,10 +55,7 @@ struct Exports::Impl {
   // Refuse what can be refused here, before the folder is changed.
   Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
        const Manifest* renewed)
-      : scene(the_scene),
-        makers(std::move(the_makers)),
-        timeline(end_of(the_scene)),
-        plan(plan_pictures(the_scene)) {
+      : scene(the_scene), makers(std::move(the_makers)), timeline(end_of(the_scene)), plan(plan_pictures(the_scene)) {
     const Output& output = scene.output;
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
@@ -73,8 +70,7 @@ struct Exports::Impl {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
       OpenWriter& open = writers.emplace_back();
-      if (kind.is_sampled())
-        open.timeline_streams = {timeline.add(Ticks::every(kind.every(output), end_of(scene)))};
+      if (kind.is_sampled()) open.timeline_streams = {timeline.add(Ticks::every(kind.every(output), end_of(scene)))};
       if (writer->ticks != nullptr)
         for (const Ticks& ticks : writer->ticks(scene)) open.timeline_streams.push_back(timeline.add(ticks));
       open.writer = writer->open(*folder, scene, makers);

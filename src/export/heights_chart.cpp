@@ -28,8 +28,7 @@ void HeightsChart::add(double time, const State& state) {
   if (!wants(time)) return;
   std::vector<double> heights;
   for (Entity body = 0; body < state.position.size(); ++body)
-    heights.push_back(is_gone(state, body) ? std::numeric_limits<double>::quiet_NaN()
-                                                      : state.position[body].y());
+    heights.push_back(is_gone(state, body) ? std::numeric_limits<double>::quiet_NaN() : state.position[body].y());
   add(time, heights);
 }
 

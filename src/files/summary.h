@@ -21,7 +21,7 @@ struct EnergyTotals {
   double start = 0, end = 0;
   // By impacts, both recorded and taken up by contact.
   double lost = 0;
-  double work = 0;  // of forces without a potential
+  double work = 0;     // of forces without a potential
   double removed = 0;  // of bodies that regions have removed
   /// What neither impacts nor work account for: the error of the method, and rounding.
   double residual = 0;
@@ -40,7 +40,7 @@ struct Warning {
 /// Counts for the report only, not columns.
 struct ContactCounts {
   std::uint64_t merges = 0;
-  std::uint64_t removed = 0;  // bodies
+  std::uint64_t removed = 0;    // bodies
   std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
 };

@@ -21,7 +21,7 @@ struct TakenUp {
 /// What regions have taken out of the world.
 struct Removed {
   std::uint64_t bodies = 0;
-  double energy = 0;              // J, kinetic and potential, each body's at its removal
+  double energy = 0;             // J, kinetic and potential, each body's at its removal
   Vec3 momentum = Vec3::Zero();  // kg m/s
 };
 

@@ -46,7 +46,8 @@ constexpr std::array<SummaryColumn, 24> columns = {{
     {"frames", "pictures drawn", number_of<&Summary::frames>},
     {"stepped_contact_s", "lasting contact computed by time stepping, summed over bodies; 0: all contact is exact",
      number_of<&Summary::stepped_contact>},
-    {"removed_J", "kinetic and potential energy of bodies that regions have removed", energy_of<&EnergyTotals::removed>},
+    {"removed_J", "kinetic and potential energy of bodies that regions have removed",
+     energy_of<&EnergyTotals::removed>},
     {"ended_by", "what ended the run: duration, rest, collisions or a region"},
 }};
 

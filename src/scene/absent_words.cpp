@@ -81,9 +81,11 @@ constexpr AbsentWord all_words[] = {
     {"piston|paddle|bat|racket|conveyor|elevator|lift|moving wall|moving floor|moving platform|plunger|flipper",
      "A plane, a wall or an obstacle with `motion` moves at constant velocities in windows of time.",
      "plane.motion|obstacle.motion"},
-    {"sensor|trigger|region|goal|zone|pocket|kill zone",
-     "There are no regions. collisions.csv has every collision; trajectory.csv has where bodies are.",
-     "output.collisions|output.trajectory"},
+    {"sensor|trigger|goal|zone|pocket|kill zone|finish line|drain|sink",
+     "`regions` are entered and left by the centres of bodies: `output.regions` writes when, and an `action` removes "
+     "the "
+     "body or stops the run.",
+     "regions|region.action|output.regions"},
     {"air|air resistance|resistance|viscosity|damping|friction of air|medium|fluid|buoyancy",
      "A medium acts by drag, linear or quadratic in the relative velocity; it may move as wind.", "drag|drag.wind"},
     {"magnet|magnetism|charge|electric|coulomb|attraction|planet|sun|gravitation|orbit",
@@ -118,12 +120,14 @@ constexpr AbsentWord all_words[] = {
     {"gif|webp|mp4|movie|film|animation",
      "A film is `output.video`. The ending of `video.file` chooses H.264, GIF or WebP.", "video|video.file"},
     {"csv|table|spreadsheet|excel|xlsx|data",
-     "Tables are `output.trajectory`, `collisions`, `energy` and `contacts`; `carom compare` puts runs into a "
+     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into "
+     "a "
      "workbook.",
      "output"},
     {"solver|physics engine|method|algorithm",
      "`simulate.engine` chooses the engine, `integrator` the method of its steps.", "engine|integrator"},
-    {"time|length of run|end time|stop|end|run time", "A run lasts `simulate.duration`.", "duration"},
+    {"time|length of run|end time|end|run time",
+     "A run lasts `simulate.duration`, unless one of `simulate.stop` ends it before.", "duration|simulate.stop"},
     {"unit|units|metre|meter|inch|feet|gram|degree",
      "Units are SI: m, kg, s, N; angles are in degrees. Numbers carry no unit.", "scene"},
     {"sleep|sleeping|rest|resting|deactivation",

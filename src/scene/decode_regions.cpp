@@ -35,10 +35,10 @@ WorldRegion decode_region(const View& view, const std::string& name, const Inven
     region.volume = *volume;
     const double size = 2 * volume->half.minCoeff(), far = region.position.cwiseAbs().maxCoeff();
     if (size < smallest_share * far)
-      diagnostics.add(view.place("position"),
-                      fmt::format("{} is {} m wide and {} m from the origin", in_backticks(name), shortest(size),
-                                  shortest(far)),
-                      "doubles do not resolve it there: bring it nearer, or make it larger");
+      diagnostics.add(
+          view.place("position"),
+          fmt::format("{} is {} m wide and {} m from the origin", in_backticks(name), shortest(size), shortest(far)),
+          "doubles do not resolve it there: bring it nearer, or make it larger");
   }
   if (auto on = find_bodies(keys.on, inventory, "it enters no region", diagnostics)) region.on = std::move(*on);
   region.removes = keys.action == RegionAction::remove;

@@ -98,7 +98,7 @@ struct Field {
   bool needs_entries = false;  // a list must not be empty
   /// Of a list: words that may stand in place of maps, separated by |.
   std::string_view words = {};
-  bool own = false;            // never taken from Kind::beneath
+  bool own = false;  // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
   bool drawn = false;
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).

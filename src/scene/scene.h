@@ -66,7 +66,7 @@ struct Roster {
   std::vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
   std::vector<FixedName> fixed;
-  std::vector<std::string> regions;  // by number in World::regions
+  std::vector<std::string> regions;              // by number in World::regions
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };

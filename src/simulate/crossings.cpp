@@ -1,7 +1,8 @@
 // Crossings along flights of every kind. A parabola is followed at once to its end. A path under drag is followed in
 // spans for which a polynomial is accurate, and a step of a method is one.
-// Rounding moves a boundary as seen from a path. Crossings by less than that are none, which no order of rounding errors
-// can then double or lose: a ball that bounces with its lowest point on a boundary, or lies there, never crosses it.
+// Rounding moves a boundary as seen from a path. Crossings by less than that are none, which no order of rounding
+// errors can then double or lose: a ball that bounces with its lowest point on a boundary, or lies there, never crosses
+// it.
 #include "simulate/crossings.h"
 
 #include <algorithm>
@@ -93,9 +94,8 @@ void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
 void Crossings::schedule(Entity i) {
   if (next_[i].empty()) return queue_->update(i, never);
   std::vector<Next>& next = next_.write(i);
-  std::sort(next.begin(), next.end(), [](const Next& p, const Next& q) {
-    return q.sure < p.sure || (p.sure == q.sure && q.region < p.region);
-  });
+  std::sort(next.begin(), next.end(),
+            [](const Next& p, const Next& q) { return q.sure < p.sure || (p.sure == q.sure && q.region < p.region); });
   queue_->update(i, next.back().sure.hi);
 }
 

@@ -62,9 +62,9 @@ class Crossings {
   Taken take(Entity i);
 
   const ExactBodies& bodies_;
-  std::vector<Standing> standing_;                 // by region, then body
-  LazyArray<std::vector<Next>> next_;              // by body: the next crossing of each region, the first of them last
-  std::optional<Tournament<Before>> queue_;        // none: there are no regions
+  std::vector<Standing> standing_;           // by region, then body
+  LazyArray<std::vector<Next>> next_;        // by body: the next crossing of each region, the first of them last
+  std::optional<Tournament<Before>> queue_;  // none: there are no regions
   std::vector<RegionCrossing> recorded_;
   double latest_ = 0;  // s, of all before these
 };

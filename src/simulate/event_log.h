@@ -95,7 +95,7 @@ class EventLog {
   std::vector<Collision> collisions_;
   Tally tally_;
   Sum energy_lost_, method_error_, work_, removed_;  // J
-  std::vector<Sum> force_work_;            // J
+  std::vector<Sum> force_work_;                      // J
 };
 
 }  // namespace carom

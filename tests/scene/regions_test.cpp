@@ -14,12 +14,13 @@ const std::string things =
 const std::string simulate = "simulate: {duration: 1}\n";
 
 TEST(RegionKeys, MakeShapesOnBodies) {
-  const Scene scene = load_text(things + simulate +
-                                "regions:\n"
-                                "  ball: {radius: 0.5, position: [1, 2, 3]}\n"
-                                "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
-                                "  crate: {box: [1, 2, 3], position: [1, 2, 3], action: remove}\n"
-                                "  below: {plane: {point: [0, -1, 0], normal: [0, -2, 0]}, on: [gas.1]}\n");
+  const Scene scene =
+      load_text(things + simulate +
+                "regions:\n"
+                "  ball: {radius: 0.5, position: [1, 2, 3]}\n"
+                "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
+                "  crate: {box: [1, 2, 3], position: [1, 2, 3], action: remove}\n"
+                "  below: {plane: {point: [0, -1, 0], normal: [0, -2, 0]}, on: [gas.1]}\n");
   const std::vector<WorldRegion>& regions = scene.world.regions;
   ASSERT_EQ(regions.size(), 4u);
   EXPECT_EQ(scene.roster.regions, (std::vector<std::string>{"ball", "can", "crate", "below"}));
@@ -37,9 +38,10 @@ TEST(RegionKeys, MakeShapesOnBodies) {
 }
 
 TEST(RegionKeys, OfStopsEndTheRun) {
-  const Scene scene = load_text(things +
-                                "regions: {pocket: {radius: 1, position: [9, 9, 9], action: remove}}\n"
-                                "simulate: {duration: 1, stop: [rest, {collisions: 9}, {region: pocket}, {collisions: 7}]}\n");
+  const Scene scene =
+      load_text(things +
+                "regions: {pocket: {radius: 1, position: [9, 9, 9], action: remove}}\n"
+                "simulate: {duration: 1, stop: [rest, {collisions: 9}, {region: pocket}, {collisions: 7}]}\n");
   EXPECT_TRUE(scene.simulate.stop_at_rest);
   EXPECT_EQ(scene.simulate.stop_collisions, 7u);
   EXPECT_TRUE(scene.world.regions[0].stops && scene.world.regions[0].removes);
@@ -49,7 +51,8 @@ TEST(RegionKeys, OfStopsEndTheRun) {
 
 TEST(RegionKeys, AreInTheResolvedScene) {
   const Scene scene = load_text(things +
-                                "regions: {pocket: {radius: 1, position: [9, 9, 9]}, low: {plane: {point: [0, 0, 0], normal: [0, -1, 0]}, on: [red]}}\n"
+                                "regions: {pocket: {radius: 1, position: [9, 9, 9]}, low: {plane: {point: [0, 0, 0], "
+                                "normal: [0, -1, 0]}, on: [red]}}\n"
                                 "simulate: {duration: 1, stop: [rest, {region: low}]}\n"
                                 "output: {regions: true}\n");
   EXPECT_NE(scene.resolved.find("regions:\n"
@@ -98,7 +101,7 @@ TEST(RegionErrors, OneShapeEach) {
   EXPECT_EQ(of_region("{radius: 1, box: [1, 1, 1], position: [0, 0, 0]}"),
             "scene.yaml:6:31: error: region `pocket` has both `radius` and `box`\n");
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 1, 0]}, position: [0, 0, 0]}"),
-            "scene.yaml:6:67: error: region `pocket` has both `plane` and `position`\n");
+            "scene.yaml:6:66: error: region `pocket` has both `plane` and `position`\n");
   EXPECT_EQ(of_region("{radius: 1}"), "scene.yaml:6:11: error: region `pocket` has no `position` and no `plane`\n");
   EXPECT_EQ(of_region("{}").substr(0, 52), "scene.yaml:6:11: error: region `pocket` has no `radi");
 }
@@ -106,7 +109,7 @@ TEST(RegionErrors, OneShapeEach) {
 TEST(RegionErrors, OfSizesAndPlaces) {
   EXPECT_EQ(of_region("{radius: 0, position: [0, 0, 0]}"), "scene.yaml:6:28: error: `radius` is 0\n");
   EXPECT_EQ(of_region("{radius: -1, position: [0, 0, 0]}"), "scene.yaml:6:28: error: `radius` is -1\n");
-  EXPECT_EQ(of_region("{box: [1, 0, 1], position: [0, 0, 0]}"), "scene.yaml:6:29: error: `box` has the number 0\n");
+  EXPECT_EQ(of_region("{box: [1, 0, 1], position: [0, 0, 0]}"), "scene.yaml:6:29: error: a number of `box` is 0\n");
   EXPECT_EQ(of_region("{cylinder: {radius: 1, height: 0}, position: [0, 0, 0]}"),
             "scene.yaml:6:50: error: `height` is 0\n");
   EXPECT_EQ(of_region("{cylinder: {radius: 1}, position: [0, 0, 0]}"),
@@ -114,7 +117,7 @@ TEST(RegionErrors, OfSizesAndPlaces) {
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 0, 0]}}"),
             "scene.yaml:6:54: error: `normal` has no length\n");
   EXPECT_EQ(of_region("{radius: 1e-9, position: [1e6, 0, 0]}"),
-            "scene.yaml:6:44: error: `pocket` is 2e-9 m wide and 1e6 m from the origin\n");
+            "scene.yaml:6:44: error: `pocket` is 2e-09 m wide and 1e+06 m from the origin\n");
 }
 
 TEST(RegionErrors, OfNamesAndActions) {
@@ -126,7 +129,7 @@ TEST(RegionErrors, OfNamesAndActions) {
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], on: [pocket]}"),
             "scene.yaml:6:57: error: nothing is named `pocket`\n");
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], action: kill}"),
-            "scene.yaml:6:60: error: `kill` is no value of `action`\n");
+            "scene.yaml:6:60: error: `action` is `kill`\n");
   EXPECT_EQ(errors_of(things + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n"),
             "scene.yaml:6:11: error: the name `red` is taken\n"
             "   6 | regions: {red: {radius: 1, position: [0, 0, 0]}}\n"
@@ -136,7 +139,8 @@ TEST(RegionErrors, OfNamesAndActions) {
 
 TEST(StopErrors, NameWhatIsWrong) {
   const auto of = [](const std::string& stop) {
-    return errors_of("scene: 1\nsimulate: {duration: 1, stop: " + stop + "}\n"
+    return errors_of("scene: 1\nsimulate: {duration: 1, stop: " + stop +
+                     "}\n"
                      "regions: {pocket: {radius: 1, position: [0, 0, 0]}}\n");
   };
   EXPECT_EQ(of("[{region: pokcet}]"),

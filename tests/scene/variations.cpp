@@ -99,7 +99,8 @@ class Varying {
         value = kept;
       }
     } else if (field.type == Type::list) {
-      for (std::size_t i = 0; i < kept.size(); ++i) map(value[i], *kind, fmt::format("{}.{}.", path, i));
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        if (value[i].is_object()) map(value[i], *kind, fmt::format("{}.{}.", path, i));
     } else if (value.is_object()) {
       map(value, *kind, path + ".");
     }

@@ -211,8 +211,7 @@ Problem gas(int count) {
 }
 
 TEST(Regions, CountAsDenseSamplesOfTheFlightsDo) {
-  Problem problem = gas(20);
-  problem.options.record_paths = true;
+  const Problem problem = gas(20);
   const WithRegions run = run_with(problem);
   std::map<std::pair<std::uint32_t, Entity>, int> count, sampled;
   for (const RegionCrossing& crossing : run.crossings) ++count[{crossing.region, crossing.body}];
@@ -231,7 +230,7 @@ TEST(Regions, CountAsDenseSamplesOfTheFlightsDo) {
   }
   int differences = 0;
   for (const auto& [pair, n] : count) differences += std::abs(n - sampled[pair]);
-  EXPECT_GT(run.crossings.size(), 400u);
+  EXPECT_GT(run.crossings.size(), 80u);
   EXPECT_EQ(differences, 0);
 }
 
@@ -284,7 +283,7 @@ TEST(Regions, ScaleByPowersOfTwoAndTurnWithTheAxes) {
   }
   mirrored.options.duration = 1;
   const WithRegions mirror = run_with(mirrored);
-  ASSERT_GT(mirror.crossings.size(), 100u);
+  ASSERT_GT(mirror.crossings.size(), 15u);
   for (std::size_t k = 0; k < mirror.crossings.size(); ++k)
     EXPECT_NEAR(run.crossings[k].time, mirror.crossings[k].time, 1e-11);  // rounding, amplified by collisions
 }
@@ -316,21 +315,20 @@ TEST(Removal, KeepsTheMomentumOfAFreeGas) {
   Problem problem = gas(20);
   problem.world.planes.clear();
   for (Entity i = 0; i < 20; ++i) problem.initial.velocity[i] -= problem.initial.position[i];
-  problem.world.regions = {removing(region_at({0, 0, 0}, Volume::sphere(0.7)))};
+  problem.world.regions = {removing(region_at({0, 0, 0}, Volume::sphere(1.4)))};
   const WithRegions run = run_with(problem);
   ASSERT_GT(run.tally.removed.bodies, 3u);
-  const Vec3 drift = momentum(problem.world, run.end) + run.tally.removed.momentum -
-                     momentum(problem.world, problem.initial);
+  const Vec3 drift =
+      momentum(problem.world, run.end) + run.tally.removed.momentum - momentum(problem.world, problem.initial);
   EXPECT_LT(drift.norm(), 1e-13);
 }
 
 TEST(Removal, OfTheLowestBallLetsThePileFall) {
-  // Three balls on each other; the lowest one slides away into the region, the others fall straight on.
+  // Three balls on each other, the lowest one in the region.
   Problem problem;
   problem.world.gravity = Vec3(0, -10, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   for (int k = 0; k < 3; ++k) problem.ball({0, 0.5 + k, 0}, {0, 0, 0}, 1, 0.5, 0);
-  // A fourth one comes to strike the lowest, and is removed at the same place later.
   problem.world.regions = {removing(region_at({0, 0.5, 0}, Volume::box({0.2, 0.2, 0.2})))};
   problem.options.duration = 2;
   const WithRegions run = run_with(problem);
@@ -346,8 +344,7 @@ TEST(Removal, OfTheLowestBallLetsThePileFall) {
 }
 
 TEST(Removal, OfASleepersSupportWakesTheSleeper) {
-  // A ball rests on two others. A fourth ball, aimed so that it touches none, enters nothing: the support is removed
-  // when it is pushed into the region.
+  // A ball rests on two others between walls. One of these is in the region. A fourth ball falls on them later.
   Problem problem;
   problem.world.gravity = Vec3(0, -10, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
@@ -392,6 +389,66 @@ TEST(Removal, OnABentPathBooksTheEnergyThere) {
   EXPECT_EQ(run.tally.removed.bodies, 1u);
   EXPECT_NEAR(run.tally.removed.energy, 2 * (0.32 - 1), 1e-13);
   EXPECT_LT(std::abs(left(problem, run)), 1e-13);
+}
+
+TEST(Removal, OfASleeperInMidRunLetsTheOthersFall) {
+  // Three balls sleep on each other. A fourth strikes the lowest along the floor at t = 1, and drives it into the
+  // region.
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  for (int k = 0; k < 3; ++k) problem.ball({0, 0.5 + k, 0}, {0, 0, 0}, 1, 0.5, 0);
+  problem.ball({-3, 0.5, 0}, {2, 0, 0}, 1, 0.5, 0);
+  problem.world.regions = {removing(side_at({0.25, 0, 0}, {1, 0, 0}))};
+  problem.options.duration = 1.5;
+  const WithRegions run = run_with(problem);
+  ASSERT_GE(run.crossings.size(), 1u);
+  EXPECT_EQ(run.crossings[0].body, 0u);
+  EXPECT_GT(run.crossings[0].time, 1);
+  EXPECT_LT(std::abs(unbooked(problem, run) + run.tally.removed.energy), 1e-12);
+  EXPECT_LT(run.end.position[2].y(), 2.4);
+  EXPECT_LT(run.tally.max_overlap, 1e-11);
+}
+
+TEST(Removal, InAPileKeepsTheBooks) {
+  // Balls fall into a box with a drain in its floor, and jam above it.
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.room({-1.3, 0, -1.3}, {1.3, 30, 1.3});
+  Random random;
+  for (int k = 0; k < 60; ++k)
+    problem.ball({-0.8 + 0.8 * (k % 3), 0.5 + 0.8 * (k / 9), -0.8 + 0.8 * (k / 3 % 3)}, in_cube(random, 0.1), 1, 0.3,
+                 0.4);
+  problem.world.regions = {removing(region_at({0.2, 0.3, 0.1}, Volume::cylinder(0.35, 0.1)))};
+  problem.options.duration = 6;
+  problem.options.stop_at_rest = true;
+  const WithRegions run = run_with(problem);
+  EXPECT_GT(run.tally.removed.bodies, 10u);
+  EXPECT_LT(std::abs(unbooked(problem, run) + run.tally.removed.energy), 1e-9);
+  EXPECT_LT(run.tally.max_overlap, 1e-11);
+  EXPECT_LE(run.tally.resting, 60 - run.tally.removed.bodies);
+}
+
+TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
+  // 20000 points in a cube of edge 2, with velocities of standard deviation 1 in each direction: A v / (4 V) of them
+  // hit an area A of a wall in a second. In so short a time none comes to it twice.
+  Problem problem;
+  problem.room({-1, -1, -1}, {1, 1, 1});
+  Random random;
+  const auto normal = [&] {
+    return std::sqrt(-2 * std::log(random(1e-12, 1))) * std::cos(2 * std::numbers::pi * random(0, 1));
+  };
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const Vec3 x = in_cube(random, 0.999);
+    const double vx = normal(), vy = normal(), vz = normal();
+    problem.ball(x, {vx, vy, vz}, 1, 1e-6);
+  }
+  problem.world.regions = {removing(region_at({1, 0, 0}, Volume::box({2e-5, 0.8, 0.8})))};
+  problem.options.duration = 0.2;
+  const WithRegions run = run_with(problem);
+  const double mean = std::sqrt(8 / std::numbers::pi), expected = n * mean * 0.64 / (4 * 8) * 0.2;
+  EXPECT_NEAR(static_cast<double>(run.tally.removed.bodies), expected, 4 * std::sqrt(expected));  // 128 +- 45
 }
 
 TEST(Stops, AtTheInstantOfACrossing) {
