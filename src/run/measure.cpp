@@ -83,11 +83,9 @@ const BodyRange* find_range(const Scene& scene, std::string_view name) {
 
 /// The number of a measure's body. Throws MeasureError if the scene does not have it.
 Entity entity_of(const Measure& measure, const Scene& scene) {
-  // A member of a repeated thing is a body of its own, with a dot in its name.
-  if (const BodyRange* member = find_range(scene, measure.body);
-      member != nullptr && !member->group && measure.kind != "groups")
-    return member->first;
-  const std::size_t dot = measure.kind == "groups" ? measure.body.rfind('.') : measure.body.find('.');
+  // A member of a repeated thing is a body of its own, with a dot in its name. A repeated group has one, too.
+  const bool of_group = measure.kind == "groups";
+  const std::size_t dot = of_group ? measure.body.rfind('.') : std::string::npos;
   const std::string name = measure.body.substr(0, dot);
   const BodyRange* range = find_range(scene, name);
   if (range == nullptr || range->group != (measure.kind == "groups")) {

@@ -54,7 +54,7 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
   EXPECT_EQ(error_of("balls.red", scene), "`balls.red` has no quantity: expected one such as balls.NAME.speed_m_per_s");
   EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member: expected one such as groups.gas.0.x_m");
   EXPECT_EQ(error_of("groups.gas.3.x_m", scene), "`groups.gas.3.x_m`: the members of `gas` are 0 to 2");
-  EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: only groups have members: balls.NAME.x_m");
+  EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: balls has no `red.0`; did you mean `red`?");
   EXPECT_NE(error_of("", scene), "");
   EXPECT_NE(error_of("...", scene), "");
 }
