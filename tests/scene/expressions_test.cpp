@@ -273,9 +273,9 @@ TEST(Expressions, StandInCaptionsByTheirNames) {
                             "let: {r: 0.05, a: = 2 * r}\n"
                             "balls: {row: {repeat: 2, mass: = a, radius: = r, position: [= i, 0, 0]}}\n";
   EXPECT_EQ(errors_of(scene + "caption: \"{let.a} {balls.row.1.mass}\"\n"), "");
-  EXPECT_EQ(marked_errors(scene + "caption: \"{let.q}\"\n"), (Marked{{"\"{let.q}\"", "`let` has no `q`"}}));
+  EXPECT_EQ(marked_errors(scene + "caption: \"{let.q}\"\n"), (Marked{{"{let.q}", "`let` has no `q`"}}));
   EXPECT_EQ(marked_errors(scene + "caption: \"{balls.row.mass}\"\n"),
-            (Marked{{"\"{balls.row.mass}\"", "`row` has no member `mass`"}}));
+            (Marked{{"{balls.row.mass}", "`row` has no member `mass`"}}));
 }
 
 TEST(Expressions, ThatNothingUsesAreAllowed) {
