@@ -100,7 +100,9 @@ TEST(MovingThings, ATableCarriesABallUpAndThrowsItWhereItStops) {
     double landing = 0;
     for (const Collision& c : run.collisions)
       if (landing == 0 && c.time > 2) landing = c.time;
-    if (e > 0) EXPECT_NEAR(landing, 2 + 2 * u / g_n, 1e-14);
+    if (e > 0) {
+      EXPECT_NEAR(landing, 2 + 2 * u / g_n, 1e-14);
+    }
     EXPECT_NEAR(run.end.position[0].y(), 0.5 + 2 * u, 1e-15);
     EXPECT_EQ(run.end.velocity[0].y(), 0);
     // The start: m u^2 (1 + e) and the hops' losses; lasting contact: the weight, and what hops have left.
