@@ -220,7 +220,6 @@ void ExactSimulator::end_flight(Entity i) {
 bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
   if (is_over()) return false;
   if (!at_it && !(bodies_.now < next)) return false;
-  paths_.record_changes();
   const ExactOptions& options = bodies_.options;
   if (options.stop_collisions > 0 && tally().collisions() >= options.stop_collisions) {
     end_run(bodies_.now.hi, EndReason::collisions, 0);
@@ -230,6 +229,7 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
     end_run(bodies_.now.hi, EndReason::rest, 0);
     return true;
   }
+  paths_.record_changes();
   const Instant sure = crossings_.first_sure();
   if (!(at_it ? sure <= next : sure < next)) return false;
   if (!take_crossing(crossings_.take())) return true;
@@ -258,7 +258,7 @@ bool ExactSimulator::take_crossing(const Crossings::Taken& taken) {
 
 /// Ends the run at `time` (s), the present instant or just before it.
 void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region) {
-  time = std::max(time, time_);
+  time = std::max({time, time_, paths_.latest()});
   bodies_.log.end({time, reason, region});
   paths_.end(time);
   flights_.book_last(time);

@@ -27,6 +27,8 @@ class PathLog {
   void record_changes();
   /// Ends the run at `time` (s). What changes at this instant holds from there on.
   void end(double time);
+  /// The first double at which all recorded paths hold (s).
+  double latest() const { return latest_; }
   bool full() const { return full_; }
   std::span<const PathPiece> pieces() const { return pieces_; }  // in order
 
@@ -36,7 +38,7 @@ class PathLog {
 
   const ExactBodies& bodies_;
   Crossings& crossings_;
-  const bool wanted_;
+  const bool wanted_;  // to be recorded, followed, or for the run's end
   std::vector<PathPiece> pieces_;
   // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
   std::vector<Entity> changed_;
