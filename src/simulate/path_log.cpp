@@ -43,7 +43,7 @@ void PathLog::record_changes() {
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   if (changed_.empty()) return;
-  latest_ = std::max(std::min(first_double(changed_at_), end_), latest_);
+  latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);
   if (bodies_.options.record_paths)
     for (const Entity i : changed_) pieces_.push_back(piece_of(i, latest_));
   if (crossings_.any())
