@@ -52,10 +52,16 @@ struct Measured {
   std::string text{};  // empty: a number, or undefined
 };
 
-/// The row of summary.csv, in the order of its columns.
-struct Summary {
+/// How long a run has lasted.
+struct RunLength {
+  double duration = 0;  // s
+  /// "duration", "rest", "collisions" or "region pocket".
+  std::string ended_by{};
+};
+
+/// The row of summary.csv.
+struct Summary : RunLength {
   std::string run, title, engine, status;
-  double duration = 0;
   std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
   double first_collision = 0, last_collision = 0;  // s; NaN: an empty cell
   EnergyTotals energy;
@@ -64,8 +70,6 @@ struct Summary {
   std::uint64_t resting = 0, frames = 0;
   /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
   double stepped_contact = 0;
-  /// "duration", "rest", "collisions" or "region pocket".
-  std::string ended_by{};
 
   std::vector<Measured> measures;  // those that the scene defines, columns after all others
 

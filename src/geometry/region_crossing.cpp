@@ -28,7 +28,7 @@ CenterPath CenterPath::along(const Vec3& x, const PolynomialPath::Terms& displac
 
 namespace {
 
-struct Interval {
+struct Stretch {
   double from, to;  // s
 };
 
@@ -117,7 +117,7 @@ class Condition {
   }
 
   /// As a polynomial on an interval.
-  Bernstein on(const Interval& in) const {
+  Bernstein on(const Stretch& in) const {
     const PolynomialPath::Terms terms =
         PolynomialPath::shifted(path_.displacement, in.from / path_.length, (in.to - in.from) / path_.length);
     const std::size_t count = path_.parabola ? 2 : PolynomialPath::terms;
@@ -154,7 +154,7 @@ class Condition {
 };
 
 /// The only root of a condition in an interval: Newton's method, with bisection where it leaves the bracket.
-double refine(const Condition& condition, const Interval& in, bool falling) {
+double refine(const Condition& condition, const Stretch& in, bool falling) {
   double l = in.from, r = in.to, t = l + 0.5 * (r - l), step = r - l;
   for (int iteration = 0; iteration < 200; ++iteration) {
     const double value = condition.value(t);
@@ -171,7 +171,7 @@ double refine(const Condition& condition, const Interval& in, bool falling) {
 }
 
 /// Appends the roots of a condition in an interval at which its sign changes, in order.
-void add_roots(const Condition& condition, Bernstein& f, const Interval& in, std::vector<double>& roots) {
+void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, std::vector<double>& roots) {
   const int changes = f.changes();
   if (changes == 0) return;
   const double middle = in.from + 0.5 * (in.to - in.from);
@@ -196,10 +196,10 @@ void add_roots(const Condition& condition, Bernstein& f, const Interval& in, std
 }
 
 /// Reduces the intervals to those in which the condition is met.
-void restrict_to(const Condition& condition, std::vector<Interval>& intervals) {
-  std::vector<Interval> met;
+void restrict_to(const Condition& condition, std::vector<Stretch>& intervals) {
+  std::vector<Stretch> met;
   std::vector<double> roots;
-  for (const Interval& in : intervals) {
+  for (const Stretch& in : intervals) {
     Bernstein f = condition.on(in);
     double sign = 0;
     for (std::size_t k = 0; k <= f.degree && sign == 0; ++k) sign = f.b[k];
@@ -218,8 +218,8 @@ void restrict_to(const Condition& condition, std::vector<Interval>& intervals) {
 }
 
 /// When the path is inside the region, `margin` (m) wider on all sides.
-std::vector<Interval> inside_of(const WorldRegion& region, const CenterPath& path, const Interval& in, double margin) {
-  std::vector<Interval> intervals{in};
+std::vector<Stretch> inside_of(const WorldRegion& region, const CenterPath& path, const Stretch& in, double margin) {
+  std::vector<Stretch> intervals{in};
   if (region.is_side()) {
     restrict_to(Condition::side(path, region.position, -region.normal, margin), intervals);
     return intervals;
@@ -239,7 +239,7 @@ std::vector<Interval> inside_of(const WorldRegion& region, const CenterPath& pat
 std::optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath& path, double from, bool inside,
                                           double margin) {
   if (!(path.length > from)) return std::nullopt;
-  const std::vector<Interval> deep = inside_of(region, path, {from, path.length}, inside ? margin : -margin);
+  const std::vector<Stretch> deep = inside_of(region, path, {from, path.length}, inside ? margin : -margin);
   double sure = from;
   if (!inside) {
     if (deep.empty()) return std::nullopt;
@@ -250,7 +250,7 @@ std::optional<CrossingTime> next_crossing(const WorldRegion& region, const Cente
   }
   if (sure == from) return CrossingTime{from, from};
   // The boundary itself is crossed before.
-  const std::vector<Interval> real = inside_of(region, path, {from, sure}, 0);
+  const std::vector<Stretch> real = inside_of(region, path, {from, sure}, 0);
   if (real.empty()) return CrossingTime{inside ? from : sure, sure};
   return CrossingTime{inside ? real.back().to : real.back().from, sure};
 }

@@ -366,7 +366,7 @@ class Checker : ValueChecker {
     for (Node& item : value.items) {
       if (words.empty() || !item.is(Node::Kind::scalar))
         map(item, kind_named(field.of), "this entry of " + name, item.place, false);
-      else if (item.quoted || std::find(words.begin(), words.end(), item.text) == words.end())
+      else if (std::find(words.begin(), words.end(), item.text) == words.end())
         refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
                fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(kind_named(field.of)))));
     }

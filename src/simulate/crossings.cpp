@@ -108,7 +108,7 @@ Crossings::Taken Crossings::take(Entity i) {
   recorded_.push_back(crossing);
   find(i, next.region, next.sure);
   schedule(i);
-  return {crossing, next.at};
+  return {crossing, next.at, next.sure};
 }
 
 std::optional<Crossings::Taken> Crossings::take_until(double time) {

@@ -31,10 +31,10 @@ class Crossings {
 
   /// When the next crossing is sure. Infinite: there is none.
   Instant first_sure() const;
-  /// A crossing, and its instant.
+  /// A crossing, its instant, and when it was sure.
   struct Taken {
     RegionCrossing crossing;
-    Instant at;
+    Instant at, sure;
   };
   /// Records the next crossing.
   Taken take() { return take(queue_->first()); }

@@ -38,6 +38,14 @@ class ExactSimulator final : public Simulator {
   std::span<const ContactForce> contacts() override;
 
  private:
+  /// What queries have found.
+  struct Answers {
+    State state;
+    bool state_fresh = false;
+    std::vector<ContactForce> contact_forces;
+    Entity awake = 0;  // a body that moved when it was last looked for
+  };
+
   void start(const State& initial);
   void take_event(Entity i);
   void process(Entity i);
@@ -46,6 +54,7 @@ class ExactSimulator final : public Simulator {
   void release(Entity i, Entity surface, std::uint8_t edge);
   void end_flight(Entity i);
   void step_island(Entity i);
+  bool watches() const;
   bool happens_before(const Instant& next, bool at_it);
   bool take_crossing(const Crossings::Taken& taken);
   void end_run(double time, EndReason reason, std::uint32_t region);
@@ -67,17 +76,13 @@ class ExactSimulator final : public Simulator {
   TimeStepping stepping_;
   ConstrainedMotion constrained_;
   BodyMerging merging_;
-  BodyRemoval removal_;
   StallGuard guard_;
   ExactImpacts impacts_;
   Effort effort_;
   double time_ = 0;  // s: time that advance_to has reached
-  // Whether the paths between events matter: to regions, or to the run's end. The second: or events are prefetched.
-  const bool watches_, attends_;
-  Entity awake_ = 0;  // a body that moved when it was last looked for
-  State state_;
-  bool state_fresh_ = false;
-  std::vector<ContactForce> contact_forces_;
+  // Whether regions or the run's end depend on the paths between events, or events are prefetched.
+  const bool attends_;
+  Answers answers_;
 };
 
 }  // namespace carom

@@ -26,7 +26,8 @@ PathLog::PathLog(const ExactBodies& bodies, Crossings& crossings)
     : bodies_(bodies),
       extremes_(bodies),
       crossings_(crossings),
-      wanted_(bodies.options.record_paths || crossings.any() || extremes_.any()) {}
+      wanted_(bodies.options.record_paths || crossings.any() || extremes_.any() || bodies.options.stop_at_rest ||
+              bodies.options.stop_collisions > 0) {}
 
 void PathLog::begin_advance() {
   pieces_.clear();
@@ -44,11 +45,10 @@ void PathLog::note(Entity i) {
 void PathLog::record_changes() {
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  if (bodies_.options.record_paths) {
-    const double from = std::max(std::min(first_double(changed_at_), end_), latest_);
-    for (const Entity i : changed_) pieces_.push_back(piece_of(i, from));
-    if (!changed_.empty()) latest_ = from;
-  }
+  if (changed_.empty()) return;
+  latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);
+  if (bodies_.options.record_paths)
+    for (const Entity i : changed_) pieces_.push_back(piece_of(i, latest_));
   if (crossings_.any())
     for (const Entity i : changed_) crossings_.follow(i, changed_at_);
   changed_.clear();

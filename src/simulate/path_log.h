@@ -28,6 +28,10 @@ class PathLog {
   void record_changes();
   /// Ends the run at `time` (s). What changes at this instant holds from there on.
   void end(double time);
+  /// What changes at the present instant is seen from `from` on only.
+  void delay(const Instant& from) { delayed_ = from; }
+  /// The first double at which all recorded paths hold (s).
+  double latest() const { return latest_; }
   bool full() const { return full_; }
   std::span<const PathPiece> pieces() const { return pieces_; }  // in order
   const PathExtremes& extremes() const { return extremes_; }
@@ -39,11 +43,11 @@ class PathLog {
   const ExactBodies& bodies_;
   PathExtremes extremes_;
   Crossings& crossings_;
-  const bool wanted_;
+  const bool wanted_;  // to be recorded, followed, or for the run's end
   std::vector<PathPiece> pieces_;
   // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
   std::vector<Entity> changed_;
-  Instant changed_at_;
+  Instant changed_at_, delayed_;
   double end_ = never, latest_ = 0;  // s: the run's end, and the last piece's start
   bool full_ = false;
 };

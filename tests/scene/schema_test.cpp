@@ -93,7 +93,6 @@ const std::vector<Beyond>& beyond_schemas() {
       {"is a fixed thing: it has no trail", "what a name stands for"},
       {"is a fixed thing: it enters no region", "what a name stands for"},
       {"no region is named", "which names there are"},
-      {"doubles do not resolve it there", "a size against a place"},
       {"the scale of colours ends at", "two numbers against one another"},
       {"has no meaning for groups", "two keys against one another"},
       {"an MP4 has no transparency", "two keys against one another"},

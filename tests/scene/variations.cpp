@@ -118,7 +118,7 @@ std::vector<std::string> right_scenes() {
           R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
-planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
+walls: {fence: {center: [20, 1, 0], normal: [1, 0, 0], size: [1, 1]}}
 regions:
   pocket: {radius: 0.3, position: [-6, 0, 0], on: [red], action: remove}
   can: {cylinder: {radius: 0.1, height: 1}, position: [0, 3, 0]}
