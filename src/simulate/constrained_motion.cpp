@@ -545,7 +545,10 @@ void ConstrainedMotion::begin_flights(const Step& step) {
   island.end = island.planned = bodies_.now + step.length;
   std::vector<Entity> stay;
   for (std::size_t k = 0; k < step.members.size(); ++k)
-    if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
+    if (begin_flight(step, k, step.members[k]))
+      stay.push_back(step.members[k]);
+    else if (step.path && step.path->forces)
+      step.path->forces->leave_out(k);
   bodies_.islands.retain(step.members.front(), std::move(stay));
   for (const Entity i : step.members) predictor_.predict(i);
 }

@@ -80,7 +80,11 @@ double greatest_norm(const std::vector<Vec3>& v) {
 
 ConstrainedSystem::ConstrainedSystem(const World& world, double time, std::vector<Entity> members,
                                      std::vector<Applied> applied)
-    : world_(world), time_(time), members_(std::move(members)), applied_(std::move(applied)) {
+    : world_(world),
+      time_(time),
+      members_(std::move(members)),
+      applied_(std::move(applied)),
+      left_(members_.size(), 0) {
   for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
 }
 
@@ -243,6 +247,10 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
 ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                       const std::vector<Vec3>& a, double first, double longest) {
   scales_ = scales(x, v);
+  // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
+  // opening too.
+  held_ = rows_;
+  for (ContactConstraint& row : held_) row.bilateral = row.force > 0;
   const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
@@ -253,10 +261,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
 /// Follows the motion by the method of order 8, with a first step of h (s).
 ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                              const std::vector<Vec3>& a, double h) {
-  // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
-  // opening too.
-  std::vector<ContactConstraint> rows = rows_;
-  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  std::vector<ContactConstraint> rows = held_;
   const auto smooth = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
     Certificate of_stage;
     return solve_rows(at, speed, rows, of_stage);
@@ -292,8 +297,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
   std::vector<RadauCollocation::Forces> forces;
   for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
   forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
-  std::vector<ContactConstraint> rows = rows_;
-  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  std::vector<ContactConstraint> rows = held_;
   std::vector<double> inverse_mass(members_.size());
   const auto hold = [&](const std::vector<Vec3>& at, double s, std::vector<Vec3>& u) {
     for (std::size_t k = 0; k < members_.size(); ++k) inverse_mass[k] = inverse_mass_[k] / (1 + s * applied_[k].fade);
@@ -327,8 +331,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
 
 /// The integral of force times velocity by Gauss's rule, with the forces that hold the motion on the surfaces.
 double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
-  std::vector<ContactConstraint> rows = rows_;
-  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  std::vector<ContactConstraint> rows = held_;
   double work = 0;
   std::vector<Vec3> x, v;
   for (const WorkPoint& point : work_points) {
@@ -337,7 +340,8 @@ double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
     solve_rows(x, v, rows, certificate);
     double power = 0;
     for (std::size_t c = 0; c < rows.size(); ++c)
-      if (const Carrier* carrier = carrier_of(closed_[c].e)) power -= rows[c].force * rows[c].normal.dot(carrier->v);
+      if (const Carrier* carrier = carrier_of(closed_[c].e); carrier != nullptr && !left_[rows[c].a])
+        power -= rows[c].force * rows[c].normal.dot(carrier->v);
     work += point.weight * length * power;
   }
   return work;

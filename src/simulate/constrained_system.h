@@ -34,6 +34,8 @@ class ConstrainedSystem {
   void carry(Entity e, const Vec3& x, const Vec3& v);
   /// Whether such things do work on the members.
   bool works() const { return !carriers_.empty(); }
+  /// Leaves member number k out of that work, because it does not take part in the motion.
+  void leave_out(std::size_t k) { left_[k] = 1; }
   /// Their work (J) in the first `length` (s) of a motion that was followed. Forces change as they did then.
   double work(const DenseMotion& motion, double length) const;
   /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
@@ -109,8 +111,10 @@ class ConstrainedSystem {
   std::vector<Applied> applied_;
   std::vector<double> inverse_mass_;  // 1/kg
   std::vector<Carrier> carriers_;
+  std::vector<std::uint8_t> left_;  // by member: whether it is left out of their work
   std::vector<Contact> closed_, opened_;
   std::vector<ContactConstraint> rows_, opened_rows_;
+  std::vector<ContactConstraint> held_;  // rows_ in the motion that is followed
   Scales scales_;  // of the step that is followed
   Certificate certificate_;
 };
