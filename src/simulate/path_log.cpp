@@ -26,8 +26,9 @@ PathLog::PathLog(const ExactBodies& bodies, Crossings& crossings)
     : bodies_(bodies),
       extremes_(bodies),
       crossings_(crossings),
-      wanted_(bodies.options.record_paths || crossings.any() || extremes_.any() || bodies.options.stop_at_rest ||
-              bodies.options.stop_collisions > 0) {}
+      followed_(bodies.options.record_paths || crossings.any() || bodies.options.stop_at_rest ||
+                bodies.options.stop_collisions > 0),
+      wanted_(followed_ || extremes_.any()) {}
 
 void PathLog::begin_advance() {
   pieces_.clear();
@@ -36,7 +37,7 @@ void PathLog::begin_advance() {
 
 void PathLog::note(Entity i) {
   if (extremes_.any()) extremes_.note(i);
-  if (!bodies_.options.record_paths && !crossings_.any()) return;
+  if (!followed_) return;
   if (changed_at_ != bodies_.now) record_changes();
   changed_at_ = bodies_.now;
   changed_.push_back(i);

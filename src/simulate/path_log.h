@@ -43,7 +43,8 @@ class PathLog {
   const ExactBodies& bodies_;
   PathExtremes extremes_;
   Crossings& crossings_;
-  const bool wanted_;  // to be recorded, followed, or for the run's end
+  // A change of a path concerns the record, the crossings or the end of the run; or these or the extremes.
+  const bool followed_, wanted_;  // to be recorded, followed, or for the run's end
   std::vector<PathPiece> pieces_;
   // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
   std::vector<Entity> changed_;
