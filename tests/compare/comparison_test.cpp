@@ -128,7 +128,7 @@ TEST_F(ComparisonOfSix, SummarySheetIsATableOfNumbers) {
     }
   // Varied columns are tinted, measured ones are not.
   EXPECT_EQ(summary["fills"][24], "FFFFF2CC");
-  EXPECT_EQ(summary["fills"][23], "FFFFF2CC");
+  EXPECT_EQ(summary["fills"][25], "FFFFF2CC");
   EXPECT_TRUE(summary["fills"][24].is_null());
 }
 
