@@ -129,7 +129,7 @@ TEST_F(ComparisonOfSix, SummarySheetIsATableOfNumbers) {
   // Varied columns are tinted, measured ones are not.
   EXPECT_EQ(summary["fills"][24], "FFFFF2CC");
   EXPECT_EQ(summary["fills"][25], "FFFFF2CC");
-  EXPECT_TRUE(summary["fills"][24].is_null());
+  EXPECT_TRUE(summary["fills"][26].is_null());
 }
 
 TEST_F(ComparisonOfSix, PivotIsTheFirstMeasureByTwoParameters) {
