@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/expand.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
@@ -78,11 +79,12 @@ class Regions {
       scene_.simulate.stop_collisions = std::min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
     const std::vector<std::string>& names = scene_.roster.regions;
-    const auto found = std::find(names.begin(), names.end(), region->text);
-    if (found != names.end()) {
-      scene_.world.regions[static_cast<std::size_t>(found - names.begin())].stops = true;
-      return;
+    bool found = false;
+    for (std::size_t r = 0; r < names.size(); ++r) {
+      if (names[r] != region->text && family_of(names[r]) != region->text) continue;
+      scene_.world.regions[r].stops = found = true;
     }
+    if (found) return;
     const std::string near = nearest(region->text, std::vector<std::string_view>(names.begin(), names.end()));
     diagnostics_.add(region->place, fmt::format("no region is named {}", in_backticks(region->text)),
                      !near.empty()   ? fmt::format("did you mean {}?", in_backticks(near))
