@@ -42,8 +42,8 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
 bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
 
 /// Whether a fixed thing at xf (m) lies wholly behind the plane in which body a, at xa (m), touches on the side against
-/// the unit vector n. It then extends no farther along n than the body's own surface does against it, up to rounding. A body
-/// that slides in that plane cannot strike it.
+/// the unit vector n. It then extends no farther along n than the body's own surface does against it, up to rounding. A
+/// body that slides in that plane cannot strike it.
 bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& xf, const Vec3& n);
 
 /// An instant, and the feature at which two things touch then.

@@ -87,8 +87,8 @@ class GlbBuilder {
     nodes_.push_back(std::move(node));
   }
 
-  /// The positions of a fixed thing that moves, at both ends of the film and where its velocity changes. They are linear
-  /// in between. A plane moves along its normal, as its pattern does in pictures.
+  /// The positions of a fixed thing that moves, at both ends of the film and where its velocity changes. They are
+  /// linear in between. A plane moves along its normal, as its pattern does in pictures.
   aiNodeAnim* channel_of_fixed(std::size_t node, Entity fixed) const {
     const World& world = scene_.world;
     std::vector<double> times{motion_.times.front()};
@@ -243,7 +243,7 @@ class GlbBuilder {
   const Scene& scene_;
   const KeyedMotion& motion_;
   std::unique_ptr<aiScene> out_;
-  std::vector<GlbNode> nodes_;  // the bodies first
+  std::vector<GlbNode> nodes_;                          // the bodies first
   std::vector<std::pair<std::size_t, Entity>> moving_;  // nodes of fixed things that move
   std::size_t camera_node_ = 0;
   GlbMeshes meshes_;

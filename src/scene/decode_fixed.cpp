@@ -84,8 +84,8 @@ std::vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
     if (!windows.empty() && from < windows.back().until) {
       const double end = windows.back().until;
       diagnostics.add(view.place("from"),
-                      fmt::format("this window starts at {} s, before the one before it ends{}", shortest(from),
-                                  std::isinf(end) ? std::string(": never") : fmt::format(", at {} s", shortest(end))),
+                      fmt::format("this window starts at {} s, but the one before it {}", shortest(from),
+                                  std::isinf(end) ? "never ends" : fmt::format("ends at {} s", shortest(end))),
                       "expected windows in order that do not overlap, each with `until` except the last");
     }
     if (velocity) windows.push_back({from, until, *velocity});

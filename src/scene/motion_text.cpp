@@ -21,8 +21,8 @@ class MotionText {
 
   std::string run() {
     simulate();
-    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity, combine,
-                 pairs, regions] = scene_.world;
+    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
+                 combine, pairs, regions] = scene_.world;
     line("gravity", gravity, "combine", static_cast<int>(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
       line("pair", a_first, a_count, b_first, b_count, value);

@@ -59,8 +59,7 @@ class Reach {
     const double end = scene_.simulate.duration;
     double farthest = fixed_position(world_, e, {end, 0}).cwiseAbs().maxCoeff();
     for (const MotionLeg& leg : world_.legs(e))
-      if (leg.from < end)
-        farthest = std::max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
+      if (leg.from < end) farthest = std::max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
     check_length(farthest, fixed_view(root_, entry).place("motion"), "{} goes as far as {} m from the origin",
                  entry.key->text, "move it less far");
   }

@@ -435,17 +435,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   island.next_length = followed.next;
   if (followed.changes) count_change(island);
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
-  if (system.works()) step.path->forces = std::make_unique<ConstrainedSystem>(std::move(system));
-}
-
-void ConstrainedMotion::book_work(const Island& island, const Instant& at) {
-  for (const Entity i : island.members) {
-    const std::shared_ptr<Path>& path = following_[i].path;
-    if (!path || !path->forces) continue;
-    bodies_.log.carry(path->forces->work(*path->motion, std::min(at - path->start, path->motion->length())));
-    // The members share it.
-    path->forces.reset();
-  }
+  if (system.works()) step.forces = std::make_shared<ConstrainedSystem>(std::move(system));
 }
 
 /// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not
@@ -533,8 +523,7 @@ void ConstrainedMotion::note_contacts(const Step& step) {
   }
   if (!bodies_.moving.any()) return;
   // The work along a path is integrated at its end.
-  for (const Entity i : step.members)
-    step.path ? bodies_.contact_work.change(i, bodies_.now, 0) : group_.note_power(i);
+  for (const Entity i : step.members) step.path ? bodies_.contact_work.change(i, bodies_.now, 0) : group_.note_power(i);
 }
 
 /// Starts the members' flights until the step's end.
@@ -547,8 +536,12 @@ void ConstrainedMotion::begin_flights(const Step& step) {
   for (std::size_t k = 0; k < step.members.size(); ++k)
     if (begin_flight(step, k, step.members[k]))
       stay.push_back(step.members[k]);
-    else if (step.path && step.path->forces)
-      step.path->forces->leave_out(k);
+    else if (step.forces)
+      step.forces->leave_out(k);
+  if (step.forces)
+    bodies_.contact_work.follow(stay, bodies_.now, [path = step.path, forces = step.forces](double seconds) {
+      return forces->work(*path->motion, std::min(seconds, path->motion->length()));
+    });
   bodies_.islands.retain(step.members.front(), std::move(stay));
   for (const Entity i : step.members) predictor_.predict(i);
 }

@@ -37,9 +37,6 @@ class ConstrainedMotion {
   /// Gives body i the velocity of its path from this instant on. Its events stay as they are.
   void settle(Entity i);
 
-  /// Books the work of moving things along the path of an island's step until `at`, the step's end. Call it once.
-  void book_work(const Island& island, const Instant& at);
-
   /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
@@ -49,13 +46,11 @@ class ConstrainedMotion {
     Instant start;
     std::unique_ptr<DenseMotion> motion;
     double room;  // m, allowed difference of the parabolas from it
-    // Where things that move take part: the forces, to integrate their work.
-    std::unique_ptr<ConstrainedSystem> forces = nullptr;
     Instant end() const { return start + motion->length(); }
   };
   /// The path that a body follows, if it is still on this flight.
   struct Following {
-    std::shared_ptr<Path> path;
+    std::shared_ptr<const Path> path;
     std::uint32_t place = 0;    // number in the path
     std::uint16_t version = 0;  // of the flight
     double piece = 0;           // s, the last parabola's length
@@ -78,9 +73,11 @@ class ConstrainedMotion {
     std::vector<Vec3> down;              // m, closes the remaining gaps to these
     // s. A body that nothing binds stays for the time `grace`, to fall back.
     double length = 0, grace = 0;
-    double fade = 0;             // 1/s, of all members' accelerations
-    std::shared_ptr<Path> path;  // none: parabolas
-    bool undisturbed = false;    // the step before has reached its end
+    double fade = 0;                   // 1/s, of all members' accelerations
+    std::shared_ptr<const Path> path;  // none: parabolas
+    // Of the path, where things that move take part: to integrate their work. none: they do not.
+    std::shared_ptr<ConstrainedSystem> forces;
+    bool undisturbed = false;  // the step before has reached its end
   };
 
   bool follows(Entity i) const;
@@ -113,7 +110,7 @@ class ConstrainedMotion {
   void bend(Entity i, double length);
   void clear_index(const std::vector<Entity>& members) const;
 
-  Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
+  Vec3 at(const std::vector<Vec3>& x, Entity e) const;            // m, of a member or a fixed thing
   Vec3 rate(const std::vector<Vec3>& v, Entity e) const;          // m/s
   Vec3 acceleration(const std::vector<Vec3>& a, Entity e) const;  // m/s^2
 

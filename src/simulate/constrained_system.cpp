@@ -25,9 +25,10 @@ namespace {
 struct WorkPoint {
   double at, weight;
 };
-constexpr WorkPoint work_points[] = {{0.033765242898423986, 0.085662246189585178}, {0.16939530676686774, 0.18038078652406931},
-                                {0.38069040695840154, 0.23395696728634552},   {0.61930959304159846, 0.23395696728634552},
-                                {0.83060469323313226, 0.18038078652406931},   {0.96623475710157601, 0.085662246189585178}};
+constexpr WorkPoint work_points[] = {
+    {0.033765242898423986, 0.085662246189585178}, {0.16939530676686774, 0.18038078652406931},
+    {0.38069040695840154, 0.23395696728634552},   {0.61930959304159846, 0.23395696728634552},
+    {0.83060469323313226, 0.18038078652406931},   {0.96623475710157601, 0.085662246189585178}};
 
 // Samples of a step at which rims and opened contacts are examined.
 constexpr int samples = 6;
@@ -99,7 +100,7 @@ const ConstrainedSystem::Carrier* ConstrainedSystem::carrier_of(Entity e) const 
 }
 
 /// Positions or velocities of the members, and of the moving things after them.
-std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::* of_carrier) const {
+std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const {
   for (const Carrier& carrier : carriers_) of_members.push_back(carrier.*of_carrier);
   return of_members;
 }
@@ -437,7 +438,9 @@ ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& 
     const Vec3 xe = place_of(x, row.b, e);
     const double gap = touch(world_, i, x[row.a], e, xe).gap;
     const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
-    const Vec3 xe_first = row.b != ContactConstraint::fixed ? motion.start(row.b) : carrier != nullptr ? carrier->x : xe;
+    const Vec3 xe_first = row.b != ContactConstraint::fixed ? motion.start(row.b)
+                          : carrier != nullptr              ? carrier->x
+                                                            : xe;
     const double rounding = tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum());
     if (gap < -std::max(tol::step_error * least, rounding) &&
         gap < touch(world_, i, motion.start(row.a), e, xe_first).gap - tol::step_error * least)

@@ -87,7 +87,7 @@ class ConstrainedSystem {
   std::size_t place_of_carrier(const Carrier& carrier) const {
     return members_.size() + static_cast<std::size_t>(&carrier - carriers_.data());
   }
-  std::vector<Vec3> with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::* of_carrier) const;
+  std::vector<Vec3> with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
   Vec3 relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const;
   Vec3 moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row, Entity e) const;
   std::vector<Vec3> forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
@@ -115,7 +115,7 @@ class ConstrainedSystem {
   std::vector<Contact> closed_, opened_;
   std::vector<ContactConstraint> rows_, opened_rows_;
   std::vector<ContactConstraint> held_;  // rows_ in the motion that is followed
-  Scales scales_;  // of the step that is followed
+  Scales scales_;                        // of the step that is followed
   Certificate certificate_;
 };
 

@@ -58,6 +58,12 @@ void ExactGroup::join(Entity i) {
   needed.write(i) = bodies_.now;
 }
 
+void ExactGroup::unite(Entity a, Entity b) {
+  if (bodies_.moving.any() && !bodies_.islands.same(a, b))
+    for (const Entity i : {a, b}) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
+  bodies_.islands.merge(a, b, bodies_.now);
+}
+
 void ExactGroup::wake(Entity i) {
   std::vector<Entity> todo{i};
   bodies_.body[i].state = ContactState::free;
@@ -191,21 +197,33 @@ bool ExactGroup::hides(Entity i, Entity fixed) const {
 bool ExactGroup::switches(Entity i) const {
   const auto now = [&](Entity e) { return bodies_.moving.switches(e, bodies_.now); };
   return std::any_of(partners[i].begin(), partners[i].end(), now) ||
-         std::any_of(pressing[i].begin(), pressing[i].end(),
-                     [&](const PressingContact& p) { return now(p.partner); });
+         std::any_of(pressing[i].begin(), pressing[i].end(), [&](const PressingContact& p) { return now(p.partner); });
+}
+
+/// The power of the moving things that press on body i (W).
+double ExactGroup::power(Entity i) const {
+  double power = 0;
+  for (const PressingContact& p : pressing[i]) power -= p.force * p.surface;
+  return power;
 }
 
 void ExactGroup::note_power(Entity i) {
-  double power = 0;
-  for (const PressingContact& p : pressing[i]) power -= p.force * p.surface;
-  bodies_.contact_work.change(i, bodies_.now, power);
+  bodies_.contact_work.change(i, bodies_.now, power(i));
+}
+
+void ExactGroup::let_go(Entity i) {
+  if (!bodies_.moving.any()) return;
+  pressing.write(i).clear();
+  for (const Entity e : bodies_.neighbours_of(i))
+    if (bodies_.world.is_body(e) && e < i)
+      std::erase_if(pressing.write(e), [&](const PressingContact& p) { return p.partner == i; });
 }
 
 void ExactGroup::carry(Entity i, double approach, double surface) {
   const double work = -bodies_.world.mass[i] * approach * surface;
   const Instant& until = bodies_.islands.kicked_until[i];
   if (bodies_.is_stepped(i) && bodies_.now < until)
-    bodies_.contact_work.add(i, bodies_.now, work / (until - bodies_.now));
+    bodies_.contact_work.push(i, bodies_.now, work / (until - bodies_.now));
   else
     bodies_.log.carry(work);
 }

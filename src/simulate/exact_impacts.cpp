@@ -154,7 +154,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   parts_.flights.begin(a, xa, parts_.flat.keep_at(a, va - (impulse / ma) * n), {b, feature});
   parts_.flights.begin(b, xb, parts_.flat.keep_at(b, vb + (impulse / mb) * n), {a, feature});
   for (const Entity i : {a, b})
-    if (parts_.group.opens(i)) parts_.flights.release(i);
+    if (parts_.group.opens(i)) release(i);
   if (ends) {
     for (const Entity i : {a, b}) parts_.flights.hold(i);
     const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
@@ -170,6 +170,12 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (!ends) return;
   parts_.simultaneous.count_impact(a);
   parts_.simultaneous.count_impact(b);
+}
+
+/// Lets member i fall, because an impact has thrown it off its support.
+void ExactImpacts::release(Entity i) {
+  parts_.flights.release(i);
+  parts_.group.let_go(i);
 }
 
 /// Whether an impact ends in contact because its restitution is zero, at any speed.
@@ -312,7 +318,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   } else {
     parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - (met + separation) * n), {surface, feature});
   }
-  if (parts_.group.opens(i)) parts_.flights.release(i);
+  if (parts_.group.opens(i)) release(i);
   if (ends) {
     parts_.flights.hold(i);
     const double closing = n.dot(bodies_.velocity(i) - impact.u);

@@ -112,8 +112,7 @@ void ExactSimulator::advance_to(double time) {
   crossings_.sort();
   time_ = std::max(time, time_);
   if (time_ < bodies_.options.duration) return;
-  if (bodies_.moving.any())
-    bodies_.islands.for_each([&](const Island& island) { constrained_.book_work(island, {time_, 0}); });
+  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time_, 0}); });
   flights_.book_last(time_);
 }
 
@@ -181,8 +180,8 @@ void ExactSimulator::process(Entity i) {
 /// Otherwise the body flies on, and may meet such things elsewhere.
 void ExactSimulator::take_switch(Entity i) {
   if (bodies_.moving.any()) {
-    const bool forced =
-        !bodies_.world.forces.empty() && bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
+    const bool forced = !bodies_.world.forces.empty() &&
+                        bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
     if (!forced && !flat_.switches(i) && !group_.switches(i)) return predictor_.predict(i);
   }
   flights_.end_step(i);
@@ -309,7 +308,7 @@ bool ExactSimulator::all_rest() {
 
 /// Takes the next step of body i's island.
 void ExactSimulator::step_island(Entity i) {
-  if (bodies_.moving.any()) constrained_.book_work(bodies_.islands.of(i), bodies_.now);
+  bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
   if (bodies_.islands.of(i).busy || !constrained_.advance(i)) stepping_.advance(i);
 }

@@ -222,7 +222,8 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
     const Vec3 of_surface = bodies_.fixed_velocity(contact.surface);
     const double u = n.dot(v - of_surface);
     press[k] = n.dot(acceleration_without(i, contact.surface)) + drag_along(i, n, contact.surface);
-    kept[k] = std::abs(u) <= noise + velocity_rounding * of_surface.norm() || (press[k] > 0 && bodies_.too_low(x, u, press[k]));
+    kept[k] = std::abs(u) <= noise + velocity_rounding * of_surface.norm() ||
+              (press[k] > 0 && bodies_.too_low(x, u, press[k]));
     if (kept[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(bodies_.world, i, contact.surface);
     kept[k] = e < 1 && now + 2 * e * u / (press[k] * (1 - e)) == now;

@@ -16,9 +16,8 @@ DoubleDouble time_of(const Instant& at) {
 }  // namespace
 
 MovingThings::MovingThings(const World& world)
-    : world_(world), any_(std::any_of(world.motions.begin(), world.motions.end(), [](const auto& legs) {
-        return !legs.empty();
-      })) {
+    : world_(world),
+      any_(std::any_of(world.motions.begin(), world.motions.end(), [](const auto& legs) { return !legs.empty(); })) {
   for (const std::vector<MotionLeg>& legs : world.motions)
     for (const MotionLeg& leg : legs)
       if (leg.from > 0) switches_.push_back(leg.from);

@@ -237,7 +237,7 @@ void SimultaneousImpacts::note_forces(const Struck& set) {
     if (force > 0 && rest > 0) list.push_back({partner, force / rest, set.pairs[c].surface});
   }
   if (!bodies_.moving.any()) return;
-  for (const Entity i : set.members) group_.note_power(i);
+  for (const Entity i : set.members) group_.renew_power(i);
 }
 
 /// Begins the flights. Returns the bodies with changed velocities.

@@ -92,7 +92,7 @@ bool SurfacesNear::comes_near(Entity e, const Vec3& center, double reach) const 
 
 /// Adds those that are ever near.
 void SurfacesNear::take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
-                               std::vector<Entity>& found) const {
+                                  std::vector<Entity>& found) const {
   for (const Entity e : from)
     if (comes_near(e, center, reach)) found.push_back(e);
 }

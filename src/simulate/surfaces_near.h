@@ -1,6 +1,6 @@
 #pragma once
-// The fixed surfaces near a position. One that moves is near if it ever comes there. Where there are many, the few near a cell of space are collected once, at the
-// first search in that cell.
+// The fixed surfaces near a position. One that moves is near if it ever comes there. Where there are many, the few near
+// a cell of space are collected once, at the first search in that cell.
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -44,7 +44,7 @@ class SurfacesNear {
   [[gnu::always_inline]] bool is_near(Entity e, const Vec3& center, double reach) const;
   bool comes_near(Entity e, const Vec3& center, double reach) const;
   [[gnu::noinline]] void take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
-                                     std::vector<Entity>& found) const;
+                                        std::vector<Entity>& found) const;
 
   const World& world_;
   std::vector<HalfSpace> planes_;  // of a plane that moves: the farthest out along its normal

@@ -135,7 +135,7 @@ gravity: [0, -1, 0]
 let: {r: 0.1, two: 2}
 restitution: {default: 0.9, combine: minimum, pairs: [{between: [red, blue], value: 0.5}]}
 planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
-walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1]}}
+walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
         color: crimson, mesh: box.stl}

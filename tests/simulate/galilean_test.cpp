@@ -121,18 +121,22 @@ Problem gas() {
   Problem problem;
   problem.options.duration = 1.5;
   Random random(7);
-  for (int k = 0; k < 27; ++k)
-    problem.ball({0.5 + k % 3, 0.5 + k / 3 % 3, 0.5 + k / 9}, in_cube(random, 1), 1,
-                 0.2, 1);
+  for (int k = 0; k < 27; ++k) problem.ball({0.5 + k % 3, 0.5 + k / 3 % 3, 0.5 + k / 9}, in_cube(random, 1), 1, 0.2, 1);
   problem.room({0, 0, 0}, {3, 3, 3});
   return problem;
 }
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = {
-      {"bouncing", bouncing, 1e-12},     {"groove", groove, 1e-12},       {"over a rim", over_a_rim, 1e-11},
-      {"off a ball", off_a_ball, 1e-9},  {"boxes", boxes, 1e-10},         {"train", train, 1e-8},
-      {"pyramid", pyramid, 1e-10},       {"in wind", in_wind, 1e-9},      {"in thick air", in_thick_air, 1e-9},
+      {"bouncing", bouncing, 1e-12},
+      {"groove", groove, 1e-12},
+      {"over a rim", over_a_rim, 1e-11},
+      {"off a ball", off_a_ball, 1e-9},
+      {"boxes", boxes, 1e-10},
+      {"train", train, 1e-8},
+      {"pyramid", pyramid, 1e-10},
+      {"in wind", in_wind, 1e-9},
+      {"in thick air", in_thick_air, 1e-9},
       {"gas", gas, 1e-9},
   };
   return all;
@@ -143,6 +147,18 @@ std::size_t fast_impacts(const Outcome& run) {
   std::size_t count = 0;
   for (const Collision& c : run.collisions) count += c.approach_speed > 1e-6;
   return count;
+}
+
+double mass_of(const Problem& problem) {
+  double mass = 0;
+  for (const double m : problem.world.mass) mass += m;
+  return mass;
+}
+
+/// The work of things that all move at u (m/s): their impulse, by the momentum of the bodies, times u (J).
+double work_by_momentum(const Problem& problem, const Outcome& run, const Vec3& u) {
+  const Vec3 given = mass_of(problem) * problem.options.duration * problem.world.gravity;
+  return u.dot(momentum(problem.world, run.end) - momentum(problem.world, problem.initial) - given);
 }
 
 void expect_same(const Case& of, const Vec3& u, Integrator integrator, double step) {
@@ -157,16 +173,15 @@ void expect_same(const Case& of, const Vec3& u, Integrator integrator, double st
     off = std::max(off, (b.end.position[i] - a.end.position[i] - t * u).norm());
     fast = std::max(fast, (b.end.velocity[i] - a.end.velocity[i] - u).norm());
   }
-  double mass = 0;
-  for (const double m : still.world.mass) mass += m;
-  const double scale = mass * (u.squaredNorm() + g_n * (1 + u.norm() * t));
-  std::printf("%-14s u=%g,%g,%g off %.2g %.2g residual %.2g %.2g unbooked %.2g %.2g\n", of.name.c_str(), u.x(), u.y(),
-              u.z(), off, fast, residual(still, a), residual(moved, b), unbooked(still, a), unbooked(moved, b));
+  const double scale = mass_of(still) * (u.squaredNorm() + g_n * (1 + u.norm() * t));
   EXPECT_EQ(fast_impacts(a), fast_impacts(b)) << of.name;
   EXPECT_LT(off, of.precision) << of.name;
   EXPECT_LT(fast, 10 * of.precision) << of.name;
-  EXPECT_NEAR(unbooked(moved, b), unbooked(still, a), 1e-13 * scale) << of.name;
-  EXPECT_NEAR(residual(moved, b), residual(still, a), 1e-12 * scale) << of.name;
+  // The work of forces along steps of lower order is right to their order.
+  const double books = step > 0 ? 1e-4 * scale : 1e-12 * scale;
+  EXPECT_NEAR(unbooked(moved, b), unbooked(still, a), books) << of.name;
+  EXPECT_NEAR(residual(moved, b), residual(still, a), books) << of.name;
+  if (still.world.forces.empty()) EXPECT_NEAR(b.tally.work, work_by_momentum(moved, b, u), 1e-12 * scale) << of.name;
 }
 
 Problem heap() {
@@ -182,17 +197,15 @@ Problem heap() {
   return problem;
 }
 
-// Time stepping depends on speeds, so the motion differs. The balance of energy does not.
-TEST(Galilean, AHeapOnAMovingFloorKeepsItsEnergyBalance) {
-  for (const double seconds : {0.5, 1.0, 2.0, 4.0}) {
-    for (const Vec3& u : {Vec3(0, 0, 0), Vec3(0, 0.5, 0), Vec3(0.3, -0.7, 0.2), Vec3(-12, 3, 1)}) {
-      Problem problem = moving(heap(), u);
-      problem.options.duration = seconds;
-      const Outcome run = run_exact(problem);
-      std::printf("%g heap u=%g residual %.3g unbooked %.3g work %g lost %g stepped %g resting %d doubtful %d\n", seconds, u.norm(),
-                  residual(problem, run), unbooked(problem, run), run.tally.work, run.tally.energy_lost,
-                  run.tally.stepped_contact, (int)run.tally.resting, (int)run.tally.doubtful);
-    }
+// Time stepping depends on speeds, so the motion differs. The balance of work and momentum does not: measured 1e-10,
+// and 2e-4 where bodies are struck off their support within a step.
+TEST(Galilean, AHeapOnAMovingFloorReceivesItsWork) {
+  for (const Vec3& u : {Vec3(0, 0.5, 0), Vec3(0.3, -0.7, 0.2), Vec3(-12, 3, 1)}) {
+    const Problem problem = moving(heap(), u);
+    const Outcome run = run_exact(problem);
+    EXPECT_GT(run.tally.stepped_contact, 1);
+    EXPECT_NEAR(run.tally.work, work_by_momentum(problem, run, u), 1e-3 * std::abs(run.tally.work)) << u.transpose();
+    EXPECT_LT(std::abs(residual(problem, run)), 0.12 * run.tally.energy_lost) << "as at rest, to first order";
   }
 }
 
@@ -200,6 +213,12 @@ TEST(Galilean, AllKindsOfContactAreTheSameInAFrameThatMoves) {
   for (const Case& of : cases())
     for (const Vec3& u : {Vec3(0, 0.5, 0), Vec3(0.3, -0.7, 0.2), Vec3(-12, 3, 1)})
       expect_same(of, u, Integrator::dop853, 0);
+}
+
+TEST(Galilean, FlightsInStepsAreTheSameInAFrameThatMoves) {
+  for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
+    for (const Case& of : {Case{"in wind", in_wind, 1e-9}, Case{"in thick air", in_thick_air, 1e-9}})
+      expect_same(of, {0.3, -0.7, 0.2}, integrator, 0.01);
 }
 
 }  // namespace

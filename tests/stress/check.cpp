@@ -212,8 +212,8 @@ class Check {
     const State& s = seen_.seen[static_cast<std::size_t>(at - times_.begin())];
     const bool body = world_.is_body(c.b);
     const Vec3 xb = body ? s.position[c.b] : fixed_position(world_, c.b, {c.time, 0});
-    const double distance = static_cast<double>(
-        gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb.cast<long double>()));
+    const double distance =
+        static_cast<double>(gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb.cast<long double>()));
     const double tick = std::nextafter(c.time, 1e300) - c.time;
     const Vec3 vb = body ? s.velocity[c.b] : fixed_velocity(world_, c.b, {c.time, 0});
     const double speed = s.velocity[c.a].norm() + vb.norm() + c.approach_speed;

@@ -90,9 +90,7 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
     const double reach = world.radius[a] + (body ? world.radius[b] : world.obstacle(b).volume.reach());
     if ((pa.x - pb.x).norm() - reach > speed * length) return 1;
   }
-  const auto at = [&](double t) {
-    return static_cast<double>(gap(world, a, on(xa, va, aa, t), b, on(xb, vb, ab, t)));
-  };
+  const auto at = [&](double t) { return static_cast<double>(gap(world, a, on(xa, va, aa, t), b, on(xb, vb, ab, t))); };
   struct Span {
     double from, to, at_from, at_to, least;
     bool operator<(const Span& other) const { return least > other.least; }

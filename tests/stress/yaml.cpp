@@ -85,8 +85,8 @@ std::string fixed(const World& world) {
   Entity e = world.body_count();
   if (!world.planes.empty()) out += "planes:\n";
   for (const Plane& p : world.planes) {
-    out += "  " + name(world, e) + ": {point: " + text(p.point) + ", normal: " + text(p.normal) +
-           text(p.restitution) + motion(world, e) + "}\n";
+    out += "  " + name(world, e) + ": {point: " + text(p.point) + ", normal: " + text(p.normal) + text(p.restitution) +
+           motion(world, e) + "}\n";
     ++e;
   }
   if (!world.walls.empty()) out += "walls:\n";
@@ -98,8 +98,8 @@ std::string fixed(const World& world) {
   }
   if (!world.obstacles.empty()) out += "obstacles:\n";
   for (const Obstacle& o : world.obstacles) {
-    out += "  " + name(world, e) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) + motion(world, e) +
-           "}\n";
+    out += "  " + name(world, e) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) +
+           motion(world, e) + "}\n";
     ++e;
   }
   return out;
