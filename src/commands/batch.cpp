@@ -2,6 +2,7 @@
 // are printed, so that the output has the order of the scenes.
 #include "commands/batch.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
+#include "commands/shared_fractions.h"
 #include "files/processors.h"
 #include "scene/scene.h"
 #include "study/workers.h"
@@ -23,7 +25,7 @@ int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Opt
     try {
       batch.settle(code != 0                      ? without_run(planned, scene_status::not_run)
                    : batch.is_up_to_date(planned) ? batch.up_to_date(planned)
-                                                  : batch.run(planned, progress_choice(options)));
+                                                  : batch.run(planned, progress_choice(options), nullptr));
     } catch (const Interrupted& signal) {
       batch.settle(run_interrupted(planned));
       code = signal.exit_code();
@@ -42,14 +44,22 @@ class Together {
         scenes_(scenes),
         to_do_(to_do),
         outcomes_(scenes.size()),
-        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), std::string(command), 1, 0) {}
+        fractions_(scenes.size()),
+        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), std::string(command), 1, 0) {
+    progress_.begin_early();
+  }
 
   int go(std::size_t jobs) {
     Tasks tasks;
     tasks.next = [this] { return next(); };
-    tasks.work = [this](std::size_t i) { return packed(batch_.run(scenes_[i], ProgressChoice::none)); };
+    tasks.work = [this](std::size_t i) {
+      return packed(batch_.run(scenes_[i], ProgressChoice::none, fractions_.at(i)));
+    };
     tasks.done = [this](const TaskOutcome& outcome) { take(outcome); };
-    tasks.stop_check = stop_if_interrupted;
+    tasks.stop_check = [this] {
+      stop_if_interrupted();
+      show_progress();
+    };
     share_processors(jobs);
     int code = 0;
     try {
@@ -74,8 +84,16 @@ class Together {
   void take(const TaskOutcome& outcome) {
     outcomes_[outcome.task] = outcome.kind == TaskOutcome::Kind::done ? unpacked(outcome.text)
                                                                       : run_failed(scenes_[outcome.task], outcome.text);
+    if (std::atomic<double>* done = fractions_.at(outcome.task)) *done = 1;
+    ++finished_;
     settle_in_order();
-    progress_.update(++finished_, to_do_, "scenes");
+    show_progress();
+  }
+
+  void show_progress() {
+    const auto to_do = static_cast<double>(to_do_);
+    progress_.update(std::max(fractions_.sum(), static_cast<double>(finished_)) / to_do,
+                     fmt::format("{} of {} scenes", finished_, to_do_));
   }
 
   void settle_in_order() {
@@ -90,6 +108,7 @@ class Together {
   const std::size_t to_do_;  // scenes that are not up to date
   std::size_t begun_ = 0, finished_ = 0, settled_ = 0;
   std::vector<std::optional<SceneOutcome>> outcomes_;  // by scene
+  SharedFractions fractions_;                          // by scene
   Progress progress_;
 };
 

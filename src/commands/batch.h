@@ -1,5 +1,6 @@
 #pragma once
 // Runs the scenes of a command line one after another or in several processes, and prints them in their order.
+#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace carom {
 struct Batch {
   std::function<bool(const PlannedScene&)> is_up_to_date;
   std::function<SceneOutcome(const PlannedScene&)> up_to_date;
-  std::function<SceneOutcome(const PlannedScene&, ProgressChoice)> run;  // may throw Interrupted
-  std::function<void(SceneOutcome)> settle;                              // prints and counts, in the scenes' order
+  /// `done`: where the fraction done is stored (Progress::share). May throw Interrupted.
+  std::function<SceneOutcome(const PlannedScene&, ProgressChoice, std::atomic<double>* done)> run;
+  std::function<void(SceneOutcome)> settle;  // prints and counts, in the scenes' order
 };
 
 /// Settles every scene. Gives the exit code of an interrupt, or 0.

@@ -8,6 +8,7 @@
 
 #include "bench/bench_folder.h"
 #include "commands/bench_report.h"
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/progress.h"
@@ -54,7 +55,7 @@ class BenchSession {
     for (const PlannedScene& planned : scenes_) {
       write_err(planned.error);
       Json entry = {{"scene", planned.file}, {"status", planned.errors > 0 ? "wrong" : "not run"}};
-      if (planned.errors > 0) entry["error"] = planned.error;
+      if (planned.errors > 0) entry["errors"] = errors_json(planned.records);
       document_.push_back(std::move(entry));
     }
     complain(options_, errors + "; nothing was run");
@@ -102,7 +103,7 @@ class BenchSession {
   void fail(const PlannedScene& planned, Json& entry, std::string_view text) {
     complain(options_, fmt::format("{}: the bench failed: {}", printable(planned.file), text));
     entry["status"] = "failed";
-    entry["error"] = std::string(text);
+    entry["errors"] = errors_json(error_of_text(text, planned.file));
   }
 
   const Options& options_;

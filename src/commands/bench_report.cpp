@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bench/bench_folder.h"
+#include "commands/error_list.h"
 #include "commands/text.h"
 
 namespace carom {
@@ -110,7 +111,7 @@ Json row_json(const BenchRow& row, bool chaotic) {
   Json json = method_json(row.method);
   json["status"] = row.failure.empty() ? "done" : "failed";
   if (!row.failure.empty()) {
-    json["error"] = row.failure;
+    json["errors"] = carom::errors_json(error_of_text(row.failure));
     return json;
   }
   json["cpu_s"] = row.cpu_s;

@@ -34,6 +34,14 @@ struct CompareOptions {
   bool video = false;
 };
 
+/// Of sweep and submit: what varies.
+struct SweepWords {
+  std::vector<std::string> grid;               // path=from:to:count, path=value,value, path=from:to
+  std::optional<std::uint64_t> random, latin;  // numbers of samples
+  std::optional<std::uint64_t> repeat;         // seeds of each run
+  bool skip_invalid = false;
+};
+
 /// Of submit.
 struct SubmitOptions {
   bool slurm = false;
@@ -57,9 +65,10 @@ struct Options {
   BenchOptions bench;
   CompareOptions compare;
   SubmitOptions submit;
-  std::vector<std::string> grid;  // path=from:to:count, path=value,value
+  SweepWords sweep;
   std::optional<Shard> shard;
   bool plan = false;         // show, do not do
+  bool watch = false;        // of run: again at each save
   bool accuracy = false;     // of check and run: estimate the error by more runs
   bool page = false;         // of explain: the whole format
   std::optional<double> at;  // s, of render: the time of a still

@@ -8,6 +8,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "commands/error_list.h"
 #include "commands/report.h"
 #include "commands/text.h"
 #include "files/run_folder.h"
@@ -32,6 +33,13 @@ std::string collision_text(const std::optional<CollisionFacts>& collision) {
   if (!collision) return "no more collisions";
   const std::string bodies = collision->b.empty() ? collision->a : fmt::format("{} and {}", collision->a, collision->b);
   return fmt::format("{} at {} s ({})", bodies, exact(collision->time), collision->kind);
+}
+
+/// The number, from 1, of the collision in which the runs part. None: they part in a row of kind `rest`.
+std::optional<std::uint64_t> part_number(const CollisionDifference& difference) {
+  const auto is_collision = [](const std::optional<CollisionFacts>& row) { return row && !row->is_rest(); };
+  if (!is_collision(difference.next_a) && !is_collision(difference.next_b)) return std::nullopt;
+  return difference.same + 1;
 }
 
 std::string count_text(const CollisionDifference& difference) {
@@ -82,12 +90,17 @@ void describe(Block& block, const RunDifference& difference) {
                                a, exact(collisions.outcome_b.separation_speed), b)
                  : fmt::format("{} is {} in {}, {} in {}", collisions.column, printable(collisions.cell_a), a,
                                printable(collisions.cell_b), b);
-    block.line("outcome", fmt::format("collision {}, {}, differs: {}", grouped(*collisions.outcome + 1),
-                                      collision_text(collisions.outcome_a), how));
+    const std::string which = collisions.outcome_a.is_rest()
+                                  ? fmt::format("after {}", counted(*collisions.outcome, "collision", "collisions"))
+                                  : fmt::format("collision {}", grouped(*collisions.outcome + 1));
+    block.line("outcome", fmt::format("{}, {}, differs: {}", which, collision_text(collisions.outcome_a), how));
   }
   if (collisions.part)
-    block.line("diverge", fmt::format("in collision {}: {}: {}; {}: {}", grouped(collisions.same + 1), a,
-                                      collision_text(collisions.next_a), b, collision_text(collisions.next_b)));
+    block.line("diverge",
+               fmt::format("{}: {}: {}; {}: {}",
+                           part_number(collisions) ? fmt::format("in collision {}", grouped(*part_number(collisions)))
+                                                   : "after " + counted(collisions.same, "collision", "collisions"),
+                           a, collision_text(collisions.next_a), b, collision_text(collisions.next_b)));
   block.line("end", end_text(difference));
 }
 
@@ -116,10 +129,11 @@ Json difference_json(const RunDifference& difference) {
   const CollisionDifference& c = difference.collisions;
   json["collisions"] = {{"a", c.count_a}, {"b", c.count_b}, {"same", c.same}, {"part", nullptr}, {"outcome", nullptr}};
   if (c.part)
-    json["collisions"]["part"] = {
-        {"number", c.same + 1}, {"a", collision_json(c.next_a)}, {"b", collision_json(c.next_b)}};
+    json["collisions"]["part"] = {{"number", part_number(c) ? Json(*part_number(c)) : Json()},
+                                  {"a", collision_json(c.next_a)},
+                                  {"b", collision_json(c.next_b)}};
   if (c.outcome)
-    json["collisions"]["outcome"] = {{"number", *c.outcome + 1},
+    json["collisions"]["outcome"] = {{"number", c.outcome_a.is_rest() ? Json() : Json(*c.outcome + 1)},
                                      {"column", c.column},
                                      {"a", collision_json(c.outcome_a)},
                                      {"b", collision_json(c.outcome_b)}};
@@ -134,9 +148,10 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int fail_diff(const Options& options, const std::string& text, int code) {
+int fail_diff(const Options& options, const std::string& text, int code, const std::vector<ErrorRecord>& errors) {
   complain(options, text);
-  if (options.json) write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"error", text}}));
+  if (options.json)
+    write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"errors", errors_json(errors)}}));
   return code;
 }
 
@@ -174,11 +189,11 @@ int diff_command(const Options& options) {
     }
     return 0;
   } catch (const ExportError& error) {
-    return fail_diff(options, error.what(), 2);
+    return fail_diff(options, error.what(), 2, error_of_text(error.what()));
   } catch (const SceneError& error) {
-    return fail_diff(options, error.what(), 2);
+    return fail_diff(options, error.what(), 2, error.records);
   } catch (const std::bad_alloc&) {
-    return fail_diff(options, "not enough memory", 1);
+    return fail_diff(options, "not enough memory", 1, error_of_text("not enough memory"));
   }
 }
 

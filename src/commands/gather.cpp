@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/progress.h"
 #include "commands/report.h"
@@ -46,20 +48,25 @@ class GatherSession {
       const auto base = text_of(source, stored_base);
       if (!base || text_of(source, stored_sweep) != sweep.resolved(stored_base))
         return refuse(fmt::format("{}/{} was not written by a sweep", printable(source), stored_sweep));
+      for (const auto& [id, errors] : stored_skips(source)) skipped_.insert(id);
+      skipped_text_ = text_of(source, stored_skipped).value_or("");
       if (inspect_sweep_folder(folder_, sweep, *base) == SweepContent::other)
         return refuse(fmt::format("the folder {} holds something else", printable(folder_)));
       for (std::size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
       return gather(sweep, *base);
     } catch (const SceneError& error) {
       write_err(error.what());
-      return refuse("this was not written by a sweep");
+      return refuse("this was not written by a sweep", error.records);
     }
   }
 
  private:
-  int refuse(const std::string& what) const {
+  int refuse(const std::string& what) const { return refuse(what, error_of_text(what)); }
+
+  int refuse(const std::string& what, const std::vector<ErrorRecord>& errors) const {
     complain(options_, what + "; nothing was gathered");
-    if (options_.json) write_out(document("gather", Json{{"folder", folder_}, {"status", "wrong"}, {"error", what}}));
+    if (options_.json)
+      write_out(document("gather", Json{{"folder", folder_}, {"status", "wrong"}, {"errors", errors_json(errors)}}));
     return 2;
   }
 
@@ -79,7 +86,7 @@ class GatherSession {
   }
 
   int gather(const Sweep& sweep, const std::string& base) {
-    SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, stop_if_interrupted);
+    SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(name_of_folder(folder_)), 1, 0);
     std::vector<std::vector<bool>> whole;  // by folder, run
@@ -88,6 +95,10 @@ class GatherSession {
     std::vector<std::string> missing, failed;
     for (std::size_t number = 0; number < sweep.size(); ++number) {
       stop_if_interrupted();
+      if (skipped_.contains(sweep.id(number))) {
+        statuses.push_back(RunStatus::left_out);
+        continue;
+      }
       const auto has = std::find_if(whole.begin(), whole.end(), [&](const auto& runs) { return runs[number]; });
       statuses.push_back(bring(sweep.id(number), static_cast<std::size_t>(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
@@ -158,24 +169,32 @@ class GatherSession {
   void show(std::string_view status, const Sweep& sweep, const std::vector<std::string>& missing,
             const std::vector<std::string>& failed) const {
     if (options_.json) {
-      const Json json = {{"folder", folder_},    {"status", std::string(status)},
-                         {"runs", sweep.size()}, {"missing", missing},
-                         {"failed", failed},     {"doubtful", doubtful_}};
+      const Json json = {{"folder", folder_},
+                         {"status", std::string(status)},
+                         {"runs", sweep.size() - skipped_.size()},
+                         {"missing", missing},
+                         {"failed", failed},
+                         {"skipped", skipped_},
+                         {"doubtful", doubtful_}};
       write_out(document("gather", json));
     }
     if (options_.json || options_.quiet || status != "done") return;
+    const std::size_t runs = sweep.size() - skipped_.size();
     Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
     block.heading(name_of_folder(folder_), sweep.title);
-    block.line("runs", failed.empty()
-                           ? fmt::format("{}", counted(sweep.size(), "run", "runs"))
-                           : fmt::format("{}, {} failed", counted(sweep.size(), "run", "runs"), failed.size()));
+    block.line("runs", failed.empty() ? counted(runs, "run", "runs")
+                                      : fmt::format("{}, {} failed", counted(runs, "run", "runs"), failed.size()));
     describe_doubtful(block, doubtful_);
+    if (!skipped_.empty())
+      block.warning("left out", fmt::format("{}: see {}", counted(skipped_.size(), "run", "runs"), stored_skipped));
     block.line("folder", printable(folder_));
     write_out(block.text());
   }
 
   const Options& options_;
   std::string folder_;
+  std::set<std::string> skipped_;  // ids of runs that are left out
+  std::string skipped_text_;
   std::size_t doubtful_ = 0;  // runs
 };
 

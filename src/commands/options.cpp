@@ -82,14 +82,18 @@ void read_set(Options& options, const Words& words) {
   }
 }
 
-/// The parts between commas, of all words.
+/// The parts between commas, of all words. A comma in parentheses separates nothing.
 std::vector<std::string> split_lists(const Words& words) {
   std::vector<std::string> parts;
   for (const std::string& list : words) {
-    for (std::size_t begin = 0; begin <= list.size();) {
-      const std::size_t end = std::min(list.find(',', begin), list.size());
-      parts.push_back(list.substr(begin, end - begin));
-      begin = end + 1;
+    int depth = 0;
+    parts.emplace_back();
+    for (const char c : list) {
+      depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      if (c == ',' && depth <= 0)
+        parts.emplace_back();
+      else
+        parts.back() += c;
     }
   }
   return parts;
@@ -169,14 +173,22 @@ const Option table[] = {
     {"--set", "", "PATH=VALUE", "change a value of the scene, such as balls.red.mass=2;\nmay be repeated", read_set},
     {"--only", "", "LIST", only_help(), read_only},
     {"--grid", "", "PATH=FROM:TO:COUNT",
-     "vary a value of a scene, restitution.default=0.5:1:6\nor balls.red.mass=1,2,5; several give all combinations",
+     "vary a value of a scene, restitution.default=0.5:1:6\nor balls.red.mass=1,2,5; several give all combinations;\n"
+     "FROM:TO without a count is a range of --random or --latin",
      [](Options& o, const Words& w) {
        for (const std::string& grid : w)
          if (const std::size_t equals = grid.find('='); equals == std::string::npos || equals == 0)
            throw UsageError(
                fmt::format("--grid takes path=from:to:count or path=value,value, not {}", in_backticks(grid)));
-       o.grid = w;
+       o.sweep.grid = w;
      }},
+    {"--random", "", "N",
+     "N runs with numbers drawn at random from the ranges\n--grid PATH=FROM:TO or FROM:TO:log (uniform logarithm)",
+     [](Options& o, const Words& w) { o.sweep.random = whole(w, "--random", 1, 1'000'000); }},
+    {"--latin", "", "N", "the same as a Latin hypercube: a number from each of N\nequal parts of a range",
+     [](Options& o, const Words& w) { o.sweep.latin = whole(w, "--latin", 1, 1'000'000); }},
+    {"--skip-invalid", "", "", "leave out runs whose scene is invalid, and list them",
+     [](Options& o, const Words&) { o.sweep.skip_invalid = true; }},
     {"--shard", "", "I/N",
      "run part I of N, from 1 on; gather joins the parts (in a\nSlurm job array: the task's part)",
      [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
@@ -198,7 +210,10 @@ const Option table[] = {
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halving (set by\nthe scene: ten halvings)",
      read_steps},
     {"--repeat", "", "N", "at most N timed runs of each row (5)",
-     [](Options& o, const Words& w) { o.bench.repeat = static_cast<int>(whole(w, "--repeat", 1, 1000)); }},
+     [](Options& o, const Words& w) {
+       o.sweep.repeat = whole(w, "--repeat", 1, 1'000'000);
+       o.bench.repeat = static_cast<int>(*o.sweep.repeat);
+     }},
     {"--budget", "", "SECONDS", "approximate CPU time for each scene; steps that cost\nmore are left out (20)",
      [](Options& o, const Words& w) { o.bench.budget = number(single(w, "--budget"), "--budget"); }},
     {"--reference", "", "ENGINE", "exact or stepped (exact, if it supports the scene)",
@@ -220,6 +235,8 @@ const Option table[] = {
      [](Options& o, const Words&) { o.accuracy = true; }},
     {"--verbose", "-v", "", "also the expected error by its sources; takes four or\nmore runs",
      [](Options& o, const Words&) { o.accuracy = true; }},
+    {"--watch", "", "", "run scenes again whenever they, their meshes or textures\nare saved, until Ctrl-C",
+     [](Options& o, const Words&) { o.watch = true; }},
     {"--at", "", "SECONDS", "draw one picture, at this time",
      [](Options& o, const Words& w) { o.at = time_of(single(w, "--at"), "--at"); }},
     {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},

@@ -12,13 +12,17 @@
 #include <utility>
 
 #include "bench/bench_folder.h"
+#include "commands/error_list.h"
 #include "commands/idle_settings.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "files/earlier_run.h"
+#include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "physics/world.h"
 #include "render/mesh.h"
+#include "run/measure.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -45,11 +49,33 @@ void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
   }
 }
 
-void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& text) {
+void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& text, std::vector<ErrorRecord> records) {
   planned.scene.reset();
   planned.errors = errors;
+  planned.records = std::move(records);
   planned.error = text;
   if (planned.error.empty() || planned.error.back() != '\n') planned.error += '\n';
+}
+
+void mark_failed(PlannedScene& planned, const std::string& text) {
+  mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), text), error_of_text(text, planned.file));
+}
+
+SceneOrigin origin_of(const PlannedScene& planned, const Options& options) {
+  SceneOrigin origin{path_from(planned.folder, planned.file), {}};
+  for (const std::string& set : options.set) origin.settings.push_back(valid_utf8(set));
+  if (options.seed) origin.settings.push_back(fmt::format("seed={}", *options.seed));
+  return origin;
+}
+
+/// A run of this scene file before it was edited is no obstacle.
+void find_obstacle(PlannedScene& planned) {
+  const EarlierRun earlier = find_earlier_run(planned.folder, planned.origin);
+  if (earlier.is_replaceable()) planned.content = FolderContent::earlier;
+  if (!earlier.touched.empty())
+    planned.obstacle = fmt::format("a run of this scene with a changed file, {}", printable(earlier.touched));
+  else if (!earlier.foreign.empty())
+    planned.obstacle = fmt::format("{}, which the run there did not write", printable(earlier.foreign));
 }
 
 void check(PlannedScene& planned, const Options& options, Purpose purpose) {
@@ -79,7 +105,9 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
     planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench);
     return;
   }
+  planned.origin = origin_of(planned, options);
   planned.content = inspect_folder(planned.folder, *planned.scene);
+  if (planned.content == FolderContent::other_run) find_obstacle(planned);
   const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
   if (options.only && differs && holds_all(requested, *options.only)) {
     // A whole run of this scene has the named outputs and more.
@@ -112,6 +140,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.budget.enforced = !options.force;
   if (lifted) load.budget = load.budget.without_outputs();
   load.chooses_outputs = lifted;
+  load.measure_fault = measure_fault;
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;
@@ -129,13 +158,21 @@ void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_vi
   }
 }
 
-std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
+std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) {
   std::vector<PlannedScene> scenes(options.operands.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     scenes[i].file = options.operands[i];
     scenes[i].name = fs::path(options.operands[i]).stem().string();
     scenes[i].folder = folder_of(options, scenes[i].name, purpose);
   }
+  return scenes;
+}
+
+std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
+  return plan_scenes(named_scenes(options, purpose), options, purpose);
+}
+
+std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options, Purpose purpose) {
   return plan_scenes(std::move(scenes), [&](PlannedScene& planned) { check(planned, options, purpose); });
 }
 
@@ -147,11 +184,11 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
     try {
       check_one(planned);
     } catch (const SceneError& error) {
-      mark_failed(planned, error.count, error.what());
+      mark_failed(planned, error.count, error.what(), error.records);
     } catch (const std::bad_alloc&) {
-      mark_failed(planned, 1, fmt::format("{}: not enough memory for this scene", printable(planned.file)));
+      mark_failed(planned, "not enough memory for this scene");
     } catch (const std::exception& error) {
-      mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), error.what()));
+      mark_failed(planned, error.what());
     }
   }
   return scenes;
@@ -161,11 +198,14 @@ void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& opti
   for (PlannedScene& planned : scenes) {
     const bool other = planned.content == FolderContent::other_run, more = planned.content == FolderContent::more;
     if (planned.errors > 0 || !(other || more) || options.force) continue;
+    const std::string text = fmt::format(
+        "the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force", printable(planned.folder),
+        !other                     ? "more outputs of this scene, which this run would remove"
+        : planned.obstacle.empty() ? "another run, or files that no run wrote"
+                                   : planned.obstacle);
     planned.errors = 1;
-    planned.error = fmt::format(
-        "{}: the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force\n",
-        printable(planned.file), printable(planned.folder),
-        other ? "another run, or files that no run wrote" : "more outputs of this scene, which this run would remove");
+    planned.error = fmt::format("{}: {}\n", printable(planned.file), text);
+    planned.records = error_of_text(text, planned.file);
   }
 }
 

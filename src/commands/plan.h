@@ -11,6 +11,7 @@
 #include "files/run_folder.h"
 #include "run/engine.h"
 #include "run/former_run.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 
@@ -21,11 +22,14 @@ struct PlannedScene {
   std::string folder;  // where its run goes
   std::string error;   // for the terminal, whole lines; empty: none
   std::size_t errors = 0;
+  std::vector<ErrorRecord> records;  // of the error, in parts
   std::unique_ptr<Scene> scene;
   double load_s = 0;  // wall time
   EngineChoice engine;
   Forecast forecast;
   FolderContent content = FolderContent::nothing;
+  SceneOrigin origin{};    // of a scene that is run; its settings as UTF-8
+  std::string obstacle{};  // what of another content must not be overwritten, where that is known
   /// What the user may not expect of this command, for the terminal.
   std::vector<std::string> notes{};
   std::shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
@@ -33,9 +37,16 @@ struct PlannedScene {
 
 enum class Purpose { run, bench };
 
+/// The scenes of the command line, each with its file, name and folder.
+std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose = Purpose::run);
+
 /// Loads and checks every scene, wrong ones as far as possible, so that one run shows all errors of all files.
 /// Throws UsageError where two scenes would share a folder.
 std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = Purpose::run);
+
+/// The same for some of named_scenes().
+std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options,
+                                      Purpose purpose = Purpose::run);
 
 /// The same for scenes with a file, a name and a folder: `check` fills in the rest, or throws the error.
 std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,

@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/run.h"
@@ -68,6 +69,7 @@ class PlotPlanner {
       if (in_place && kind.asked(former->scene.output)) outputs.emplace_back(kind.name);
     planned.scene->output = restricted(planned.scene->output, outputs);
     planned.scene->file = former->scene.file;
+    if (const double end = former->end(); end < planned.scene->simulate.duration) planned.scene->ends_at = end;
     former->scene = {};
     if (what_stands(planned.folder) == Standing::other)
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
@@ -135,7 +137,7 @@ SceneOutcome plot_one(const PlannedScene& planned, const std::string& gnuplot, c
     stop_if_interrupted();
     outcome.complaint = error.what();
   }
-  outcome.entry["error"] = outcome.complaint;
+  outcome.entry["errors"] = errors_json(error_of_text(outcome.complaint, planned.file));
   outcome.complaint = fmt::format("{}: {}", printable(planned.file), outcome.complaint);
   return outcome;
 }

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "commands/commands.h"
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/manual.h"
 #include "commands/report.h"
@@ -14,6 +15,8 @@
 #include "yaml/diagnostics.h"
 
 namespace carom {
+
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -67,8 +70,17 @@ const Command* find_command(const std::string& name) {
   throw UsageError(fmt::format("no command {}; the commands are {}", in_backticks(word), command_names()));
 }
 
-int usage_error(const std::string& command, const UsageError& error) {
+/// The document of --json for an error that leaves a command without one.
+void write_failure(const std::vector<std::string>& words, std::string_view status, std::string_view text) {
+  if (std::find(words.begin(), words.end(), "--json") == words.end() || find_command(words.front()) == nullptr) return;
+  Json json = {{"status", std::string(status)}};
+  if (!text.empty()) json["errors"] = errors_json(error_of_text(text));
+  write_out(document(words.front(), std::move(json)));
+}
+
+int usage_error(const std::string& command, const UsageError& error, const std::vector<std::string>& words) {
   const std::string program = command.empty() ? "carom" : "carom " + command;
+  write_failure(words, "wrong", error.what());
   write_err(fmt::format("{}: {}\n  {} --help shows how it is used\n", program, error.what(), program));
   return 2;
 }
@@ -108,7 +120,7 @@ int dispatch(const std::vector<std::string>& words) {
     }
     return command->run(parsed.options);
   } catch (const UsageError& error) {
-    return usage_error(name, error);
+    return usage_error(name, error, words);
   }
 }
 
@@ -116,11 +128,14 @@ int guarded(const std::vector<std::string>& words) {
   try {
     return dispatch(words);
   } catch (const Interrupted& interrupted) {
+    write_failure(words, "interrupted", "");
     write_err("carom: interrupted\n");
     return interrupted.exit_code();
   } catch (const std::bad_alloc&) {
+    write_failure(words, "failed", "not enough memory");
     write_err("carom: not enough memory\n");
   } catch (const std::exception& error) {
+    write_failure(words, "failed", error.what());
     write_err(fmt::format("carom: {}\n", error.what()));
   }
   return 1;

@@ -65,6 +65,15 @@ void Progress::draw_bar(double done, const std::string& counts, const std::strin
   drawn_ = true;
 }
 
+void Progress::begin_early() {
+  last_ = start_ - std::chrono::seconds(1);
+  tenth_ = -1;
+}
+
+void Progress::store(double done) {
+  if (shared_ != nullptr) shared_->store(std::clamp(done, 0.0, 1.0), std::memory_order_relaxed);
+}
+
 bool Progress::due() const {
   if (choice_ == ProgressChoice::none) return false;
   const double since_last = std::chrono::duration<double>(Clock::now() - last_).count();
@@ -98,13 +107,15 @@ void Progress::show(double done, const std::string& what) {
 }
 
 void Progress::update(double time, std::uint64_t collisions, std::uint64_t frames) {
+  const double done = duration_ > 0 ? time / duration_ : 1;
+  store(done);
   if (!due()) return;
   const std::string what = frames_to_come_ > 0
                                ? fmt::format("{} of {} pictures ({})", grouped(frames), grouped(frames_to_come_),
                                              rate(static_cast<double>(frames)))
                                : fmt::format("{:.4g} of {:.4g} s ({}), {}", time, duration_, rate(time),
                                              counted(collisions, "collision", "collisions"));
-  show(duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1, what);
+  show(std::clamp(done, 0.0, 1.0), what);
 }
 
 void Progress::update(std::size_t done, std::size_t of, std::string_view things, const std::string& more) {
@@ -115,6 +126,7 @@ void Progress::update(std::size_t done, std::size_t of, std::string_view things,
 }
 
 void Progress::update(double done, const std::string& what) {
+  store(done);
   if (due()) show(std::clamp(done, 0.0, 1.0), what);
 }
 

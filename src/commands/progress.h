@@ -1,5 +1,6 @@
 #pragma once
 // Progress of a run on stderr: a bar on a terminal, lines in a log, or nothing.
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -27,12 +28,17 @@ class Progress {
   void update(std::size_t done, std::size_t of, std::string_view things, const std::string& more = "");
   /// The same for other work: the fraction `done`, 0 to 1, and its present step.
   void update(double done, const std::string& what);
+  /// From here on the fraction done is also stored there, even if nothing is shown. Null: nowhere.
+  void share(std::atomic<double>* done) { shared_ = done; }
+  /// The first line of a log comes after 1 s, even if nothing is done by then.
+  void begin_early();
   /// Clears the bar's line. Call it before writing anything else to the terminal.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
   bool due() const;
+  void store(double done);
   std::string rate(double count) const;
   void show(double done, const std::string& counts);
   void draw_bar(double done, const std::string& counts, const std::string& left);
@@ -45,6 +51,7 @@ class Progress {
   Clock::time_point start_ = Clock::now(), last_ = start_;
   int tenth_ = 0;
   bool drawn_ = false;
+  std::atomic<double>* shared_ = nullptr;
 };
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "commands/report.h"
 #include "commands/run_one.h"
 #include "commands/text.h"
+#include "commands/watch.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -46,17 +47,28 @@ const CommandText& run_text() {
       "  carom run scenes/two_bowling_balls.yaml\n"
       "  carom run scene.yaml --only trajectory,collisions     data only, no pictures\n"
       "  carom run scene.yaml --set balls.red.restitution=0.5 -o output/half\n"
-      "  carom run scenes/*.yaml -o results                    results/<scene file's stem>/...\n",
+      "  carom run scenes/*.yaml -o results                    results/<scene file's stem>/...\n"
+      "  carom run scene.yaml --watch                          again at each save\n",
       "Without -o a scene's run goes to output/<scene file's stem>/. All scenes are checked before\n"
-      "the first is run. A folder that holds this very run is up to date and costs nothing.\n"
+      "the first is run. A folder that holds this very run is up to date and costs nothing. A run of the\n"
+      "same scene file from before it was edited is replaced, if nothing in its folder was changed.\n"
       "\n"
       "Exit codes: 0 done or up to date, 1 a run failed, 2 the command line or a scene is wrong,\n"
       "130 or 143 interrupted.",
-      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--jobs"}, {"--force"}, {"--verbose"}, {"--progress"}}};
+      {{"--output"},
+       {"--set"},
+       {"--only"},
+       {"--seed"},
+       {"--jobs"},
+       {"--watch"},
+       {"--force"},
+       {"--verbose"},
+       {"--progress"}}};
   return text;
 }
 
 int run_command(const Options& options) {
+  if (options.watch) return watch_scenes(options);
   return run_planned(options, "run", plan_scenes(options));
 }
 
@@ -81,9 +93,10 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
     return planned.content == FolderContent::this_run && !options.force;
   };
   batch.up_to_date = [&](const PlannedScene& planned) { return run_up_to_date(planned, style); };
-  batch.run = [&](const PlannedScene& planned, ProgressChoice choice) {
+  batch.run = [&](const PlannedScene& planned, ProgressChoice choice, std::atomic<double>* done) {
     Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
+    progress.share(done);
     return work(planned, style, progress);
   };
   batch.settle = [&](SceneOutcome outcome) { list.add(std::move(outcome)); };

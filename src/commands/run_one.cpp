@@ -7,6 +7,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "files/earlier_run.h"
 #include "overlay/history.h"
 #include "scene/scene.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 Show show_of(const PlannedScene& planned) {
   Show show{planned.scene.get(), planned.folder, planned.load_s};
+  show.origin = planned.origin;
   if (planned.former && planned.former->folder == planned.folder) show.renewed = &planned.former->manifest;
   return show;
 }
@@ -23,15 +25,8 @@ Show show_of(const PlannedScene& planned) {
 RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   RunSettings settings;
   if (!planned.former) return settings;
-  const FormerRun& former = *planned.former;
-  settings.warnings = former.manifest.warnings;
+  settings.former = &planned.former->manifest;
   settings.simulator = replay_of(planned, overlay_needs(*planned.scene), quiet);
-  settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
-    if (summary.collisions != former.manifest.collisions)
-      throw ExportError(
-          fmt::format("the motion differs: {} collisions, not {}", summary.collisions, former.manifest.collisions));
-    return former.manifest.measures;
-  };
   return settings;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "commands/accuracy_report.h"
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
 #include "scene/scene.h"
@@ -44,7 +45,7 @@ SceneOutcome without_run(const PlannedScene& planned, std::string_view status) {
 
 SceneOutcome wrong_scene(const PlannedScene& planned) {
   SceneOutcome outcome = without_run(planned, "wrong");
-  outcome.entry["error"] = planned.error;
+  outcome.entry["errors"] = errors_json(planned.records);
   return outcome;
 }
 
@@ -80,7 +81,7 @@ SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
 
 SceneOutcome run_failed(const PlannedScene& planned, std::string_view text) {
   SceneOutcome outcome = without_run(planned, scene_status::failed);
-  outcome.entry["error"] = std::string(text);
+  outcome.entry["errors"] = errors_json(error_of_text(text, planned.file));
   outcome.complaint = fmt::format("{}: the run failed: {}", printable(planned.file), text);
   return outcome;
 }

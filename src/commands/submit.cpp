@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "commands/error_list.h"
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
@@ -48,7 +49,7 @@ int submit(const Options& options) {
   SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
   check_comparison(job);
   job.plan([](const SweepProgress&) {});
-  const std::size_t runs = job.sweep().size();
+  const std::size_t runs = job.sweep().size() - job.invalid().size();
   const std::size_t parts =
       std::min(options.submit.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
   const std::string folder = sweep_folder_of(options);
@@ -59,9 +60,14 @@ int submit(const Options& options) {
     words.push_back(name);
     words.push_back(value);
   };
-  for (const std::string& grid : options.grid) add("--grid", grid);
+  for (const std::string& grid : options.sweep.grid) add("--grid", grid);
   for (const std::string& set : options.set) add("--set", set);
   if (options.only) add("--only", joined(*options.only, ","));
+  if (options.sweep.random) add("--random", std::to_string(*options.sweep.random));
+  if (options.sweep.latin) add("--latin", std::to_string(*options.sweep.latin));
+  if (options.sweep.repeat) add("--repeat", std::to_string(*options.sweep.repeat));
+  if (options.sweep.skip_invalid) words.emplace_back("--skip-invalid");
+  if (!options.compare.measures.empty()) add("--measures", joined(options.compare.measures, ","));
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.force) words.emplace_back("--force");
   std::string batch;
@@ -123,10 +129,15 @@ const CommandText& submit_text() {
        {"--batch"},
        {"--output", "the sweep's folder (output/<sweep file's stem>)"},
        {"--grid"},
+       {"--random"},
+       {"--latin"},
+       {"--repeat", repeat_help},
+       {"--skip-invalid"},
+       {"--measures", measures_help},
        {"--jobs", "processors of a task, and runs at a time in it (1)"},
        {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
        {"--only"},
-       {"--seed", "the seed of every run; with repeats, the first one"},
+       {"--seed", seed_help},
        {"--force", "lift the budget"}},
       "SWEEP",
       "a sweep file (YAML), or a scene with --grid",
@@ -143,6 +154,10 @@ int submit_command(const Options& options) {
   } catch (const SceneError& error) {
     write_err(error.what());
     complain(options, fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")));
+    if (options.json)
+      write_out(document(
+          "submit",
+          Json{{"sweep", options.operands.front()}, {"status", "wrong"}, {"errors", errors_json(error.records)}}));
     return 2;
   }
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/progress.h"
 #include "commands/report.h"
@@ -35,18 +36,18 @@ class SweepSession {
     } catch (const SceneError& error) {
       write_err(error.what());
       complain(options_, fmt::format("{}: nothing was run", counted(error.count, "error", "errors")));
-      show_failure(options_, "wrong", error.what());
+      show_failure(options_, "wrong", error.records);
       return 2;
     } catch (const Interrupted& interrupted) {
       progress_.reset();
       complain(options_, fmt::format("{}: interrupted; the same command runs what is missing",
                                      printable(options_.operands.front())));
-      show_failure(options_, "interrupted", "");
+      show_failure(options_, "interrupted", {});
       return interrupted.exit_code();
     } catch (const ExportError& error) {
       progress_.reset();
       complain(options_, error.what());
-      show_failure(options_, "failed", error.what());
+      show_failure(options_, "failed", error_of_text(error.what()));
       return 1;
     }
   }
@@ -64,7 +65,10 @@ class SweepSession {
     }
     if (content == SweepContent::this_sweep && !options_.force && !options_.plan &&
         !may_have_meshes(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
-      show(SweepOutcome{"up to date", 0, job.sweep().size(), {}, 0}, job);
+      SweepOutcome outcome{"up to date", 0, job.sweep().size(), {}, 0};
+      outcome.skipped = stored_skips(folder_);
+      outcome.runs -= outcome.skipped.size();
+      show(outcome, job);
       return 0;
     }
     show_progress("scenarios", job.sweep().size());
@@ -83,9 +87,9 @@ class SweepSession {
   }
 
   int refuse(const std::string& what) const {
-    complain(options_, fmt::format("{}: {}\n  write elsewhere with -o, or overwrite it with --force",
-                                   printable(options_.operands.front()), what));
-    show_failure(options_, "wrong", what);
+    constexpr const char* way_out = "write elsewhere with -o, or overwrite it with --force";
+    complain(options_, fmt::format("{}: {}\n  {}", printable(options_.operands.front()), what, way_out));
+    show_failure(options_, "wrong", error_of_text(what + "\n" + way_out));
     return 2;
   }
 
@@ -93,8 +97,9 @@ class SweepSession {
     const auto start = std::chrono::steady_clock::now();
     const bool is_part = shard_.count > 1;
     SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::alone, job.sweep(),
-                       job.base_text(), stop_if_interrupted);
+                       job.base_text(), skipped_text(job.sweep(), job.invalid()), stop_if_interrupted);
     SweepOutcome outcome;
+    for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);
     outcome.to_do = job.left();
     share_processors(options_.jobs.value_or(processors()));
     show_progress("runs", outcome.to_do);
@@ -103,10 +108,10 @@ class SweepSession {
     if (!is_part) {
       std::vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
-      show_progress("runs compared", statuses.size());
+      show_progress("runs compared", statuses.size() - job.invalid().size());
       ComparisonWatch watch;
       watch.stop_check = stop_if_interrupted;
-      watch.done = [&](std::size_t done) { show_progress({done, 0, job.runs().size()}); };
+      watch.done = [&](std::size_t done) { show_progress({done, 0, job.runs().size() - job.invalid().size()}); };
       watch.doubtful = [&](std::size_t runs) { outcome.doubtful = runs; };
       folder.finish(job.sweep(), statuses, watch);
     } else {
@@ -114,7 +119,7 @@ class SweepSession {
     }
     progress_.reset();
     outcome.status = is_part ? fmt::format("part {} of {} done", shard_.index, shard_.count) : "done";
-    outcome.runs = job.sweep().size();
+    outcome.runs = job.sweep().size() - job.invalid().size();
     outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     show(outcome, job);
     return outcome.failures.empty() ? 0 : 3;
@@ -150,6 +155,7 @@ const CommandText& sweep_text() {
       "  carom sweep sweep.yaml --plan                         the runs, their values, which are done\n"
       "  carom sweep sweep.yaml -j 4                           four runs at a time\n"
       "  carom sweep scene.yaml --grid restitution.default=0.5:1:6 --grid balls.red.mass=5,10\n"
+      "  carom sweep scene.yaml --latin 50 --grid balls.red.mass=5:10 --grid gravity.y=-10:-1\n"
       "  carom sweep sweep.yaml --shard 2/8                    the second of eight parts\n",
       "Without -o a sweep goes to output/<sweep file's stem>/: runs/r0001/..., summary.csv with a row a\n"
       "run, comparison.xlsx and manifest.json; with --grid to output/<scene file's stem>.sweep/. All\n"
@@ -160,12 +166,17 @@ const CommandText& sweep_text() {
       "its scene is wrong, 3 some runs failed, 130 or 143 interrupted.",
       {{"--output", "the sweep's folder (output/<sweep file's stem>)"},
        {"--grid"},
+       {"--random"},
+       {"--latin"},
+       {"--repeat", repeat_help},
+       {"--skip-invalid"},
+       {"--measures", measures_help},
        {"--plan"},
        {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
        {"--shard"},
        {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
        {"--only"},
-       {"--seed", "the seed of every run; with repeats, the first one"},
+       {"--seed", seed_help},
        {"--force"},
        {"--progress"}},
       "SWEEP",

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "commands/error_list.h"
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
@@ -21,6 +22,22 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr std::size_t failures_shown = 10;
+
+/// A line for each of the first ones: "r0003: `mass` is 0".
+void describe_skipped(Block& block, const std::vector<std::pair<std::string, std::string>>& skipped) {
+  if (skipped.empty()) return;
+  block.warning("left out", counted(skipped.size(), "invalid run", "invalid runs"));
+  for (std::size_t i = 0; i < std::min(skipped.size(), failures_shown); ++i)
+    block.line("", fmt::format("{}: {}", skipped[i].first, printable(skipped[i].second)));
+  if (skipped.size() > failures_shown) block.line("", fmt::format("and {} more", skipped.size() - failures_shown));
+}
+
+Json skipped_json(const std::vector<std::pair<std::string, std::string>>& skipped) {
+  Json list = Json::array();
+  for (const auto& [run, errors] : skipped)
+    list.push_back({{"run", run}, {"errors", errors_json(error_of_text(errors))}});
+  return list;
+}
 
 std::string state_of(const SweepJob& job, std::size_t number) {
   if (job.runs()[number].status == RunStatus::done) return "done";
@@ -51,8 +68,9 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
     json["made"] = outcome.to_do - outcome.failures.size();
     Json failures = Json::array();
     for (const auto& [number, why] : outcome.failures)
-      failures.push_back({{"run", job.sweep().id(number)}, {"error", why}});
+      failures.push_back({{"run", job.sweep().id(number)}, {"errors", errors_json(error_of_text(why))}});
     json["failed"] = std::move(failures);
+    json["skipped"] = skipped_json(outcome.skipped);
     json["doubtful"] = outcome.doubtful;
     json["wall_s"] = outcome.wall_s;
     write_out(document("sweep", json));
@@ -63,12 +81,14 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
   block.heading(name_of(options), job.sweep().title);
   if (outcome.status == "up to date") {
     block.line("up to date", fmt::format("{}, {}", counted(outcome.runs, "run", "runs"), printable(job.folder())));
+    describe_skipped(block, outcome.skipped);
   } else {
     block.line("runs", fmt::format("{}; {}", counted(outcome.runs, "run", "runs"), outcome.status));
     block.line("made", fmt::format("{}{} in {}", counted(outcome.to_do - outcome.failures.size(), "run", "runs"),
                                    outcome.failures.empty() ? "" : fmt::format(", {} failed", outcome.failures.size()),
                                    wait_text(outcome.wall_s)));
     describe_doubtful(block, outcome.doubtful);
+    describe_skipped(block, outcome.skipped);
     block.line("folder", printable(job.folder()));
     if (outcome.status.starts_with("part"))
       block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
@@ -77,16 +97,18 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
   flush_out();
 }
 
-void show_failure(const Options& options, std::string_view status, std::string_view error) {
+void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors) {
   if (!options.json) return;
   Json json = {
       {"sweep", options.operands.front()}, {"status", std::string(status)}, {"folder", sweep_folder_of(options)}};
-  if (!error.empty()) json["error"] = std::string(error);
+  if (!errors.empty()) json["errors"] = errors_json(errors);
   write_out(document("sweep", json));
 }
 
 void show_plan(const Options& options, const SweepJob& job) {
   const Sweep& sweep = job.sweep();
+  std::vector<std::pair<std::string, std::string>> skipped;
+  for (const InvalidRun& run : job.invalid()) skipped.emplace_back(sweep.id(run.number), run.messages);
   if (options.json) {
     Json json = begin_json(options, job, "planned");
     json["paths"] = sweep.paths;
@@ -99,6 +121,7 @@ void show_plan(const Options& options, const SweepJob& job) {
       runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
     }
     json["runs"] = std::move(runs);
+    json["skipped"] = skipped_json(skipped);
     write_out(document("sweep", json));
     return;
   }
@@ -117,6 +140,7 @@ void show_plan(const Options& options, const SweepJob& job) {
   Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
   block.heading(name_of(options), sweep.title);
   block.table(rows);
+  describe_skipped(block, skipped);
   block.line("to do", fmt::format("{} of {}", grouped(left), counted(all.size(), "run", "runs")));
   block.line("folder", printable(job.folder()));
   write_out(block.text());

@@ -7,6 +7,7 @@
 
 #include "commands/command_line.h"
 #include "study/sweep_job.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 
@@ -16,14 +17,15 @@ struct SweepOutcome {
   std::size_t runs = 0;                                       // of the whole sweep
   std::vector<std::pair<std::size_t, std::string>> failures;  // run, why
   double wall_s = 0;
-  std::size_t doubtful = 0;  // runs of the whole sweep; unknown for a part
+  std::size_t doubtful = 0;                                    // runs of the whole sweep; unknown for a part
+  std::vector<std::pair<std::string, std::string>> skipped{};  // runs that are left out, and the errors of their scenes
 };
 
 /// The end of a sweep, on stdout, and the runs that failed, on stderr.
 void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job);
 
-/// With --json: the status of a sweep without a result ("wrong", "interrupted", "failed"), and the reason.
-void show_failure(const Options& options, std::string_view status, std::string_view error);
+/// With --json: the status of a sweep without a result ("wrong", "interrupted", "failed"), and the reasons.
+void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors);
 
 /// --plan: id, values and state of every run. The job must be planned.
 void show_plan(const Options& options, const SweepJob& job);

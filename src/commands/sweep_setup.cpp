@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -17,10 +18,12 @@
 #include "compare/comparison.h"
 #include "files/processors.h"
 #include "render/mesh.h"
+#include "scene/grid_text.h"
 #include "scene/output_kinds.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"
+#include "yaml/values.h"
 
 namespace carom {
 
@@ -56,22 +59,56 @@ std::optional<std::size_t> slurm(const char* name) {
   return value;
 }
 
+/// Whether the operand is a scene, varied by options alone.
+bool varies_scene(const Options& options) {
+  return !options.sweep.grid.empty() || (options.sweep.repeat && !is_sweep_file(options.operands.front()));
+}
+
+/// Options of samples need ranges, and ranges need them.
+void refuse_samples(const Options& options) {
+  const SweepWords& words = options.sweep;
+  const std::string& file = options.operands.front();
+  const bool samples = words.random || words.latin;
+  if ((!words.grid.empty() || samples) && is_sweep_file(file))
+    throw UsageError(fmt::format("{} a scene; {} is a sweep: add to its {}",
+                                 words.grid.empty() ? "--random and --latin vary" : "--grid varies", printable(file),
+                                 words.grid.empty() ? "`random` or `latin`" : "`grid`"));
+  if (words.random && words.latin) throw UsageError("--random and --latin exclude one another: remove one of them");
+  const auto open = std::find_if(words.grid.begin(), words.grid.end(), is_open_range);
+  if (open != words.grid.end() && !samples)
+    throw UsageError(fmt::format("--grid {} has no count: add one, such as {}:6, or draw from it with --latin 50",
+                                 printable(*open), printable(*open)));
+  if (open == words.grid.end() && samples)
+    throw UsageError(fmt::format("{0} {1} draws from ranges, and there are none: add --grid PATH=FROM:TO",
+                                 words.random ? "--random" : "--latin",
+                                 words.random.value_or(words.latin.value_or(0))));
+}
+
 }  // namespace
 
 Sweep read_sweep(const Options& options) {
   const std::string& file = options.operands.front();
-  const bool color = !options.json && uses_color(options.color, STDERR_FILENO);
-  if (!options.grid.empty() && is_sweep_file(file))
-    throw UsageError(fmt::format("--grid varies a scene; {} is a sweep: add to its `grid`", printable(file)));
-  Sweep sweep = options.grid.empty() ? load_sweep(file, color) : grid_sweep(file, options.grid, color);
+  SweepOptions how{options.seed, options.sweep.random, options.sweep.latin, options.sweep.repeat, false};
+  how.color = !options.json && uses_color(options.color, STDERR_FILENO);
+  refuse_samples(options);
+  Sweep sweep = varies_scene(options) ? grid_sweep(file, options.sweep.grid, how) : load_sweep(file, how);
   for (const std::string& set : options.set) set_for_all(sweep, set, "--set");
-  if (options.seed && sweep.seeds > 0)
+  if (options.seed && sweep.seeds > 0) {
+    if (*options.seed > std::numeric_limits<std::uint64_t>::max() - sweep.seeds)
+      throw UsageError(fmt::format("--seed {} leaves too few seeds for {} repeats", *options.seed, sweep.seeds));
     sweep.first_seed = options.seed;
-  else if (options.seed)
+  } else if (options.seed) {
     set_for_all(sweep, fmt::format("seed={}", *options.seed), "--seed");
+  }
+  if (options.sweep.skip_invalid) sweep.skip_invalid = true;
   if (options.only) {
     sweep.only.clear();
     for (const std::string& name : *options.only) sweep.only.push_back({name, "--only"});
+  }
+  for (const std::string& name : options.compare.measures) {
+    const auto is_named = [&](const SweepMeasure& measure) { return measure.name == name; };
+    if (std::none_of(sweep.measures.begin(), sweep.measures.end(), is_named))
+      sweep.measures.push_back({name, "--measures"});
   }
   return sweep;
 }
@@ -79,7 +116,7 @@ Sweep read_sweep(const Options& options) {
 std::string sweep_folder_of(const Options& options) {
   if (options.output) return *options.output;
   const std::string stem = fs::path(options.operands.front()).stem().string();
-  return (fs::path("output") / (options.grid.empty() ? stem : stem + ".sweep")).string();
+  return (fs::path("output") / (varies_scene(options) ? stem + ".sweep" : stem)).string();
 }
 
 SweepSettings sweep_settings(const Options& options) {
@@ -88,6 +125,7 @@ SweepSettings sweep_settings(const Options& options) {
   settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   // Every scenario has the base's meshes, so each mesh is read once.
   auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
+  settings.load.measure_fault = measure_fault;
   settings.load.mesh_points = [known](const std::string& path) {
     const auto found = known->find(path);
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
@@ -105,35 +143,60 @@ SweepSettings sweep_settings(const Options& options) {
   return settings;
 }
 
-void check_comparison(SweepJob& job) {
-  Scene scene;
-  try {
-    scene = job.scene(0);
-  } catch (const SceneError&) {
-    return;
+namespace {
+
+/// `where`: "file:line:column", or an option.
+ErrorRecord placed(const std::string& where, const std::string& message) {
+  ErrorRecord record{where, 0, 0, message, {}, suggestion_in(message)};
+  const std::size_t last = where.rfind(':'), middle = where.rfind(':', last == 0 ? 0 : last - 1);
+  if (last == std::string::npos || middle == std::string::npos || middle == last) return record;
+  const auto line = parse_index(where.substr(middle + 1, last - middle - 1)),
+             column = parse_index(where.substr(last + 1));
+  if (line && column) record = {where.substr(0, middle), *line, *column, message, {}, record.near};
+  return record;
+}
+
+/// The scenario that stands for all. None: it is invalid.
+std::optional<Scene> first_valid(SweepJob& job) {
+  const std::size_t most = job.sweep().skip_invalid ? job.sweep().size() : 1;
+  for (std::size_t number = 0; number < most; ++number) {
+    try {
+      return job.scene(number);
+    } catch (const SceneError&) {
+      continue;
+    }
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_comparison(SweepJob& job) {
   const Sweep& sweep = job.sweep();
+  const std::optional<Scene> first = first_valid(job);
+  if (!first) return;
+  const Scene& scene = *first;
   std::string errors;
-  std::size_t count = 0;
+  std::vector<ErrorRecord> records;
   const auto check = [&](const std::string& where, const auto& work) {
     try {
       work();
     } catch (const MeasureError& error) {
       errors += fmt::format("{}: error: {}\n", where, error.what());
-      ++count;
+      records.push_back(placed(where, error.what()));
     }
   };
   for (const SweepMeasure& measure : sweep.measures) check(measure.where, [&] { parse_measure(measure.name, scene); });
   for (const SweepChart& chart : sweep.charts) {
     check(chart.where, [&] {
-      ComparisonPlan plan = comparison_plan(sweep);
+      ComparisonPlan plan = comparison_plan(sweep, job.base_text());
       plan.measures.clear();
       plan.charts = {{chart.x, chart.y, chart.by}};
       check_charts(plan);
       for (const Measure& measure : measures_of(plan)) parse_measure(measure.name, scene);
     });
   }
-  if (count > 0) throw SceneError(errors, count);
+  if (!records.empty()) throw SceneError(errors, records.size(), records);
 }
 
 Shard shard_of(const Options& options) {

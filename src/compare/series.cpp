@@ -86,7 +86,7 @@ void thin(SeriesGroup& group, std::size_t most) {
 SeriesGatherer::SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures) {
   // A trajectory has no masses, and so no kinetic energies.
   for (const Measure& measure : measures)
-    if (measure.column == nullptr && measure.quantity != Quantity::kinetic) bodies_.push_back(measure);
+    if (measure.form == MeasureForm::at_end && measure.quantity != Quantity::kinetic) bodies_.push_back(measure);
   const std::size_t columns = 2 + bodies_.size();
   points_ = std::clamp(most_cells / std::max<std::size_t>(1, columns * runs), fewest_points, most_points);
 }
@@ -110,10 +110,13 @@ void SeriesGatherer::add(const RunRecord& run) {
 /// Without measures of bodies and without energies, follows the speeds of the first few bodies.
 void SeriesGatherer::follow_first(const RunRecord& run) {
   constexpr std::size_t few = 3;
-  for (const EndMotion& motion : end_of_trajectory(run)) {
+  for (const EndMotion& motion : end_of_trajectory(run.folder.get())) {
     if (bodies_.size() == few) break;
-    bodies_.push_back(
-        {fmt::format("{}.{}", motion.body, name_of(Quantity::speed)), nullptr, {}, motion.body, Quantity::speed});
+    Measure& measure = bodies_.emplace_back();
+    measure.name = fmt::format("{}.{}", motion.body, name_of(Quantity::speed));
+    measure.form = MeasureForm::at_end;
+    measure.body = motion.body;
+    measure.quantity = Quantity::speed;
   }
 }
 

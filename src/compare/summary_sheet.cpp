@@ -76,6 +76,11 @@ void SummarySheet::add(std::size_t number, const RunRecord& run) {
   const bool room = number + 1 < most_rows;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Column& column = columns_[k];
+    if (column.measure && !run.texts[*column.measure].empty()) {
+      row.text(run.texts[*column.measure]);
+      if (room) sheet_.text(number + 1, k, run.texts[*column.measure]);
+      continue;
+    }
     if (column.measure) {
       row.number(run.measures[*column.measure]);
       if (room) sheet_.number(number + 1, k, run.measures[*column.measure], column.style);

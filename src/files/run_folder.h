@@ -36,6 +36,8 @@ enum class FolderContent {
   incomplete,
   /// A run of this scene with outputs that this run does not write and would remove.
   more,
+  /// A complete run of the same scene file before that was edited, and nothing else (earlier_run.h).
+  earlier,
   /// A run of another scene, or files that no run wrote.
   other_run
 };

@@ -10,6 +10,7 @@
 #include "physics/force_law.h"
 #include "physics/surface_motion.h"
 #include "physics/volume.h"
+#include "physics/world_region.h"
 
 namespace carom {
 
@@ -71,6 +72,7 @@ struct World {
   Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
   Combine combine = Combine::average;
   std::vector<PairRestitution> pairs;  // the last match counts
+  std::vector<WorldRegion> regions;
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }

@@ -60,7 +60,7 @@ void MotionView::add(const State& state) {
     const Vec3& position = state.position[body];
     const double distance2 = (position - middle_).squaredNorm();
     const double before = std::exchange(departure.distance2, distance2);
-    const bool part = is_part_of_another(state, body);
+    const bool part = is_gone(state, body);
     const bool departs = !part && before >= 0 && distance2 > before;
     if (!departs && !departure.content.empty()) core_.add(std::exchange(departure.content, {}));
     if (part) continue;

@@ -57,13 +57,14 @@ constexpr AbsentWord all_words[] = {
      "camera.path|camera.follow"},
     {"auto camera|autofit|framing|bounding view|zoom to fit|default camera",
      "Without a camera, or with `fit: motion`, the camera frames where the bodies go.", "camera.fit"},
-    {"loop|repeat|for|foreach|array|instances|copies|clone|duplicate",
-     "A scene has no loops. Many balls made by rule are a group; many runs with other values are a sweep.",
-     "group|grid"},
-    {"variable|parameter|constant|let|define|macro|expression|formula|function|arithmetic",
-     "A scene has no variables. `defaults` holds values that things share, `--set PATH=VALUE` changes one for a run, a "
-     "sweep varies it over runs.",
-     "defaults|sweep"},
+    {"loop|for|foreach|array|instances|copies|clone|duplicate|grid of bodies|row of bodies",
+     "A thing with `repeat` stands for many: `repeat: 7` makes seven, and expressions place each by its index i. Many "
+     "balls placed by rule are a group; many runs with other values are a sweep.",
+     "ball.repeat|group|sweep"},
+    {"variable|parameter|constant|define|macro|expression|formula|function|arithmetic|calculation",
+     "`let` gives names to numbers, and a text that begins with = is an expression of them. `--set let.NAME=VALUE` "
+     "changes one for a run, a sweep varies it over runs.",
+     "let|sweep"},
     {"sphere|particle|marble|point mass|circle|disc|disk", "A sphere that moves is a ball.", "ball|balls"},
     {"cube|cuboid|block|brick|crate|rigid body|rigidbody|object|solid|prism|shape|volume|collider",
      "An axis-aligned box is a body with `box: [x, y, z]`; an upright cylinder is one with `cylinder`.",
@@ -80,9 +81,11 @@ constexpr AbsentWord all_words[] = {
     {"piston|paddle|bat|racket|conveyor|elevator|lift|moving wall|moving floor|moving platform|plunger|flipper",
      "A plane, a wall or an obstacle with `motion` moves at constant velocities in windows of time.",
      "plane.motion|obstacle.motion"},
-    {"sensor|trigger|region|goal|zone|pocket|kill zone",
-     "There are no regions. collisions.csv has every collision; trajectory.csv has where bodies are.",
-     "output.collisions|output.trajectory"},
+    {"sensor|trigger|goal|zone|pocket|kill zone|finish line|drain|sink",
+     "`regions` are entered and left by the centres of bodies: `output.regions` writes when, and an `action` removes "
+     "the "
+     "body or stops the run.",
+     "regions|region.action|output.regions"},
     {"air|air resistance|resistance|viscosity|damping|friction of air|medium|fluid|buoyancy",
      "A medium acts by drag, linear or quadratic in the relative velocity; it may move as wind.", "drag|drag.wind"},
     {"magnet|magnetism|charge|electric|coulomb|attraction|planet|sun|gravitation|orbit",
@@ -117,12 +120,14 @@ constexpr AbsentWord all_words[] = {
     {"gif|webp|mp4|movie|film|animation",
      "A film is `output.video`. The ending of `video.file` chooses H.264, GIF or WebP.", "video|video.file"},
     {"csv|table|spreadsheet|excel|xlsx|data",
-     "Tables are `output.trajectory`, `collisions`, `energy` and `contacts`; `carom compare` puts runs into a "
+     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into "
+     "a "
      "workbook.",
      "output"},
     {"solver|physics engine|method|algorithm",
      "`simulate.engine` chooses the engine, `integrator` the method of its steps.", "engine|integrator"},
-    {"time|length of run|end time|stop|end|run time", "A run lasts `simulate.duration`.", "duration"},
+    {"time|length of run|end time|end|run time",
+     "A run lasts `simulate.duration`, unless one of `simulate.stop` ends it before.", "duration|simulate.stop"},
     {"unit|units|metre|meter|inch|feet|gram|degree",
      "Units are SI: m, kg, s, N; angles are in degrees. Numbers carry no unit.", "scene"},
     {"sleep|sleeping|rest|resting|deactivation",

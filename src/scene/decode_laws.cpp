@@ -87,7 +87,7 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   const auto each = [](const Node* list, const auto& decode) {
     if (list == nullptr || !list->is(Node::Kind::sequence)) return;
     for (const Node& node : list->items) {
-      if (node.is(Node::Kind::map)) decode(node);
+      if (node.is(Node::Kind::map) && node.find_key("repeat") == nullptr) decode(node);
     }
   };
   each(laws.find("pairs"), [&](const Node& node) { decode_pair(node, inventory, scene, diagnostics); });

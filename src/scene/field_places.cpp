@@ -24,19 +24,30 @@ struct Spot {
   std::vector<std::string_view> steps;
 };
 
+/// Whether its value is a map from names or paths to maps.
+bool has_names(const Field& field) {
+  return field.type == Type::named || field.type == Type::axes || field.type == Type::spans;
+}
+
 /// Collects every place of every key of a map of `kind`, in the order of the table. `steps`: the path of the map.
 void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::vector<Spot>& found) {
   for (const Field& field : kind.fields) {
+    // Defaults are those of each member.
+    if (field.type == Type::repeat && !steps.empty() && steps.front() == "defaults") continue;
     std::vector<std::string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
+    if (field.type == Type::values || field.type == Type::texts) {
+      here.push_back(any_name);
+      found.push_back({&kind, &field, here});
+    }
     const Kind* held = held_kind(field);
     if (held == nullptr) continue;
     if (field.type == Type::named && held->also != nullptr) {
       found.push_back({held, held->also, here});
       found.back().steps.push_back(held->also->key);
     }
-    if (field.type == Type::named || field.type == Type::axes) here.push_back(any_name);
+    if (has_names(field)) here.push_back(any_name);
     if (field.type == Type::list) here.push_back(any_entry);
     collect(*held, here, found);
   }
@@ -176,7 +187,7 @@ std::vector<std::string> paths_of(const Kind& kind) {
   for (const Spot& spot : all_spots()) {
     if (held_kind(*spot.field) != &kind) continue;
     std::string path = path_text(spot.steps);
-    if (spot.field->type == Type::named || spot.field->type == Type::axes) path += fmt::format(".{}", any_name);
+    if (has_names(*spot.field)) path += fmt::format(".{}", any_name);
     if (spot.field->type == Type::list) path += fmt::format(".{}", any_entry);
     paths.push_back(std::move(path));
   }

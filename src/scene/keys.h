@@ -125,6 +125,32 @@ struct ForceKeys {
   bool visible = true;                                     // whether its springs are drawn
 };
 
+/// The side of a plane to which its normal points.
+struct SideKeys {
+  Vec3 point = Vec3(0, 0, 0);   // m
+  Vec3 normal = Vec3(0, 1, 0);  // any length
+};
+
+/// What a region does to a body that enters it.
+enum class RegionAction : std::uint8_t { none, remove, stop };
+
+/// One of the first four is its shape.
+struct RegionKeys {
+  std::optional<double> radius;  // m
+  std::optional<CylinderKeys> cylinder;
+  std::optional<Vec3> box;  // m, full edge lengths
+  std::optional<SideKeys> plane;
+  std::optional<Vec3> position;  // m; of a plane: none
+  const Node* on = nullptr;      // names; null: all bodies
+  std::optional<RegionAction> action = RegionAction::none;
+};
+
+/// An entry of `simulate.stop`.
+struct StopKeys {
+  std::optional<std::uint64_t> collisions;
+  const Node* region = nullptr;  // a name
+};
+
 struct TrailKeys {
   double seconds = 1;
   std::optional<double> width;  // m; none: half a body's radius

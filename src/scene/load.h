@@ -10,6 +10,7 @@
 
 #include "scene/budget.h"
 #include "scene/scene.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 
@@ -24,13 +25,20 @@ struct LoadOptions {
   /// Reads the vertices of a mesh file, in the file's own units.
   /// Throws std::runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
   std::function<std::vector<Vec3>(const std::string& path)> mesh_points;
+  /// The fault of a measure that the scene defines; empty: none. Unset: measures are not checked.
+  std::function<std::string(const Scene& scene, const OwnMeasure& measure)> measure_fault;
 };
 
 /// All errors of a scene file, as text for a terminal.
 /// Each has file:line:column, the line, a caret and the remedy.
 struct SceneError : std::runtime_error {
-  SceneError(const std::string& text, std::size_t errors) : std::runtime_error(text), count(errors) {}
+  SceneError(const Diagnostics& diagnostics, bool color)
+      : SceneError(diagnostics.text(color), diagnostics.count(), diagnostics.records()) {}
+  SceneError(const std::string& text, std::size_t errors, std::vector<ErrorRecord> parts)
+      : std::runtime_error(text), count(errors), records(std::move(parts)) {}
   std::size_t count;
+  /// The errors in parts, as far as the text shows them.
+  std::vector<ErrorRecord> records;
 };
 
 /// A change to a scene: one --set option.

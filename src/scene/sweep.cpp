@@ -87,6 +87,7 @@ std::string block_text(const SweepBlock& block, const std::vector<std::string>& 
   add("grid", grid);
   add("zip", zip);
   add("list", list);
+  out += block.samples;
   if (!block.skip.empty()) out += fmt::format("    skip: {}\n", block.skip);
   if (out.empty()) return "  - {}\n";
   out[2] = '-';
@@ -102,6 +103,8 @@ std::string Sweep::resolved(std::string_view base_name) const {
     const std::size_t equals = value.text.find('=');
     out += fmt::format("  {}: {}\n", value.text.substr(0, equals), value.text.substr(equals + 1));
   }
+  if (seed) out += fmt::format("seed: {}\n", *seed);
+  if (skip_invalid) out += "skip_invalid: true\n";
   out += "runs:\n";
   for (const SweepBlock& block : blocks) out += block_text(block, paths);
   if (seeds > 0) out += fmt::format("repeat: {{seeds: {}, first: {}}}\n", seeds, first_seed.value_or(0));

@@ -22,9 +22,9 @@ struct SweepCase {
   std::vector<std::pair<std::uint32_t, SweepValue>> values;
 };
 
-/// What varies independently: a path of a grid, the paths of a zip, or a list.
+/// What varies independently: a path of a grid, the paths of a zip, a list, or samples of ranges.
 struct SweepAxis {
-  enum class Kind : std::uint8_t { grid, zip, list };
+  enum class Kind : std::uint8_t { grid, zip, list, samples };
   Kind kind = Kind::grid;
   std::vector<SweepCase> cases;
 };
@@ -33,6 +33,8 @@ struct SweepAxis {
 struct SweepBlock {
   std::vector<SweepAxis> axes;
   std::vector<std::uint32_t> kept;  // indices of combinations
+  /// The keys that draw its samples, as lines of YAML. Empty: none.
+  std::string samples;
   /// The rule that skips combinations, as YAML on one line. Empty: none.
   std::string skip;
 };
@@ -66,6 +68,10 @@ class Sweep {
   /// The paths that vary, in the order of the file. With repeats the last one is `seed`.
   std::vector<std::string> paths;
   std::vector<SweepBlock> blocks;
+  /// The seed of samples. None: nothing is drawn.
+  std::optional<std::uint64_t> seed;
+  /// Whether runs whose scene is invalid are left out. The others keep their ids.
+  bool skip_invalid = false;
   /// For each combination. 0: no repeats.
   std::uint64_t seeds = 0;
   std::optional<std::uint64_t> first_seed;
@@ -86,12 +92,23 @@ inline constexpr std::size_t most_runs = 1'000'000;
 /// Of all paths of a zip together.
 inline constexpr std::size_t most_values = 10'000'000;
 
-/// Reads and checks a sweep file, as far as possible without its base. Throws SceneError, which holds every error.
-/// `color`: use colour in the texts of errors.
-Sweep load_sweep(const std::string& path, bool color = false);
+/// What the command line decides before numbers are drawn.
+struct SweepOptions {
+  /// Replaces the seed of samples.
+  std::optional<std::uint64_t> seed;
+  /// Of a scene: how many samples of the ranges without a count.
+  std::optional<std::uint64_t> random, latin;
+  /// Of a scene: so many seeds of each run.
+  std::optional<std::uint64_t> repeat;
+  bool color = false;  // colour in the texts of errors
+};
 
-/// The sweep of the --grid options, each "path=from:to:count" or "path=value,value,...". Throws SceneError.
-Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, bool color = false);
+/// Reads and checks a sweep file, as far as possible without its base. Throws SceneError, which holds every error.
+Sweep load_sweep(const std::string& path, const SweepOptions& options = {});
+
+/// The sweep of the --grid options. Each is "path=from:to:count" or "path=value,value,...", or, for samples,
+/// "path=from:to" or "path=from:to:log". Throws SceneError.
+Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, const SweepOptions& options = {});
 
 /// Whether a file begins like a sweep file: it has the key `sweep` and no key `scene`.
 bool is_sweep_file(const std::string& path);

@@ -7,7 +7,10 @@
 #include <optional>
 
 #include "scene/check.h"
+#include "scene/grid_text.h"
+#include "scene/path_field.h"
 #include "scene/resolve.h"
+#include "scene/samples.h"
 #include "scene/sweep.h"
 #include "scene/view.h"
 #include "yaml/decimal.h"
@@ -29,8 +32,8 @@ bool same_value(const std::string& a, const std::string& b) {
 
 class SweepReader {
  public:
-  SweepReader(std::vector<Source>& sources, const Node& root, Diagnostics& diagnostics)
-      : sources_(sources), root_(root), diagnostics_(diagnostics) {}
+  SweepReader(std::vector<Source>& sources, const Node& root, const SweepOptions& options, Diagnostics& diagnostics)
+      : sources_(sources), root_(root), options_(options), diagnostics_(diagnostics) {}
 
   Sweep run() {
     const View whole(&root_, kind_named("sweep"), Place{});
@@ -46,7 +49,10 @@ class SweepReader {
         diagnostics_.add(base->place, fmt::format("{} {}", why, in_backticks(base->text)),
                          "expected the path of a scene file, relative to the folder of this file");
     }
+    sweep_.skip_invalid = whole.flag("skip_invalid").value_or(false);
+    seed_ = options_.seed.value_or(whole.whole("seed").value_or(0));
     blocks();
+    unused_seed();
     repeat();
     if (const Node* only = usable(root_.find("only"))) {
       for (const Node& item : only->items) sweep_.only.push_back({item.text, where(item.place)});
@@ -99,7 +105,7 @@ class SweepReader {
       block(root_);
       return;
     }
-    for (const std::string_view key : {"grid", "zip", "list", "skip"}) {
+    for (const std::string_view key : {"grid", "zip", "list", "random", "latin", "over", "skip"}) {
       if (const Key* beside = root_.find_key(key))
         diagnostics_.add(beside->place, fmt::format("{} stands beside `runs`", in_backticks(key)),
                          "expected it in an entry of `runs`");
@@ -141,9 +147,15 @@ class SweepReader {
       for (const auto& [text, key] : keys) take(*key);
       block.axes.push_back(std::move(axis));
     }
-    if (&node == &root_ && block.axes.empty() && root_.find("repeat") == nullptr && diagnostics_.empty())
+    if (const Node* over = usable(node.find("over"))) {
+      block.axes.push_back(sampled(node, *over, block));
+      // Already reported.
+      if (block.axes.back().cases.empty()) return;
+    }
+    if (&node == &root_ && block.axes.empty() && root_.find("repeat") == nullptr && !options_.repeat &&
+        diagnostics_.empty())
       diagnostics_.add(root_.keys.front().place, "the sweep varies nothing",
-                       "expected `grid`, `zip`, `list` or `runs`, or `repeat`");
+                       "expected `grid`, `zip`, `list`, `random`, `latin` or `runs`, or `repeat`");
     keep(block, usable(node.find("skip")), node);
     sweep_.blocks.push_back(std::move(block));
   }
@@ -185,6 +197,90 @@ class SweepReader {
     return axis;
   }
 
+  /// One case for each of the numbers drawn from every range.
+  Axis sampled(const Node& node, const Node& over, SweepBlock& block) {
+    Axis axis{Axis::Kind::samples, {}};
+    const bool latin = node.find("latin") != nullptr;
+    const char* key = latin ? "latin" : "random";
+    const Node* number = usable(node.find(key));
+    if (number == nullptr || !over.is(Node::Kind::map)) return axis;
+    const std::uint64_t count = parse_whole(number->text).value_or(1);
+    if (over.keys.size() * count > most_values) {
+      diagnostics_.add(node.find_key(key)->place, fmt::format("{} values of {} paths", count, over.keys.size()),
+                       fmt::format("expected at most {} values in all", most_values));
+      return axis;
+    }
+    axis.cases.resize(count);
+    for (std::size_t i = 0; i < over.keys.size(); ++i) {
+      const Key& its = over.keys[i];
+      take(its);
+      // The same path in another block draws other numbers.
+      Random random(seed_, fmt::format("samples {} {}", sweep_.blocks.size(), its.text));
+      const std::optional<SampledRange> range = span(its, over.items[i]);
+      std::vector<std::string> drawn;
+      if (range) drawn = samples(*range, latin ? Sampling::latin : Sampling::random, count, random);
+      if (range && drawn.empty())
+        diagnostics_.add(its.place, fmt::format("the numbers of {} have more than 15 digits", in_backticks(its.text)),
+                         "expected ends that differ more, or have fewer digits");
+      drawn.resize(count);
+      const std::string place = where(its.place);
+      const std::uint32_t path_number = path(its.text);
+      for (std::size_t k = 0; k < count; ++k)
+        axis.cases[k].values.emplace_back(path_number, SweepValue{std::move(drawn[k]), place});
+    }
+    block.samples = fmt::format("    {}: {}\n    over:\n", key, count);
+    for (std::size_t i = 0; i < over.keys.size(); ++i)
+      block.samples += fmt::format("      {}: {}\n", over.keys[i].text, flow_text(over.items[i]));
+    sweep_.seed = seed_;
+    return axis;
+  }
+
+  /// None: it is wrong, which is reported.
+  std::optional<SampledRange> span(const Key& key, const Node& node) {
+    if (node.bad || !node.is(Node::Kind::map)) return std::nullopt;
+    for (const Node& item : node.items)
+      if (item.bad) return std::nullopt;
+    if (node.find("from") == nullptr || node.find("to") == nullptr) return std::nullopt;
+    const std::optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
+    if (!from || !to) return std::nullopt;
+    const View view(&node, kind_named("span"), key.place);
+    SampledRange range{*from, *to, view.flag("log").value_or(false)};
+    const Field* field = field_at(key.text);
+    range.whole = field != nullptr && field->type == Type::whole;
+    const double low = parse_number(node.find("from")->text).value_or(0),
+                 high = parse_number(node.find("to")->text).value_or(0);
+    const auto refuse = [&](const char* end, const std::string& message, const char* remedy) {
+      diagnostics_.add(node.find(end)->place, message, remedy);
+      return std::nullopt;
+    };
+    if (!(low < high))
+      return refuse("to", fmt::format("no number lies between {} and {}", to_text(*from), to_text(*to)),
+                    "expected `from` below `to`");
+    if (range.log && !(low > 0))
+      return refuse("from", fmt::format("{} has no logarithm", to_text(*from)), "expected `from` above 0, or no `log`");
+    if (range.whole && (from->places > 0 || to->places > 0))
+      return refuse(from->places > 0 ? "from" : "to", fmt::format("{} takes whole numbers", in_backticks(key.text)),
+                    "expected whole ends");
+    return range;
+  }
+
+  /// A seed without samples would seem to be the scene's.
+  void unused_seed() {
+    const Key* seed = root_.find_key("seed");
+    if (seed == nullptr || sweep_.seed || !diagnostics_.empty()) return;
+    diagnostics_.add(seed->place, "`seed` is that of `random` and `latin`, and there are none",
+                     "expected `set: {seed: ...}` for the seed of the scene, or `repeat` for several seeds");
+  }
+
+  /// None: it has too many digits, which is reported.
+  std::optional<Decimal> decimal(const Node& value) {
+    const std::optional<Decimal> number = parse_decimal(value.text);
+    if (!number)
+      diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", in_backticks(value.text)),
+                       "list such values one by one");
+    return number;
+  }
+
   /// The values of a list or a range.
   std::vector<SweepValue> values(const Key& key, const Node& node) {
     std::vector<SweepValue> out;
@@ -201,15 +297,7 @@ class SweepReader {
   }
 
   std::vector<std::string> range(const Key& key, const Node& node) {
-    const auto number = [&](const char* name) -> std::optional<Decimal> {
-      const Node& value = *node.find(name);
-      const std::optional<Decimal> decimal = parse_decimal(value.text);
-      if (!decimal)
-        diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", in_backticks(value.text)),
-                         "list such values one by one");
-      return decimal;
-    };
-    const std::optional<Decimal> from = number("from"), to = number("to");
+    const std::optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
     if (!from || !to) return {};
     if (const Node* count = node.find("count")) {
       const std::uint64_t n = parse_whole(count->text).value_or(1);
@@ -219,7 +307,7 @@ class SweepReader {
       return spread(*from, *to, n);
     }
     const Node* step = node.find("step");
-    const std::optional<Decimal> width = step == nullptr ? std::nullopt : number("step");
+    const std::optional<Decimal> width = step == nullptr ? std::nullopt : decimal(*step);
     if (!width) return {};
     std::vector<std::string> out = steps(*from, *to, *width, most_runs);
     if (out.empty())
@@ -294,16 +382,17 @@ class SweepReader {
 
   void repeat() {
     const Node* node = usable(root_.find("repeat"));
-    if (node == nullptr || !node->is(Node::Kind::map)) return;
-    const View view(node, kind_named("repeat"), Place{});
-    sweep_.seeds = view.whole("seeds").value_or(1);
+    const bool given = node != nullptr && node->is(Node::Kind::map);
+    if (!given && !options_.repeat) return;
+    const View view(given ? node : nullptr, kind_named("repeat"), Place{});
+    sweep_.seeds = options_.repeat.value_or(view.whole("seeds").value_or(1));
     sweep_.first_seed = view.whole("first");
     if (sweep_.first_seed.value_or(0) > std::numeric_limits<std::uint64_t>::max() - sweep_.seeds)
       diagnostics_.add(node->find_key("first")->place, "there are too few seeds after this one",
                        "expected a smaller `first`");
     if (std::find(sweep_.paths.begin(), sweep_.paths.end(), "seed") != sweep_.paths.end()) {
-      diagnostics_.add(root_.find_key("repeat")->place, "`seed` is varied twice: here and by `repeat`",
-                       "remove one of them");
+      diagnostics_.add(given ? root_.find_key("repeat")->place : root_.keys.front().place,
+                       "`seed` is varied twice: here and by `repeat`", "remove one of them");
       return;
     }
     sweep_.paths.emplace_back("seed");
@@ -327,18 +416,21 @@ class SweepReader {
 
   std::vector<Source>& sources_;
   const Node& root_;
+  const SweepOptions& options_;
   Diagnostics& diagnostics_;
   Sweep sweep_;
+  std::uint64_t seed_ = 0;                   // of samples
   std::map<std::string, const Key*> taken_;  // the paths of this block
   // How far where() has counted lines and characters.
   mutable std::size_t counted_ = 0, line_ = 1, column_ = 1;
 };
 
 void stop_if_wrong(const Diagnostics& diagnostics, bool color) {
-  if (!diagnostics.empty()) throw SceneError(diagnostics.text(color), diagnostics.count());
+  if (!diagnostics.empty()) throw SceneError(diagnostics, color);
 }
 
-Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, bool color) {
+Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, const SweepOptions& options) {
+  const bool color = options.color;
   std::optional<Node> root;
   if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
   if (!root) stop_if_wrong(diagnostics, color);
@@ -350,7 +442,7 @@ Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, bool color) {
                     "expected a sweep file, or a scene with --grid, such as --grid balls.red.mass=1:2:3");
   } else {
     check_sweep(*root, diagnostics);
-    Sweep sweep = SweepReader(sources, *root, diagnostics).run();
+    Sweep sweep = SweepReader(sources, *root, options, diagnostics).run();
     stop_if_wrong(diagnostics, color);
     sweep.file = sources[0].name;
     return sweep;
@@ -361,30 +453,18 @@ Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, bool color) {
 
 }  // namespace
 
-Sweep load_sweep(const std::string& path, bool color) {
+Sweep load_sweep(const std::string& path, const SweepOptions& options) {
   std::vector<Source> sources(1);
   Diagnostics diagnostics(sources);
-  if (!read_source(path, sources[0], diagnostics)) stop_if_wrong(diagnostics, color);
-  return read(sources, diagnostics, color);
+  if (!read_source(path, sources[0], diagnostics)) stop_if_wrong(diagnostics, options.color);
+  return read(sources, diagnostics, options);
 }
 
-Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, bool color) {
+Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, const SweepOptions& options) {
   std::vector<Source> sources(1);
-  sources[0] = {"--grid", fmt::format("sweep: 1\nbase: {}\ngrid:\n", in_quotes(base)), true};
-  for (const std::string& grid : grids) {
-    const std::size_t equals = grid.find('=');
-    const std::string path = grid.substr(0, equals),
-                      values = equals == std::string::npos ? "" : grid.substr(equals + 1);
-    const std::size_t first = values.find(':'),
-                      second = first == std::string::npos ? first : values.find(':', first + 1);
-    if (second != std::string::npos && parse_number(values.substr(0, first)))
-      sources[0].text += fmt::format("  {}: {{from: {}, to: {}, count: {}}}\n", path, values.substr(0, first),
-                                     values.substr(first + 1, second - first - 1), values.substr(second + 1));
-    else
-      sources[0].text += fmt::format("  {}: [{}]\n", path, values);
-  }
+  sources[0] = {"--grid", grid_text(base, grids, options), true};
   Diagnostics diagnostics(sources);
-  Sweep sweep = read(sources, diagnostics, color);
+  Sweep sweep = read(sources, diagnostics, options);
   sweep.file = base;
   sweep.base = base;
   return sweep;

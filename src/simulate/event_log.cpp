@@ -25,6 +25,14 @@ void EventLog::record(const Collision& collision) {
                                       max_collisions_, collision.time));
 }
 
+void EventLog::remove(double energy, const Vec3& momentum) {
+  Removed& all = tally_.removed;
+  ++all.bodies;
+  removed_.add(energy);
+  all.energy = removed_.value();
+  all.momentum += momentum;
+}
+
 void EventLog::take_up(double approach, double energy) {
   TakenUp& all = tally_.taken_up;
   ++all.impacts;

@@ -78,6 +78,9 @@ class EventLog {
     deviate(-energy);
   }
   void count_collapse() { ++tally_.collapses; }
+  /// Books a body that leaves the world, with its energy (J) and momentum (kg m/s).
+  void remove(double energy, const Vec3& momentum);
+  void end(const RunEnd& end) { tally_.end = end; }
   /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {
     if (certificate.verdict == Certificate::Verdict::doubtful) ++tally_.doubtful;
@@ -91,8 +94,8 @@ class EventLog {
   const bool record_collisions_;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_, method_error_, work_;  // J
-  std::vector<Sum> force_work_;            // J
+  Sum energy_lost_, method_error_, work_, removed_;  // J
+  std::vector<Sum> force_work_;                      // J
 };
 
 }  // namespace carom

@@ -99,13 +99,6 @@ void ExactBodies::fail_squeezed(Entity i, Entity a, Entity b) const {
                          ": end or slow their `motion` before, leave room for the body, or shorten simulate.duration"});
 }
 
-Instant ExactBodies::flight_end(Entity i) const {
-  Instant end{never, 0};
-  if (in_group(i)) end = islands.due(i);
-  if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
-  return end;
-}
-
 std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {
   const std::span<const Entity> near = neighbours.near(i);
   std::vector<Entity> all(near.begin(), near.end());

@@ -6,6 +6,7 @@
 // first of all these is the next event. A predicted collision is a function of the two flights alone. It has the same
 // bits from either side and at any time of prediction. Neither outputs nor the search for neighbours can therefore
 // change it.
+#include <algorithm>
 #include <vector>
 
 #include "geometry/touch.h"
@@ -87,7 +88,12 @@ struct ExactBodies {
       apply_forces(i, x, v);
   }
   /// The latest end of body i's flight: the end of a step of its own or of its island.
-  Instant flight_end(Entity i) const;
+  [[gnu::always_inline]] Instant flight_end(Entity i) const {
+    Instant end{never, 0};
+    if (in_group(i)) end = islands.due(i);
+    if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
+    return end;
+  }
   /// The present position of a body or a fixed thing (m).
   Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : fixed_position(e); }
   /// The present position (m) and velocity (m/s) of a fixed thing.

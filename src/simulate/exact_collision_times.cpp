@@ -114,11 +114,6 @@ FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, 
   return time_of_impact(bodies_.world, a, xa, b, xb, displacement, length, speeds, left, length);
 }
 
-/// The latest end of body i's flight.
-inline Instant ExactCollisionTimes::end_of(Entity i) const {
-  return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
-}
-
 /// The rounding of body i's speed by steps in contact (m/s).
 double ExactCollisionTimes::noise_in_contact(Entity i) const {
   return bodies_.in_lasting_contact(i)

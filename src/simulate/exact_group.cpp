@@ -174,6 +174,16 @@ void ExactGroup::part(Entity i) {
   partners.write(i).clear();
 }
 
+void ExactGroup::leave(Entity i) {
+  part(i);
+  set_carried(i, false);
+  if (!pressing[i].empty()) pressing.write(i).clear();
+  for (const Entity e : bodies_.neighbours_of(i))
+    if (bodies_.world.is_body(e) && !pressing[e].empty())
+      std::erase_if(pressing.write(e), [i](const PressingContact& contact) { return contact.partner == i; });
+  bodies_.islands.bend.write(i) = {};
+}
+
 bool ExactGroup::are_partners(Entity i, Entity e) const {
   return std::find(partners[i].begin(), partners[i].end(), e) != partners[i].end();
 }

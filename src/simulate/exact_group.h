@@ -70,6 +70,8 @@ class ExactGroup {
 
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
   void part(Entity i);
+  /// The same for member i, which leaves the world: nothing presses on it, and it on nothing.
+  void leave(Entity i);
   /// Whether constrained motion keeps bodies i and e in contact, so that they cannot meet.
   bool are_partners(Entity i, Entity e) const;
 

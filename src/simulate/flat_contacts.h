@@ -39,7 +39,7 @@ class FlatContacts {
   FlatContacts(ExactBodies& bodies, CollapseDetector& collapses)
       : bodies_(bodies), collapses_(collapses), contacts_(bodies.body.size()) {}
 
-  const FlatContactList& of(Entity i) const { return contacts_[i]; }
+  [[gnu::always_inline]] const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carry(Entity i, Entity surface) const;
   /// Whether a surface that carries body i changes its velocity at the present instant.
   bool switches(Entity i) const;

@@ -265,20 +265,30 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
                       potential(bodies_.world, i, x) + work);
 }
 
+void FlightChanges::take_out(Entity i, const Vec3& x) {
+  if (stepped_[i]) stepped_.write(i) = false;
+  take(i, 0);
+  bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+  bodies_.body[i].set_origin({});
+  count(i);
+}
+
+Vec3 FlightChanges::book_until(Entity i, const Instant& at) {
+  const Flight f = bodies_.flights[i];
+  const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
+  const Vec3 v = bodies_.velocity_without_kick(i, at);
+  bodies_.hold_to_bounds(i, at.hi, x, v);
+  bodies_.log.note_speed(v.norm());
+  book(i, x, at);
+  bodies_.contact_work.change(i, at, 0);
+  if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
+  return v;
+}
+
 void FlightChanges::book_last(double time) {
   if (ended_) return;
   ended_ = true;
-  const Instant at{time, 0};
-  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
-    const Flight f = bodies_.flights[i];
-    const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
-    const Vec3 v = bodies_.velocity_without_kick(i, at);
-    bodies_.hold_to_bounds(i, time, x, v);
-    bodies_.log.note_speed(v.norm());
-    book(i, x, at);
-    bodies_.contact_work.change(i, at, 0);
-    if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
-  }
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) book_until(i, {time, 0});
 }
 
 }  // namespace carom

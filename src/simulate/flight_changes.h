@@ -65,6 +65,11 @@ class FlightChanges {
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
+  /// Leaves body i at x (m), out of the world.
+  void take_out(Entity i, const Vec3& x);
+  /// Books body i's flight up to an instant, with the energy that its kick has in advance. Returns its velocity there
+  /// (m/s).
+  Vec3 book_until(Entity i, const Instant& at);
   /// Books all flights up to `time` (s), the run's end. Only the first call has an effect.
   /// Between collisions a speed is greatest at an end of a flight.
   void book_last(double time);

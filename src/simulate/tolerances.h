@@ -16,6 +16,8 @@ namespace carom::exact_tolerance {
 inline constexpr double velocity_rounding = 0x1p-48;
 // Share of coordinates: a displacement that is rounding.
 inline constexpr double position_rounding = 0x1p-48;
+// Share of the time since a flight's start: the rounding of two roots at one place of a path.
+inline constexpr double crossing_rounding = 0x1p-50;
 // Share of a radius: lower elastic hops that drag shortens without end are over.
 inline constexpr double fading_hop = 0x1p-32;
 // Share of coordinates: a gap to a flat surface by the rounding of a scene's numbers.

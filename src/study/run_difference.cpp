@@ -26,11 +26,12 @@ class Collisions {
 
   bool next() {
     cells_ = table_.next();
-    count_ += cells_ != nullptr ? 1 : 0;
+    count_ += is_collision() ? 1 : 0;
     return cells_ != nullptr;
   }
 
-  std::uint64_t count() const { return count_; }  // so far
+  std::uint64_t count() const { return count_; }  // collisions so far
+  bool is_collision() const { return cells_ != nullptr && cell(1) != "rest"; }
   bool ended() const { return cells_ == nullptr; }
 
   CollisionFacts facts() const {
@@ -87,7 +88,7 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
       difference.outcome_b = b.facts();
       std::tie(difference.column, difference.cell_a, difference.cell_b) = a.first_difference(b);
     }
-    ++difference.same;
+    if (a.is_collision()) ++difference.same;
   }
   difference.part = !a.ended() || !b.ended();
   if (!a.ended()) difference.next_a = a.facts();
@@ -113,7 +114,8 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
   EndDifference difference;
   difference.time_a = last_time(run_a);
   difference.time_b = last_time(run_b);
-  const std::vector<EndMotion> a = end_of_trajectory(run_a), b = end_of_trajectory(run_b);
+  const std::vector<EndMotion> a = end_of_trajectory(run_a.folder.get()),
+                              b = end_of_trajectory(run_b.folder.get());
   std::map<std::string_view, const EndMotion*> of_b;
   for (const EndMotion& motion : b) of_b.emplace(motion.body, &motion);
   for (const EndMotion& motion : a) {

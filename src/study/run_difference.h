@@ -20,10 +20,13 @@ struct CollisionFacts {
   /// `a` and `b`: the two things that collide.
   std::string kind, a, b;
   double separation_speed = 0;  // m/s, along the normal
+  /// A row of kind `rest` ends bounces, and is no collision.
+  bool is_rest() const { return kind == "rest"; }
 };
 
 /// Compares collisions in their order. Two are the same if kind, a, b and time are equal.
 /// Their outcomes are the same if the rest of the row is.
+/// Rows of kind `rest` are compared too, but are counted nowhere, as in the report of a run.
 struct CollisionDifference {
   /// Number of equal collisions from the start.
   std::uint64_t same = 0;
@@ -31,7 +34,7 @@ struct CollisionDifference {
   /// Whether the runs differ after the equal collisions. The next collision of each run then follows.
   bool part = false;
   std::optional<CollisionFacts> next_a, next_b;  // none: no further collision
-  /// The index, from 0, of the first equal collision with different outcomes, and both rows.
+  /// The number of collisions before the first equal row with different outcomes, and both rows.
   std::optional<std::uint64_t> outcome;
   CollisionFacts outcome_a, outcome_b;
   std::string column, cell_a,

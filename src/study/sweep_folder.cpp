@@ -17,12 +17,14 @@
 #include <thread>
 
 #include "files/copied_run.h"
+#include "files/csv.h"
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
+#include "files/stored_table.h"
 #include "scene/path_field.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
@@ -50,10 +52,11 @@ std::optional<Manifest> read_sweep_manifest(int folder) {
 bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Manifest& manifest) {
   if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, is_picture).empty()) return false;
   const std::string mark = path + "/" + manifest_name;
-  const std::set<std::string> failed(manifest.failed.begin(), manifest.failed.end());
+  std::set<std::string> absent(manifest.failed.begin(), manifest.failed.end());
+  for (auto& [id, errors] : stored_skips(path)) absent.insert(std::move(id));
   for (std::size_t number = 0; number < sweep.size(); ++number) {
     const std::string id = sweep.id(number);
-    if (!failed.contains(id) && !is_whole_since(path + "/runs/" + id, mark)) return false;
+    if (!absent.contains(id) && !is_whole_since(path + "/runs/" + id, mark)) return false;
   }
   return true;
 }
@@ -93,6 +96,27 @@ SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, c
   return whole ? SweepContent::this_sweep : SweepContent::incomplete;
 }
 
+std::string skipped_text(const Sweep& sweep, const std::vector<InvalidRun>& invalid) {
+  if (invalid.empty()) return "";
+  std::string text = "run,error\n";
+  for (const InvalidRun& run : invalid) {
+    text += sweep.id(run.number) + ",";
+    text += text_cell(run.messages) + "\n";
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> stored_skips(const std::string& path) {
+  std::vector<std::pair<std::string, std::string>> skips;
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  Descriptor file = folder ? open_stored(folder.get(), stored_skipped) : Descriptor();
+  if (!file) return skips;
+  StoredTable table(std::move(file));
+  while (const auto* cells = table.next())
+    if (cells->size() == 2) skips.emplace_back((*cells)[0], (*cells)[1]);
+  return skips;
+}
+
 std::vector<std::string> stored_failures(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const auto manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
@@ -100,7 +124,8 @@ std::vector<std::string> stored_failures(const std::string& path) {
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-                         const std::function<void()>& stop_check) {
+                         const std::string& skipped, const std::function<void()>& stop_check)
+    : base_text_(base_text) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail("make", {-1, path}, "", error.message());
@@ -113,27 +138,32 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
     if (!lock_folder(place_, LockKind::alone)) fail("write", place_, "", busy);
     finish_publication(place_, Durability::synced);
     for (const char* name : {summary_name, repeats_name, workbook_name}) refuse_folder(place_, name);
-    begin(sweep, base_text);
+    begin(sweep, base_text, skipped);
     return;
   }
   // Several parts may begin at once. One of them writes, and the others find the files complete.
   const auto start = std::chrono::steady_clock::now();
   while (true) {
     if (!lock(LockKind::shared, stop_check)) fail("write", place_, "", busy);
-    if (has(stored_sweep, sweep.resolved(stored_base)) && has(stored_base, base_text)) break;
-    if (lock_folder(place_, LockKind::alone)) begin(sweep, base_text);
+    if (has(stored_sweep, sweep.resolved(stored_base)) && has(stored_base, base_text) && has(stored_skipped, skipped))
+      break;
+    if (lock_folder(place_, LockKind::alone)) begin(sweep, base_text, skipped);
     if (std::chrono::steady_clock::now() - start > lock_patience) fail("write", place_, "", busy);
     flock(folder_.get(), LOCK_UN);
     stop_check();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  begin(sweep, base_text);
+  begin(sweep, base_text, skipped);
 }
 
-void SweepFolder::begin(const Sweep& sweep, const std::string& base_text) {
+void SweepFolder::begin(const Sweep& sweep, const std::string& base_text, const std::string& skipped) {
   if (!has_runs_of(place_.folder, sweep, base_text)) remove_runs();
   put(stored_sweep, sweep.resolved(stored_base));
   put(stored_base, base_text);
+  if (skipped.empty())
+    remove_file(place_, stored_skipped);
+  else
+    put(stored_skipped, skipped);
 }
 
 /// False: the lock was held elsewhere all the time.
@@ -156,7 +186,7 @@ void SweepFolder::remove_runs() const {
 }
 
 bool SweepFolder::has(const char* name, const std::string& text) const {
-  return read_text(place_.folder, name, largest) == text;
+  return read_text(place_.folder, name, largest).value_or("") == text;
 }
 
 void SweepFolder::put(const char* name, const std::string& text) {
@@ -168,7 +198,7 @@ void SweepFolder::put(const char* name, const std::string& text) {
   if (auto record = read_record(place_.folder, name)) begun_.push_back(std::move(*record));
 }
 
-ComparisonPlan comparison_plan(const Sweep& sweep) {
+ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text) {
   ComparisonPlan plan;
   plan.title = sweep.title;
   for (const std::string& path : sweep.paths) {
@@ -177,6 +207,7 @@ ComparisonPlan comparison_plan(const Sweep& sweep) {
   }
   for (const SweepMeasure& measure : sweep.measures) plan.measures.push_back(measure.name);
   for (const SweepChart& chart : sweep.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
+  plan.own = own_measure_names(base_text);
   if (sweep.seeds > 0) plan.seed = sweep.paths.size() - 1;
   return plan;
 }
@@ -187,7 +218,8 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
   std::optional<std::vector<SceneValue>> own;  // of the scene
   for (std::size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
-    if (run.values[p]) continue;
+    // The scene of a run has the number of an expression.
+    if (!out.values.back().empty() && !out.values.back().starts_with('=')) continue;
     if (!own) {
       const Descriptor place = open_folder(AT_FDCWD, folder, true);
       const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : std::nullopt;
@@ -202,19 +234,24 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
 void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch) {
   // The runs must survive a power failure before the manifest lists them.
   sync_file_system(place_.path);
-  const auto compared = [&](std::size_t number) {
+  std::vector<std::size_t> kept;
+  for (std::size_t number = 0; number < statuses.size(); ++number)
+    if (statuses[number] != RunStatus::left_out) kept.push_back(number);
+  const auto compared = [&](std::size_t row) {
+    const std::size_t number = kept[row];
     ComparedRun run = compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
     run.failed = statuses[number] != RunStatus::done;
     return run;
   };
   std::vector<std::unique_ptr<OutputFile>> files =
-      write_comparison(place_, comparison_plan(sweep), sweep.size(), compared, watch);
+      write_comparison(place_, comparison_plan(sweep, base_text_), kept.size(), compared, watch);
 
   Json failed = Json::array();
-  for (std::size_t number = 0; number < statuses.size(); ++number)
+  for (const std::size_t number : kept)
     if (statuses[number] != RunStatus::done) failed.push_back(sweep.id(number));
   Json facts;
-  facts["counts"] = {{"runs", statuses.size()}, {"done", statuses.size() - failed.size()}, {"failed", failed.size()}};
+  facts["counts"] = {{"runs", kept.size()}, {"done", kept.size() - failed.size()}, {"failed", failed.size()}};
+  if (kept.size() < statuses.size()) facts["counts"]["skipped"] = statuses.size() - kept.size();
   facts["failed"] = std::move(failed);
   const Json outputs = {{sweep_key, {{"title", valid_utf8(sweep.title)}}}};
   std::vector<FileRecord> records = begun_;

@@ -16,6 +16,8 @@ namespace carom {
 
 inline constexpr const char* stored_sweep = "sweep.yaml";
 inline constexpr const char* stored_base = "base.yaml";
+/// A row for each run that is left out: its id, and the errors of its scene.
+inline constexpr const char* stored_skipped = "skipped.csv";
 
 enum class SweepContent {
   nothing,  // absent or empty
@@ -32,6 +34,12 @@ enum class SweepContent {
 /// Changes of mesh files that the scene names are not detected.
 SweepContent inspect_sweep_folder(const std::string& folder, const Sweep& sweep, const std::string& base_text);
 
+/// The text of stored_skipped. Empty: none is left out, and there is no such file.
+std::string skipped_text(const Sweep& sweep, const std::vector<InvalidRun>& invalid);
+
+/// The runs that a folder's stored_skipped lists: id and errors.
+std::vector<std::pair<std::string, std::string>> stored_skips(const std::string& folder);
+
 /// The failed runs of a sweep, according to its manifest.
 std::vector<std::string> stored_failures(const std::string& folder);
 
@@ -39,8 +47,8 @@ std::vector<std::string> stored_failures(const std::string& folder);
 /// A value that its block does not set comes from its scene, and is empty if the scene lacks it.
 ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder);
 
-/// The plan of the comparison of a sweep's runs.
-ComparisonPlan comparison_plan(const Sweep& sweep);
+/// The plan of the comparison of a sweep's runs. `base_text`: the text of the base scene.
+ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text);
 
 class SweepFolder {
  public:
@@ -50,24 +58,27 @@ class SweepFolder {
     /// Shared with other parts of the same sweep.
     part
   };
-  /// Makes the folder if needed and locks it. Writes sweep.yaml and base.yaml unless they exist.
+  /// Makes the folder if needed and locks it. Writes sweep.yaml, base.yaml and skipped.csv unless they exist.
+  /// `skipped`: the text of the latter.
   /// Runs of another sweep are removed. Waits up to 30 s for other processes that do the same.
   /// `stop_check` is called meanwhile and may throw. Throws ExportError, as all functions of this class do.
   SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-              const std::function<void()>& stop_check);
+              const std::string& skipped, const std::function<void()>& stop_check);
 
   /// Reads every run's folder and writes the comparison and the manifest. `statuses`: by run.
+  /// Runs that are left out have no row.
   void finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch);
 
  private:
   bool lock(LockKind kind, const std::function<void()>& stop_check) const;
-  void begin(const Sweep& sweep, const std::string& base_text);
+  void begin(const Sweep& sweep, const std::string& base_text, const std::string& skipped);
   bool has(const char* name, const std::string& text) const;
   void remove_runs() const;
   void put(const char* name, const std::string& text);
 
   Descriptor folder_;
   FilePlace place_;
+  std::string base_text_;
   std::vector<FileRecord> begun_;
 };
 

@@ -11,7 +11,6 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -33,6 +32,8 @@
 
 namespace carom {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 constexpr std::size_t examined_at_a_time = 64;
@@ -41,8 +42,6 @@ constexpr std::size_t most_shows = 8;
 /// Batches with errors. Planning stops after this number.
 constexpr std::size_t most_wrong = 16;
 constexpr std::size_t errors_shown = 20;
-/// First character of a report without errors.
-constexpr char right = '+';
 constexpr double sync_every = 2;  // s
 
 /// Removes repeated errors, and keeps each under the first run that has it.
@@ -66,6 +65,52 @@ std::pair<std::string, std::size_t> each_once(std::string_view text) {
   }
   if (known.size() > errors_shown) out += fmt::format("and {} more\n", known.size() - errors_shown);
   return {out, known.size()};
+}
+
+/// Invalid runs of a batch.
+struct WrongRuns {
+  std::string text;                  // for a terminal: the id of each run, then its errors
+  std::vector<ErrorRecord> records;  // each once
+  std::vector<InvalidRun> invalid;
+  bool any_lost = false;  // whether the cause may be another than the scenes
+
+  void append(const WrongRuns& more) {
+    text += more.text;
+    for (const ErrorRecord& record : more.records) add(record);
+  }
+  void lost(const std::string& id, const std::string& message) {
+    any_lost = true;
+    text += fmt::format("{}: error: {}\n", id, message);
+    add({id, 0, 0, message, {}, {}});
+  }
+  /// `errors`: as examine() has them.
+  void add(const std::string& id, const Json& errors) {
+    const std::string its = errors[1].get<std::string>();
+    text += fmt::format("{}:\n{}", id, its);
+    InvalidRun run{errors[0].get<std::size_t>(), its, {}};
+    for (const Json& error : errors[3]) {
+      const ErrorRecord record{error[0], error[1], error[2], error[3], error[4], error[5]};
+      run.messages += (run.messages.empty() ? "" : "; ") + record.message;
+      add(record);
+    }
+    invalid.push_back(std::move(run));
+  }
+
+ private:
+  void add(const ErrorRecord& record) {
+    const auto is_same = [&](const ErrorRecord& other) {
+      return std::tie(record.file, record.line, record.column, record.message) ==
+             std::tie(other.file, other.line, other.column, other.message);
+    };
+    if (records.size() < errors_shown && std::none_of(records.begin(), records.end(), is_same))
+      records.push_back(record);
+  }
+};
+
+Json records_json(const std::vector<ErrorRecord>& records) {
+  Json list = Json::array();
+  for (const ErrorRecord& r : records) list.push_back({r.file, r.line, r.column, r.message, r.remedy, r.near});
+  return list;
 }
 
 std::array<char, 16> digest(std::string_view text) {
@@ -99,12 +144,15 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
   if (sweep_.seeds == 0 || sweep_.first_seed) return;
   Sweep once = sweep_;
   once.seeds = 0;
-  try {
-    sweep_.first_seed = base_.scene(once.run(0).settings).seed;
-  } catch (const SceneError&) {
-    // plan() reports the errors.
-    sweep_.first_seed = 0;
+  // All runs have the same seed. If none is valid, plan() reports the errors.
+  for (std::size_t number = 0; !sweep_.first_seed && number < (sweep_.skip_invalid ? once.size() : 1); ++number) {
+    try {
+      sweep_.first_seed = base_.scene(once.run(number).settings).seed;
+    } catch (const SceneError&) {
+      continue;
+    }
   }
+  if (!sweep_.first_seed) sweep_.first_seed = 0;
 }
 
 std::string SweepJob::run_folder(std::size_t number) const {
@@ -119,10 +167,10 @@ Scene SweepJob::scene(std::size_t number) {
 
 // ---- Planning: digests of each scenario, and the content of its folder.
 
-/// The planned runs as bytes, or, if some are wrong, the id and the errors of each wrong one.
+/// The planned runs as bytes, then the errors of the wrong ones as JSON: number, text, count, errors in parts.
 std::string SweepJob::examine(std::size_t first, std::size_t last) {
-  std::string out(1, right);
-  std::string errors;
+  std::string out;
+  Json errors = Json::array();
   for (std::size_t number = first; number < last; ++number) {
     settings_.stop_check();
     PlannedRun run;
@@ -137,23 +185,24 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       run.content = inspect_folder(folder, its);
       if (run.content == FolderContent::this_run && !settings_.force && has_measures(folder, measures_))
         run.status = RunStatus::done;
-      out.append(reinterpret_cast<const char*>(&run), sizeof run);
     } catch (const SceneError& error) {
-      errors += fmt::format("{}:\n{}", sweep_.id(number), error.what());
+      run.status = RunStatus::left_out;
+      errors.push_back({number, error.what(), error.count, records_json(error.records)});
     }
+    out.append(reinterpret_cast<const char*>(&run), sizeof run);
   }
-  return errors.empty() ? out : errors;
+  return out + text_of_json(errors);
 }
 
 void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_progress) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
-  measures_ = measures_of(comparison_plan(sweep_));
-  // Errors by the first run of the batch.
-  std::map<std::size_t, std::string> wrong;
+  measures_ = measures_of(comparison_plan(sweep_, base_.text()));
+  // By the first run of the batch.
+  std::map<std::size_t, WrongRuns> wrong;
   Tasks tasks;
   tasks.next = [&]() -> std::optional<std::size_t> {
-    if (next >= runs_.size() || wrong.size() >= most_wrong) return std::nullopt;
+    if (next >= runs_.size() || (!sweep_.skip_invalid && wrong.size() >= most_wrong)) return std::nullopt;
     const std::size_t task = next;
     next += examined_at_a_time;
     return task;
@@ -161,26 +210,33 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_prog
   const auto end_of = [&](std::size_t first) { return std::min(first + examined_at_a_time, runs_.size()); };
   tasks.work = [&](std::size_t first) { return examine(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
+    const std::size_t first = outcome.task, last = end_of(first);
     if (outcome.kind != TaskOutcome::Kind::done) {
-      wrong[outcome.task] = fmt::format("{}: error: {}, between here and {}\n", sweep_.id(outcome.task), outcome.text,
-                                        sweep_.id(end_of(outcome.task) - 1));
+      const std::string message = fmt::format("{}, between here and {}", outcome.text, sweep_.id(last - 1));
+      wrong[first].lost(sweep_.id(first), message);
       return;
     }
-    if (outcome.text.front() != right) {
-      wrong[outcome.task] = outcome.text;
-      return;
-    }
-    std::memcpy(static_cast<void*>(&runs_[outcome.task]), outcome.text.data() + 1, outcome.text.size() - 1);
-    progress.done += end_of(outcome.task) - outcome.task;
+    const std::size_t bytes = (last - first) * sizeof(PlannedRun);
+    std::memcpy(static_cast<void*>(&runs_[first]), outcome.text.data(), bytes);
+    for (const Json& errors : json_of_text(std::string_view(outcome.text).substr(bytes)))
+      wrong[first].add(sweep_.id(errors[0].get<std::size_t>()), errors);
+    progress.done += last - first;
     report_progress(progress);
   };
   tasks.stop_check = settings_.stop_check;
   work_off(tasks, std::min(settings_.jobs, (runs_.size() + examined_at_a_time - 1) / examined_at_a_time));
-  if (wrong.empty()) return;
-  std::string all;
-  for (const auto& [first, errors] : wrong) all += errors;
-  const auto [text, count] = each_once(all);
-  throw SceneError(text, count);
+  std::size_t valid = runs_.size();
+  bool any_lost = false;
+  for (auto& [first, runs] : wrong) {
+    any_lost = any_lost || runs.any_lost;
+    valid -= runs.invalid.size();
+    std::move(runs.invalid.begin(), runs.invalid.end(), std::back_inserter(invalid_));
+  }
+  if (wrong.empty() || (sweep_.skip_invalid && !any_lost && valid > 0)) return;
+  WrongRuns all;
+  for (const auto& [first, runs] : wrong) all.append(runs);
+  const auto [text, count] = each_once(all.text);
+  throw SceneError(text, count, all.records);
 }
 
 std::optional<std::size_t> SweepJob::other_content() const {
@@ -203,6 +259,7 @@ std::vector<std::string> SweepJob::idle_paths() const {
     std::map<std::string, std::size_t> first;  // by the other values
     std::size_t pairs = 0, alike = 0;
     for (std::size_t number = 0; number < std::min(runs_.size(), most); ++number) {
+      if (runs_[number].status == RunStatus::left_out) continue;
       std::string others;
       const SweepRun run = sweep_.run(number);
       for (std::size_t q = 0; q < run.values.size(); ++q)
@@ -223,8 +280,9 @@ std::vector<std::string> SweepJob::idle_paths() const {
 
 std::vector<SweepJob::Motion> SweepJob::motions() const {
   // Sort runs by motion, then scenario, then number.
-  std::vector<std::size_t> order(runs_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  for (std::size_t number = 0; number < runs_.size(); ++number)
+    if (runs_[number].status != RunStatus::left_out) order.push_back(number);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::tie(runs_[a].motion, runs_[a].scene, a) < std::tie(runs_[b].motion, runs_[b].scene, b);
   });
@@ -318,13 +376,10 @@ std::string SweepJob::work(const Unit& unit) {
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
   }
   const RunWatch watch{settings_.stop_check, [](double, std::uint64_t, std::uint64_t) {}};
-  const auto measure = [&](const Scene& its, const State& end, const Summary& summary) {
-    std::vector<Measured> out;
-    for (const Measure& one : measures_)
-      if (one.column == nullptr) out.push_back({one.name, value_of(one, its, end, summary)});
-    return out;
-  };
-  const RunSettings how{Durability::deferred, measure};
+  RunSettings how;
+  how.durability = Durability::deferred;
+  std::copy_if(measures_.begin(), measures_.end(), std::back_inserter(how.measures),
+               [](const Measure& measure) { return !measure.is_stored(); });
   const std::vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::vector<std::size_t>& runs = unit.scenarios[i];
@@ -344,6 +399,8 @@ std::string SweepJob::work(const Unit& unit) {
 void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progress,
                    const std::function<void(std::size_t, const std::string&)>& failed) {
   const std::vector<Unit> all = units();
+  // Of an earlier mesh.
+  for (const InvalidRun& run : invalid_) remove_run(run_folder(run.number));
   SweepProgress progress{0, 0, runs_in(all)};
   std::size_t next = 0;
   auto synced = std::chrono::steady_clock::now();
@@ -381,7 +438,10 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     sync_file_system(folder_);
     synced = std::chrono::steady_clock::now();
   };
-  tasks.stop_check = settings_.stop_check;
+  tasks.stop_check = [&] {
+    settings_.stop_check();
+    report_progress(progress);
+  };
   work_off(tasks, std::min(settings_.jobs, std::max<std::size_t>(all.size(), 1)));
 }
 

@@ -31,7 +31,12 @@ struct SweepSettings {
 /// `base_text`: the text of the base scene.
 bool may_have_meshes(const Sweep& sweep, const std::string& base_text);
 
-enum class RunStatus : std::uint8_t { missing, done, failed };
+enum class RunStatus : std::uint8_t {
+  missing,
+  done,
+  failed,
+  left_out  // its scene is invalid, and the sweep leaves such runs out
+};
 
 /// A run after planning.
 struct PlannedRun {
@@ -39,6 +44,13 @@ struct PlannedRun {
   std::array<char, 16> scene{}, motion{};
   FolderContent content = FolderContent::nothing;
   RunStatus status = RunStatus::missing;
+};
+
+/// A run that is left out.
+struct InvalidRun {
+  std::size_t number = 0;
+  std::string text;      // its errors, for a terminal
+  std::string messages;  // the errors on one line, without places
 };
 
 struct SweepProgress {
@@ -62,7 +74,11 @@ class SweepJob {
   /// Loads every scenario and inspects its folder, several at a time.
   /// A finished run from which the sweep's measures cannot be determined counts as missing.
   /// Throws SceneError with all errors, each once. Of a large number, only the first ones are given.
+  /// If the sweep leaves out invalid runs, it throws only if all are invalid.
   void plan(const std::function<void(const SweepProgress&)>& report_progress);
+
+  /// The runs that are left out, by number. They belong to no part.
+  const std::vector<InvalidRun>& invalid() const { return invalid_; }
 
   /// The first run of this shard that would overwrite other content: another scene's run, or more outputs.
   /// Call it after plan().
@@ -109,6 +125,7 @@ class SweepJob {
   SceneFile base_;
   std::vector<Measure> measures_;
   std::vector<PlannedRun> runs_;
+  std::vector<InvalidRun> invalid_;
 };
 
 }  // namespace carom

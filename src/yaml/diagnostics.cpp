@@ -87,6 +87,22 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// A place as line and column, and the parts of its line before and after it.
+struct LineSpot {
+  std::size_t line, column;
+  std::string_view before, after;
+};
+
+LineSpot spot_of(const Source& source, const Place& place) {
+  const std::string_view text = source.text;
+  const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
+  const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
+  const std::size_t end = std::min(text.find('\n', offset), text.size());
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+  const std::string_view before = text.substr(begin, offset - begin);
+  return {static_cast<std::size_t>(line), 1 + count_characters(before), before, text.substr(offset, end - offset)};
+}
+
 }  // namespace
 
 std::size_t count_characters(std::string_view text) {
@@ -104,6 +120,14 @@ std::string in_backticks(std::string_view text) {
   std::string out = "`";
   for (std::size_t i = 0; i < std::min(all.size(), longest); ++i) out += all[i].text;
   return out + (all.size() > longest ? "...`" : "`");
+}
+
+std::string suggestion_in(std::string_view text) {
+  constexpr std::string_view lead = "did you mean `";
+  const std::size_t at = text.find(lead);
+  if (at == std::string_view::npos) return {};
+  text.remove_prefix(at + lead.size());
+  return std::string(text.substr(0, text.find('`')));
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
@@ -137,16 +161,9 @@ std::string Diagnostics::show(const Error& error, bool color) const {
   if (!error.placed) {
     out = fmt::format("{}: {} {}\n", paint(printable(error.name), "1", color), label, error.message);
   } else {
-    // Find the line that holds the place, and count the characters before the place.
     const Source& source = sources_[error.place.source];
-    const std::string_view text = source.text;
-    const std::size_t offset = std::min<std::size_t>(error.place.offset, text.size());
-    const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
-    const std::size_t end = std::min(text.find('\n', offset), text.size());
-    const auto line_number = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+    const auto [line_number, column, before, after] = spot_of(source, error.place);
     // A long line is shown through a window around the caret. Characters outside it are only counted.
-    const std::string_view before = text.substr(begin, offset - begin), after = text.substr(offset, end - offset);
-    const std::size_t column = 1 + count_characters(before);
     const std::string_view near = before.substr(before.size() - std::min(before.size(), 4 * max_width));
     std::vector<Character> left = characters(near.substr(first_whole_character(near)));
     std::vector<Character> right = characters(after.substr(0, 4 * max_width));
@@ -188,7 +205,7 @@ std::string Diagnostics::show(const Error& error, bool color) const {
   return out;
 }
 
-std::string Diagnostics::text(bool color) const {
+std::vector<const Diagnostics::Error*> Diagnostics::in_order() const {
   std::vector<const Error*> order;
   for (const Error& error : errors_) order.push_back(&error);
   // The order: errors of the file as a whole, then the file's in its order, then those of each --set.
@@ -196,10 +213,32 @@ std::string Diagnostics::text(bool color) const {
     return std::tuple(a->placed, a->place.source, a->place.offset) <
            std::tuple(b->placed, b->place.source, b->place.offset);
   });
+  return order;
+}
+
+std::string Diagnostics::text(bool color) const {
+  const std::vector<const Error*> order = in_order();
   std::string out;
   for (std::size_t i = 0; i < std::min(order.size(), max_shown); ++i) out += show(*order[i], color);
   if (order.size() > max_shown) out += fmt::format("and {} more errors\n", order.size() - max_shown);
   return out;
+}
+
+std::vector<ErrorRecord> Diagnostics::records() const {
+  std::vector<const Error*> order = in_order();
+  order.resize(std::min(order.size(), max_shown));
+  std::vector<ErrorRecord> records;
+  for (const Error* error : order) {
+    ErrorRecord record{error->name, 0, 0, error->message, error->remedy, suggestion_in(error->remedy)};
+    if (error->placed) {
+      const Source& source = sources_[error->place.source];
+      record.file = source.name;
+      const LineSpot spot = spot_of(source, error->place);
+      if (!source.option) std::tie(record.line, record.column) = std::pair(spot.line, spot.column);
+    }
+    records.push_back(std::move(record));
+  }
+  return records;
 }
 
 }  // namespace carom

@@ -9,6 +9,16 @@
 
 namespace carom {
 
+/// An error in parts, for other programs.
+struct ErrorRecord {
+  std::string file;  // or the option: "--set balls.red.mass=x"; empty: none
+  /// From 1, the column in characters. 0: the error has no place in the file.
+  std::size_t line = 0, column = 0;
+  std::string message;
+  std::string remedy;  // lines; empty: none
+  std::string near;    // what was probably meant: "radius"; empty: unknown
+};
+
 class Diagnostics {
  public:
   /// `sources`: the texts that places point into, the file first, then one per --set. They must outlive this object.
@@ -31,6 +41,8 @@ class Diagnostics {
   ///         = remedy
   /// Lines and columns count from 1, columns in characters.
   std::string text(bool color) const;
+  /// The same errors in parts.
+  std::vector<ErrorRecord> records() const;
 
  private:
   struct Error {
@@ -38,6 +50,7 @@ class Diagnostics {
     Place place;
     std::string name, message, remedy;
   };
+  std::vector<const Error*> in_order() const;
   std::string show(const Error& error, bool color) const;
 
   const std::vector<Source>& sources_;
@@ -50,6 +63,9 @@ std::size_t count_characters(std::string_view text);
 
 /// `text` between backticks, for use inside a message: shortened and free of control characters.
 std::string in_backticks(std::string_view text);
+
+/// The name in "did you mean `name`?". Empty: the text does not suggest one.
+std::string suggestion_in(std::string_view text);
 
 /// The closest name in `candidates`: few letters differ, and two swapped letters count as one difference.
 /// Empty: none is near. Of equally near names the first is returned.

@@ -82,7 +82,7 @@ TEST_F(BashCompletion, OffersCommands) {
 
 TEST_F(BashCompletion, OffersTheOptionsOfTheCommandAndNoOthers) {
   EXPECT_EQ(offered("carom run --s"), "--seed|--set");
-  EXPECT_EQ(offered("carom sweep --s"), "--seed|--set|--shard");
+  EXPECT_EQ(offered("carom sweep --s"), "--seed|--set|--shard|--skip-invalid");
   EXPECT_EQ(offered("carom schema --f"), "");
   for (const Command& command : commands())
     for (const OptionUse& use : options_of(command.text))

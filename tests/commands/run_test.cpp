@@ -437,7 +437,7 @@ TEST(Run, JsonOfWrongScenesIsADocumentToo) {
   const Json scenes = Json::parse(run.out).at("scenes");
   EXPECT_EQ(scenes.at(0).at("status"), "not run");
   EXPECT_EQ(scenes.at(1).at("status"), "wrong");
-  EXPECT_NE(scenes.at(1).at("error").get<std::string>().find("missing.yaml"), std::string::npos);
+  EXPECT_EQ(scenes.at(1).at("errors").at(0).at("file"), "missing.yaml");
   EXPECT_EQ(run.out.find("\\u001b"), std::string::npos);
 }
 

@@ -71,6 +71,74 @@ TEST(SweepFile, SkipLeavesOutWhatHasAllValuesOfAnEntry) {
   EXPECT_EQ(values_of(sweep_of(head + grid + "skip: [{a: [1, 3]}, {b: 0.6}]\n")), "2 0.50");
 }
 
+TEST(SweepFile, SamplesMultiplyWithAGridAndAreThoseOfTheSeed) {
+  const std::string text = head + "random: 3\nover: {b: {from: 1, to: 5}, c: {from: 1, to: 9, log: true}}\n";
+  const Sweep three = sweep_of(text);
+  EXPECT_EQ(three.paths, (std::vector<std::string>{"b", "c"}));
+  EXPECT_EQ(values_of(three), values_of(sweep_of(text + "seed: 0\n")));
+  EXPECT_NE(values_of(three), values_of(sweep_of(text + "seed: 1\n")));
+  const Sweep six = sweep_of(text + "grid: {a: [1, 2]}\n");
+  ASSERT_EQ(six.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(six.run(i).values[0], i < 3 ? "1" : "2");
+    EXPECT_EQ(six.run(i).values[1], three.run(i % 3).values[0]);
+  }
+}
+
+TEST(SweepFile, SamplesOfAPathDoNotDependOnOtherPathsButOnTheBlock) {
+  const Sweep one = sweep_of(head + "latin: 4\nover: {b: {from: 1, to: 5}}\n");
+  const Sweep two = sweep_of(head + "latin: 4\nover: {a: {from: 0, to: 1}, b: {from: 1, to: 5}}\n");
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(one.run(i).values[0], two.run(i).values[1]);
+  const Sweep blocks = sweep_of(head +
+                                "runs:\n  - {latin: 4, over: {b: {from: 1, to: 5}}}\n"
+                                "  - {latin: 4, over: {b: {from: 1, to: 5}}}\n");
+  EXPECT_EQ(blocks.run(0).values, one.run(0).values);
+  EXPECT_NE(blocks.run(4).values, one.run(0).values);
+}
+
+TEST(SweepFile, SamplesOfAKeyOfWholeNumbersAreWhole) {
+  const Sweep sweep = sweep_of(head + "random: 20\nover: {groups.gas.count: {from: 3, to: 5}}\n");
+  for (std::size_t i = 0; i < 20; ++i) {
+    const std::string count = sweep.run(i).values[0].value_or("");
+    EXPECT_TRUE(count == "3" || count == "4" || count == "5") << count;
+  }
+}
+
+TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(sweep_errors(head + text).find(part), std::string::npos) << sweep_errors(head + text);
+  };
+  has("random: 5\n", "falls.yaml:3:1: error: the sweep has `random` but no `over`");
+  has("over: {a: {from: 1, to: 2}}\n", "falls.yaml:3:1: error: the sweep has `over` but no `random`");
+  has("random: 5\nlatin: 5\nover: {a: {from: 1, to: 2}}\n", "has both `random` and `latin`");
+  has("random: 0\nover: {a: {from: 1, to: 2}}\n", "`random` is 0");
+  has("random: 1.5\nover: {a: {from: 1, to: 2}}\n", "expected a whole number from 1 to 1000000");
+  has("random: 5\nover: {a: {from: 1}}\n", "has no `to`");
+  has("random: 5\nover: {a: [1, 2]}\n", "expected a map of keys");
+  has("random: 5\nover: {}\n", "has no entries");
+  has("random: 5\nover: {a: {from: 1, to: 2, count: 3}}\n", "unknown key `count`");
+  has("random: 5\nover: {a: {from: 2, to: 2}}\n", "falls.yaml:4:25: error: no number lies between 2 and 2");
+  has("random: 5\nover: {a: {from: 2, to: 1}}\n", "expected `from` below `to`");
+  has("random: 5\nover: {a: {from: 0, to: 1, log: true}}\n", "0 has no logarithm");
+  has("random: 5\nover: {seed: {from: 0.5, to: 7}}\n", "falls.yaml:4:21: error: `seed` takes whole numbers");
+  has("random: 5\nover: {a: {from: 1, to: 1.00000000000000001}}\n", "no number lies between");
+  has("random: 5\nover: {a: {from: 1, to: 1.000000000000001}}\n", "the numbers of `a` have more than 15 digits");
+  has(
+      "random: 1000000\nover: {" +
+          [] {
+            std::string all;
+            for (int k = 0; k < 11; ++k) all += (k > 0 ? ", a" : "a") + std::to_string(k) + ": {from: 1, to: 2}";
+            return all;
+          }() +
+          "}\n",
+      "expected at most 10000000 values in all");
+  has("random: 5\ngrid: {a: [1]}\nover: {a: {from: 1, to: 2}}\n", "`a` is varied twice");
+  has("random: 1000\ngrid: {b: {from: 1, to: 1001, count: 1001}}\nover: {a: {from: 1, to: 2}}\n",
+      "more than 1000000 runs");
+  has("grid: {a: [1, 2]}\nseed: 3\n", "falls.yaml:4:1: error: `seed` is that of `random` and `latin`");
+  has("random: 5\nover: {a: {from: 1, to: 2}}\nruns: [{}]\n", "`random` stands beside `runs`");
+}
+
 TEST(SweepFile, RepeatsTakeOneSeedAfterTheOther) {
   const Sweep sweep = sweep_of(head + "grid: {a: [1, 2]}\nrepeat: {seeds: 3, first: 10}\n");
   EXPECT_EQ(sweep.paths.back(), "seed");
@@ -92,13 +160,15 @@ TEST(SweepFile, ResolvedTextMeansTheSameAndResolvesToItself) {
                            "runs:\n  - grid: {a: {from: 0, to: 1, count: 3}, b: [[0, 1, 0], exact]}\n"
                            "    zip: {c: [1, 2], d: [3, 4]}\n    list: [{e: 1}, {f: \"2\"}]\n"
                            "    skip: [{a: 0.5, c: [1, 2]}]\n  - {}\n"
+                           "  - {latin: 3, over: {b: {from: 1, to: 2}, 'a': {log: true, from: 1, to: 2}}}\n"
+                           "seed: 5\nskip_invalid: true\n"
                            "repeat: {seeds: 2, first: 7}\nonly: [energy]\n"
                            "compare: {measures: [collisions], charts: [{x: a, y: collisions, by: b}]}\n";
   const Sweep sweep = sweep_of(text);
   const std::string resolved = sweep.resolved("base.yaml");
   const Sweep again = sweep_of(resolved);
   EXPECT_EQ(again.resolved("base.yaml"), resolved);
-  EXPECT_EQ(again.size(), 34u);
+  EXPECT_EQ(again.size(), 40u);
   EXPECT_EQ(values_of(again), values_of(sweep));
   EXPECT_EQ(again.paths, sweep.paths);
   EXPECT_EQ(again.only.front().text, "energy");
@@ -170,6 +240,19 @@ TEST(GridOfTheCommandLine, ReadsRangesAndLists) {
             "1 [0, 0, 0] exact; 1 [0, -1, 0] exact");
   EXPECT_EQ(sweep.base, "base.yaml");
   EXPECT_THROW(grid_sweep("base.yaml", {"a=0:1:x"}), SceneError);
+}
+
+TEST(GridOfTheCommandLine, DrawsFromRangesWithoutACount) {
+  SweepOptions options;
+  options.latin = 3;
+  const Sweep sweep = grid_sweep("base.yaml", {"a=1,2", "b=0:1", "c=1:10:log"}, options);
+  EXPECT_EQ(sweep.paths, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(sweep.size(), 6u);
+  const Sweep file =
+      sweep_of(head + "grid: {a: [1, 2]}\nlatin: 3\nover: {b: {from: 0, to: 1}, c: {from: 1, to: 10, log: true}}\n");
+  EXPECT_EQ(values_of(sweep), values_of(file));
+  options.seed = 7;
+  EXPECT_NE(values_of(grid_sweep("base.yaml", {"a=1,2", "b=0:1", "c=1:10:log"}, options)), values_of(sweep));
 }
 
 }  // namespace

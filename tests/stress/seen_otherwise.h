@@ -28,6 +28,7 @@ inline Motion mirrored(Motion m, int axis) {
   flip(world.gravity);
   for (Plane& p : world.planes) flip(p.point), flip(p.normal);
   for (Obstacle& o : world.obstacles) flip(o.center);
+  for (WorldRegion& r : world.regions) flip(r.position), flip(r.normal);
   for (Wall& w : world.walls) {
     for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
     w.right = -w.right;  // right x up = normal
@@ -61,6 +62,7 @@ inline Motion scaled(Motion m, const Units& units) {
   world.gravity *= l / (t * t);
   for (Plane& p : world.planes) p.point *= l;
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
+  for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
   for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
   for (std::vector<MotionLeg>& legs : world.motions)
     for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;

@@ -95,6 +95,10 @@ RandomScene scaled(RandomScene scene, int length, int time, int mass) {
     o.center *= l;
     o.volume.half *= l;
   }
+  for (WorldRegion& r : world.regions) {
+    r.position *= l;
+    r.volume.half *= l;
+  }
   for (Force& f : world.forces) {
     value(f) *= (per_mass(f) ? 1 : m) * l / (t * t);
     f.from *= t;

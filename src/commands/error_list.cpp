@@ -1,0 +1,53 @@
+// All commands have the same members, so that a reader of one can read every other.
+#include "commands/error_list.h"
+
+#include <string>
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json() : Json(text);
+}
+
+Json number_or_null(std::size_t number) {
+  return number == 0 ? Json() : Json(number);
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \n") - first + 1);
+}
+
+}  // namespace
+
+Json errors_json(const std::vector<ErrorRecord>& errors) {
+  Json list = Json::array();
+  for (const ErrorRecord& error : errors)
+    list.push_back({{"file", text_or_null(error.file)},
+                    {"line", number_or_null(error.line)},
+                    {"column", number_or_null(error.column)},
+                    {"message", error.message},
+                    {"remedy", text_or_null(error.remedy)},
+                    {"near", text_or_null(error.near)}});
+  return list;
+}
+
+std::vector<ErrorRecord> error_of_text(std::string_view text, std::string_view file) {
+  text = trimmed(text);
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  ErrorRecord error{std::string(file), 0, 0, std::string(text.substr(0, end)), {}, suggestion_in(text)};
+  for (text.remove_prefix(end); !(text = trimmed(text)).empty();) {
+    const std::size_t stop = std::min(text.find('\n'), text.size());
+    if (!error.remedy.empty()) error.remedy += '\n';
+    error.remedy += text.substr(0, stop);
+    text.remove_prefix(stop);
+  }
+  return {error};
+}
+
+}  // namespace carom

@@ -1,0 +1,124 @@
+// Names are looked up in the text of meshes. A name too many does no harm: nobody changes a file that does not exist.
+#include "commands/scene_files.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "files/output_file.h"
+#include "files/stored_file.h"
+#include "scene/check.h"
+#include "scene/load.h"
+#include "scene/scene.h"
+#include "scene/scene_values.h"
+#include "yaml/source.h"
+#include "yaml/value_json.h"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t longest_text = 256 << 20;  // bytes of a mesh
+
+std::string text_of(const std::string& file) {
+  const Descriptor open(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  std::string text;
+  if (!open) return text;
+  try {
+    std::vector<char> buffer(std::size_t{64} * 1024);
+    while (const std::size_t n = read_some(open.get(), buffer.data(), buffer.size())) {
+      if (text.size() + n > longest_text) return text;
+      text.append(buffer.data(), n);
+    }
+  } catch (const ExportError&) {
+    text.clear();
+  }
+  return text;
+}
+
+bool is_named(std::string_view file, std::initializer_list<std::string_view> endings) {
+  std::string ending = fs::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// "%20" to " ".
+std::string decoded(std::string_view uri) {
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    int code = 0;
+    for (std::size_t k = i + 1; uri[i] == '%' && k < std::min(i + 3, uri.size()); ++k) {
+      const char c = uri[k];
+      const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c - 'A' + 10;
+      code = 16 * code + digit;
+    }
+    out += code > 0 ? static_cast<char>(code) : uri[i];
+    i += code > 0 ? 2 : 0;
+  }
+  return out;
+}
+
+void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, std::set<std::string>& files) {
+  for (const char* list : {"buffers", "images"}) {
+    if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
+    for (const auto& entry : json[list])
+      if (entry.is_object() && entry.contains("uri") && entry["uri"].is_string())
+        if (const std::string uri = entry["uri"]; !uri.starts_with("data:"))
+          files.insert((folder / decoded(uri)).string());
+  }
+}
+
+/// The names behind the first word of lines that begin with `word`: all behind it, and the last of its parts.
+void add_names(std::string_view text, std::string_view word, const fs::path& folder, std::set<std::string>& files) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", i), text.size());
+    std::string_view line = text.substr(i, end - i);
+    i = end + 1;
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with(word)) continue;
+    line.remove_prefix(std::min(line.find_first_of(" \t"), line.size()));
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
+    if (line.empty()) continue;
+    files.insert((folder / line).string());
+    files.insert((folder / line.substr(line.find_last_of(" \t") + 1)).string());
+  }
+}
+
+void add_mesh(const std::string& mesh, std::set<std::string>& files) {
+  if (!files.insert(mesh).second) return;
+  const fs::path folder = fs::path(mesh).parent_path();
+  if (is_named(mesh, {".gltf"})) add_uris(json_of_text(text_of(mesh)), folder, files);
+  if (!is_named(mesh, {".obj"})) return;
+  std::set<std::string> libraries;
+  add_names(text_of(mesh), "mtllib", folder, libraries);
+  for (const std::string& library : libraries) {
+    files.insert(library);
+    add_names(text_of(library), "map_", folder, files);
+  }
+}
+
+}  // namespace
+
+std::set<std::string> files_of_scene(const PlannedScene& planned) {
+  std::set<std::string> files = {planned.file};
+  if (planned.scene)
+    for (const MeshFile& mesh : planned.scene->meshes) add_mesh(mesh.file, files);
+  if (planned.scene) return files;
+  try {
+    const std::string folder = fs::path(planned.file).parent_path().string();
+    for (const SceneValue& value : scene_values(planned.file, text_of(planned.file)))
+      if (value.path.ends_with(".mesh")) add_mesh(beneath(folder, cell_text(value.text)), files);
+  } catch (const std::exception&) {
+    // The text is no YAML. The file itself is watched.
+  }
+  return files;
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+#pragma once
+// The files that a scene depends on.
+#include <set>
+#include <string>
+
+#include "commands/plan.h"
+
+namespace carom {
+
+/// The scene file, its meshes, and the materials and textures that these name, whether they exist or not.
+/// Of a scene with errors, as far as its text shows.
+std::set<std::string> files_of_scene(const PlannedScene& planned);
+
+}  // namespace carom

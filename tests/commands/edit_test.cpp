@@ -1,0 +1,165 @@
+// The daily loop: a scene is edited and run again, by hand or by --watch.
+#include <gtest/gtest.h>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+/// Two balls with so many pictures.
+std::string balls_with_frames(int frames) {
+  return two_balls("output: {energy: true, frames: {fps: " + std::to_string(frames - 1) + ", size: [32, 18]}}\n");
+}
+
+TEST(EditedScene, ReplacesItsRunWithoutForceAndLeavesNoStaleFile) {
+  const Workplace here;
+  here.write("balls.yaml", balls_with_frames(9));
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-q"}).code, 0);
+  EXPECT_TRUE(here.has("output/balls/frames/frame_00008.png"));
+  here.write("balls.yaml", balls_with_frames(3));
+  const Finished check = here.carom({"check", "balls.yaml"});
+  EXPECT_NE(check.out.find("holds a run of the scene as it was, will be replaced"), std::string::npos) << check.out;
+  const Finished again = here.carom({"run", "balls.yaml", "-q"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(here.has("output/balls/frames/frame_00003.png"));
+  here.carom({"run", "balls.yaml", "-q", "-o", "fresh"});
+  EXPECT_EQ(without_manifest(here.files("output/balls")), without_manifest(here.files("fresh")));
+}
+
+TEST(EditedScene, StillReplacesItsRunWhenBothWereMoved) {
+  const Workplace here;
+  here.write("old/scenes/balls.yaml", two_balls());
+  EXPECT_EQ(here.shell("cd old && \"$CAROM\" run scenes/balls.yaml -q && cd .. && mv old new").code, 0);
+  here.write("new/scenes/balls.yaml", two_balls("seed: 1\n" + tables));
+  const Finished moved = here.carom({"run", "new/scenes/balls.yaml", "-o", "new/output/balls", "-q"});
+  EXPECT_EQ(moved.code, 0) << moved.err;
+}
+
+TEST(EditedScene, DoesNotReplaceTheRunOfAnotherSceneOrOfOtherSettings) {
+  const Workplace here;
+  here.write("a/balls.yaml", two_balls());
+  here.write("b/balls.yaml", two_balls("seed: 1\n" + tables));
+  here.carom({"run", "a/balls.yaml", "-q"});
+  const auto before = here.files("output");
+  EXPECT_EQ(here.carom({"run", "b/balls.yaml", "-q"}).code, 2);
+  EXPECT_EQ(here.carom({"run", "a/balls.yaml", "--seed", "1", "-q"}).code, 2);
+  EXPECT_EQ(here.carom({"run", "a/balls.yaml", "--set", "balls.red.mass=2", "-q"}).code, 2);
+  EXPECT_EQ(here.carom({"run", "a/balls.yaml", "--only", "energy", "-q"}).code, 0) << "up to date";
+  EXPECT_EQ(here.carom({"run", "a/balls.yaml", "--only", "sheet", "-q"}).code, 2) << "it would remove tables";
+  EXPECT_EQ(here.files("output"), before);
+}
+
+TEST(EditedScene, LeavesTouchedAndForeignFilesAlone) {
+  const auto refused = [](const std::string& change, const std::string& why) {
+    const Workplace here;
+    here.write("balls.yaml", balls_with_frames(3));
+    here.carom({"run", "balls.yaml", "-q"});
+    here.shell(change);
+    here.write("balls.yaml", balls_with_frames(4));
+    const auto before = here.files("output");
+    const Finished run = here.carom({"run", "balls.yaml", "-q"});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_EQ(run.err, "balls.yaml: the folder output/balls holds " + why +
+                           "\n  write elsewhere with -o, or overwrite it with --force\n"
+                           "carom: 1 error; nothing was run\n");
+    EXPECT_EQ(here.files("output"), before);
+  };
+  refused("echo mine > output/balls/notes.txt", "notes.txt, which the run there did not write");
+  refused("echo mine > output/balls/frames/a.png", "frames/a.png, which the run there did not write");
+  refused("mkdir output/balls/older", "older, which the run there did not write");
+  refused("echo >> output/balls/energy.csv", "a run of this scene with a changed file, energy.csv");
+  refused("rm output/balls/frames/frame_00001.png", "a run of this scene with a changed file, frames/frame_00001.png");
+  refused("sed -i /path/d output/balls/manifest.json", "another run, or files that no run wrote");
+  refused("rm output/balls/manifest.json", "another run, or files that no run wrote");
+}
+
+TEST(EditedScene, DoesNotReplaceARunOfASweep) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"});
+  for (const std::string folder : {"sweep", "sweep/runs/r0001"})
+    EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", folder, "-q"}).code, 2) << folder;
+}
+
+/// Starts a watch of a.yaml and b.yaml, does these steps, and ends it. `await FILE TEXT` waits until FILE has TEXT.
+Finished watched(const Workplace& here, const std::string& steps) {
+  return here.shell(
+      "await() { n=0; until grep -qs -- \"$2\" \"$1\"; do sleep 0.02; n=$((n + 1)); [ $n -lt 500 ] || exit 9; done; }\n"
+      "\"$CAROM\" run --watch a.yaml b.yaml --progress none >out 2>err & p=$!\n" +
+      steps + "\nkill -TERM $p; wait $p; code=$?; cat out; cat err >&2; exit $code");
+}
+
+TEST(Watch, RunsAtEachSaveHoweverItIsDone) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("b.yaml", two_balls());
+  const Finished run = watched(
+      here,
+      "await err waiting\n"
+      "sed 's/duration: 1/duration: 0.25/' a.yaml > .tmp; mv .tmp a.yaml; await output/a/summary.csv exact,done,0.25,\n"
+      "sed 's/duration: 0.25/duration: 0.5/' a.yaml > .tmp; cat .tmp > a.yaml; await output/a/summary.csv done,0.5,");
+  EXPECT_EQ(run.code, 143) << run.err;
+  EXPECT_NE(run.err.find("carom: waiting for changes of a.yaml and b.yaml; Ctrl-C ends\n"), std::string::npos);
+  EXPECT_TRUE(run.err.ends_with("carom: interrupted\n")) << run.err;
+  // b.yaml was not saved.
+  EXPECT_EQ(run.out.find("\nb: "), run.out.rfind("\nb: ")) << run.out;
+}
+
+TEST(Watch, ShowsErrorsAndGoesOn) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("b.yaml", two_balls());
+  const Finished run =
+      watched(here,
+              "await err waiting\n"
+              "cp a.yaml good; echo 'camra: 1' >> a.yaml; await err 'not run'\n"
+              "sed 's/duration: 1/duration: 0.25/' good > a.yaml; await output/a/summary.csv done,0.25,");
+  EXPECT_EQ(run.code, 143) << run.err;
+  EXPECT_NE(run.err.find("did you mean `camera`?\ncarom: a.yaml: 1 error; not run\n"), std::string::npos) << run.err;
+}
+
+TEST(Watch, FollowsMeshesAndTheirMaterials) {
+  const Workplace here;
+  here.write("m/pin.obj",
+             "mtllib pin.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  here.write("m/pin.mtl", "newmtl a\nKd 1 0 0\n");
+  here.write("a.yaml",
+             "scene: 1\nbodies: {pin: {mass: 1, mesh: m/pin.obj, fit: sphere, position: [0, 0, 0]}}\n"
+             "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
+  here.write("b.yaml", two_balls());
+  const Finished run =
+      watched(here,
+              "await err waiting; cp -r output/a before\n"
+              "echo 'newmtl a\nKd 0 1 0' > m/pin.mtl\n"
+              "n=0; while cmp -s before/frames/frame_00000.png output/a/frames/frame_00000.png && [ $n -lt 500 ]; do "
+              "n=$((n+1)); sleep 0.02; done\n"
+              "cp output/a/frames/frame_00000.png green.png; cp output/a/manifest.json first\n"
+              "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
+              "n=0; while cmp -s first output/a/manifest.json && [ $n -lt 500 ]; do n=$((n+1)); sleep 0.02; done");
+  EXPECT_EQ(run.code, 143) << run.err << run.out;
+  EXPECT_NE(here.read("before/frames/frame_00000.png"), here.read("green.png"));
+  EXPECT_NE(here.read("output/a/frames/frame_00000.png"), here.read("green.png"));
+}
+
+TEST(Watch, HasNoJsonDocument) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished run = here.carom({"run", "--watch", "a.yaml", "--json"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("leave out --json"), std::string::npos) << run.err;
+}
+
+TEST(Progress, OfScenesThatRunAtOnceBeginsBeforeOneEnds) {
+  const Workplace here;
+  std::string text = two_balls("output: {frames: {fps: 1, size: [64, 36], samples: 1}}\n");
+  text.replace(text.find("duration: 1}"), 12, "duration: 99990}");
+  for (const char* name : {"a.yaml", "b.yaml"}) here.write(name, text);
+  const Finished run = here.shell(
+      "\"$CAROM\" run a.yaml b.yaml -j 2 --progress lines 2>err & p=$!\n"
+      "n=0; until grep -qs 'run: [0-9]* %, 0 of 2 scenes' err || [ $n -gt 500 ]; do n=$((n+1)); sleep 0.02; done\n"
+      "kill -TERM $p; wait $p; cat err >&2");
+  EXPECT_NE(run.err.find(" %, 0 of 2 scenes"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace carom::testing

@@ -1,0 +1,72 @@
+// Errors as objects in the documents of --json, the same for every command.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The only error of a command that must fail with exit code 2. It is that of the first scene, if the document has any.
+Json error_of(const Workplace& here, std::vector<std::string> words) {
+  words.emplace_back("--json");
+  const Finished run = here.carom(words);
+  EXPECT_EQ(run.code, 2) << run.err;
+  const Json document = Json::parse(run.out);
+  const Json errors = (document.contains("scenes") ? document.at("scenes").at(0) : document).at("errors");
+  EXPECT_EQ(errors.size(), 1u) << run.out;
+  return errors.at(0);
+}
+
+TEST(JsonErrors, OfASceneHavePlaceMessageRemedyAndTheNearName) {
+  const Workplace here;
+  here.write("a.yaml", two_balls() + "camra: {}\n");
+  const Json expected = {{"file", "a.yaml"},
+                         {"line", 9},
+                         {"column", 1},
+                         {"message", "unknown key `camra` in the scene"},
+                         {"remedy", "did you mean `camera`?"},
+                         {"near", "camera"}};
+  for (const std::string command : {"run", "check", "bench"}) EXPECT_EQ(error_of(here, {command, "a.yaml"}), expected);
+  here.write("s.yaml", "sweep: 1\nbase: a.yaml\ngrid: {balls.red.mass: [1, 2]}\n");
+  for (const std::string command : {"sweep", "submit"})
+    EXPECT_EQ(error_of(here, command == "sweep" ? std::vector<std::string>{command, "s.yaml"}
+                                                : std::vector<std::string>{command, "s.yaml", "--slurm"}),
+              expected);
+}
+
+TEST(JsonErrors, OfASettingNameTheOption) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Json error = error_of(here, {"run", "a.yaml", "--set", "balls.red.mass=-1"});
+  EXPECT_EQ(error.at("file"), "--set balls.red.mass=-1");
+  EXPECT_EQ(error.at("line"), nullptr);
+  EXPECT_EQ(error.at("message"), "`mass` is -1");
+  EXPECT_EQ(error.at("remedy"), "expected a number above 0 in kg");
+  EXPECT_EQ(error.at("near"), nullptr);
+}
+
+TEST(JsonErrors, OfFoldersAndOptionsHaveTheSameMembers) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("output/a/notes.txt", "mine");
+  const Json folder = error_of(here, {"run", "a.yaml"});
+  EXPECT_EQ(folder.at("file"), "a.yaml");
+  EXPECT_NE(folder.at("message").get<std::string>().find("the folder output/a holds"), std::string::npos);
+  EXPECT_EQ(folder.at("remedy"), "write elsewhere with -o, or overwrite it with --force");
+  EXPECT_EQ(error_of(here, {"run", "a.yaml", "--engin", "exact"}).at("near"), nullptr);
+  EXPECT_EQ(error_of(here, {"run", "a.yaml", "--onl", "energy"}).at("near"), "--only");
+  for (const std::string command : {"diff", "compare", "gather", "render", "plot"}) {
+    const Json error = error_of(here, command == "diff" ? std::vector<std::string>{command, "no", "none"}
+                                                        : std::vector<std::string>{command, "no"});
+    for (const char* member : {"file", "line", "column", "message", "remedy", "near"})
+      EXPECT_TRUE(error.contains(member)) << command;
+  }
+  EXPECT_EQ(error_of(here, {"new", "a"}).at("file"), nullptr);
+}
+
+}  // namespace
+}  // namespace carom::testing
