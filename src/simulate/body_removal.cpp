@@ -19,6 +19,8 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
   const Vec3 v = flights_.velocity_of_method(i, now);
   flights_.end_step(i);
   flights_.book_until(i, now);
+  if (bodies_.in_group(i)) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, now);
+  bodies_.contact_work.change(i, now, 0);
   std::vector<Entity> left = release(i);
   bodies_.log.remove(0.5 * mass * v.squaredNorm() + bodies_.merged.potential(i, x), mass * v);
   bodies_.merged.remove(i);
