@@ -31,6 +31,7 @@ struct ChartWords {
 struct CompareOptions {
   std::vector<std::string> measures;
   std::vector<ChartWords> charts;
+  bool collisions = false;
   bool video = false;
 };
 

@@ -226,6 +226,8 @@ const Option table[] = {
      [](Options& o, const Words& w) { o.compare.measures = split_lists(w); }},
     {"--charts", "", "LIST", "x:y or x:y:by; x and by are varied paths, y a measure\n(chosen from the varied paths)",
      read_charts},
+    {"--collisions", "", "", "a sheet of the workbook with the first collisions of each\nrun",
+     [](Options& o, const Words&) { o.compare.collisions = true; }},
     {"--video", "", "", "a film", [](Options& o, const Words&) { o.compare.video = true; }},
     {"--jobs", "-j", "N", "N scenes at a time (1); changes no result",
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},

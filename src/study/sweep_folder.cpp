@@ -207,6 +207,7 @@ ComparisonPlan comparison_plan(const Sweep& sweep) {
   for (const SweepMeasure& measure : sweep.measures) plan.measures.push_back(measure.name);
   for (const SweepChart& chart : sweep.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
   if (sweep.seeds > 0) plan.seed = sweep.paths.size() - 1;
+  plan.collisions = sweep.collisions;
   return plan;
 }
 
