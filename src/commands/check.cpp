@@ -34,8 +34,14 @@ constexpr const char* unknown_view = "not known: the camera frames the motion, w
 // "red, blue and gas (1,000)".
 std::string bodies_text(const Scene& scene) {
   std::vector<std::string> names;
-  for (const BodyRange& range : scene.roster.bodies) {
-    names.push_back(range.group ? fmt::format("{} ({})", range.name, grouped(range.count)) : range.name);
+  const std::vector<BodyRange>& bodies = scene.roster.bodies;
+  for (std::size_t i = 0; i < bodies.size();) {
+    const std::string name(bodies[i].thing());
+    const bool several = bodies[i].group || bodies[i].name != name;
+    std::uint64_t count = 0;
+    do count += bodies[i].count;
+    while (++i < bodies.size() && name != bodies[i].name && bodies[i].thing() == name);
+    names.push_back(several ? fmt::format("{} ({})", name, grouped(count)) : name);
   }
   const std::string count = counted(scene.world.body_count(), "body", "bodies");
   return names.empty() ? count : fmt::format("{}: {}", count, listed(names, bodies_shown));
@@ -87,7 +93,10 @@ std::string camera_text(const Scene& scene, std::string_view kind) {
   if (kind == "path") return counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
   const auto& follow = scene.camera->follow;
   const BodyRange& range = scene.roster.range_of(follow->first);
-  return fmt::format("follows {}; ", follow->count == range.count ? range.name : scene.roster.name(follow->first));
+  const std::string name = follow->count == range.count  ? range.name
+                           : follow->count < range.count ? scene.roster.name(follow->first)
+                                                         : std::string(range.thing());
+  return fmt::format("follows {}; ", name);
 }
 
 std::string plus_x_text(const std::string& direction) {

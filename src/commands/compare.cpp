@@ -2,6 +2,7 @@
 // (compare/).
 #include "commands/compare.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -18,12 +19,15 @@
 #include "compare/comparison_folder.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "files/stored_file.h"
 #include "overlay/font.h"
 #include "scene/scene.h"
+#include "scene/scene_values.h"
 #include "study/comparison_film.h"
 #include "study/run_list.h"
 #include "study/sweep_folder.h"
 #include "yaml/diagnostics.h"
+#include "yaml/source.h"
 
 namespace carom {
 
@@ -83,7 +87,8 @@ class CompareSession {
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
-    ComparisonPlan plan = sweep ? comparison_plan(*sweep) : ComparisonPlan();
+    ComparisonPlan plan = sweep ? comparison_plan(*sweep, {}) : ComparisonPlan();
+    plan.own = own_measures_of(differences.runs());
     if (!sweep) plan.title = title_of(options_.operands);
     plan.parameters = differences.parameters();
     plan.seed = differences.seed();
@@ -111,6 +116,15 @@ class CompareSession {
     if (canonical(folder) == canonical(folder_))
       throw UsageError(
           fmt::format("{} is both compared and written to: name another folder with -o", printable(folder)));
+  }
+
+  /// The names of the measures that the scene of the first whole run defines.
+  static std::vector<std::string> own_measures_of(const std::vector<ListedRun>& runs) {
+    const auto whole = std::find_if(runs.begin(), runs.end(), [](const ListedRun& run) { return run.done; });
+    if (whole == runs.end()) return {};
+    const Descriptor folder = open_folder(AT_FDCWD, whole->folder, true);
+    const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : std::nullopt;
+    return text ? own_measure_names(*text) : std::vector<std::string>();
   }
 
   /// Measures and charts must exist in the first whole run.

@@ -22,6 +22,7 @@
 #include "files/publication.h"
 #include "physics/world.h"
 #include "render/mesh.h"
+#include "run/measure.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -139,6 +140,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.budget.enforced = !options.force;
   if (lifted) load.budget = load.budget.without_outputs();
   load.chooses_outputs = lifted;
+  load.measure_fault = measure_fault;
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;

@@ -69,6 +69,7 @@ class PlotPlanner {
       if (in_place && kind.asked(former->scene.output)) outputs.emplace_back(kind.name);
     planned.scene->output = restricted(planned.scene->output, outputs);
     planned.scene->file = former->scene.file;
+    if (const double end = former->end(); end < planned.scene->simulate.duration) planned.scene->ends_at = end;
     former->scene = {};
     if (what_stands(planned.folder) == Standing::other)
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));

@@ -98,7 +98,7 @@ class Planner {
     if (what_stands(planned.folder) == Standing::other)
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
     if (options_.at)
-      check_time(*planned.scene);
+      check_time(former->end());
     else
       check_content(planned);
     if (planned.folder == planned.file && !former->manifest.origin.path.empty()) {
@@ -119,11 +119,10 @@ class Planner {
     if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
   }
 
-  void check_time(const Scene& scene) const {
-    const double duration = scene.simulate.duration;
-    if (*options_.at > duration)
-      throw ExportError(fmt::format("--at {} is after its end\n  name a time from 0 to {} s", shortest(*options_.at),
-                                    shortest(duration)));
+  void check_time(double end) const {
+    if (*options_.at > end)
+      throw ExportError(
+          fmt::format("--at {} is after its end\n  name a time from 0 to {} s", shortest(*options_.at), shortest(end)));
   }
 
   void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene,

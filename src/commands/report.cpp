@@ -157,6 +157,8 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   const EngineChoice& engine = result.engine;
   const std::string_view name = name_of(engine.engine);
   block.line("engine", engine.why.empty() ? std::string(name) : fmt::format("{} ({})", name, engine.why));
+  if (summary.ended_by != "duration")
+    block.line("ended", fmt::format("at {}, by {}", quantity(summary.duration, "s"), summary.ended_by));
   block.line("collisions", collisions_text(summary));
   block.line("rest", rest_text(summary));
   if (summary.stepped_contact > 0)
@@ -167,6 +169,9 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
+  if (summary.contact.removed > 0)
+    block.line("removed", fmt::format("{} by regions, with {}", counted(summary.contact.removed, "body", "bodies"),
+                                      quantity(summary.energy.removed, "J")));
   block.line("energy", energy_text(summary));
   if (!summary.energy.of_forces.empty()) block.line("work", work_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
@@ -202,7 +207,9 @@ Json summary_json(const Summary& s) {
           {"max_speed_m_per_s", number_or_null(s.max_speed)},
           {"resting", s.resting},
           {"frames", s.frames},
-          {"stepped_contact_s", s.stepped_contact}};
+          {"stepped_contact_s", s.stepped_contact},
+          {"removed_J", number_or_null(s.energy.removed)},
+          {"ended_by", s.ended_by}};
 }
 
 Json warnings_json(const std::vector<Warning>& warnings) {

@@ -125,6 +125,7 @@ SweepSettings sweep_settings(const Options& options) {
   settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   // Every scenario has the base's meshes, so each mesh is read once.
   auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
+  settings.load.measure_fault = measure_fault;
   settings.load.mesh_points = [known](const std::string& path) {
     const auto found = known->find(path);
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
@@ -188,7 +189,7 @@ void check_comparison(SweepJob& job) {
   for (const SweepMeasure& measure : sweep.measures) check(measure.where, [&] { parse_measure(measure.name, scene); });
   for (const SweepChart& chart : sweep.charts) {
     check(chart.where, [&] {
-      ComparisonPlan plan = comparison_plan(sweep);
+      ComparisonPlan plan = comparison_plan(sweep, job.base_text());
       plan.measures.clear();
       plan.charts = {{chart.x, chart.y, chart.by}};
       check_charts(plan);

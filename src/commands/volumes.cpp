@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "commands/text.h"
@@ -54,13 +57,17 @@ std::string volumes_text(const Scene& scene) {
     std::vector<std::string> names;
   };
   std::vector<Alike> all;
+  std::unordered_map<std::string, std::size_t> numbers;  // in `all`, by text
   const World& world = scene.world;
   const auto add = [&](Entity e, const std::string& name, const std::optional<MeshUse>& mesh) {
     std::string text = volume_text(world.volume_of(e));
     if (mesh) text += fmt::format(", drawn as {}", printable(std::filesystem::path(mesh->file).filename().string()));
-    auto alike = std::find_if(all.begin(), all.end(), [&](const Alike& a) { return a.text == text; });
-    if (alike == all.end()) alike = all.insert(all.end(), {text, {}});
-    alike->names.push_back(name);
+    const auto [found, fresh] = numbers.emplace(text, all.size());
+    if (fresh) all.push_back({text, {}});
+    std::vector<std::string>& names = all[found->second].names;
+    // All members of a repeated thing are named once.
+    const std::string_view family = family_of(name), thing = family.empty() ? std::string_view(name) : family;
+    if (names.empty() || names.back() != thing) names.emplace_back(thing);
   };
   for (const BodyRange& range : scene.roster.bodies) {
     if (range.count == 0) continue;

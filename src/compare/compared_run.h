@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
+#include "compare/end_of_trajectory.h"
 #include "files/output_file.h"
 #include "files/stored_table.h"
 #include "scene/scene.h"
@@ -16,7 +17,8 @@ struct RunRecord {
   bool done = false;
   Descriptor folder;                 // the open run folder
   std::vector<std::string> summary;  // cells, by summary_columns()
-  std::vector<double> measures;      // NaN: undefined
+  std::vector<double> measures;      // NaN: undefined, or a text
+  std::vector<std::string> texts;    // by measure; empty: it is no text
 };
 
 /// Reads a run.
@@ -42,14 +44,6 @@ struct MotionColumns {
 };
 /// `bodies`: names as in trajectory.csv.
 MotionColumns motion_columns(const StoredTable& trajectory, const std::vector<std::string>& bodies);
-
-/// The motion of a body at the end of a run.
-struct EndMotion {
-  std::string body;
-  Vec3 position, velocity;  // m, m/s
-};
-/// All bodies at the last instant, in the order of the file. Only the end of the file is read.
-std::vector<EndMotion> end_of_trajectory(const RunRecord& run);
 
 /// The scene in the run's folder. Throws SceneError.
 Scene load_run_scene(const std::string& folder);

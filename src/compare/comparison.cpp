@@ -207,13 +207,14 @@ std::vector<Measure> measures_of(const ComparisonPlan& plan) {
   const auto add = [&](std::string_view name) {
     const bool known =
         std::any_of(measures.begin(), measures.end(), [&](const Measure& measure) { return measure.name == name; });
-    if (!known) measures.push_back(parse_measure(name));
+    if (!known) measures.push_back(parse_measure(name, plan.own));
   };
   for (const std::string& name : plan.measures) add(name);
   for (const Chart& chart : plan.charts) {
     add(chart.y);
     if (!find_parameter(plan, chart.x)) add(chart.x);
   }
+  for (const std::string& name : plan.own) add(name);
   if (measures.empty())
     for (const char* name : usual_measures) add(name);
   return measures;
@@ -233,7 +234,7 @@ void check_charts(const ComparisonPlan& plan) {
     if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "is not varied");
     if (find_parameter(plan, chart.x)) continue;
     try {
-      parse_measure(chart.x);
+      parse_measure(chart.x, plan.own);
     } catch (const MeasureError&) {
       refuse(chart.x, "is neither varied nor a measure");
     }

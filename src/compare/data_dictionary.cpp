@@ -48,9 +48,30 @@ constexpr SheetText sheets[] = {
     {"About", "this sheet"}};
 
 std::string meaning_of(const Measure& measure) {
-  return measure.column != nullptr
-             ? std::string(measure.column->meaning)
-             : fmt::format("{} of {} at the run's end", meaning_of(measure.quantity), measure.body);
+  switch (measure.form) {
+    case MeasureForm::column:
+      return std::string(measure.column->meaning);
+    case MeasureForm::at_end:
+      return fmt::format("{} of {} at the run's end", meaning_of(measure.quantity), measure.body);
+    case MeasureForm::own:
+      return "a measure that the scene defines";
+    case MeasureForm::expression:
+      return "an expression of measures";
+    case MeasureForm::hits:
+      return "number of collisions";
+    case MeasureForm::count:
+      return "number of bodies at the run's end";
+    case MeasureForm::entries:
+      return fmt::format("bodies that entered {}, each time anew", measure.things[0]);
+    case MeasureForm::inside:
+      return fmt::format("bodies inside {} at the run's end", measure.things[0]);
+    case MeasureForm::first_entry:
+      return fmt::format("time of the first entry into {}", measure.things[0]);
+    case MeasureForm::first_entrant:
+      return fmt::format("the body that entered {} first", measure.things[0]);
+    default:
+      return label_of(measure.name) + ", over the whole run";
+  }
 }
 
 }  // namespace

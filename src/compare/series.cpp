@@ -89,7 +89,7 @@ SeriesGatherer::SeriesGatherer(ChosenScenarios scenarios, const std::vector<Meas
     : scenarios_(std::move(scenarios)) {
   // A trajectory has no masses, and so no kinetic energies.
   for (const Measure& measure : measures)
-    if (measure.column == nullptr && measure.quantity != Quantity::kinetic && bodies_.size() < most_bodies)
+    if (measure.form == MeasureForm::at_end && measure.quantity != Quantity::kinetic && bodies_.size() < most_bodies)
       bodies_.push_back(measure);
 }
 
@@ -110,10 +110,13 @@ void SeriesGatherer::add(std::size_t number, const RunRecord& run) {
 /// Without measures of bodies and without energies, follows the speeds of the first few bodies.
 void SeriesGatherer::follow_first(const RunRecord& run) {
   constexpr std::size_t few = 3;
-  for (const EndMotion& motion : end_of_trajectory(run)) {
+  for (const EndMotion& motion : end_of_trajectory(run.folder.get())) {
     if (bodies_.size() == few) break;
-    bodies_.push_back(
-        {fmt::format("{}.{}", motion.body, name_of(Quantity::speed)), nullptr, {}, motion.body, Quantity::speed});
+    Measure& measure = bodies_.emplace_back();
+    measure.name = fmt::format("{}.{}", motion.body, name_of(Quantity::speed));
+    measure.form = MeasureForm::at_end;
+    measure.body = motion.body;
+    measure.quantity = Quantity::speed;
   }
 }
 

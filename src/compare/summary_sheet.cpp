@@ -70,7 +70,10 @@ void SummarySheet::add(std::size_t number, const RunRecord& run) {
   CsvRow row(*table_);
   for (Column& column : columns_) {
     Cell cell;
-    if (column.measure) {
+    if (column.measure && !run.texts[*column.measure].empty()) {
+      cell.text = run.texts[*column.measure];
+      row.text(cell.text);
+    } else if (column.measure) {
       cell.number = run.measures[*column.measure];
       row.number(cell.number);
       cell.text = number_cell(cell.number);

@@ -32,7 +32,7 @@ Plot chart_over_time(const Scene& scene, std::string_view subtitle) {
   plot.x_label = "time";
   plot.x_unit = "s";
   plot.x_from = 0;
-  plot.x_to = scene.simulate.duration;
+  plot.x_to = end_of(scene);
   return plot;
 }
 

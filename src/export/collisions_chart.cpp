@@ -17,8 +17,7 @@ const std::array<CollisionsChart::Row, 3> CollisionsChart::rows = {
 
 void CollisionsChart::add(double time, CollisionKind kind) {
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].kind == kind)
-      ++counts_[k][static_cast<std::size_t>(interval_of(time, 0, scene_.simulate.duration, intervals))];
+    if (rows[k].kind == kind) ++counts_[k][static_cast<std::size_t>(interval_of(time, 0, end_of(scene_), intervals))];
 }
 
 std::uint64_t CollisionsChart::total() const {
@@ -36,7 +35,7 @@ int CollisionsChart::joined() const {
 
 Histogram CollisionsChart::histogram(CollisionKind kind) const {
   const auto join = static_cast<std::size_t>(joined());
-  Histogram bars{scene_.simulate.duration * static_cast<double>(join) / intervals, {}};
+  Histogram bars{end_of(scene_) * static_cast<double>(join) / intervals, {}};
   bars.counts.resize(intervals / join);
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (rows[k].kind == kind)
@@ -52,7 +51,7 @@ Plot CollisionsChart::plot() const {
   plot.y_unit = "1/s";
   plot.from_zero = true;
   // A run without duration has no rate.
-  if (!(scene_.simulate.duration > 0)) return plot;
+  if (!(end_of(scene_) > 0)) return plot;
   std::vector<double> lower(intervals / static_cast<std::size_t>(joined()), 0);
   for (const Row& row : rows) {
     const Histogram bars = histogram(row.kind);

@@ -6,10 +6,7 @@
 namespace carom {
 
 EnergyChart::EnergyChart(const Scene& scene)
-    : scene_(scene),
-      kinetic_(0, scene.simulate.duration),
-      potential_(0, scene.simulate.duration),
-      total_(0, scene.simulate.duration) {}
+    : scene_(scene), kinetic_(0, end_of(scene)), potential_(0, end_of(scene)), total_(0, end_of(scene)) {}
 
 void EnergyChart::add(double time, double kinetic, double potential) {
   ++instants_;

@@ -3,6 +3,8 @@
 // No file gets its final name until all bytes of all files are written. Then all are renamed together.
 #include "export/exports.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -53,10 +55,7 @@ struct Exports::Impl {
   // Refuse what can be refused here, before the folder is changed.
   Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
        const Manifest* renewed)
-      : scene(the_scene),
-        makers(std::move(the_makers)),
-        timeline(the_scene.simulate.duration),
-        plan(plan_pictures(the_scene)) {
+      : scene(the_scene), makers(std::move(the_makers)), timeline(end_of(the_scene)), plan(plan_pictures(the_scene)) {
     const Output& output = scene.output;
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
@@ -71,8 +70,7 @@ struct Exports::Impl {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
       OpenWriter& open = writers.emplace_back();
-      if (kind.is_sampled())
-        open.timeline_streams = {timeline.add(Ticks::every(kind.every(output), scene.simulate.duration))};
+      if (kind.is_sampled()) open.timeline_streams = {timeline.add(Ticks::every(kind.every(output), end_of(scene)))};
       if (writer->ticks != nullptr)
         for (const Ticks& ticks : writer->ticks(scene)) open.timeline_streams.push_back(timeline.add(ticks));
       open.writer = writer->open(*folder, scene, makers);
@@ -133,6 +131,13 @@ Timeline& Exports::timeline() {
   return impl_->timeline;
 }
 
+void Exports::end_at(double time) {
+  impl_->timeline.end_at(time);
+  for (const PictureStream& stream : impl_->plan.streams)
+    if (impl_->timeline.is_empty(stream.timeline_stream))
+      throw ExportError(fmt::format("cannot make pictures: the run ends at {} s, before the first of them", time));
+}
+
 bool Exports::needs_state() const {
   const auto& streams = impl_->plan.streams;
   return std::any_of(impl_->writers.begin(), impl_->writers.end(),
@@ -153,6 +158,10 @@ void Exports::record(std::span<const Collision> collisions) {
 
 void Exports::record_paths(std::span<const PathPiece> pieces) {
   for (const Impl::OpenWriter& open : impl_->writers) open.writer->record_paths(pieces);
+}
+
+void Exports::record_crossings(std::span<const RegionCrossing> crossings) {
+  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record_crossings(crossings);
 }
 
 void Exports::sample(const State& state, std::span<const ContactForce> contacts) {

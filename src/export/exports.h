@@ -41,12 +41,15 @@ class Exports {
   Exports& operator=(const Exports&) = delete;
 
   Timeline& timeline();
+  /// Ends the timeline at `time` (s), before the duration (timeline.h). Throws ExportError if pictures then have none.
+  void end_at(double time);
   /// Whether any output is due at the timeline's present instant.
   bool needs_state() const;
   /// The same for outputs of contact forces.
   bool needs_contacts() const;
   void record(std::span<const Collision> collisions);
   void record_paths(std::span<const PathPiece> pieces);
+  void record_crossings(std::span<const RegionCrossing> crossings);
   /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if needs_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;

@@ -33,10 +33,11 @@ enum Has : std::uint32_t {
   has_whole = 8,
   has_joint = 16,
   has_bend = 32,
-  has_all = 63
+  has_left = 64,
+  has_all = 127
 };
 
-constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8;
+constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8, end_size = 8 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 6) * 8;
 
 /// The default of `from` where an entry has none.
@@ -97,6 +98,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
     if (piece.part_of != no_entity) has |= has_whole;
     if (piece.joint) has |= has_joint;
     if (!piece.bend.none()) has |= has_bend;
+    if (piece.removed) has |= has_left;
     char* const begin = file_->room(largest_entry);
     InPlace writer(begin);
     writer.put(piece.body);
@@ -129,9 +131,20 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
 
 void FlightsFile::end(const Tally& tally) {
   if (!file_) return;
-  InPlace writer(file_->room(tail_size));
+  const bool has_end = tally.end || tally.removed.bodies > 0;
+  InPlace writer(file_->room(end_size + tail_size));
+  if (has_end) {
+    const RunEnd end = tally.end.value_or(RunEnd{std::numeric_limits<double>::quiet_NaN()});
+    writer.put(end.time);
+    writer.put(static_cast<std::uint32_t>(end.reason));
+    writer.put(end.region);
+    writer.put(tally.removed.bodies);
+    writer.put(tally.removed.energy);
+    writer.put(tally.removed.momentum);
+    writer.put(0.0);
+  }
   writer.put(last_entry);
-  writer.put(std::uint32_t{0});
+  writer.put(std::uint32_t{has_end});
   for (const std::uint64_t count : {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses,
                                     tally.resting, tally.taken_up.impacts})
     writer.put(count);
@@ -166,7 +179,9 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
     refuse("it cannot be read");
   std::memcpy(buffer_.data(), tail, tail_size);
   end_ = tail_size;
-  if (take<std::uint32_t>() != last_entry || take<std::uint32_t>() != 0) refuse("it is truncated");
+  if (take<std::uint32_t>() != last_entry) refuse("it is truncated");
+  const auto has_end = take<std::uint32_t>();
+  if (has_end > 1 || (has_end == 1 && size < header_size + end_size + tail_size)) refuse("it is truncated");
   entries_ = take<std::uint64_t>();
   for (std::uint64_t* count : {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses,
                                &tally_.resting, &tally_.taken_up.impacts})
@@ -178,6 +193,7 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
 
   at_ = end_ = 0;
   left_ = size - tail_size;
+  if (has_end == 1) take_end(left_ -= end_size, scene);
   fill(header_size);
   if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
   at_ += magic.size();
@@ -185,6 +201,25 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
   if (take<std::uint64_t>() != scene.world.body_count() || take<double>() != scene.simulate.duration)
     refuse("it belongs to another scene");
+}
+
+/// Reads what has ended the run, at `offset` in the file, and what it has lost.
+void FlightsReader::take_end(std::uint64_t offset, const Scene& scene) {
+  if (pread(file_.get(), buffer_.data(), end_size, static_cast<off_t>(offset)) != static_cast<ssize_t>(end_size))
+    refuse("it cannot be read");
+  end_ = end_size;
+  const auto time = take<double>();
+  const auto reason = take<std::uint32_t>(), region = take<std::uint32_t>();
+  tally_.removed.bodies = take<std::uint64_t>();
+  tally_.removed.energy = take<double>();
+  tally_.removed.momentum = take_vector();
+  at_ = end_ = 0;
+  if (std::isnan(time)) return;
+  const auto by = static_cast<EndReason>(reason);
+  if (!(time >= 0 && time <= scene.simulate.duration) || reason > static_cast<std::uint32_t>(EndReason::region) ||
+      (by == EndReason::region && region >= scene.world.regions.size()))
+    refuse("it is damaged");
+  tally_.end = RunEnd{time, by, region};
 }
 
 bool FlightsReader::next(PathPiece& piece) {
@@ -228,6 +263,7 @@ bool FlightsReader::next(PathPiece& piece) {
     piece.bend.linear = take_vector();
     piece.bend.quadratic = take_vector();
   }
+  piece.removed = (has & has_left) != 0;
   const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (!(piece.from >= last_) || !std::isfinite(piece.from) || !finite(piece.start) || !finite(piece.until))

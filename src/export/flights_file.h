@@ -12,6 +12,7 @@
 //   8        the body has merged into another: u64 which; the other one's entries are its own from here on
 //   16       others have merged into it; its new f64 mass (kg), f64 radius (m), 3 f64 half extents (m)
 //   32       bx, by, bz (m/s^2), cx, cy, cz (m/s^3)
+//   64       the body has left the world
 // At a time T let s = (T - hi) - lo. The position is x + s (v + (s/2) a), and the velocity is v + s a.
 // Flag 4 subtracts (until - T) h from the velocity. Flag 32 adds s (b + s c) to it.
 // The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
@@ -20,6 +21,10 @@
 //   f64: first and last collision (s, NaN: none), energy lost (J), work (J), deepest overlap (m), greatest speed (m/s),
 //        lasting contact computed by time stepping (s, summed over bodies), and of the impacts that contact took up
 //        the fastest (m/s) and their energy (J)
+// A run that has ended before its duration, or has lost bodies to regions, has 1 instead of the 0 of the tail. Then 64
+// bytes come before the tail:
+//   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region, u64 removed bodies,
+//   f64 their energy (J), and x, y, z of their momentum (kg m/s), f64 0
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -64,6 +69,7 @@ class FlightsReader {
  private:
   [[noreturn]] void refuse(const std::string& reason) const;
   void fill(std::size_t size);
+  void take_end(std::uint64_t offset, const Scene& scene);
   template <typename T>
   T take();
   Vec3 take_vector();

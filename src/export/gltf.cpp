@@ -23,7 +23,7 @@ void GltfWriter::add(double time, const State& state, std::span<const ContactFor
     for (Entity body = 0; body < world.body_count(); ++body) volumes_.emplace_back(world.volume_of(body));
   for (Entity body = 0; body < world.body_count(); ++body) {
     std::optional<Volume> now;
-    if (!is_part_of_another(state, body)) now = volume_now(world, state, body);
+    if (!is_gone(state, body)) now = volume_now(world, state, body);
     std::optional<Volume>& before = volumes_[body];
     if (now.has_value() == before.has_value() && (!now || now->half == before->half)) continue;
     motion_.changes.push_back({key, body, now});

@@ -14,22 +14,21 @@ namespace carom {
 
 HeightsChart::HeightsChart(const Scene& scene) : scene_(scene) {
   const std::size_t bodies = scene.world.body_count();
-  if (bodies <= most_lines) lines_.assign(bodies, ThinnedLine(0, scene.simulate.duration));
+  if (bodies <= most_lines) lines_.assign(bodies, ThinnedLine(0, end_of(scene)));
 }
 
 bool HeightsChart::wants(double time) const {
   if (!lines_.empty() || spreads_.empty()) return true;
-  const auto column = [&](double t) { return interval_of(t, 0, scene_.simulate.duration, ThinnedLine::columns); };
+  const auto column = [&](double t) { return interval_of(t, 0, end_of(scene_), ThinnedLine::columns); };
   // The last instant is that of the end.
-  return column(time) != column(spreads_.back().time) || time >= scene_.simulate.duration;
+  return column(time) != column(spreads_.back().time) || time >= end_of(scene_);
 }
 
 void HeightsChart::add(double time, const State& state) {
   if (!wants(time)) return;
   std::vector<double> heights;
   for (Entity body = 0; body < state.position.size(); ++body)
-    heights.push_back(is_part_of_another(state, body) ? std::numeric_limits<double>::quiet_NaN()
-                                                      : state.position[body].y());
+    heights.push_back(is_gone(state, body) ? std::numeric_limits<double>::quiet_NaN() : state.position[body].y());
   add(time, heights);
 }
 

@@ -72,7 +72,7 @@ PictureStream still_stream(const Scene& scene, double time) {
 
 std::vector<Ticks> shown_instants(const Scene& scene) {
   const Output& output = scene.requested.pictures() ? scene.requested : scene.output;
-  const double duration = scene.simulate.duration;
+  const double duration = end_of(scene);
   std::vector<Ticks> instants;
   if (output.frames) instants.push_back(ticks_of(*output.frames, duration));
   if (output.video) instants.push_back(ticks_of(*output.video, duration));
@@ -83,7 +83,7 @@ std::vector<Ticks> shown_instants(const Scene& scene) {
 
 PictureStreams plan_pictures(const Scene& scene) {
   const Output& output = scene.output;
-  const double duration = scene.simulate.duration;
+  const double duration = end_of(scene);
   PictureStreams plan;
   if (const auto& frames = output.frames) {
     const Ticks ticks = ticks_of(*frames, duration);

@@ -28,8 +28,8 @@ constexpr RunChart all_charts[] = {
 }  // namespace
 
 ChartTicks::ChartTicks(const Scene& scene)
-    : energy(ticks_of(plot_intervals(scene.output).energy, scene.simulate.duration)),
-      heights(ticks_of(plot_intervals(scene.output).trajectory, scene.simulate.duration)) {}
+    : energy(ticks_of(plot_intervals(scene.output).energy, end_of(scene))),
+      heights(ticks_of(plot_intervals(scene.output).trajectory, end_of(scene))) {}
 
 RunCharts::RunCharts(const Scene& scene)
     : energy(scene),

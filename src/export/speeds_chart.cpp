@@ -31,7 +31,7 @@ void SpeedsChart::add(double mass, const Vec3& velocity) {
 
 void SpeedsChart::add(const State& end) {
   for (Entity body = 0; body < end.velocity.size(); ++body)
-    if (!is_part_of_another(end, body)) add(mass_now(scene_.world, end, body), end.velocity[body]);
+    if (!is_gone(end, body)) add(mass_now(scene_.world, end, body), end.velocity[body]);
 }
 
 Histogram SpeedsChart::histogram() const {
@@ -76,7 +76,7 @@ Plot SpeedsChart::plot() const {
   Plot plot = chart_of(scene_, fmt::format("{} at {:.6g} s",
                                            speeds_.size() == 1 ? "Speed of the body"
                                                                : fmt::format("Speeds of {} bodies", speeds_.size()),
-                                           scene_.simulate.duration));
+                                           end_of(scene_)));
   const Histogram bars = histogram();
   plot.x_label = "speed";
   plot.x_unit = "m/s";

@@ -107,7 +107,7 @@ void TrajectoryTable::add(double time, const State& state, std::span<const Conta
     block.parts.push_back(part);
     for (Entity body = first; body < first + part.count; ++body) {
       block.motions.push_back({state.position[body], state.velocity[body]});
-      if (is_part_of_another(state, body)) block.motions.back().position.x() = none;
+      if (is_gone(state, body)) block.motions.back().position.x() = none;
     }
     first += part.count;
     if (block.motions.size() == block_rows || block.parts.size() == block_rows) blocks_.send();
@@ -222,6 +222,21 @@ void ContactTable::add(double time, const State&, std::span<const ContactForce> 
   }
 }
 
+RegionTable::RegionTable(const FilePlace& place, const Scene& scene)
+    : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "regions.csv") {
+  file_.write("time_s,region,body,what\n");
+}
+
+void RegionTable::record_crossings(std::span<const RegionCrossing> crossings) {
+  for (const RegionCrossing& crossing : crossings) {
+    file_.written(put_number(file_.room(number_size), crossing.time));
+    file_.write(",");
+    file_.write(roster_.regions[crossing.region]);
+    write_name(file_, roster_, bodies_, crossing.body);
+    file_.write(crossing.enters ? ",enter\n" : ",leave\n");
+  }
+}
+
 EnergyTable::EnergyTable(const FilePlace& place, const Scene& scene) : world_(scene.world), file_(place, "energy.csv") {
   file_.write("time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n");
 }
@@ -239,14 +254,20 @@ void write_summary(OutputFile& file, const Summary& s) {
   file.write(
       "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,last_collision_s,"
       "energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,momentum_drift_kg_m_per_s,max_overlap_m,"
-      "max_speed_m_per_s,resting,frames,stepped_contact_s\n");
+      "max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by");
+  for (const Measured& measure : s.measures) file.write("," + measure.name);
+  file.write("\n");
   CsvRow row(file);
   row.text(valid_utf8(s.run)).text(valid_utf8(s.title)).text(s.engine).text(s.status).number(s.duration);
   row.count(s.bodies).count(s.collisions).count(s.body_body).count(s.body_fixed);
   row.number(s.first_collision).number(s.last_collision);
   row.number(s.energy.start).number(s.energy.end).number(s.energy.lost).number(s.energy.work).number(s.energy.residual);
   row.number(s.momentum_drift).number(s.max_overlap).number(s.max_speed);
-  row.count(s.resting).count(s.frames).number(s.stepped_contact).end();
+  row.count(s.resting).count(s.frames).number(s.stepped_contact);
+  row.number(s.energy.removed).text(s.ended_by);
+  for (const Measured& measure : s.measures)
+    measure.text.empty() ? row.number(measure.value) : row.text(valid_utf8(measure.text));
+  row.end();
 }
 
 }  // namespace carom

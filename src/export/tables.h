@@ -90,6 +90,19 @@ class ContactTable : public Writer {
   OutputFile file_;
 };
 
+/// regions.csv: a row for each crossing of a region, by time, then region, then body.
+class RegionTable : public Writer {
+ public:
+  RegionTable(const FilePlace& place, const Scene& scene);
+  void record_crossings(std::span<const RegionCrossing> crossings) override;
+  std::vector<OutputFile*> files() override { return {&file_}; }
+
+ private:
+  const Roster& roster_;
+  Entity bodies_;
+  OutputFile file_;
+};
+
 /// energy.csv: a row for each instant.
 class EnergyTable : public Writer {
  public:

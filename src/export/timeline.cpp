@@ -83,6 +83,7 @@ Ticks Ticks::every(double interval, double duration) {
   // A start is never rounded away.
   ticks.last_ = duration > 0 ? std::max<std::int64_t>(below, 1) : 0;
   ticks.end_ = duration;
+  ticks.closes_ = true;
   return ticks;
 }
 
@@ -137,6 +138,16 @@ double Ticks::at(std::int64_t i) const {
   return end_ && i == last_ ? *end_ : (offset_ + static_cast<double>(i) * numerator_) / denominator_;
 }
 
+void Ticks::cut(double end) {
+  if (last_ < first_ || at(last_) <= end) return;
+  end_.reset();
+  last_ = numerator_ > 0 ? last_until(end, (end * denominator_ - offset_) / numerator_) : -1;
+  last_ = std::max(last_, first_ - 1);
+  if (!closes_) return;
+  if (last_ < first_ || at(last_) < end) ++last_;
+  end_ = end;
+}
+
 bool Ticks::has_times_of(const Ticks& other) const {
   return count() == other.count() &&
          (count() == 0 || (at(first_) == other.at(other.first_) && at(last_) == other.at(other.last_)));
@@ -168,6 +179,11 @@ bool Timeline::advance() {
     stream.due = false;
   }
   if (ended_) return false;
+  find_due();
+  return true;
+}
+
+void Timeline::find_due() {
   double next = duration_;
   for (const Stream& stream : streams_)
     if (stream.next <= stream.ticks.last()) next = std::min(next, stream.ticks.at(stream.next));
@@ -175,12 +191,21 @@ bool Timeline::advance() {
   for (Stream& stream : streams_)
     stream.due = stream.next <= stream.ticks.last() && stream.ticks.at(stream.next) == next;
   ended_ = next == duration_;
-  return true;
+}
+
+void Timeline::end_at(double time) {
+  duration_ = time;
+  for (Stream& stream : streams_) stream.ticks.cut(time);
+  find_due();
 }
 
 std::optional<std::int64_t> Timeline::due(int stream) const {
   const Stream& s = streams_.at(static_cast<std::size_t>(stream));
   return s.due ? std::optional(s.next) : std::nullopt;
+}
+
+bool Timeline::is_empty(int stream) const {
+  return streams_.at(static_cast<std::size_t>(stream)).ticks.count() < 1;
 }
 
 std::optional<double> Timeline::next(int stream) const {

@@ -27,6 +27,8 @@ class Ticks {
   /// The decimals with which times of ticks are written: all of them, if these are at most 6. Else so many that
   /// rounding is at most a twentieth of the interval.
   int decimals() const;
+  /// Leaves out what is after `end` (s). An output that ends with the duration ends there instead.
+  void cut(double end);
   /// Whether both have the same instants, with any numbers.
   bool has_times_of(const Ticks& other) const;
 
@@ -38,6 +40,7 @@ class Ticks {
   /// Tick i is at (offset + i * numerator) / denominator.
   double offset_ = 0, numerator_ = 1, denominator_ = 1;
   std::optional<double> end_;  // the last tick's own time
+  bool closes_ = false;        // that is the run's end
 };
 
 /// The instants of all outputs in order. The last instant is the duration, even if no output is due then.
@@ -47,9 +50,13 @@ class Timeline {
   int add(const Ticks& ticks);  // returns the stream's number
   /// To the next instant. False: none is left.
   bool advance();
+  /// Ends the timeline at `time` (s), which is after all instants before the present one. The present instant is that
+  /// or an earlier one.
+  void end_at(double time);
   double time() const { return time_; }  // s
   /// The tick's number if this stream is due.
   std::optional<std::int64_t> due(int stream) const;
+  bool is_empty(int stream) const;  // it has no instant
   /// The time (s) of the stream's next tick, which may be due. None: none is left.
   std::optional<double> next(int stream) const;
 
@@ -59,6 +66,8 @@ class Timeline {
     std::int64_t next;
     bool due;
   };
+  void find_due();
+
   double duration_, time_ = 0;
   bool ended_ = false;
   std::vector<Stream> streams_;

@@ -84,7 +84,7 @@ std::string bodies_text(const Scene& scene, double time, const State& state, boo
   std::int32_t points = 0;
   for (const BodyRange& range : scene.roster.bodies) {
     for (Entity body = range.first; body < range.first + range.count; ++body) {
-      if (is_part_of_another(state, body)) continue;
+      if (is_gone(state, body)) continue;
       const Volume volume = volume_now(world, state, body);
       position.add(state.position[body]);
       velocity.add(state.velocity[body]);

@@ -27,6 +27,8 @@ constexpr double energy_bytes = 110;
 constexpr double collision_bytes = 260;
 // A row of contacts.csv.
 constexpr double contact_bytes = 40;
+// A row of regions.csv.
+constexpr double crossing_bytes = 40;
 // A piece of a path in flights.bin.
 constexpr double path_bytes = 100;
 
@@ -53,6 +55,9 @@ constexpr WriterKind all_kinds[] = {
     // The number of contacts is unknown. Half of the bodies are assumed to be at rest always.
     {"contacts", open<ContactTable>,
      [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
+    // The number of crossings is unknown. One for each body is assumed.
+    {"regions", open<RegionTable>,
+     [](const Scene& scene, double) { return crossing_bytes * scene.world.body_count(); }},
     {"vtk",
      [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
        return std::make_unique<VtkWriter>(folder, scene, makers);

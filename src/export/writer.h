@@ -14,6 +14,7 @@
 #include "physics/path_piece.h"
 #include "physics/state.h"
 #include "physics/tally.h"
+#include "physics/world_region.h"
 #include "render/model.h"
 #include "scene/output_kinds.h"
 
@@ -28,6 +29,8 @@ class Writer {
   virtual void record(std::span<const Collision>) {}
   /// Takes pieces of paths, in order.
   virtual void record_paths(std::span<const PathPiece>) {}
+  /// Takes crossings of regions, in order.
+  virtual void record_crossings(std::span<const RegionCrossing>) {}
   /// Whether add() reads the contact forces.
   virtual bool needs_contacts() const { return false; }
   /// Takes the state at an instant (s) at which this output is due. `contacts`: by a, then b.

@@ -61,12 +61,12 @@ XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
 void XyzWriter::add(double time, const State& state, std::span<const ContactForce>) {
   const World& world = scene_.world;
   std::size_t count = world.body_count();
-  for (Entity body = 0; body < world.body_count(); ++body) count -= is_part_of_another(state, body) ? 1 : 0;
+  for (Entity body = 0; body < world.body_count(); ++body) count -= is_gone(state, body) ? 1 : 0;
   file_.write(fmt::format("{}\n{} Time={}\n", count, cell_, number_cell(time)));
   for (std::size_t r = 0; r < scene_.roster.bodies.size(); ++r) {
     const BodyRange& range = scene_.roster.bodies[r];
     for (Entity body = range.first; body < range.first + range.count; ++body) {
-      if (is_part_of_another(state, body)) continue;
+      if (is_gone(state, body)) continue;
       const Volume volume = volume_now(world, state, body);
       char* to = file_.room(row_numbers * (number_size + 1) + range.name.size() + member_size + 4);
       *to++ = 'X';

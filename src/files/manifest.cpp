@@ -95,6 +95,7 @@ Json scene_json(const Scene& scene, const SceneOrigin& origin) {
   if (!origin.settings.empty()) json["settings"] = origin.settings;
   json["title"] = scene.title;
   json["sha256"] = sha256(scene.resolved);
+  if (!scene.expressions.empty()) json["expressions"] = scene.expressions;
   return {{"scene", std::move(json)}};
 }
 
@@ -140,7 +141,9 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
       {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
   json["peak_memory_bytes"] = facts.peak_memory;
   for (const Measured& measure : facts.measures)
-    json["measures"][measure.name] = std::isfinite(measure.value) ? Json(measure.value) : Json();
+    json["measures"][measure.name] = !measure.text.empty()          ? Json(valid_utf8(measure.text))
+                                     : std::isfinite(measure.value) ? Json(measure.value)
+                                                                    : Json();
   for (const LeftOut& file : facts.left_out) json["left_out"][file.name] = file.why;
   json["status"] = summary.status;
   for (const Warning& warning : summary.warnings)
@@ -181,13 +184,17 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = text_of_json(*meshes);
   manifest.collisions = whole_member(json.value("counts", Json()), "collisions");
   manifest.scene_file = text_member(json.value("scene", Json()), "file");
+  if (const Json of_scene = json.value("scene", Json()); of_scene.is_object() && of_scene.contains("expressions"))
+    for (const auto& [path, expression] : of_scene["expressions"].items())
+      if (expression.is_string()) manifest.expressions.emplace(path, expression.get<std::string>());
   manifest.origin = origin_in(json.value("scene", Json()));
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
     for (const auto& [file, why] : left_out->items())
       manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
   if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
     for (const auto& [measure, value] : measures->items())
-      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
+      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan(""),
+                                   value.is_string() ? value.get<std::string>() : std::string()});
   if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
     for (const Json& warning : *warnings)
       manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});

@@ -1,6 +1,7 @@
 #pragma once
 // manifest.json: the files that a run wrote, and its request. It is written last and marks a folder as complete.
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,8 @@ struct Manifest {
   std::string meshes;   // meshes_text()
   std::vector<FileRecord> files;
   std::string scene_file{};  // the file name, without a folder
+  /// As in Scene.
+  std::map<std::string, std::string> expressions{};
   SceneOrigin origin{};
   /// Files of the outputs that were given up.
   std::vector<LeftOut> left_out{};

@@ -1,6 +1,7 @@
 #pragma once
 // The results of a run: the row of summary.csv, and what manifest.json holds besides.
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct EnergyTotals {
   double start = 0, end = 0;
   // By impacts, both recorded and taken up by contact.
   double lost = 0;
-  double work = 0;  // of forces without a potential
+  double work = 0;     // of forces without a potential
+  double removed = 0;  // of bodies that regions have removed
   /// What neither impacts nor work account for: the error of the method, and rounding.
   double residual = 0;
   /// A lower bound of the energy that changed its form: kinetic at both ends, potential, lost, work.
@@ -38,14 +40,28 @@ struct Warning {
 /// Counts for the report only, not columns.
 struct ContactCounts {
   std::uint64_t merges = 0;
+  std::uint64_t removed = 0;    // bodies
   std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
 };
 
-/// The row of summary.csv, in the order of its columns.
-struct Summary {
+/// A measure of a run: a number, or a text.
+struct Measured {
+  std::string name;  // "balls.red.speed_m_per_s"
+  double value = std::numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
+  std::string text{};  // empty: a number, or undefined
+};
+
+/// How long a run has lasted.
+struct RunLength {
+  double duration = 0;  // s
+  /// "duration", "rest", "collisions" or "region pocket".
+  std::string ended_by{};
+};
+
+/// The row of summary.csv.
+struct Summary : RunLength {
   std::string run, title, engine, status;
-  double duration = 0;
   std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
   double first_collision = 0, last_collision = 0;  // s; NaN: an empty cell
   EnergyTotals energy;
@@ -55,14 +71,10 @@ struct Summary {
   /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
   double stepped_contact = 0;
 
+  std::vector<Measured> measures;  // those that the scene defines, columns after all others
+
   ContactCounts contact;
   std::vector<Warning> warnings;  // with any, the status is `doubtful`
-};
-
-/// A requested quantity at the end of the run. Not finite: undefined.
-struct Measured {
-  std::string name;  // "balls.red.speed_m_per_s"
-  double value = 0;
 };
 
 /// The command that a run's scene comes from (earlier_run.h).

@@ -18,6 +18,8 @@ struct RelativeMotion {
   double speeds;
   // The two touch and have just collided. Their gap is zero by definition, not by computation.
   bool just_separated;
+  // m, how far a fixed b is from its position at time 0: positions are rounded on this scale too.
+  double moved = 0;
 };
 
 /// First t in [0, horizon] at which spheres with radii of sum s (m) touch and approach.
@@ -84,7 +86,8 @@ WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, co
 WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, std::uint8_t left,
                               double horizon);
 
-/// The wall's point nearest to x (m).
+/// The wall's point nearest to x (m), with its centre at `center` (m), or where it is at time 0.
+Vec3 nearest_on_wall(const Wall& wall, const Vec3& center, const Vec3& x);
 Vec3 nearest_on_wall(const Wall& wall, const Vec3& x);
 
 /// First t in (0, horizon] at which a sphere that slides over a face leaves it. Its point of contact then crosses the

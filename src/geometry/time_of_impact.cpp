@@ -9,11 +9,11 @@ namespace carom {
 
 namespace {
 
-/// The size of the positions of which d, from a to b, is the difference, as far as it is known.
-double size_of_positions(const World& world, Entity b, const Vec3& d) {
-  if (world.is_body(b)) return d.cwiseAbs().sum();
+/// The size of the positions of which motion.d, from a to b, is the difference, as far as it is known.
+double size_of_positions(const World& world, Entity b, const RelativeMotion& motion) {
+  if (world.is_body(b)) return motion.d.cwiseAbs().sum();
   const Vec3& x = world.fixed_position(b);
-  return x.cwiseAbs().sum() + (x - d).cwiseAbs().sum();
+  return x.cwiseAbs().sum() + (x - motion.d).cwiseAbs().sum() + 2 * motion.moved;
 }
 
 FeatureTime meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, double horizon) {
@@ -47,17 +47,17 @@ FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const
     }
     case PairKind::prism: {
       const PairPrism pair = pair_prism(world, a, b);
-      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, motion), size_of_positions(world, b, motion.d),
+      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, motion), size_of_positions(world, b, motion),
                                      horizon)
           .run(left);
     }
     case PairKind::box_wall: {
       const SlabSum sum = slab_sum(world, a, b);
-      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
+      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion), horizon).run(left);
     }
     case PairKind::cylinder_wall: {
       const TiltedSum sum = tilted_sum(world, a, b);
-      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
+      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion), horizon).run(left);
     }
   }
   return {never, no_feature};

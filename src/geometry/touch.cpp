@@ -39,9 +39,9 @@ Vec3 sign_of(const Vec3& n) {
           double(n.z() > 0) - double(n.z() < 0)};
 }
 
-Touch touch_plane(const Plane& plane, const Volume& volume, const Vec3& x) {
+Touch touch_plane(const Plane& plane, const Vec3& point, const Volume& volume, const Vec3& x) {
   const Vec3 n = -plane.normal;
-  const double gap = plane_gap(x, plane.point, plane.normal, volume.support(plane.normal));
+  const double gap = plane_gap(x, point, plane.normal, volume.support(plane.normal));
   if (volume.shape == Shape::sphere) return {gap, n, x + volume.half.x() * n, 0};
   Vec3 reach = volume.half.cwiseProduct(sign_of(n));
   if (volume.shape == Shape::cylinder) {
@@ -64,7 +64,7 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
     const Vec3 to_body = feature == wall_front ? wall.normal : Vec3(-wall.normal);
     return {plane_gap(xa, xb, to_body, r), -to_body, xa - r * to_body, feature};
   }
-  const Vec3 d = nearest_on_wall(wall, xa) - xa;
+  const Vec3 d = nearest_on_wall(wall, xb, xa) - xa;
   const double distance = d.norm();
   const Vec3 n = distance > 0 ? Vec3(d / distance) : wall.normal;
   return {squared_gap(d, r) / (distance + r), n, xa + r * n, feature};
@@ -150,13 +150,12 @@ Touch touch_at_an_angle(const Sum& sum, const Volume& volume, const Wall& wall, 
   return {s.gap, s.normal, closest_points(volume, xa, wall, xb + apart).on_a, s.feature};
 }
 
-/// max of n . p over the points p of a fixed thing (m).
-double reach_along(const World& world, Entity fixed, const Vec3& n) {
+/// max of n . p over the points p of a fixed thing at `center` (m).
+double reach_along(const World& world, Entity fixed, const Vec3& center, const Vec3& n) {
   if (world.is_plane(fixed)) {
     const Plane& plane = world.plane(fixed);
-    return (plane.normal - n).norm() <= 0x1p-50 ? n.dot(plane.point) : never;
+    return (plane.normal - n).norm() <= 0x1p-50 ? n.dot(center) : never;
   }
-  const Vec3& center = world.fixed_position(fixed);
   if (!world.is_wall(fixed)) return n.dot(center) + world.volume_of(fixed).support(n);
   const Wall& wall = world.wall(fixed);
   return n.dot(center) + wall.half_width * std::abs(n.dot(wall.right)) + wall.half_height * std::abs(n.dot(wall.up));
@@ -164,10 +163,10 @@ double reach_along(const World& world, Entity fixed, const Vec3& n) {
 
 }  // namespace
 
-bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& n) {
+bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& xf, const Vec3& n) {
   const Volume volume = world.volume_of(a);
-  const double rounding = rounding_of_gap(xa, world.fixed_position(fixed), volume.reach());
-  return reach_along(world, fixed, n) <= n.dot(xa) - volume.support(n) + rounding;
+  const double rounding = rounding_of_gap(xa, xf, volume.reach());
+  return reach_along(world, fixed, xf, n) <= n.dot(xa) - volume.support(n) + rounding;
 }
 
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) {
@@ -175,7 +174,7 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
     case PairKind::spheres:
       return touch_spheres(xa, world.volume_of(a).half.x(), xb, world.volume_of(b).half.x());
     case PairKind::half_space:
-      return touch_plane(world.plane(b), world.volume_of(a), xa);
+      return touch_plane(world.plane(b), xb, world.volume_of(a), xa);
     case PairKind::sphere_wall:
       return touch_wall(world, a, b, world.wall(b), xa, xb, feature);
     case PairKind::prism:

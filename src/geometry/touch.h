@@ -1,6 +1,6 @@
 #pragma once
 // The relative position of any two things of a World, and their times of impact: the one table of pairs of volumes.
-// The first, a, is a body. The second, b, is a body or a fixed thing with the position world.fixed_position(b).
+// The first, a, is a body. The second, b, is a body or a fixed thing with the position that is given.
 // Two volumes that do not turn touch where the point x_b - x_a meets their Minkowski sum:
 // - sphere and box: a rounded box
 // - two cylinders: a cylinder
@@ -41,10 +41,10 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
 /// Whether contact of a pair at this feature lies in a plane as long as it lasts, so that motion along it is straight.
 bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
 
-/// Whether a fixed thing lies wholly behind the plane in which body a, at xa (m), touches on the side against the unit
-/// vector n. It then extends no farther along n than the body's own surface does against it, up to rounding. A body
-/// that slides in that plane cannot strike it.
-bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& n);
+/// Whether a fixed thing at xf (m) lies wholly behind the plane in which body a, at xa (m), touches on the side against
+/// the unit vector n. It then extends no farther along n than the body's own surface does against it, up to rounding. A
+/// body that slides in that plane cannot strike it.
+bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& xf, const Vec3& n);
 
 /// An instant, and the feature at which two things touch then.
 struct FeatureTime {

@@ -22,7 +22,7 @@ struct LocalPath {
 /// The wall's motion seen from the sphere, converted to the sphere's motion seen from the wall.
 LocalPath to_local(const Wall& wall, const RelativeMotion& m, double radius) {
   const auto frame = [&](const Vec3& u) { return Vec3(-u.dot(wall.right), -u.dot(wall.up), -u.dot(wall.normal)); };
-  const double size = (wall.center - m.d).cwiseAbs().sum() + wall.center.cwiseAbs().sum();
+  const double size = (wall.center - m.d).cwiseAbs().sum() + wall.center.cwiseAbs().sum() + 2 * m.moved;
   return {frame(m.d), frame(m.w), frame(m.a), m.w.cwiseAbs().sum() * (1 + size / radius)};
 }
 
@@ -117,11 +117,15 @@ WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
   return first;
 }
 
-Vec3 nearest_on_wall(const Wall& wall, const Vec3& x) {
-  const Vec3 d = x - wall.center;
+Vec3 nearest_on_wall(const Wall& wall, const Vec3& center, const Vec3& x) {
+  const Vec3 d = x - center;
   const double u = std::clamp(d.dot(wall.right), -wall.half_width, wall.half_width);
   const double w = std::clamp(d.dot(wall.up), -wall.half_height, wall.half_height);
-  return wall.center + u * wall.right + w * wall.up;
+  return center + u * wall.right + w * wall.up;
+}
+
+Vec3 nearest_on_wall(const Wall& wall, const Vec3& x) {
+  return nearest_on_wall(wall, wall.center, x);
 }
 
 WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon) {

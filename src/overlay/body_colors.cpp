@@ -21,7 +21,8 @@ std::vector<ColorRule> color_rules(const Scene& scene) {
     auto rule = std::find_if(rules.begin(), rules.end(),
                              [&](const ColorRule& other) { return other.coloring == *range.coloring; });
     if (rule == rules.end()) rule = rules.insert(rules.end(), {*range.coloring, scale_of(scene, *range.coloring), {}});
-    rule->names.push_back(range.name);
+    // Members of a repeated thing follow one another.
+    if (rule->names.empty() || rule->names.back() != range.thing()) rule->names.emplace_back(range.thing());
   }
   return rules;
 }
@@ -33,7 +34,7 @@ BodyColors::BodyColors(const Scene& scene) : scene_(scene), rules_(color_rules(s
     rule_.assign(bodies, plain);
     name_.assign(bodies, 0);
   }
-  std::vector<std::uint32_t> names(rules_.size(), 0);
+  std::vector<std::uint32_t> names(rules_.size(), 0);  // up to the body, by rule
   for (const BodyRange& range : scene.roster.bodies) {
     std::fill_n(color_.begin() + range.first, range.count, range.color);
     if (!range.coloring) continue;
@@ -41,7 +42,9 @@ BodyColors::BodyColors(const Scene& scene) : scene_(scene), rules_(color_rules(s
                                    [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
                       rules_.begin();
     std::fill_n(rule_.begin() + range.first, range.count, static_cast<std::uint32_t>(rule));
-    std::fill_n(name_.begin() + range.first, range.count, names[static_cast<std::size_t>(rule)]++);
+    std::uint32_t& name = names[static_cast<std::size_t>(rule)];
+    if (rules_[static_cast<std::size_t>(rule)].names[name] != range.thing()) ++name;
+    std::fill_n(name_.begin() + range.first, range.count, name);
   }
 }
 

@@ -24,7 +24,7 @@ struct Moment {
     return radius_now(scene.world, state, body);
   }
   /// Whether a body is a part of another, and not seen.
-  bool is_part(Entity body) const { return is_part_of_another(state, body); }
+  bool is_part(Entity body) const { return is_gone(state, body); }
 };
 
 }  // namespace carom

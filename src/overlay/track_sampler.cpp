@@ -70,7 +70,7 @@ void TrackSampler::sample(const State& state) {
     Known& known = known_[body];
     if (known.ended) continue;
     tracks_.remove(body, std::exchange(known.tip, 0));
-    const bool ends = is_part_of_another(state, body);
+    const bool ends = is_gone(state, body);
     Known now{state.position[body], state.velocity[body], Vec3::Zero(), {}, ends, 0};
     now.a = free_acceleration(world_, body, state.time, now.x, now.v);
     const std::size_t pieces = started_ && state.time > time_ ? add_path(body, known, state.time, now, ends) : 0;

@@ -19,7 +19,7 @@ Tracks::Tracks(Entity bodies, const std::vector<Entity>& on, double seconds)
 void Tracks::add(std::span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
     if (!has(piece.body)) continue;
-    if (piece.part_of == no_entity)
+    if (piece.part_of == no_entity && !piece.removed)
       add(piece.body, {.from = piece.from, .start = piece.start, .x = piece.x, .v = piece.v, .a = piece.a});
     else
       end(piece.body, piece.from);

@@ -9,9 +9,14 @@
 
 namespace carom {
 
-/// Whether the body has merged into another body, which represents both.
-inline bool is_part_of_another(const State& state, Entity body) {
+/// Whether the body has merged into another body, which represents both, or has left the world.
+inline bool is_gone(const State& state, Entity body) {
   return !state.part_of.empty() && state.part_of[body] != body;
+}
+
+/// Whether it has left the world, alone or as a part of another body.
+inline bool is_removed(const State& state, Entity body) {
+  return !state.part_of.empty() && state.part_of[body] == no_entity;
 }
 
 inline double mass_now(const World& world, const State& state, Entity body) {  // kg

@@ -20,7 +20,8 @@ double kinetic_energy(const World& world, const State& state) {
 double potential_energy(const World& world, const State& state) {
   if (world.gravity.isZero(0) && world.forces.empty()) return 0;
   Sum sum;
-  for (Entity i = 0; i < world.body_count(); ++i) sum.add(potential(world, i, state.position[i]));
+  for (Entity i = 0; i < world.body_count(); ++i)
+    if (!is_removed(state, i)) sum.add(potential(world, i, state.position[i]));
   return sum.value();
 }
 

@@ -32,6 +32,7 @@ struct PathPiece {
   PathBend bend{};           // in contact with a curved surface
   // The body that it has become part of. The pieces of that body give its motion.
   Entity part_of = no_entity;
+  bool removed = false;  // it has left the world
   // Other bodies have become part of it. Its mass, radius and half extents are then the following.
   bool joint = false;
   double mass = 0, radius = 0;  // kg, m

@@ -1,4 +1,4 @@
-// Follows chains of merged bodies to the joint body that holds them all.
+// Follows chains of merged bodies to the joint body that holds them all, which may have left the world.
 #include "physics/state.h"
 
 namespace carom {
@@ -6,10 +6,10 @@ namespace carom {
 void State::join_parts() {
   for (Entity i = 0; i < part_of.size(); ++i) {
     if (part_of[i] == i) continue;
-    Entity whole = part_of[i];
-    while (part_of[whole] != whole) whole = part_of[whole];
-    part_of[i] = whole;
     mass[i] = 0;
+    Entity whole = i;
+    while (part_of[whole] != no_entity && part_of[whole] != whole) whole = part_of[whole];
+    part_of[i] = part_of[whole];
     position[i] = position[whole];
     velocity[i] = velocity[whole];
   }

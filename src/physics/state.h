@@ -13,12 +13,13 @@ struct State {
   std::vector<Vec3> position;  // m, of the centre, by body
   std::vector<Vec3> velocity;  // m/s, by body
 
-  // These are empty where no bodies have merged. A merged body keeps its own mass and radius in the World.
-  // Here its mass is zero, and its position and velocity are those of the joint body.
-  std::vector<double> mass{};     // kg, by body
-  std::vector<double> radius{};   // m, by body: radius of the smallest sphere about the volume
-  std::vector<Volume> volume{};   // by body
-  std::vector<Entity> part_of{};  // the body that it is part of; its own number: none
+  // These are empty where no bodies have merged or left the world. A merged body keeps its own mass and radius in the
+  // World. Here its mass is zero, and its position and velocity are those of the joint body.
+  std::vector<double> mass{};    // kg, by body
+  std::vector<double> radius{};  // m, by body: radius of the smallest sphere about the volume
+  std::vector<Volume> volume{};  // by body
+  // The body that it is part of; its own number: none; no_entity: it has left the world, from its position.
+  std::vector<Entity> part_of{};
 
   /// Brings all fields to the form above.
   /// Before, part_of may name a body that has itself become part of another, and the rest is as it was before the

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "numerics/vec3.h"
 #include "physics/collision.h"
 
 namespace carom {
@@ -14,6 +16,26 @@ struct TakenUp {
   std::uint64_t impacts = 0;
   double fastest = 0;  // m/s, of approach
   double energy = 0;   // J, a part of the energy lost
+};
+
+/// What regions have taken out of the world.
+struct Removed {
+  std::uint64_t bodies = 0;
+  double energy = 0;             // J, kinetic and potential, each body's at its removal
+  Vec3 momentum = Vec3::Zero();  // kg m/s
+};
+
+/// Why a run has ended before its duration.
+enum class EndReason : std::uint8_t {
+  rest,        // all bodies were at rest
+  collisions,  // there were as many as simulate.stop allows
+  region       // a body entered it
+};
+
+struct RunEnd {
+  double time = 0;  // s
+  EndReason reason = EndReason::rest;
+  std::uint32_t region = 0;  // of that reason
 };
 
 struct Tally {
@@ -41,6 +63,8 @@ struct Tally {
   // s, summed over bodies: lasting contact in time steps.
   double stepped_contact = 0;
   TakenUp taken_up;
+  Removed removed;
+  std::optional<RunEnd> end;  // none: the run goes on until its duration
 
   /// Counts a record. The end of bounces is not a collision.
   void count(CollisionKind kind, double time) {

@@ -8,7 +8,9 @@
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "physics/force_law.h"
+#include "physics/surface_motion.h"
 #include "physics/volume.h"
+#include "physics/world_region.h"
 
 namespace carom {
 
@@ -30,7 +32,7 @@ struct Wall {
   std::optional<double> restitution;  // none: the moving body's
 };
 
-/// A body that never moves.
+/// A body that no impact moves.
 struct Obstacle {
   Vec3 center;  // m
   Volume volume;
@@ -65,10 +67,12 @@ struct World {
   std::vector<Plane> planes;
   std::vector<Wall> walls;
   std::vector<Obstacle> obstacles;
+  std::vector<std::vector<MotionLeg>> motions;  // by fixed thing, none where it stands still; empty: nothing moves
   std::vector<Force> forces;
   Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
   Combine combine = Combine::average;
   std::vector<PairRestitution> pairs;  // the last match counts
+  std::vector<WorldRegion> regions;
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
@@ -85,7 +89,11 @@ struct World {
     if (!is_body(e)) return obstacle(e).volume;
     return volume.empty() ? Volume::sphere(radius[e]) : volume[e];
   }
-  /// The point of a plane, or the centre of a wall or an obstacle (m).
+  bool moves() const { return !motions.empty(); }
+  /// Whether a fixed thing moves at some time, and how.
+  bool moves(Entity e) const { return !motions.empty() && !is_body(e) && !motions[e - body_count()].empty(); }
+  const std::vector<MotionLeg>& legs(Entity e) const { return motions[e - body_count()]; }
+  /// The point of a plane, or the centre of a wall or an obstacle (m), at time 0.
   const Vec3& fixed_position(Entity e) const {
     return is_plane(e) ? plane(e).point : is_wall(e) ? wall(e).center : obstacle(e).center;
   }

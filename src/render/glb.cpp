@@ -82,7 +82,29 @@ class GlbBuilder {
     GlbNode node{thing.name, 0.5 * (extent.low + extent.high)};
     node.meshes =
         meshes_.single(placed(thing.mesh, Vec3::Ones(), -node.translation), thing.color, thing.two_sided, thing.name);
+    if (const Entity e = scene_.world.body_count() + static_cast<Entity>(thing.fixed); scene_.world.moves(e))
+      moving_.emplace_back(nodes_.size(), e);
     nodes_.push_back(std::move(node));
+  }
+
+  /// The positions of a fixed thing that moves, at both ends of the film and where its velocity changes. They are
+  /// linear in between. A plane moves along its normal, as its pattern does in pictures.
+  aiNodeAnim* channel_of_fixed(std::size_t node, Entity fixed) const {
+    const World& world = scene_.world;
+    std::vector<double> times{motion_.times.front()};
+    for (const MotionLeg& leg : world.legs(fixed))
+      if (leg.from > times.front() && leg.from < motion_.times.back()) times.push_back(leg.from);
+    if (motion_.times.back() > times.back()) times.push_back(motion_.times.back());
+    auto* channel = new aiNodeAnim;
+    channel->mNodeName = exported_name(node);
+    channel->mNumPositionKeys = static_cast<unsigned>(times.size());
+    channel->mPositionKeys = new aiVectorKey[times.size()];
+    for (std::size_t key = 0; key < times.size(); ++key) {
+      Vec3 way = fixed_position(world, fixed, {times[key], 0}) - world.fixed_position(fixed);
+      if (world.is_plane(fixed)) way = world.plane(fixed).normal.dot(way) * world.plane(fixed).normal;
+      channel->mPositionKeys[key] = {times[key], vector_of(nodes_[node].translation + way)};
+    }
+    return channel;
   }
 
   void add_camera_and_lights() {
@@ -130,7 +152,7 @@ class GlbBuilder {
     const bool camera_moves = std::any_of(motion_.cameras.begin(), motion_.cameras.end(), [&](const Camera& camera) {
       return camera.eye != motion_.cameras.front().eye || camera.target != motion_.cameras.front().target;
     });
-    if (motion_.times.empty() || (bodies == 0 && !camera_moves)) return;
+    if (motion_.times.empty() || (bodies == 0 && !camera_moves && moving_.empty())) return;
     auto animation = std::make_unique<aiAnimation>();
     animation->mName = "motion";
     animation->mTicksPerSecond = 1;
@@ -154,6 +176,7 @@ class GlbBuilder {
       std::copy(scales[body].begin(), scales[body].end(), channel->mScalingKeys);
     }
     if (camera_moves) channels.push_back(camera_channel());
+    for (const auto& [node, fixed] : moving_) channels.push_back(channel_of_fixed(node, fixed));
     hand_over(channels, animation->mChannels, animation->mNumChannels);
     std::vector<aiAnimation*> animations = {animation.release()};
     hand_over(animations, out_->mAnimations, out_->mNumAnimations);
@@ -220,7 +243,8 @@ class GlbBuilder {
   const Scene& scene_;
   const KeyedMotion& motion_;
   std::unique_ptr<aiScene> out_;
-  std::vector<GlbNode> nodes_;  // the bodies first
+  std::vector<GlbNode> nodes_;                          // the bodies first
+  std::vector<std::pair<std::size_t, Entity>> moving_;  // nodes of fixed things that move
   std::size_t camera_node_ = 0;
   GlbMeshes meshes_;
 };

@@ -19,12 +19,13 @@
 
 namespace carom {
 
-/// A plane, a wall or an obstacle that a picture shows.
+/// A plane, a wall or an obstacle that a picture shows, where it is at time 0.
 struct StillThing {
   std::string name;
   Color color;
   Mesh mesh;               // m, in the world's frame; counterclockwise from outside, or from a plane's free side
   bool two_sided = false;  // a wall
+  std::size_t fixed = 0;   // its number among all fixed things
 };
 
 /// A box along the axes. It is empty if it extends from above to below.

@@ -23,9 +23,9 @@ void join(Extent& to, const Extent& other) {
   to.high = to.high.cwiseMax(other.high);
 }
 
-std::array<Vec3, 4> corners(const Wall& wall) {
+std::array<Vec3, 4> corners(const Wall& wall, const Vec3& center) {
   const Vec3 right = wall.half_width * wall.right, up = wall.half_height * wall.up;
-  return {wall.center - right - up, wall.center + right - up, wall.center + right + up, wall.center - right + up};
+  return {center - right - up, center + right - up, center + right + up, center - right + up};
 }
 
 bool is_drawn(const Scene& scene, std::size_t fixed) {
@@ -52,7 +52,7 @@ void MotionView::add(const State& state) {
   if (first && !state.position.empty()) {
     for (const Vec3& position : state.position) middle_ += position;
     middle_ /= static_cast<double>(state.position.size());
-    time_ = state.time;
+    start_ = time_ = state.time;
   }
   const double since = state.time - std::exchange(time_, state.time);
   for (Entity body = 0; body < state.position.size(); ++body) {
@@ -60,7 +60,7 @@ void MotionView::add(const State& state) {
     const Vec3& position = state.position[body];
     const double distance2 = (position - middle_).squaredNorm();
     const double before = std::exchange(departure.distance2, distance2);
-    const bool part = is_part_of_another(state, body);
+    const bool part = is_gone(state, body);
     const bool departs = !part && before >= 0 && distance2 > before;
     if (!departs && !departure.content.empty()) core_.add(std::exchange(departure.content, {}));
     if (part) continue;
@@ -109,32 +109,51 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, std:
   return content;
 }
 
+/// Where a fixed thing is while bodies are shown: at both ends of that time, and where its velocity changes.
+std::vector<Vec3> MotionView::places_of(Entity fixed) const {
+  const World& world = scene_.world;
+  std::vector<Vec3> places{fixed_position(world, fixed, {start_, 0})};
+  if (!world.moves(fixed)) return places;
+  for (const MotionLeg& leg : world.legs(fixed))
+    if (leg.from > start_ && leg.from < time_) places.push_back(fixed_position(world, fixed, {leg.from, 0}));
+  places.push_back(fixed_position(world, fixed, {time_, 0}));
+  return places;
+}
+
 void MotionView::add_surroundings(Content& content) const {
   const World& world = scene_.world;
   const Extent bodies = content.bodies;
   const double size = (bodies.high - bodies.low).norm();
+  Entity fixed = world.body_count();
   for (std::size_t i = 0; i < world.planes.size(); ++i) {
     const Plane& plane = world.planes[i];
-    const double above = plane.normal.dot(bodies.middle() - plane.point);
     const bool is_floor = plane.normal.dot(directions_[0].up()) > 0.5;
-    if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
-      add(content, bodies.middle() - above * plane.normal, {});
+    for (const Vec3& point : places_of(fixed++)) {
+      const double above = plane.normal.dot(bodies.middle() - point);
+      if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
+        add(content, bodies.middle() - above * plane.normal, {});
+    }
   }
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
+    const std::vector<Vec3> places = places_of(fixed++);
     if (!is_drawn(scene_, world.planes.size() + i) || 2 * std::max(wall.half_width, wall.half_height) > size) continue;
     Extent box;
-    for (const Vec3& corner : corners(wall)) box.include(corner);
+    for (const Vec3& center : places)
+      for (const Vec3& corner : corners(wall, center)) box.include(corner);
     if (!meet(box, content.near)) continue;
-    for (const Vec3& corner : corners(wall)) add(content, corner, {});
+    for (const Vec3& center : places)
+      for (const Vec3& corner : corners(wall, center)) add(content, corner, {});
   }
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
+    const std::vector<Vec3> places = places_of(fixed++);
     const bool drawn = is_drawn(scene_, world.planes.size() + world.walls.size() + i);
     if (!drawn || 2 * obstacle.volume.half.maxCoeff() > size) continue;
     Extent box;
-    box.include(obstacle.center, obstacle.volume.half);
-    if (meet(box, content.near)) add(content, obstacle.center, obstacle.volume);
+    for (const Vec3& center : places) box.include(center, obstacle.volume.half);
+    if (!meet(box, content.near)) continue;
+    for (const Vec3& center : places) add(content, center, obstacle.volume);
   }
   content.bodies = bodies;
 }
@@ -142,7 +161,7 @@ void MotionView::add_surroundings(Content& content) const {
 void MotionView::add_fixed_things(Content& content) const {
   for (const Plane& plane : scene_.world.planes) add(content, plane.point, {});
   for (const Wall& wall : scene_.world.walls)
-    for (const Vec3& corner : corners(wall)) add(content, corner, {});
+    for (const Vec3& corner : corners(wall, wall.center)) add(content, corner, {});
   for (const Obstacle& obstacle : scene_.world.obstacles) add(content, obstacle.center, obstacle.volume);
   if (content.empty()) add(content, Vec3::Zero(), {});
 }

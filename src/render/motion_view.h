@@ -50,12 +50,13 @@ class MotionView {
   void add(Content& content, const Vec3& position, const Volume& volume) const;
   Content without_the_leaving(const Frustum& frustum, std::size_t direction) const;
   void add_surroundings(Content& content) const;
+  std::vector<Vec3> places_of(Entity fixed) const;
   void add_fixed_things(Content& content) const;
 
   const Scene& scene_;
   std::array<Frustum, 2> directions_;
   Vec3 middle_ = Vec3::Zero();         // m, of all bodies at the first instant
-  double time_ = 0;                    // s, of the previous instant
+  double start_ = 0, time_ = 0;        // s, of the first and of the previous instant
   Content core_;                       // all but the departures
   std::vector<Departure> departures_;  // by body; empty before the first instant
 };

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
+#include "physics/surface_motion.h"
 #include "raster/threads.h"
 #include "render/last_picture.h"
 #include "render/lighting.h"
@@ -37,7 +39,12 @@ Size checked(Size size, int samples) {
 
 struct Renderer::Impl {
   Impl(const Scene& s, Size picture_size, int samples)
-      : scene(s), size(checked(picture_size, samples)), things(s), edges(room_edges(s)) {
+      : given(s),
+        moved(s.world.moves() ? std::make_unique<Scene>(s) : nullptr),
+        scene(moved ? *moved : s),
+        size(checked(picture_size, samples)),
+        things(scene),
+        edges(room_edges(scene)) {
     shot.lens.smooth = samples > 1;
     shot.lens.width = size.width, shot.lens.height = size.height;
     if (scene.background) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background);
@@ -56,10 +63,12 @@ struct Renderer::Impl {
   void prepare();
   void draw(const State& state, Drawing drawing);
 
-  const Scene& scene;
+  const Scene& given;
+  const std::unique_ptr<Scene> moved;  // with fixed things where they are in the last picture; null: nothing moves
+  const Scene& scene;                  // the one that is shown
   const Size size;
   Things things;
-  const std::vector<Stroke> edges;  // of the room
+  std::vector<Stroke> edges;  // of the room
   raster::Shot shot;
   raster::Silhouettes silhouettes;
   raster::Bins bins;
@@ -98,9 +107,11 @@ void Renderer::Impl::prepare() {
 }
 
 void Renderer::Impl::draw(const State& state, Drawing drawing) {
-  if (drawn > 0 && last.is_of(state, drawing)) return;
+  const bool placed = moved && place_fixed_things(given.world, state.time, moved->world);
+  if (drawn > 0 && !placed && last.is_of(state, drawing)) return;
+  if (placed) edges = room_edges(scene);
   const Eye eye(drawing.camera, size);
-  if (drawn == 0 || last.drawing.camera != drawing.camera) place_camera(eye);
+  if (drawn == 0 || placed || last.drawing.camera != drawing.camera) place_camera(eye);
   ++drawn;
   things.place(state, drawing, eye, shot);
   if (meshes) meshes->draw(things.meshes(), eye, shot);

@@ -122,7 +122,8 @@ class Collector {
   }
 
   void add(std::size_t fixed, Mesh mesh, bool two_sided) {
-    if (name(fixed).visible) things_.push_back({name(fixed).name, name(fixed).color, std::move(mesh), two_sided});
+    if (name(fixed).visible)
+      things_.push_back({name(fixed).name, name(fixed).color, std::move(mesh), two_sided, fixed});
   }
 
   const Scene& scene_;

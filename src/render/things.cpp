@@ -119,7 +119,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   meshes_.clear();
   const World& world = scene_.world;
   for (std::uint32_t i = 0; i < world.body_count(); ++i) {
-    if (is_part_of_another(state, i)) continue;
+    if (is_gone(state, i)) continue;
     Volume volume = world.volume_of(i);
     double radius = world.radius[i];
     bool mesh = looks_[i].mesh.has_value();

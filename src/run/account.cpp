@@ -1,4 +1,4 @@
-// Balances the energy of a run: end - start - work + lost = residual.
+// Balances the energy of a run: end - start - work + lost + removed = residual.
 // The residual has a column of its own and is not counted as a loss. The error of the method thus stays visible.
 #include "run/account.h"
 
@@ -51,6 +51,19 @@ std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, cons
   return all;
 }
 
+std::string ended_by(const Scene& scene, const Tally& tally) {
+  if (!tally.end) return "duration";
+  switch (tally.end->reason) {
+    case EndReason::rest:
+      return "rest";
+    case EndReason::collisions:
+      return "collisions";
+    case EndReason::region:
+      return "region " + scene.roster.regions.at(tally.end->region);
+  }
+  return "";
+}
+
 }  // namespace
 
 StoredEnergy stored_energy(const Scene& scene, const State& state) {
@@ -66,7 +79,8 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   Summary summary;
   summary.title = scene.title;
   summary.engine = name_of(engine.engine);
-  summary.duration = scene.simulate.duration;
+  summary.duration = tally.end ? tally.end->time : scene.simulate.duration;
+  summary.ended_by = ended_by(scene, tally);
   summary.bodies = scene.world.body_count();
   summary.collisions = tally.collisions();
   summary.body_body = tally.body_body;
@@ -78,15 +92,17 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.energy.end = last.total();
   summary.energy.lost = tally.energy_lost;
   summary.energy.work = tally.work;
-  summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost;
+  summary.energy.removed = tally.removed.energy;
+  summary.energy.residual =
+      summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost + summary.energy.removed;
   summary.energy.turnover = start.kinetic + last.kinetic + std::abs(last.potential - start.potential) +
-                            std::abs(tally.energy_lost) + std::abs(tally.work);
-  summary.momentum_drift = (momentum(scene.world, end) - starting_momentum(scene)).norm();
+                            std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.removed.energy);
+  summary.momentum_drift = (momentum(scene.world, end) + tally.removed.momentum - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.max_speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
-  summary.contact = {tally.merges, tally.collapses, tally.taken_up};
+  summary.contact = {tally.merges, tally.removed.bodies, tally.collapses, tally.taken_up};
   summary.energy.of_forces = work_of_forces(scene, end, tally);
   return summary;
 }

@@ -31,6 +31,9 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
+  options.watch = request.recording.watch;
+  options.stop_at_rest = simulate.stop_at_rest;
+  options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
   return options;
 }
 
@@ -71,6 +74,9 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   options.as_printed = simulate.as_printed;
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
+  options.watch = request.recording.watch;
+  options.stop_at_rest = simulate.stop_at_rest;
+  options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
   return make_book_simulator(request.world, request.initial, options);
 }
 
@@ -78,7 +84,7 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
 constexpr std::unique_ptr<Simulator> (*makers[])(const SimulatorRequest&) = {nullptr, make_exact, make_stepped,
                                                                              make_book};
 
-std::string joined(const std::string& why, const std::string& more) {
+std::string appended(const std::string& why, const std::string& more) {
   return why.empty() ? more : why + "; " + more;
 }
 
@@ -102,11 +108,11 @@ EngineChoice choose_engine(const Scene& scene) {
   if (choice.engine != Engine::stepped || scene.simulate.tolerance) return choice;
   if (chooses_steps(scene.simulate)) {
     const std::string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
-    choice.why = joined(choice.why, "dop853, adaptive steps" + limit);
+    choice.why = appended(choice.why, "dop853, adaptive steps" + limit);
   } else {
     choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
-    choice.why = joined(choice.why,
-                        fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
+    choice.why = appended(
+        choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
   }
   return choice;
 }
@@ -130,7 +136,7 @@ std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy
                      : std::string(
                            "not converged, though not chaotic: the motion amplifies rounding, or forces change "
                            "too fast for doubles");
-  return joined(text, since + why);
+  return appended(text, since + why);
 }
 
 }  // namespace
@@ -143,13 +149,13 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
   engine.steps = accuracy.steps;
   if (engine.engine == Engine::stepped)
     engine.why =
-        joined(engine.why, chooses_steps(way)
-                               ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
-                               : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+        appended(engine.why, chooses_steps(way)
+                                 ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
+                                 : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
   const bool known = accuracy.right_until >= way.duration;
   if (accuracy.reached && known)
     engine.why =
-        joined(engine.why, fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
+        appended(engine.why, fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
   if (!known) engine.growth = growth_of(scene, way, engine.steps, stop_check);
   engine.right_until = accuracy.right_until;
   engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);

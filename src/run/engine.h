@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/engines.h"
 #include "simulate/simulator.h"
@@ -71,6 +72,7 @@ struct Recording {
   bool collisions = false;
   /// Only where paths are parabolas (scene/engines.h). Otherwise Simulator::paths() stays empty.
   bool paths = false;
+  std::vector<WatchedQuantity> watch{};  // for Simulator::extremes()
 };
 
 /// The scene's simulator at time 0. `scene` must outlive it. Throws SimulationError.

@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "files/stored_table.h"
 #include "run/replay.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -88,6 +89,19 @@ bool FormerRun::has(std::string_view name) const {
 
 bool FormerRun::has_flights() const {
   return has(flights_name);
+}
+
+double FormerRun::end() const {
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  Descriptor file = opened ? open_stored(opened.get(), "summary.csv") : Descriptor();
+  if (!file) throw ExportError(fmt::format("{}/summary.csv is missing", folder));
+  StoredTable table(std::move(file));
+  const std::optional<std::size_t> column = table.find("duration_s");
+  const std::vector<std::string_view>* row = table.next();
+  const std::optional<double> time =
+      column && row != nullptr && *column < row->size() ? number_in((*row)[*column]) : std::nullopt;
+  if (!time) throw ExportError(fmt::format("{}/summary.csv has no duration_s", folder));
+  return *time;
 }
 
 std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {

@@ -22,6 +22,8 @@ struct FormerRun {
   bool has(std::string_view file) const;
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
+  /// When it ended (s), by its summary.csv. Throws ExportError.
+  double end() const;
   /// A simulator that follows these paths. `scene` must have the same motion and outlive it.
   /// Throws ExportError, also later while it advances.
   std::unique_ptr<Simulator> motion(const Scene& scene) const;

@@ -1,19 +1,10 @@
-// Parses names of measures: a column of summary.csv, or KIND.NAME.QUANTITY of a body.
-// Units and labels are derived from the suffix of the name, so that a new column needs no further text.
+// Units and labels are derived from the suffix of a measure's name, so that a new column needs no further text.
 #include "run/measure.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <limits>
-#include <vector>
-
-#include "physics/body_now.h"
-#include "scene/scene.h"
-#include "yaml/diagnostics.h"
-#include "yaml/joined.h"
 
 namespace carom {
 namespace {
@@ -51,59 +42,28 @@ const UnitText* unit_text(std::string_view column) {
   return found == units.end() ? nullptr : &*found;
 }
 
-bool is_kind(std::string_view word) {
-  return word == "balls" || word == "bodies" || word == "groups";
-}
-
-std::vector<std::string_view> known_names() {
-  std::vector<std::string_view> names;
-  for (const SummaryColumn& column : summary_columns())
-    if (column.number != nullptr) names.push_back(column.name);
-  return names;
-}
-
-std::string meant(std::string_view word, const std::vector<std::string_view>& names) {
-  const std::string near = nearest(word, names);
-  return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
-}
-
-[[noreturn]] void refuse_name(std::string_view name) {
-  const std::string near = meant(name, known_names());
-  throw MeasureError(fmt::format(
-      "no measure {}{}", in_backticks(name),
-      near.empty() ? "; a measure is a numeric column of summary.csv, or a quantity such as balls.NAME.speed_m_per_s"
-                   : near));
-}
-
-const BodyRange* find_range(const Scene& scene, std::string_view name) {
-  for (const BodyRange& range : scene.roster.bodies)
-    if (range.name == name) return &range;
-  return nullptr;
-}
-
-/// The number of a measure's body. Throws MeasureError if the scene does not have it.
-Entity entity_of(const Measure& measure, const Scene& scene) {
-  const std::size_t dot = measure.body.find('.');
-  const std::string name = measure.body.substr(0, dot);
-  const BodyRange* range = find_range(scene, name);
-  if (range == nullptr || range->group != (measure.kind == "groups")) {
-    std::vector<std::string_view> names;
-    for (const BodyRange& other : scene.roster.bodies)
-      if (other.group == (measure.kind == "groups")) names.push_back(other.name);
-    throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind, in_backticks(name),
-                                   meant(name, names)));
-  }
-  if (!range->group) return range->first;
-  Entity member = 0;
-  const char* end = measure.body.data() + measure.body.size();
-  const auto [stop, error] = std::from_chars(measure.body.data() + dot + 1, end, member);
-  if (error != std::errc() || stop != end || member >= range->count)
-    throw MeasureError(fmt::format("{}: the members of {} are 0 to {}", in_backticks(measure.name), in_backticks(name),
-                                   range->count == 0 ? "none" : std::to_string(range->count - 1)));
-  return range->first + member;
+/// The name of a call, "max", and what stands in its parentheses. An empty name: it is no call.
+std::pair<std::string_view, std::string_view> call_of(std::string_view text) {
+  const std::size_t open = text.find('(');
+  if (open == std::string_view::npos || text.back() != ')' || text.front() == '=') return {};
+  return {text.substr(0, open), text.substr(open + 1, text.size() - open - 2)};
 }
 
 }  // namespace
+
+bool compares(double value, Relation relation, double limit) {
+  switch (relation) {
+    case Relation::less:
+      return value < limit;
+    case Relation::at_most:
+      return value <= limit;
+    case Relation::greater:
+      return value > limit;
+    case Relation::at_least:
+      return value >= limit;
+  }
+  return false;
+}
 
 std::string_view name_of(Quantity quantity) {
   return quantities[static_cast<std::size_t>(quantity)].name;
@@ -113,87 +73,25 @@ std::string_view meaning_of(Quantity quantity) {
   return quantities[static_cast<std::size_t>(quantity)].meaning;
 }
 
-Measure parse_measure(std::string_view name) {
-  Measure measure;
-  measure.name = name;
-  measure.column = find_summary_column(name);
-  if (measure.column != nullptr) {
-    if (measure.column->number == nullptr)
-      throw MeasureError(fmt::format("{} of summary.csv is text, not a measure", in_backticks(name)));
-    return measure;
-  }
-  const std::size_t first = name.find('.'), last = name.rfind('.');
-  measure.kind = name.substr(0, first);
-  if (first == std::string_view::npos || !is_kind(measure.kind)) refuse_name(name);
-  if (first == last)
-    throw MeasureError(fmt::format("{} has no quantity: expected one such as {}.NAME.speed_m_per_s", in_backticks(name),
-                                   measure.kind));
-  measure.body = name.substr(first + 1, last - first - 1);
-  const std::string_view quantity = name.substr(last + 1);
-  const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [&](const QuantityText& text) { return text.name == quantity; });
-  if (found == quantities.end()) {
-    std::vector<std::string_view> names;
-    for (const QuantityText& text : quantities) names.push_back(text.name);
-    throw MeasureError(fmt::format("{}: no quantity {}{}", in_backticks(name), in_backticks(quantity),
-                                   meant(quantity, names).empty()
-                                       ? fmt::format("; the quantities are {}", joined(names, ", "))
-                                       : meant(quantity, names)));
-  }
-  measure.quantity = static_cast<Quantity>(found - quantities.begin());
-  const bool has_member = measure.body.find('.') != std::string::npos;
-  if (measure.kind == "groups" && !has_member)
-    throw MeasureError(fmt::format("{} has no member: expected one such as groups.{}.0.{}", in_backticks(name),
-                                   measure.body, quantity));
-  if (measure.kind != "groups" && has_member)
-    throw MeasureError(
-        fmt::format("{}: only groups have members: {}.NAME.{}", in_backticks(name), measure.kind, quantity));
-  return measure;
-}
-
-Measure parse_measure(std::string_view name, const Scene& scene) {
-  Measure measure = parse_measure(name);
-  if (measure.column == nullptr) entity_of(measure, scene);
-  return measure;
-}
-
-double quantity_of(Quantity quantity, const Vec3& position, const Vec3& velocity, double mass) {
-  switch (quantity) {
-    case Quantity::x:
-    case Quantity::y:
-    case Quantity::z:
-      return position[static_cast<int>(quantity)];
-    case Quantity::vx:
-    case Quantity::vy:
-    case Quantity::vz:
-      return velocity[static_cast<int>(quantity) - static_cast<int>(Quantity::vx)];
-    case Quantity::speed:
-      return velocity.norm();
-    case Quantity::kinetic:
-      return 0.5 * mass * velocity.squaredNorm();
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-double value_of(const Measure& measure, const Scene& scene, const State& state, const Summary& summary) {
-  if (measure.column != nullptr) return measure.column->number(summary);
-  Entity body = 0;
-  try {
-    body = entity_of(measure, scene);
-  } catch (const MeasureError&) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  if (is_part_of_another(state, body)) return std::numeric_limits<double>::quiet_NaN();
-  const double mass = mass_now(scene.world, state, body);
-  return quantity_of(measure.quantity, state.position[body], state.velocity[body], mass);
-}
-
 std::string_view unit_of(std::string_view column) {
+  const auto [call, inside] = call_of(column);
+  if (call == "max" || call == "min") return unit_of(inside);
+  if (call == "time_of_max" || call == "time_of_min" || call == "first") return "s";
+  if (!call.empty() || column.starts_with('=')) return {};
   const UnitText* text = unit_text(column);
   return text == nullptr ? std::string_view() : text->unit;
 }
 
 std::string label_of(std::string_view column) {
+  const auto [call, inside] = call_of(column);
+  if (column.starts_with('=') || call == "hits" || call == "count") return std::string(column);
+  if (call == "first") return fmt::format("first hit of {} (s)", inside);
+  if (!call.empty()) {
+    std::string of = label_of(inside);
+    const bool time = call.starts_with("time_of_");
+    if (time) of.resize(std::min(of.size(), of.rfind(" (")));
+    return time ? fmt::format("time of the {}imum {} (s)", call.substr(8), of) : fmt::format("{}imum {}", call, of);
+  }
   const UnitText* text = unit_text(column);
   std::string label(column.substr(0, column.size() - (text == nullptr ? 0 : text->suffix.size())));
   // Names of bodies stay unchanged.

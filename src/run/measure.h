@@ -1,20 +1,29 @@
 #pragma once
-// The measures by which runs are compared: a number of summary.csv, or a body's position or motion at the run's end.
+// The measures by which runs are compared. A measure is one of these, or an expression of them:
+// - a number of summary.csv: `energy_lost_J`
+// - a body's position or motion at the run's end: `balls.red.y_m`
+// - an extreme of it over the run: `max(balls.red.y_m)`, `min(...)`, `time_of_max(...)`, `time_of_min(...)`
+// - the collisions of two things: `first(red, blue)`, in s, and `hits(red, blue)`
+// - a region: `regions.pocket.entries`, `.inside`, `.first_s`, `.first`
+// - the number of bodies with a property at the end: `count(y_m < 0)`
+// - a value of the scene: `let.h`, or the name of a measure of its own
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "files/summary.h"
 #include "numerics/vec3.h"
-#include "physics/state.h"
+#include "physics/quantity.h"
 #include "run/summary_columns.h"
 
 namespace carom {
 
+struct OwnMeasure;
 struct Scene;
-
-enum class Quantity { x, y, z, vx, vy, vz, speed, kinetic };
 
 /// "x_m", ..., "speed_m_per_s", "kinetic_J".
 std::string_view name_of(Quantity quantity);
@@ -26,31 +35,74 @@ struct MeasureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// "energy_lost_J", "balls.red.speed_m_per_s", "groups.gas.17.x_m".
-struct Measure {
-  std::string name;
-  /// Null: a quantity of a body, with the members below.
-  const SummaryColumn* column = nullptr;
-  std::string kind;  // "balls", "bodies" or "groups"
-  std::string body;  // as in trajectory.csv: "red", "gas.17"
-  Quantity quantity = Quantity::x;
+enum class MeasureForm : std::uint8_t {
+  column,         // a number of summary.csv
+  at_end,         // a quantity of a body at the end
+  greatest,       // max(...)
+  least,          // min(...)
+  greatest_time,  // time_of_max(...), s
+  least_time,     // time_of_min(...), s
+  first_hit,      // first(a, b), s
+  hits,           // hits(a, b)
+  entries,        // of a region: how many bodies entered
+  inside,         // of a region: how many are inside at the end
+  first_entry,    // of a region: the time of the first entry, s
+  first_entrant,  // of a region: the name of the body that entered first
+  count,          // count(y_m < 0)
+  given,          // let.NAME, a value of the scene
+  own,            // a measure of the scene's own, by its name
+  expression      // '= ...'
 };
 
-/// Parses a name by its grammar alone. Throws MeasureError.
-Measure parse_measure(std::string_view name);
-/// The same, and the body must exist in the scene.
+enum class Relation : std::uint8_t { less, at_most, greater, at_least };
+
+struct Measure {
+  std::string name;
+  MeasureForm form = MeasureForm::column;
+  const SummaryColumn* column = nullptr;
+  /// Of at_end, extremes and count: "balls", "bodies" or "groups", and a name as in trajectory.csv: "red", "gas.17".
+  /// Both empty: all bodies.
+  std::string kind, body;
+  Quantity quantity = Quantity::x;
+  /// Of hits and first_hit: one or two names. Of a region, a value of `let` or a measure of the scene: its name.
+  std::vector<std::string> things{};
+  Relation relation = Relation::less;
+  /// Of count: what the quantity is compared with. Of an expression: the whole. Both are expressions in which `m0`,
+  /// `m1`, ... stand for `parts`.
+  std::string formula{};
+  std::vector<Measure> parts{};
+
+  /// Whether summary.csv of the run has it.
+  bool is_stored() const { return form == MeasureForm::column || form == MeasureForm::own; }
+  bool is_text() const { return form == MeasureForm::first_entrant; }
+};
+
+/// Parses a measure by its grammar alone. `own`: the names of measures that scenes define. Throws MeasureError.
+Measure parse_measure(std::string_view name, std::span<const std::string> own = {});
+/// The same, and all that it names must exist in the scene.
 Measure parse_measure(std::string_view name, const Scene& scene);
+/// The measures that the scene defines, each with its name. Throws MeasureError.
+std::vector<Measure> own_measures(const Scene& scene);
+/// The fault of one of them; empty: none. For LoadOptions.
+std::string measure_fault(const Scene& scene, const OwnMeasure& measure);
 
-/// A quantity of a body at `position` (m) with `velocity` (m/s) and `mass` (kg).
-double quantity_of(Quantity quantity, const Vec3& position, const Vec3& velocity, double mass);
+/// The value of a measure's formula with these values of its parts. NaN: undefined, as with a part that is, or where a
+/// division by zero occurs.
+double formula_value(const Measure& measure, std::span<const double> parts);
 
-/// The value at a run's end, in the unit at the end of the name. `state`: the run's last state.
-/// NaN: undefined. Examples are the first collision of a run without collisions, a merged body, and an unknown body.
-double value_of(const Measure& measure, const Scene& scene, const State& state, const Summary& summary);
+bool compares(double value, Relation relation, double limit);
 
-/// The unit at the end of a column's or measure's name: "J", "m/s". Empty: a pure number or text.
-std::string_view unit_of(std::string_view column);
+/// Whether a collision is one of the things of hits(a, b) or hits(a). has(name, first): whether the name has the first
+/// of the two that collided, or the second.
+template <typename Has>
+bool meet(const std::vector<std::string>& things, const Has& has) {
+  if (things.size() == 1) return has(things[0], true) || has(things[0], false);
+  return (has(things[0], true) && has(things[1], false)) || (has(things[0], false) && has(things[1], true));
+}
+
 /// A readable label: "energy lost (J)", "balls.red speed (m/s)".
 std::string label_of(std::string_view column);
+/// The unit at the end of a column's or measure's name: "J", "m/s". Empty: a pure number or text.
+std::string_view unit_of(std::string_view column);
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -36,6 +37,9 @@ Replay::Replay(const World& world, NextPiece next, const Tally& tally)
 void Replay::advance_to(double time) {
   fresh_ = false;
   passed_.clear();
+  // The state at the run's end stays.
+  const double end = tally_.end ? tally_.end->time : std::numeric_limits<double>::infinity();
+  if (time > end && time_ < end) time = end;
   while (more_ && coming_.from <= time) {
     // Stop before the next piece, possibly in the middle of an instant.
     if (passed_.size() >= path_buffer) {
@@ -51,7 +55,7 @@ void Replay::advance_to(double time) {
 
 void Replay::take(const PathPiece& piece) {
   now_[piece.body] = piece;
-  const bool merges = piece.joint || piece.part_of != no_entity;
+  const bool merges = piece.joint || piece.part_of != no_entity || piece.removed;
   if (!merges) return;
   if (part_of_.empty()) {
     part_of_.resize(world_.body_count());
@@ -60,7 +64,7 @@ void Replay::take(const PathPiece& piece) {
     radius_ = world_.radius;
     volume_ = world_.volume;
   }
-  if (piece.part_of != no_entity) part_of_[piece.body] = piece.part_of;
+  if (piece.part_of != no_entity || piece.removed) part_of_[piece.body] = piece.part_of;
   if (!piece.joint) return;
   mass_[piece.body] = piece.mass;
   radius_[piece.body] = piece.radius;
@@ -69,10 +73,10 @@ void Replay::take(const PathPiece& piece) {
 
 const State& Replay::state() {
   if (fresh_) return state_;
-  state_.time = time_;
+  state_.time = tally_.end ? std::min(time_, tally_.end->time) : time_;
   state_.position.resize(now_.size());
   state_.velocity.resize(now_.size());
-  const Instant at{time_, 0};
+  const Instant at{state_.time, 0};
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const PathPiece& piece = now_[i];
     const Flight flight{instant(piece.start), piece.x, piece.v, piece.a};

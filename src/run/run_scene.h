@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "run/engine.h"
+#include "run/measure.h"
 #include "run/stage.h"
 
 namespace carom {
 
+struct Manifest;
 struct Scene;
 
 struct RunWatch {
@@ -24,10 +26,10 @@ struct RunWatch {
 
 struct RunSettings {
   Durability durability = Durability::synced;
-  /// Further results for the manifest at a run's end. May be unset.
-  std::function<std::vector<Measured>(const Scene&, const State& end, const Summary&)> measure;
-  /// The warnings of a former run with this motion. Unset: determined anew.
-  std::optional<std::vector<Warning>> warnings{};
+  /// Measures for the manifest, besides those of the scenes.
+  std::vector<Measure> measures{};
+  /// The manifest of a former run with this motion, which supplies warnings and measures. Null: there is none.
+  const Manifest* former = nullptr;
   /// Makes a simulator that replaces the scene's engine. May be unset.
   std::function<std::unique_ptr<Simulator>(const Scene&)> simulator{};
 };

@@ -22,8 +22,9 @@ const Scene& with_font(const Scene& scene) {
 
 }  // namespace
 
-Stage::Stage(const Show& show, Durability durability)
+Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measures)
     : scene(with_font(*show.scene)),
+      measuring(scene, std::move(measures)),
       exports(scene, show.folder, durability,
               {[](const Scene& of, const Extent& seen) { return still_things(of, seen, false); }, glb,
                [this](const State& state) { return of_model_.at(state); }},
@@ -53,8 +54,17 @@ double Stage::time() {
   return next;
 }
 
-void Stage::record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+void Stage::end_at(double time) {
+  exports.end_at(time);
+  aim();
+}
+
+void Stage::record(const Simulator& simulator) {
+  const std::span<const Collision> collisions = simulator.collisions();
+  const std::span<const PathPiece> paths = simulator.paths();
   exports.record(collisions);
+  measuring.record(collisions, simulator.crossings());
+  exports.record_crossings(simulator.crossings());
   exports.record_paths(paths);
   history_.record(collisions);
   history_.record_paths(paths);

@@ -8,6 +8,7 @@
 #include "export/exports.h"
 #include "overlay/history.h"
 #include "render/moving_camera.h"
+#include "run/measuring.h"
 #include "run/picture_series.h"
 #include "simulate/simulator.h"
 
@@ -35,8 +36,8 @@ struct StageWatch {
 
 class Stage {
  public:
-  /// Opens the folder. Throws ExportError, RenderError.
-  Stage(const Show& show, Durability durability);
+  /// Opens the folder, and takes these measures. Throws ExportError, RenderError, MeasureError.
+  Stage(const Show& show, Durability durability, std::vector<Measure> measures);
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
@@ -46,7 +47,9 @@ class Stage {
   double time();  // s, of its next instant
 
   /// Takes what the simulator has recorded since the last call.
-  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths);
+  void record(const Simulator& simulator);
+  /// Ends its timeline at `time` (s), the run's end, which is after all instants that are done. Throws ExportError.
+  void end_at(double time);
 
   /// Writes and draws what is due at the next instant, which must be the simulator's time.
   /// Throws ExportError, RenderError.
@@ -54,6 +57,7 @@ class Stage {
 
   const Scene& scene;
   RunFacts facts;
+  Measuring measuring;
   Exports exports;
   bool more = false;  // whether a next instant exists
 

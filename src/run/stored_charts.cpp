@@ -51,7 +51,7 @@ class ChartReader {
  private:
   void paths() {
     const std::unique_ptr<Simulator> motion = former_.motion(scene_);
-    Timeline timeline(scene_.simulate.duration);
+    Timeline timeline(end_of(scene_));
     for (const Ticks& ticks : {charts_.ticks.energy, charts_.ticks.heights}) timeline.add(ticks);
     while (timeline.advance()) {
       do {
@@ -64,7 +64,7 @@ class ChartReader {
 
   /// The part that is done at a time of one of at most three files.
   double share(double time) const {
-    const double duration = scene_.simulate.duration;
+    const double duration = end_of(scene_);
     return (parts_done_ + (duration > 0 ? std::min(time / duration, 1.0) : 0)) / 3;
   }
 

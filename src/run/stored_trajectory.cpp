@@ -57,7 +57,7 @@ void StoredTrajectory::begin_instant() {
   time_ = *time;
   std::fill(heights_.begin(), heights_.end(), merged);
   velocities_.clear();
-  if (time_ >= scene_.simulate.duration) velocities_.resize(heights_.size());
+  if (time_ >= end_of(scene_)) velocities_.resize(heights_.size());
 }
 
 void StoredTrajectory::read_long() {

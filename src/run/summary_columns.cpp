@@ -18,7 +18,7 @@ double energy_of(const Summary& summary) {
   return summary.energy.*Member;
 }
 
-constexpr std::array<SummaryColumn, 22> columns = {{
+constexpr std::array<SummaryColumn, 24> columns = {{
     {"run", "the run's name"},
     {"title", "the scene's title"},
     {"engine", "the simulator: exact, stepped or book"},
@@ -46,6 +46,9 @@ constexpr std::array<SummaryColumn, 22> columns = {{
     {"frames", "pictures drawn", number_of<&Summary::frames>},
     {"stepped_contact_s", "lasting contact computed by time stepping, summed over bodies; 0: all contact is exact",
      number_of<&Summary::stepped_contact>},
+    {"removed_J", "kinetic and potential energy of bodies that regions have removed",
+     energy_of<&EnergyTotals::removed>},
+    {"ended_by", "what ended the run: duration, rest, collisions or a region"},
 }};
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "scene/check_values.h"
+#include "scene/scene.h"
 #include "scene/view.h"
 #include "yaml/values.h"
 
@@ -43,6 +44,7 @@ class Checker : ValueChecker {
       wrong_type(node, what, "expected a map of keys");
       return;
     }
+    if (!kind.defaults.empty()) mark_cancelled(node, kind);
     for (std::size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
     if (partial) return;
     const Node* defaults = defaults_for(root_, kind);
@@ -118,8 +120,25 @@ class Checker : ValueChecker {
     return find_field(kind, head) != nullptr ? std::string(head) : nearest(key, keys_of(kind));
   }
 
+  /// The word none cancels a default, except where it is a value itself.
+  static void mark_cancelled(Node& node, const Kind& kind) {
+    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+      Node& value = node.items[i];
+      if (value.text != "none" || !value.is(Node::Kind::scalar)) continue;
+      const Field* field = find_field(kind, node.keys[i].text);
+      if (field == nullptr || field->type == Type::text || field->type == Type::color_or_none || field->own) continue;
+      // A file may have this name, in quotes.
+      if (field->type == Type::file && value.quoted) continue;
+      const std::vector<std::string_view> all =
+          field->type == Type::choice ? choices(*field) : std::vector<std::string_view>();
+      value.cancels = std::find(all.begin(), all.end(), "none") == all.end();
+    }
+  }
+
   static bool has(const Node& node, const Node* defaults, std::string_view key) {
-    return node.find_key(key) != nullptr || (defaults != nullptr && defaults->find_key(key) != nullptr);
+    if (const Node* own = node.find(key)) return !own->cancels;
+    const Node* given = defaults == nullptr ? nullptr : defaults->find(key);
+    return given != nullptr && !given->cancels;
   }
   static bool has_any(const Node& node, const Node* defaults, const Field& field) {
     const std::vector<std::string_view> others = substitutes(field);
@@ -172,11 +191,14 @@ class Checker : ValueChecker {
       unknown_key(key, value, kind, what);
       return;
     }
+    if (value.cancels) return;
     // Two keys that exclude one another are reported once, at the second.
     const Key* other = nullptr;
     for (const std::string_view rival : rivals(*field)) {
       const Key* found = map_node.find_key(rival);
-      if (found != nullptr && is_before(found->place, other == nullptr ? key.place : other->place)) other = found;
+      if (found != nullptr && !map_node.find(rival)->cancels &&
+          is_before(found->place, other == nullptr ? key.place : other->place))
+        other = found;
     }
     if (other != nullptr) {
       diagnostics_.add(key.place,
@@ -197,8 +219,22 @@ class Checker : ValueChecker {
              "paths are relative to the folder of the scene");
   }
 
+  /// Whether a value is a number, or a vector of numbers, within limits. Texts of errors take longer than this.
+  static bool is_good_number(const Node& value, const Field& field) {
+    if (field.type != Type::number && field.type != Type::vector) return false;
+    const Range limits = limited_range(field);
+    const auto is_good = [&](const Node& one) {
+      const bool plain = one.is(Node::Kind::scalar) && !one.quoted && !one.bad;
+      const std::optional<double> number = plain ? parse_number(one.text) : std::nullopt;
+      return number && contains(field.range, *number) && contains(limits, *number);
+    };
+    if (field.type == Type::number) return is_good(value);
+    return value.is(Node::Kind::sequence) && value.items.size() == 3 &&
+           std::all_of(value.items.begin(), value.items.end(), is_good);
+  }
+
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
-    if (value.bad) return;
+    if (value.bad || is_good_number(value, field)) return;
     const std::string name = in_backticks(field.key);
     const std::string required = "expected " + expected(field);
     switch (field.type) {
@@ -249,6 +285,14 @@ class Checker : ValueChecker {
         return part(value, field, key, partial);
       case Type::part:
         return part(value, field, key, partial);
+      case Type::values:
+        return values(value, field, name, required);
+      case Type::texts:
+        return texts(value, name, required);
+      case Type::repeat:
+        // Things with good counts have become their members (expand.h). Defaults are those of each member.
+        if (partial) refuse(value, "`repeat` in `defaults`", "expected it in each thing that is repeated");
+        return;
       case Type::named:
         return named(value, field, name);
       case Type::list:
@@ -318,7 +362,14 @@ class Checker : ValueChecker {
     }
     if (field.needs_entries && value.items.empty())
       refuse(value, fmt::format("{} has no entries", name), "expected at least one");
-    for (Node& item : value.items) map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+    const std::vector<std::string_view> words = parts_of(field.words);
+    for (Node& item : value.items) {
+      if (words.empty() || !item.is(Node::Kind::scalar))
+        map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+      else if (std::find(words.begin(), words.end(), item.text) == words.end())
+        refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
+               fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(kind_named(field.of)))));
+    }
   }
 
   void cases(Node& value, const std::string& name, const std::string& required) {
@@ -334,6 +385,28 @@ class Checker : ValueChecker {
     const Kind& kind = kind_named(field.of);
     // `defaults: {ball: ...}` is partial. So is a part inside it, if that part has defaults of its own.
     map(value, kind, in_backticks(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
+  }
+
+  void values(Node& value, const Field& field, const std::string& name, const std::string& required) {
+    if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
+    Field each = field;
+    each.type = Type::number;
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const std::string shown = in_backticks(value.keys[i].text);
+      number(value.items[i], each, shown, each.range);
+    }
+  }
+
+  void texts(Node& value, const std::string& name, const std::string& required) {
+    if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const std::string shown = in_backticks(value.keys[i].text);
+      if (!is_name(value.keys[i].text) || value.keys[i].text.find('-') != std::string::npos)
+        diagnostics_.add(value.keys[i].place, shown + " is no name of a measure",
+                         "a name has letters, digits and _, and begins with a letter or _");
+      else
+        text(value.items[i], shown, required);
+    }
   }
 
   bool has_entries(Node& value, const std::string& name, const std::string& required) {
@@ -382,18 +455,39 @@ class Checker : ValueChecker {
       return;
     }
     const Kind& kind = kind_named(field.of);
+    std::string_view faulty;  // the repeated thing with an error in a member
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
       if (kind.also != nullptr && key.text == kind.also->key) {
         color(value.items[i], in_backticks(key.text));
         continue;
       }
-      if (!is_name(key.text)) {
+      const std::string_view family = find_field(kind, "repeat") == nullptr ? "" : family_of(key.text);
+      if (!is_name(family.empty() ? key.text : family)) {
         diagnostics_.add(key.place, fmt::format("{} is not a name", in_backticks(key.text)),
                          "expected letters, digits, _ and -, a letter or _ first");
+      } else if (!family.empty()) {
+        in_order(key, family, i == 0 ? std::string_view() : value.keys[i - 1].text);
       }
+      // An error of one member is mostly an error of all. The others are left out, so that nothing reads them.
+      if (!family.empty() && family == faulty) {
+        value.items[i].keys.clear();
+        value.items[i].items.clear();
+        continue;
+      }
+      const std::size_t errors = diagnostics_.count();
       map(value.items[i], kind, fmt::format("{} {}", kind.name, in_backticks(key.text)), key.place, false);
+      if (diagnostics_.count() != errors) faulty = family;
     }
+  }
+
+  /// Members follow one another: name.0, name.1, ...
+  void in_order(const Key& key, std::string_view family, std::string_view before) {
+    const std::string_view number = std::string_view(key.text).substr(family.size() + 1);
+    const std::string last = number == "0" ? "" : fmt::format("{}.{}", family, *parse_index(number) - 1);
+    if (number == "0" || before == last) return;
+    diagnostics_.add(key.place, fmt::format("{} does not follow {}", in_backticks(key.text), in_backticks(last)),
+                     fmt::format("members stand in order, {}.0 first; `repeat` makes them", family));
   }
 
   const Node& root_;

@@ -51,6 +51,8 @@ struct Inventory {
   };
   // Looked up only, never iterated.
   std::unordered_map<std::string, Range> names;
+  /// Repeated things, whose members have names in `names` too.
+  std::unordered_map<std::string, Range> families;
 };
 
 /// Numbers all things. Checks that names are unique and that the number of bodies is within `budget`.
@@ -62,6 +64,8 @@ void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Sc
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
 /// Decodes gravity, combine, pairs and forces.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// Decodes the regions, and those of `simulate.stop`. Bodies need not be decoded before.
+void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.
 void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes simulate, lights, background and output. Checks that frames and rows are within the budget.

@@ -42,12 +42,19 @@ class Bodies {
     scene_.initial.velocity.assign(n, Vec3::Zero());
     default_restitution_ = filled<RestitutionKeys>(scene_part(root_, "restitution")).coefficient;
 
+    scene_.roster.bodies.reserve(inventory_.bodies.size());
+    // Members of a repeated thing have a colour in common, as those of a group have.
+    std::size_t things = 0;
+    std::string_view last_family;
     for (const BodyEntry& body : inventory_.bodies) {
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
       const auto keys = filled<BodyKeys>(each);
       const std::optional<Form> form = forms_.of(keys, keys.color.has_value());
-      const Color chosen = body_color(scene_.roster.bodies.size());
+      const std::string_view family = family_of(body.key->text);
+      if (family.empty() || family != last_family) ++things;
+      last_family = family;
+      const Color chosen = body_color(things - 1);
       const BodyColor color = keys.color.value_or(BodyColor{chosen, std::nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
                                       color.by ? chosen : color.plain, form ? form->mesh : std::nullopt, color.by});

@@ -90,7 +90,7 @@ class CameraDecoder {
     if (range->first >= inventory_.body_count || range->count == 0) {
       diagnostics_.add(name.place,
                        fmt::format("{} {}: there is nothing to follow", in_backticks(name.text),
-                                   range->count == 0 ? "has no balls" : "never moves"),
+                                   range->count == 0 ? "has no balls" : "is a fixed thing"),
                        "expected a ball, body, group or member (gas.3)");
       return;
     }

@@ -1,12 +1,15 @@
 // Decodes planes, rooms, walls and obstacles.
 // A thing with an error still gets a number, so that the numbers of the others do not shift.
 // Its keys without a good value keep their defaults.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -65,6 +68,39 @@ void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene
   scene.roster.fixed.push_back({name, obstacle.color, obstacle.visible, form.mesh});
 }
 
+/// The legs of a thing's motion. None: it has no `motion`, or it never moves.
+std::vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
+  const Node* const list = thing.find("motion");
+  if (list == nullptr || !list->is(Node::Kind::sequence)) return {};
+  std::vector<MotionWindow> windows;
+  for (const Node& node : list->items) {
+    if (!node.is(Node::Kind::map)) continue;
+    const View view(&node, kind_named("motion"), node.place);
+    const auto [from, until, velocity] = filled<MotionKeys>(view);
+    if (!(from < until))
+      diagnostics.add(view.place("until"),
+                      fmt::format("`until` is {} but `from` is {}", shortest(until), shortest(from)),
+                      "expected from < until");
+    if (!windows.empty() && from < windows.back().until) {
+      const double end = windows.back().until;
+      diagnostics.add(view.place("from"),
+                      fmt::format("this window starts at {} s, but the one before it {}", shortest(from),
+                                  std::isinf(end) ? "never ends" : fmt::format("ends at {} s", shortest(end))),
+                      "expected windows in order that do not overlap, each with `until` except the last");
+    }
+    if (velocity) windows.push_back({from, until, *velocity});
+  }
+  return legs_of(windows);
+}
+
+/// Stores the motion of the thing that was decoded last.
+void add_motion(const View& view, std::size_t number, Scene& scene, Diagnostics& diagnostics) {
+  std::vector<MotionLeg> legs = motion_of(view, diagnostics);
+  if (legs.empty()) return;
+  scene.world.motions.resize(number + 1);
+  scene.world.motions[number] = std::move(legs);
+}
+
 }  // namespace
 
 Vec3 default_up(const Vec3& unit_normal) {
@@ -80,11 +116,13 @@ void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Sc
   for (const FixedEntry& entry : inventory.fixed) {
     const View view = fixed_view(root, entry);
     const std::string& name = entry.key->text;
+    if (entry.kind->name != "room") add_motion(view, entry.first, scene, diagnostics);
     if (entry.kind->name == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
     if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);
     if (entry.kind->name == "wall") add_wall(view, name, scene, diagnostics);
     if (entry.kind->name == "obstacle") add_obstacle(view, name, forms, scene);
   }
+  if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }
 
 }  // namespace carom

@@ -21,7 +21,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
   if (!a || !b || !value) return;
   if (a->first >= inventory.body_count && b->first >= inventory.body_count && a->count > 0 && b->count > 0) {
     diagnostics.add(between->place,
-                    fmt::format("{} and {} never move, so they never meet", in_backticks(between->items[0].text),
+                    fmt::format("{} and {} are fixed things, which never meet", in_backticks(between->items[0].text),
                                 in_backticks(between->items[1].text)),
                     "expected at least one ball, body or group");
     return;
@@ -87,7 +87,7 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   const auto each = [](const Node* list, const auto& decode) {
     if (list == nullptr || !list->is(Node::Kind::sequence)) return;
     for (const Node& node : list->items) {
-      if (node.is(Node::Kind::map)) decode(node);
+      if (node.is(Node::Kind::map) && node.find_key("repeat") == nullptr) decode(node);
     }
   };
   each(laws.find("pairs"), [&](const Node& node) { decode_pair(node, inventory, scene, diagnostics); });

@@ -58,6 +58,7 @@ class Requests {
         scene_.ambient = as_color(&node->items[i]);
         continue;
       }
+      if (node->items[i].find_key("repeat") != nullptr) continue;  // no member
       const View view(&node->items[i], kind_named("light"), node->keys[i].place);
       Light& light = scene_.lights.emplace_back();
       light.name = node->keys[i].text;

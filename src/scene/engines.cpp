@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "physics/force.h"
 #include "physics/world.h"
 #include "scene/fields.h"
@@ -48,6 +50,9 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (simulate.tolerance) lack("tolerance", "`tolerance`", "`step`");
   if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
+  if (world.moves()) lack("engine", "fixed things that move", "`engine: exact`");
+  if (std::any_of(world.regions.begin(), world.regions.end(), [](const WorldRegion& region) { return region.removes; }))
+    lack("regions", "regions with `action: remove`", "`engine: exact`");
   if (!world.forces.empty())
     lack("forces", "forces other than gravity",
          varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");

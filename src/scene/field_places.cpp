@@ -32,9 +32,15 @@ bool has_names(const Field& field) {
 /// Collects every place of every key of a map of `kind`, in the order of the table. `steps`: the path of the map.
 void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::vector<Spot>& found) {
   for (const Field& field : kind.fields) {
+    // Defaults are those of each member.
+    if (field.type == Type::repeat && !steps.empty() && steps.front() == "defaults") continue;
     std::vector<std::string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
+    if (field.type == Type::values || field.type == Type::texts) {
+      here.push_back(any_name);
+      found.push_back({&kind, &field, here});
+    }
     const Kind* held = held_kind(field);
     if (held == nullptr) continue;
     if (field.type == Type::named && held->also != nullptr) {

@@ -221,13 +221,19 @@ std::string expected(const Field& field) {
       return field.of.empty() ? fmt::format("a list of names, such as {}", field.example)
                               : fmt::format("a list of {}", listed(choices(field)));
     case Type::part:
-      return "a map of keys";
+      return field.plain.empty() ? "a map of keys" : fmt::format("a map of keys, or a value of `{}`", field.plain);
     case Type::part_or_flag:
       return "true, false or a map of keys";
+    case Type::values:
+      return "a map from names to numbers, such as {r: 0.05}";
+    case Type::texts:
+      return fmt::format("a map from names to texts, such as {}", field.example);
+    case Type::repeat:
+      return "a whole number of at least 0, or a map from names of indices to such numbers, such as {i: 6, j: 4}";
     case Type::named:
       return "a map from names to entries";
     case Type::list:
-      return "a list";
+      return field.words.empty() ? "a list" : fmt::format("a list of maps, or {}", listed(parts_of(field.words)));
     case Type::settings:
       return "a map from paths to values, such as {balls.red.mass: 2}";
     case Type::axes:

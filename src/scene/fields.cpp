@@ -25,8 +25,9 @@ constexpr Field scene_fields[] = {
     {.key = "scene", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format.", .example = "1", .title = "Format"},
     {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "Title of the scene, one line.", .example = "Two bowling balls meet near the origin"},
     {.key = "seed", .type = Type::whole, .range = from_0, .initial = "0", .doc = "The only source of randomness.", .example = "7"},
+    {.key = "let", .type = Type::values, .doc = "Numbers with names. Wherever a number may stand, a text that begins with = is an expression of them.", .example = "{r: 0.05, gap: '= r / 10'}", .title = "Numbers with names"},
     {.key = "gravity", .type = Type::vector, .unit = "m/s^2", .initial = "[0, -9.80665, 0]", .doc = "Acceleration of every body; y is up.", .example = "[0, 0, 0]"},
-    {.key = "restitution", .type = Type::part, .of = "restitution", .doc = "How bodies bounce off one another.", .example = "{default: 0.9, combine: minimum}"},
+    {.key = "restitution", .type = Type::part, .of = "restitution", .doc = "How bodies bounce off one another. A number alone is `default`.", .example = "{default: 0.9, combine: minimum}", .plain = "default"},
     {.key = "defaults", .type = Type::part, .of = "defaults", .doc = "Default values for things of each kind.", .example = "{ball: {mass: 10, radius: 0.11, restitution: 0.9}}"},
     {.key = "balls", .type = Type::named, .of = "ball", .doc = "Single balls by name.", .example = "{red: {mass: 10, radius: 0.11, position: [3, 1, 0], velocity: [-2, 0, 0], color: crimson}}"},
     {.key = "bodies", .type = Type::named, .of = "body", .doc = "Movable bodies with any bounding volume.", .example = "{crate: {mass: 2, box: [0.4, 0.3, 0.4], position: [-1, 1, 0]}}"},
@@ -34,7 +35,8 @@ constexpr Field scene_fields[] = {
     {.key = "planes", .type = Type::named, .of = "plane", .doc = "Unbounded fixed surfaces, free on one side.", .example = "{floor: {point: [0, 0, 0], normal: [0, 1, 0], color: tan}}"},
     {.key = "walls", .type = Type::named, .of = "wall", .doc = "Two-sided fixed rectangles.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
     {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that face inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
-    {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
+    {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that no impact moves.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
+    {.key = "regions", .type = Type::named, .of = "region", .doc = "Regions of space that the centres of bodies enter and leave. They touch nothing, and pictures do not show them.", .example = "{pocket: {radius: 0.3, position: [-6, 0, 0], action: remove}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}", .drawn = true},
@@ -45,6 +47,7 @@ constexpr Field scene_fields[] = {
     {.key = "flash", .type = Type::flag, .doc = "Whether bodies glow white for 0.1 s of film after a collision, and fade to their colour.", .example = "true", .title = "Flash of collisions", .drawn = true},
     {.key = "arrows", .type = Type::names, .of = "velocity|force", .doc = "Arrows at the bodies. velocity; force: gravity and `forces`, without contact. The legend has their scale.", .example = "[velocity]", .drawn = true},
     {.key = "shutter", .type = Type::number, .range = {0, 1}, .doc = "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", .example = "0.5", .title = "Open part of the interval between pictures", .drawn = true},
+    {.key = "measures", .type = Type::texts, .doc = "Measures of the run by name, columns of summary.csv: a number of summary.csv, a quantity at the end (balls.red.y_m), max, min, time_of_max or time_of_min of one over the run, first(a, b) in s, hits(a, b), regions.NAME.entries, inside, first_s or first, count(y_m < 0). Or an expression of these that begins with =.", .example = "{height_m: max(balls.red.y_m), share: '= hits(red, blue) / collisions'}", .title = "Measures of the run"},
     {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes. Default: trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
 };
 
@@ -56,7 +59,7 @@ constexpr Field restitution_fields[] = {
 };
 
 // A name, a group's member, or a side of the room.
-constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)))?$)";
+constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
 
 constexpr Field pair_fields[] = {
     {.key = "between", .type = Type::two_names, .needed = true,
@@ -84,9 +87,12 @@ template <typename Keys> constexpr Field color{.key = "color", .type = Type::col
 constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", .example = "meshes/duck.obj", .drawn = true, .member = fills<BodyKeys, &BodyKeys::mesh>};
 constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<BodyKeys, &BodyKeys::position>};
 
+// The members of a repeated thing replace it before its map is checked and decoded (repeat.h).
+constexpr Field repeat{.key = "repeat", .type = Type::repeat, .doc = "Makes members name.0, name.1, ... of this map. Its expressions may contain the index i, or the indices named here; the last one varies fastest.", .example = "{i: 6, j: 4}", .title = "Number of members", .own = true};
+
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh,
+    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh, repeat,
 };
 
 constexpr std::string_view volumes = "radius|cylinder|box|fit";
@@ -101,7 +107,7 @@ template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::fi
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
-    ball_position, ball_velocity, ball_restitution, impulse, body_color_field,
+    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, repeat,
 };
 
 constexpr Field cylinder_fields[] = {
@@ -119,6 +125,7 @@ constexpr Field group_fields[] = {
      .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal", .member = fills<GroupKeys, &GroupKeys::arrange>},
     {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
     {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
+    repeat,
 };
 
 constexpr Field in_fields[] = {
@@ -129,10 +136,18 @@ constexpr Field in_fields[] = {
 template <typename Keys> constexpr Field fixed_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution. Default: the moving body's.", .example = "0.5", .member = fills<Keys, &Keys::restitution>};
 template <typename Keys> constexpr Field visible{.key = "visible", .type = Type::flag, .doc = "Whether it is drawn.", .example = "false", .drawn = true, .member = fills<Keys, &Keys::visible>};
 
+constexpr Field motion{.key = "motion", .type = Type::list, .of = "motion", .doc = "Windows of time in which it moves at a constant velocity, in order; outside them it stands where it has arrived. Of a plane only the part along the normal counts.", .example = "[{from: 0, until: 2, velocity: [0, 0.5, 0]}]"};
+
+constexpr Field motion_fields[] = {
+    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the motion starts.", .example = "0.5", .title = "Start", .member = fills<MotionKeys, &MotionKeys::from>},
+    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the motion ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<MotionKeys, &MotionKeys::until>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .needed = true, .doc = "Its velocity in this window.", .example = "[0, 0.5, 0]", .member = fills<MotionKeys, &MotionKeys::velocity>},
+};
+
 constexpr Field plane_fields[] = {
     {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, 0, 0]", .title = "A point of the plane", .member = fills<PlaneKeys, &PlaneKeys::point>},
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the free side; any length.", .example = "[0, 1, 0]", .member = fills<PlaneKeys, &PlaneKeys::normal>},
-    fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>,
+    motion, fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>, repeat,
 };
 
 constexpr Field wall_fields[] = {
@@ -140,7 +155,7 @@ constexpr Field wall_fields[] = {
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Perpendicular to the rectangle; any length.", .example = "[-1, 0, 0]", .member = fills<WallKeys, &WallKeys::normal>},
     {.key = "size", .type = Type::extent, .unit = "m", .range = above_0, .needed = true, .doc = "Width and height.", .example = "[2, 2]", .title = "Width and height", .member = fills<WallKeys, &WallKeys::size>},
     {.key = "up", .type = Type::direction, .doc = "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", .example = "[0, 1, 0.5]", .title = "Direction of the height", .member = fills<WallKeys, &WallKeys::up>},
-    fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>,
+    motion, fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>, repeat,
 };
 
 constexpr Field room_fields[] = {
@@ -154,7 +169,25 @@ constexpr Field obstacle_color{.key = "color", .type = Type::color, .doc = "Colo
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
-    fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>,
+    motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
+};
+
+constexpr std::string_view region_shapes = "radius|cylinder|box|plane";
+
+constexpr Field region_fields[] = {
+    {.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = region_shapes, .needed = true, .doc = "Radius of a sphere.", .example = "0.3", .member = fills<RegionKeys, &RegionKeys::radius>},
+    {.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = region_shapes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}", .member = fills<RegionKeys, &RegionKeys::cylinder>},
+    {.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = region_shapes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]", .member = fills<RegionKeys, &RegionKeys::box>},
+    {.key = "plane", .type = Type::part, .of = "side", .one_of = "radius|cylinder|box|plane|position", .doc = "One side of a plane.", .example = "{point: [0, -1, 0], normal: [0, -1, 0]}", .member = fills<RegionKeys, &RegionKeys::plane>},
+    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "position|plane", .needed = true, .doc = "Centre.", .example = "[-6, 0, 0]", .member = fills<RegionKeys, &RegionKeys::position>},
+    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that enter and leave it. Default: all.", .example = "[red, gas.3]", .title = "Bodies that enter and leave it", .pattern = reference, .member = fills<RegionKeys, &RegionKeys::on>},
+    {.key = "action", .type = Type::choice, .of = "none|remove|stop", .doc = "What happens when a body's centre enters. remove: the body leaves the world; stop: the run ends.", .example = "remove", .member = fills<RegionKeys, &RegionKeys::action>},
+    repeat,
+};
+
+constexpr Field side_fields[] = {
+    {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, -1, 0]", .title = "A point of the plane", .member = fills<SideKeys, &SideKeys::point>},
+    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the side that is the region; any length.", .example = "[0, -1, 0]", .member = fills<SideKeys, &SideKeys::normal>},
 };
 
 constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";
@@ -169,6 +202,7 @@ constexpr Field force_fields[] = {
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the force starts.", .example = "0.5", .title = "Start", .member = fills<ForceKeys, &ForceKeys::from>},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<ForceKeys, &ForceKeys::until>},
     {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn. Default: true.", .example = "false", .with = "spring", .drawn = true, .member = fills_if_given<ForceKeys, &ForceKeys::visible>},
+    repeat,
 };
 
 constexpr Field drag_fields[] = {
@@ -192,6 +226,7 @@ constexpr Field attractor_fields[] = {
 
 constexpr Field simulate_fields[] = {
     {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "Simulated time.", .example = "2", .member = fills<Simulate, &Simulate::duration>},
+    {.key = "stop", .type = Type::list, .of = "stop", .doc = "What ends the run before its duration, as soon as one of these holds. rest: all bodies are at rest.", .example = "[rest, {collisions: 100}]", .title = "Ends of the run", .needs_entries = true, .words = "rest"},
     {.key = "engine", .type = Type::choice, .of = engine_names,
      .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact", .member = fills<Simulate, &Simulate::engine>},
     {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines stepped and book; with dop853 the longest one. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
@@ -201,6 +236,11 @@ constexpr Field simulate_fields[] = {
     {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Integrator of engine stepped. dop853: Dormand-Prince, order 8, chooses its steps; euler: semi-implicit, order 1; verlet: velocity Verlet, order 2; rk4: Runge-Kutta, order 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
     {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},
     {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Tolerance of positions, instead of step. If it cannot be met, a warning gives the time until which it holds and the error after that. The scene is simulated several times.", .example = "0.000001", .engines = "auto|exact|stepped", .member = fills<Simulate, &Simulate::tolerance>},
+};
+
+constexpr Field stop_fields[] = {
+    {.key = "collisions", .type = Type::whole, .range = from_1, .one_of = "collisions|region", .needed = true, .doc = "After so many collisions, and those at the same instant.", .example = "100", .title = "Number of collisions", .member = fills<StopKeys, &StopKeys::collisions>},
+    {.key = "region", .type = Type::name, .one_of = "collisions|region", .doc = "When a body enters this region.", .example = "pocket", .pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.[0-9]+)?$)", .member = fills<StopKeys, &StopKeys::region>},
 };
 
 constexpr Field camera_fields[] = {
@@ -243,6 +283,7 @@ constexpr Field light_fields[] = {
     {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Position of a lamp, instead of direction.", .example = "[0, 5, 0]", .member = fills<Light, &Light::position>},
     {.key = "color", .type = Type::color, .doc = "Its colour.", .example = "lightyellow", .member = fills<Light, &Light::color>},
     {.key = "intensity", .type = Type::number, .range = from_0, .doc = "Brightness; 1 is usual.", .example = "0.8", .member = fills<Light, &Light::intensity>},
+    repeat,
 };
 
 // clang-format on
@@ -262,13 +303,17 @@ constexpr Kind kinds_of_scenes[] = {
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},
-    {"obstacle", "an", "A body that never moves.", obstacle_fields, nullptr, "obstacle"},
+    {"obstacle", "an", "A body that no impact moves.", obstacle_fields, nullptr, "obstacle"},
+    {"motion", "a", "A window of time in which a fixed thing moves.", motion_fields},
+    {"region", "a", "A region of space that the centres of bodies enter and leave.", region_fields},
+    {"side", "", "One side of a plane.", side_fields},
     {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},
     {"drag", "", "Drag of a medium, against a body's velocity relative to it.", drag_fields, nullptr, "",
      "linear|quadratic"},
     {"spring", "", "A spring from a fixed point, with a damper in parallel.", spring_fields},
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
+    {"stop", "a", "A condition that ends the run.", stop_fields},
     {"camera", "", "Camera of the pictures.", camera_fields},
     {"keyframe", "a", "A view at a time.", keyframe_fields},
     {"light", "a", "A light.", light_fields, &ambient},

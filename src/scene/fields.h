@@ -35,6 +35,10 @@ enum class Type : std::uint8_t {
   part,  // a map of kind Field::of
   /// A map of kind Field::of, true (a map of defaults) or false (absent).
   part_or_flag,
+  values,  // a map from names to numbers
+  texts,   // a map from names to texts of one line
+  /// How many members a thing has: a whole number, or a map from names of indices to such numbers.
+  repeat,
   named,     // a map from names to kind Field::of
   list,      // a list of maps of kind Field::of
   settings,  // a map from paths into a scene, such as balls.red.mass, to values
@@ -89,8 +93,12 @@ struct Field {
   std::string_view engines = {};
   /// A regular expression for the schema, for a text or for names.
   std::string_view pattern = {};
+  /// Of a map: the key for which a plain value in place of the map stands.
+  std::string_view plain = {};
   bool needs_entries = false;  // a list must not be empty
-  bool own = false;            // never taken from Kind::beneath
+  /// Of a list: words that may stand in place of maps, separated by |.
+  std::string_view words = {};
+  bool own = false;  // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
   bool drawn = false;
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).

@@ -4,9 +4,20 @@
 #include <algorithm>
 
 #include "scene/decode.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {
+namespace {
+
+/// The number of members of a repeated thing. A repeated group has more bodies than members.
+Entity members_of(const Inventory& inventory, const std::string& family) {
+  Entity count = 0;
+  while (inventory.names.contains(fmt::format("{}.{}", family, count))) ++count;
+  return count;
+}
+
+}  // namespace
 
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
                                            Diagnostics& diagnostics) {
@@ -28,12 +39,28 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
       return std::nullopt;
     }
   }
+  if (const auto family = inventory.families.find(std::string(family_of(name.text)));
+      family != inventory.families.end()) {
+    const Entity count = members_of(inventory, family->first);
+    if (count == 0 && !diagnostics.empty()) return std::nullopt;  // perhaps its `repeat` is wrong
+    diagnostics.add(
+        name.place,
+        fmt::format("there is no {}: {} has {} member{}", in_backticks(name.text), in_backticks(family->first), count,
+                    count == 1 ? "" : "s"),
+        count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
+    return std::nullopt;
+  }
   std::vector<std::string> all;
-  for (const BodyEntry& body : inventory.bodies) all.push_back(body.key->text);
+  const auto add = [&](const std::string& thing) {
+    const std::string_view family = family_of(thing);
+    const std::string_view shown = family.empty() ? std::string_view(thing) : family;
+    if (all.empty() || all.back() != shown) all.emplace_back(shown);
+  };
+  for (const BodyEntry& body : inventory.bodies) add(body.key->text);
   const bool bodies_alone = sought == Sought::bodies;
   for (const FixedEntry& fixed : inventory.fixed) {
     if (bodies_alone) break;
-    all.push_back(fixed.key->text);
+    add(fixed.key->text);
     for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}) {
       if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
     }
@@ -57,7 +84,7 @@ std::optional<std::vector<Entity>> find_bodies(const Node* on, const Inventory& 
     good = good && range;
     if (!range) continue;
     if (range->first >= inventory.body_count && range->count > 0) {
-      diagnostics.add(item.place, fmt::format("{} never moves: {}", in_backticks(item.text), use),
+      diagnostics.add(item.place, fmt::format("{} is a fixed thing: {}", in_backticks(item.text), use),
                       "expected balls, bodies, groups or members (gas.3)");
       good = false;
       continue;

@@ -25,6 +25,11 @@ quotes, `_` between digits, `.inf` and `.nan` are errors. YAML 1.1 readers take 
 for `true`: write `1.0e-3` and `"on"` for them. A flag is `true` or `false`. Names match `[A-Za-z_][A-Za-z0-9_-]*` and are
 unique in a scene. An unknown or repeated key, an alias, an anchor, a tag, `<<`, a tab and a second document are errors.
 
+Wherever a scene takes a number, a text that begins with `=` is an expression: `= r * sin(30)`. It has + - * / ^ %,
+parentheses, `pi`, names of `let`, indices of `repeat`, and the functions sqrt, abs, min, max, floor, sin, cos, tan, asin,
+acos and atan2. `a % b` has the sign of b. A name of a thing may contain expressions in braces: `'ball.{i + 1}'`. The
+word `none` in place of a value cancels that of `defaults`.
+
 In paths NAME stands for a name, and N for the index of a list's entry, from 0. A key in bold is needed, here or in
 `defaults`. Of bold keys that replace one another, one is needed.
 
@@ -51,7 +56,8 @@ std::string value_text(const Field& field) {
     case Type::named:
       return "by name: " + link;
     case Type::list:
-      return "a list: " + link;
+      return field.words.empty() ? "a list: " + link
+                                 : fmt::format("a list of {} or maps: {}", quoted_list(parts_of(field.words)), link);
     default:
       return expected(field) + ": " + link;
   }

@@ -5,6 +5,7 @@
 #include "scene/check.h"
 #include "scene/decode.h"
 #include "scene/member.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -51,10 +52,20 @@ class Census {
                      "names of bodies, groups, fixed things and the room are unique in a scene");
   }
 
+  /// Claims a thing's name, and that of the repeated thing with its first member. False: it is repeated no time.
+  bool claim_thing(const Key& key, const Node& node) {
+    claim(key);
+    if (key.text.ends_with(".0")) claim({std::string(family_of(key.text)), key.place});
+    return !node.is(Node::Kind::map) || node.find_key("repeat") == nullptr;
+  }
+
   void bodies(const Node& node, const Kind& kind) {
     if (!node.is(Node::Kind::map)) return;
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
-      claim(node.keys[i]);
+      if (!claim_thing(node.keys[i], node.items[i])) {
+        empty_.push_back({&node.keys[i], inventory_.bodies.size(), true});
+        continue;
+      }
       inventory_.bodies.push_back({&node.keys[i], &node.items[i], &kind, kind.name == "group"});
     }
   }
@@ -65,7 +76,10 @@ class Census {
   }
 
   void add_fixed(const Key& key, const Node& node, const Kind& kind) {
-    claim(key);
+    if (!claim_thing(key, node)) {
+      empty_.push_back({&key, fixed_count_, false});
+      return;
+    }
     const Entity count = kind.name == "room" ? 6 : 1;
     inventory_.fixed.push_back({&key, &node, &kind, fixed_count_, count});
     fixed_count_ += count;
@@ -80,28 +94,52 @@ class Census {
     const std::string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : std::to_string(total);
     diagnostics_.add(by_group ? view.place("count") : most->key->place,
                      fmt::format("the scene has {} bodies; the limit is {}", figure, limit),
-                     limit == most_bodies ? "expected a smaller `count`"
-                                          : "expected a smaller `count`, or --force if this machine has the memory");
+                     fmt::format("expected {}{}", by_group ? "a smaller `count`" : "fewer",
+                                 limit == most_bodies ? "" : ", or --force if this machine has the memory"));
   }
 
   void number(std::uint64_t total) {
     inventory_.body_count = static_cast<Entity>(total);
-    for (const BodyEntry& body : inventory_.bodies) {
-      inventory_.names[body.key->text] = {body.first, static_cast<Entity>(body.count)};
-    }
+    inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size());
+    for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
       const Entity first = inventory_.body_count + entry.first;
-      inventory_.names[entry.key->text] = {first, entry.count};
+      add(entry.key->text, {first, entry.count});
       for (Entity side = 0; entry.count == 6 && side < 6; ++side) {
         inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
       }
     }
+    for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
+    for (const Empty& none : empty_) {
+      const bool last = none.before == inventory_.bodies.size();
+      const Entity first = !none.is_body ? inventory_.body_count + static_cast<Entity>(none.before)
+                           : last        ? inventory_.body_count
+                                         : inventory_.bodies[none.before].first;
+      inventory_.names[none.key->text] = inventory_.families[none.key->text] = {first, 0};
+    }
   }
+
+  /// A thing by its name, and as a member of a repeated thing.
+  void add(const std::string& name, Inventory::Range range) {
+    inventory_.names[name] = range;
+    const std::string_view family = family_of(name);
+    if (family.empty()) return;
+    const auto [whole, fresh] = inventory_.families.try_emplace(std::string(family), range);
+    if (!fresh) whole->second.count += range.count;
+  }
+
+  /// A thing that is repeated no time.
+  struct Empty {
+    const Key* key;
+    std::size_t before;  // entries, or fixed things, before it
+    bool is_body;
+  };
 
   const Node& root_;
   Diagnostics& diagnostics_;
   Inventory inventory_;
+  std::vector<Empty> empty_;
   Entity fixed_count_ = 0;
 };
 

@@ -64,6 +64,13 @@ struct GroupKeys {
   std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
 };
 
+/// A window of time in which a fixed thing moves.
+struct MotionKeys {
+  double from = 0;                                         // s
+  double until = std::numeric_limits<double>::infinity();  // s
+  std::optional<Vec3> velocity;                            // m/s
+};
+
 /// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
 template <std::uint32_t rgb>
 struct FixedKeys {
@@ -116,6 +123,32 @@ struct ForceKeys {
   double from = 0;                                         // s
   double until = std::numeric_limits<double>::infinity();  // s
   bool visible = true;                                     // whether its springs are drawn
+};
+
+/// The side of a plane to which its normal points.
+struct SideKeys {
+  Vec3 point = Vec3(0, 0, 0);   // m
+  Vec3 normal = Vec3(0, 1, 0);  // any length
+};
+
+/// What a region does to a body that enters it.
+enum class RegionAction : std::uint8_t { none, remove, stop };
+
+/// One of the first four is its shape.
+struct RegionKeys {
+  std::optional<double> radius;  // m
+  std::optional<CylinderKeys> cylinder;
+  std::optional<Vec3> box;  // m, full edge lengths
+  std::optional<SideKeys> plane;
+  std::optional<Vec3> position;  // m; of a plane: none
+  const Node* on = nullptr;      // names; null: all bodies
+  std::optional<RegionAction> action = RegionAction::none;
+};
+
+/// An entry of `simulate.stop`.
+struct StopKeys {
+  std::optional<std::uint64_t> collisions;
+  const Node* region = nullptr;  // a name
 };
 
 struct TrailKeys {

@@ -5,20 +5,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 #include "scene/check.h"
 #include "scene/decode.h"
+#include "scene/expand.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 #include "yaml/document.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 void stop_if_wrong(const Diagnostics& diagnostics, const LoadOptions& options) {
   if (!diagnostics.empty()) throw SceneError(diagnostics, options.color);
+}
+
+/// The scene of a run must not be longer than a file that is read.
+void check_length(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
+  if (inventory.families.empty() || scene.resolved.size() <= max_source_bytes) return;
+  const auto member = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
+                                   [](const BodyEntry& body) { return !family_of(body.key->text).empty(); });
+  diagnostics.add(
+      member == inventory.bodies.end() ? inventory.fixed.front().key->place : member->key->place,
+      fmt::format("with its members the scene has {} bytes; the limit is {}", scene.resolved.size(), max_source_bytes),
+      "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
 }
 
 std::string folder_of(const std::string& path) {
@@ -47,6 +61,7 @@ struct SceneFile::Impl {
       stop_if_wrong(parsing, options);
     }
     root = std::move(*tree);
+    write_out(root);
   }
 
   Scene scene(const std::vector<Setting>& settings) {
@@ -56,14 +71,18 @@ struct SceneFile::Impl {
       sources.push_back({setting.where.empty() ? "--set " + setting.text : setting.where, setting.text, true});
     Diagnostics diagnostics = parsing;
     Node tree = root;
-    for (std::uint32_t i = 1; i < sources.size(); ++i) apply_setting(tree, sources, i, diagnostics);
+    for (std::uint32_t i = 1; i < sources.size(); ++i) {
+      apply_setting(tree, sources, i, diagnostics);
+      write_out(tree);
+    }
     return resolve(tree, diagnostics);
   }
 
   Scene resolve(Node& tree, Diagnostics& diagnostics) const {
     const std::string folder = folder_of(path);
-    check_scene(tree, folder, diagnostics);
     Scene scene;
+    scene.expressions = expand(tree, options.budget, diagnostics);
+    check_scene(tree, folder, diagnostics);
     scene.file = path;
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
@@ -73,16 +92,39 @@ struct SceneFile::Impl {
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
     decode_requests(tree, inventory, options, scene, diagnostics);
+    if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);
+    take_measures(tree, scene, diagnostics);
     if (diagnostics.empty() && options.budget.enforced) check_steps(tree, scene, options.budget, diagnostics);
     stop_if_wrong(diagnostics, options);
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
-    scene.resolved = resolved_text(tree, inventory, scene);
+    scene.resolved = resolved_text(tree, inventory, scene, folder);
+    check_length(inventory, scene, diagnostics);
+    stop_if_wrong(diagnostics, options);
     return scene;
+  }
+
+  /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
+  void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
+    if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
+      for (std::size_t i = 0; i < let->items.size(); ++i)
+        if (const auto number = parse_number(let->items[i].text)) scene.numbers[let->keys[i].text] = *number;
+    const Node* measures = tree.find("measures");
+    if (measures == nullptr || !measures->is(Node::Kind::map)) return;
+    for (std::size_t i = 0; i < measures->items.size(); ++i)
+      if (!measures->items[i].bad) scene.measures.push_back({measures->keys[i].text, measures->items[i].text});
+    if (!diagnostics.empty() || !options.measure_fault) return;
+    for (std::size_t i = 0; i < measures->items.size(); ++i) {
+      const std::string fault = options.measure_fault(scene, scene.measures[i]);
+      const std::size_t remedy = std::min(fault.find("; "), fault.size());
+      if (!fault.empty())
+        diagnostics.add(measures->items[i].place, fault.substr(0, remedy),
+                        remedy < fault.size() ? fault.substr(remedy + 2) : std::string());
+    }
   }
 
   std::string path;

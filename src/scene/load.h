@@ -25,6 +25,8 @@ struct LoadOptions {
   /// Reads the vertices of a mesh file, in the file's own units.
   /// Throws std::runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
   std::function<std::vector<Vec3>(const std::string& path)> mesh_points;
+  /// The fault of a measure that the scene defines; empty: none. Unset: measures are not checked.
+  std::function<std::string(const Scene& scene, const OwnMeasure& measure)> measure_fault;
 };
 
 /// All errors of a scene file, as text for a terminal.

@@ -21,8 +21,8 @@ class MotionText {
 
   std::string run() {
     simulate();
-    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, forces, gravity, combine,
-                 pairs] = scene_.world;
+    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
+                 combine, pairs, regions] = scene_.world;
     line("gravity", gravity, "combine", static_cast<int>(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
       line("pair", a_first, a_count, b_first, b_count, value);
@@ -35,7 +35,11 @@ class MotionText {
     for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
       line("wall", center, normal, right, up, half_width, half_height, own);
     for (const auto& [center, shape, own] : obstacles) line("obstacle", center, shape, own);
+    for (std::size_t fixed = 0; fixed < motions.size(); ++fixed)
+      for (const auto& [from, velocity, start, start_low] : motions[fixed])
+        line("motion", fixed, from, velocity, start, start_low);
     for (const Force& force : forces) write(force);
+    for (const WorldRegion& region : regions) write(region);
     return std::move(text_);
   }
 
@@ -44,6 +48,14 @@ class MotionText {
     Simulate simulate = scene_.simulate;
     simulate.engine = engine_of(scene_.world, simulate);
     line("simulate", text_of_json(json_of(kind_named("simulate"), &simulate)));
+    if (simulate.stop_at_rest) line("rest");
+    if (simulate.stop_collisions) line("collisions", *simulate.stop_collisions);
+  }
+
+  void write(const WorldRegion& region) {
+    const auto& [position, volume, normal, on, removes, stops] = region;
+    line("region", position, volume, normal, removes, stops);
+    for (const Entity body : on) line("of", body);
   }
 
   void write(const Force& force) {

@@ -72,6 +72,7 @@ struct Output {
   bool collisions = false;
   std::optional<EnergyOutput> energy;
   std::optional<ContactsOutput> contacts;
+  bool regions = false;
   std::optional<FramesOutput> frames;
   std::optional<VideoOutput> video;
   std::optional<SheetOutput> sheet;

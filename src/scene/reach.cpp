@@ -25,7 +25,10 @@ class Reach {
         farthest_(farthest_by_size * smallest_) {}
 
   void check() {
-    for (const FixedEntry& entry : inventory_.fixed) check_places(fixed_view(root_, entry), entry.key->text);
+    for (const FixedEntry& entry : inventory_.fixed) {
+      check_places(fixed_view(root_, entry), entry.key->text);
+      if (entry.count == 1) check_motion(entry);
+    }
     for (const BodyEntry& body : inventory_.bodies) {
       if (body.count == 0) continue;
       const View view = body_view(root_, body);
@@ -48,6 +51,17 @@ class Reach {
       if (find_field(view.kind(), key) == nullptr || view.find(key) == nullptr) continue;
       check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m in size", name, "make it smaller");
     }
+  }
+
+  void check_motion(const FixedEntry& entry) {
+    const Entity e = inventory_.body_count + entry.first;
+    if (!world_.moves(e)) return;
+    const double end = scene_.simulate.duration;
+    double farthest = fixed_position(world_, e, {end, 0}).cwiseAbs().maxCoeff();
+    for (const MotionLeg& leg : world_.legs(e))
+      if (leg.from < end) farthest = std::max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
+    check_length(farthest, fixed_view(root_, entry).place("motion"), "{} goes as far as {} m from the origin",
+                 entry.key->text, "move it less far");
   }
 
   static double largest_number(const Node& node) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "scene/check.h"
 #include "scene/colors.h"
 #include "scene/engines.h"
 #include "scene/member.h"
@@ -39,8 +40,8 @@ std::string flow(const View& view, const Overrides& overrides = {}) {
 
 class Resolver {
  public:
-  Resolver(const Node& root, const Inventory& inventory, const Scene& scene)
-      : root_(root), inventory_(inventory), scene_(scene) {}
+  Resolver(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder)
+      : root_(root), inventory_(inventory), scene_(scene), folder_(folder) {}
 
   std::string run() {
     const Kind& kind = kind_named("scene");
@@ -48,6 +49,7 @@ class Resolver {
     line("scene", "1");
     line("title", flow_text(*whole.find("title")));
     line("seed", std::to_string(scene_.seed));
+    if (const Node* let = root_.find("let"); let != nullptr && !let->items.empty()) line("let", flow_text(*let));
     line("gravity", flow_text(*whole.find("gravity")));
     line("restitution", flow(scene_part(root_, "restitution")));
     // The order of these keys in the file is the order of the bodies and of the planes.
@@ -60,8 +62,11 @@ class Resolver {
       if (key.text == "walls") fixed("walls", "wall");
       if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
+    regions();
     forces();
     simulate();
+    if (const Node* measures = root_.find("measures"); measures != nullptr && !measures->items.empty())
+      line("measures", flow_text(*measures));
     camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
@@ -117,6 +122,35 @@ class Resolver {
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
     }
+    without_members(key, kind);
+  }
+
+  /// Writes the things of a map that are repeated no time. Their own expressions have no numbers, and stay.
+  void without_members(std::string_view key, std::string_view name) {
+    const Node& map = *root_.find(key);
+    const Kind& kind = kind_named(name);
+    for (std::size_t i = 0; i < map.keys.size(); ++i) {
+      if (map.items[i].find_key("repeat") == nullptr) continue;
+      const View view(&map.items[i], kind, map.keys[i].place, defaults_for(root_, kind));
+      Overrides overrides = whole_paths(view);
+      if (name == "group") {
+        const View each = member_view(root_, view);
+        overrides["ball"] = flow(each, whole_paths(each));
+        overrides["in"] = flow(view.part("in", "in"));
+      }
+      entry(map.keys[i].text, flow(view, overrides));
+    }
+  }
+
+  /// The files of a map that is not decoded, as absolute paths.
+  Overrides whole_paths(const View& view) const {
+    Overrides overrides;
+    for (const Field& field : view.kind().fields) {
+      const Node* file = field.type == Type::file ? view.find(field) : nullptr;
+      if (file != nullptr)
+        overrides[field.key] = in_quotes(std::filesystem::absolute(beneath(folder_, file->text)).string());
+    }
+    return overrides;
   }
 
   void fixed(std::string_view key, std::string_view kind) {
@@ -124,6 +158,7 @@ class Resolver {
     for (const FixedEntry& thing : inventory_.fixed) {
       if (thing.kind->name == kind) entry(thing.key->text, fixed_text(thing));
     }
+    without_members(key, kind);
   }
 
   std::string fixed_text(const FixedEntry& thing) const {
@@ -137,12 +172,24 @@ class Resolver {
     return flow(view, overrides);
   }
 
+  void regions() {
+    const Node* node = root_.find("regions");
+    if (node == nullptr) return;
+    heading("regions", node->items.empty());
+    for (std::size_t i = 0; i < node->keys.size(); ++i)
+      entry(node->keys[i].text, flow(View(&node->items[i], kind_named("region"), Place{})));
+  }
+
   void forces() {
     const Node* node = root_.find("forces");
     if (node == nullptr) return;
     if (node->items.empty()) return line("forces", "[]");
     heading("forces", false);
     for (const Node& item : node->items) {
+      if (item.find_key("repeat") != nullptr) {
+        out_ += fmt::format("  - {}\n", flow_text(item));
+        continue;
+      }
       out_ += fmt::format("  - {}\n", flow(View(&item, kind_named("force"), item.place)));
     }
   }
@@ -173,10 +220,12 @@ class Resolver {
     if (node == nullptr) return;
     heading("lights", node->items.empty());
     for (std::size_t i = 0; i < node->keys.size(); ++i) {
+      if (node->items[i].find_key("repeat") != nullptr) continue;
       const bool ambient = node->keys[i].text == "ambient";
       entry(node->keys[i].text,
             ambient ? flow_text(node->items[i]) : flow(View(&node->items[i], kind_named("light"), Place{})));
     }
+    without_members("lights", "light");
   }
 
   void overlay() {
@@ -198,10 +247,11 @@ class Resolver {
     }
   }
 
-  /// Whether the text of a scene has this flag. `plots` is absent unless it is true, as an output with settings is.
+  /// Whether the text of a scene has this flag. `plots` and `regions` are absent unless they are true, as an output
+  /// with settings is.
   bool is_said(const OutputKind& kind) const {
     if (kind.name == "flights") return flights_matter();
-    return kind.name != "plots" || kind.asked(scene_.output);
+    return (kind.name != "plots" && kind.name != "regions") || kind.asked(scene_.output);
   }
 
   std::string output_text(const View& view, const OutputKind& kind) const {
@@ -221,6 +271,7 @@ class Resolver {
   const Node& root_;
   const Inventory& inventory_;
   const Scene& scene_;
+  const std::string& folder_;  // of the scene file
   std::string out_;
 };
 
@@ -249,8 +300,8 @@ std::string flow_text(const Node& node) {
   return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
 }
 
-std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene) {
-  return Resolver(root, inventory, scene).run();
+std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder) {
+  return Resolver(root, inventory, scene, folder).run();
 }
 
 }  // namespace carom

@@ -16,6 +16,6 @@ std::string flow_text(const Node& node);
 /// The scene with every default written out and numbers as authored.
 /// Loading it gives the same Scene, and resolving that gives the same text.
 /// Keys stand in the order of the table, and things in the order of the file. Groups stay groups.
-std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene);
+std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder);
 
 }  // namespace carom

@@ -2,8 +2,19 @@
 #include <algorithm>
 
 #include "scene/scene.h"
+#include "yaml/values.h"
 
 namespace carom {
+
+std::string_view family_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot != std::string_view::npos && parse_index(name.substr(dot + 1)) ? name.substr(0, dot) : std::string_view();
+}
+
+std::string_view BodyRange::thing() const {
+  const std::string_view family = family_of(name);
+  return family.empty() ? std::string_view(name) : family;
+}
 
 const BodyRange& Roster::range_of(Entity body) const {
   // Find the last range that begins at or before this body.
@@ -20,6 +31,12 @@ std::string Roster::name(Entity e) const {
   }
   const Entity body_count = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
   return fixed.at(e - body_count).name;
+}
+
+bool may_stop(const Scene& scene) {
+  const std::vector<WorldRegion>& regions = scene.world.regions;
+  return scene.simulate.stop_at_rest || scene.simulate.stop_collisions ||
+         std::any_of(regions.begin(), regions.end(), [](const WorldRegion& region) { return region.stops; });
 }
 
 }  // namespace carom

@@ -2,8 +2,10 @@
 // The whole request of a scene file, checked and constant from here on. Types only; load.h reads files into them.
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "numerics/vec3.h"
@@ -34,6 +36,9 @@ struct MeshFile {
   std::string copy;
 };
 
+/// The name of the repeated thing that a member belongs to: `bricks` of `bricks.3`. Empty: it is no member.
+std::string_view family_of(std::string_view name);
+
 /// A name of the scene file and its bodies: one ball or body, or a group's members name.0, name.1, ...
 struct BodyRange {
   std::string name;
@@ -43,6 +48,9 @@ struct BodyRange {
   Color color;
   std::optional<MeshUse> mesh = std::nullopt;
   std::optional<Coloring> coloring = std::nullopt;  // takes the place of `color` in pictures
+
+  /// The name in the file: that of the repeated thing of which this is a member, or its own.
+  std::string_view thing() const;
 };
 
 struct FixedName {
@@ -58,6 +66,7 @@ struct Roster {
   std::vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
   std::vector<FixedName> fixed;
+  std::vector<std::string> regions;              // by number in World::regions
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
@@ -111,6 +120,12 @@ struct Light {
   double intensity = 1;
 };
 
+/// A measure that the scene defines: a column of its summary.csv.
+struct OwnMeasure {
+  std::string name;
+  std::string text;  // a measure, or '=' and an expression of measures (run/measure.h)
+};
+
 struct Scene {
   std::string file;  // as given on the command line
   std::string title;
@@ -126,11 +141,25 @@ struct Scene {
   bool transparent = false;  // there is no background
   Overlay overlay;
   Output output;
+  std::map<std::string, double> numbers;  // of `let`
+  std::vector<OwnMeasure> measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
+  /// In s: where the run is known to end, if that is before its duration. The loader does not know.
+  std::optional<double> ends_at{};
   std::vector<MeshFile> meshes;  // each file once
+  /// The texts of expressions in the file, by their paths (expand.h).
+  std::map<std::string, std::string> expressions;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
   std::string resolved;
 };
+
+/// The end of the run as far as it is known (s).
+inline double end_of(const Scene& scene) {
+  return scene.ends_at.value_or(scene.simulate.duration);
+}
+
+/// Whether the run may end before its duration.
+bool may_stop(const Scene& scene);
 
 }  // namespace carom

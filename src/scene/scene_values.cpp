@@ -42,10 +42,18 @@ class Flattener {
         for (std::size_t i = 0; i < node.items.size(); ++i)
           map(path + "." + node.keys[i].text, node.items[i], kind_named(field.of));
         return;
+      case Type::values:
+      case Type::texts:
+        if (!node.is(Node::Kind::map)) return leaf(path, node, {});
+        for (std::size_t i = 0; i < node.items.size(); ++i) leaf(path + "." + node.keys[i].text, node.items[i], {});
+        return;
       case Type::list:
         if (!node.is(Node::Kind::sequence)) return leaf(path, node, {});
-        for (std::size_t i = 0; i < node.items.size(); ++i)
-          map(path + "." + std::to_string(i), node.items[i], kind_named(field.of));
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+          const std::string entry = path + "." + std::to_string(i);
+          node.items[i].is(Node::Kind::scalar) ? leaf(entry, node.items[i], {})
+                                               : map(entry, node.items[i], kind_named(field.of));
+        }
         return;
       case Type::vector:
       case Type::direction:
@@ -96,6 +104,18 @@ std::vector<SceneValue> scene_values(const std::string& name, const std::string&
   Flattener flattener;
   flattener.map("", *root, kind_named("scene"));
   return std::move(flattener.found);
+}
+
+std::vector<std::string> own_measure_names(const std::string& text) {
+  constexpr std::string_view start = "measures.";
+  std::vector<std::string> names;
+  try {
+    for (const SceneValue& value : scene_values("scene.yaml", text))
+      if (value.path.starts_with(start)) names.push_back(value.path.substr(start.size()));
+  } catch (const SceneError&) {
+    return {};
+  }
+  return names;
 }
 
 }  // namespace carom

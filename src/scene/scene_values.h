@@ -20,6 +20,9 @@ struct SceneValue {
   std::size_t offset = 0;
 };
 
+/// The names of the measures that a scene file's text defines. None if the text is not YAML.
+std::vector<std::string> own_measure_names(const std::string& text);
+
 /// All values of a scene file's text, in its order, without defaults. `name`: the file's name, for errors.
 /// Throws SceneError if the text is not YAML.
 std::vector<SceneValue> scene_values(const std::string& name, const std::string& text);

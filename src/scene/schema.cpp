@@ -12,6 +12,7 @@
 
 #include "scene/colors.h"
 #include "scene/fields.h"
+#include "scene/formula.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -20,7 +21,12 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
+// Members of a repeated thing, as a resolved scene has them.
+constexpr std::string_view member_pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.(0|[1-9][0-9]*))?$)";
+// Of numbers that expressions contain.
+constexpr std::string_view variable_pattern = "^[A-Za-z_][A-Za-z0-9_]*$";
 constexpr int longest_name = 200, longest_text = 10'000;
 constexpr std::string_view control_characters = R"([\u0000-\u001f\u007f-\u009f\u2028\u2029\ufeff])";
 
@@ -32,17 +38,30 @@ Json required(const std::vector<std::string_view>& keys) {
   return {{"required", keys}};
 }
 
-/// At least one of the keys is present.
-Json one_required(const std::vector<std::string_view>& keys) {
-  if (keys.size() == 1) return required(keys);
-  Json any = Json::array();
-  for (const std::string_view key : keys) any.push_back(required({key}));
-  return {{"anyOf", any}};
-}
-
 /// The value below `key` matches `schema`.
 Json at(std::string_view key, Json schema) {
   return {{"properties", {{std::string(key), std::move(schema)}}}};
+}
+
+/// The word none, which cancels a default.
+const Json& cancelled() {
+  static const Json word = {{"const", "none"}};
+  return word;
+}
+
+/// The key is present, and does not cancel its default.
+Json present(const Kind& kind, std::string_view key) {
+  Json schema = required({key});
+  if (!kind.defaults.empty()) schema.update(at(key, {{"not", cancelled()}}));
+  return schema;
+}
+
+/// At least one of the keys is present.
+Json one_required(const Kind& kind, const std::vector<std::string_view>& keys) {
+  if (keys.size() == 1) return present(kind, keys.front());
+  Json any = Json::array();
+  for (const std::string_view key : keys) any.push_back(present(kind, key));
+  return {{"anyOf", any}};
 }
 
 /// Finite numbers. The largest double is a bound under `not`.
@@ -99,7 +118,9 @@ Json field_schema(const Field& field);
 
 Json named_schema(const Kind& kind) {
   Json schema = {{"type", "object"}};
-  schema["propertyNames"] = {{"type", "string"}, {"pattern", name_pattern}, {"maxLength", longest_name}};
+  const bool repeats = find_field(kind, "repeat") != nullptr;
+  schema["propertyNames"] = {
+      {"type", "string"}, {"pattern", repeats ? member_pattern : name_pattern}, {"maxLength", longest_name}};
   if (kind.also != nullptr) schema["properties"] = {{std::string(kind.also->key), field_schema(*kind.also)}};
   schema["additionalProperties"] = reference(kind.name);
   return schema;
@@ -113,6 +134,20 @@ Json settings_schema() {
 Json axis_schema(const Kind& range) {
   const Json values = {{"type", "array"}, {"items", {{"not", {{"type", "null"}}}}}, {"minItems", 1}};
   return {{"anyOf", Json::array({values, reference(range.name)})}};
+}
+
+/// A map from names in expressions to numbers.
+Json variables_schema(Json number) {
+  return {{"type", "object"},
+          {"propertyNames", {{"type", "string"}, {"pattern", variable_pattern}, {"maxLength", longest_name}}},
+          {"additionalProperties", std::move(number)}};
+}
+
+Json repeat_schema() {
+  Json indices = variables_schema(whole_schema({0, infinity}));
+  indices["minProperties"] = 1;
+  indices["maxProperties"] = 8;
+  return {{"anyOf", Json::array({whole_schema({0, infinity}), indices})}};
 }
 
 Json choice_schema(const Field& field) {
@@ -160,14 +195,25 @@ Json value_schema(const Field& field) {
               {"items", field.of.empty() ? text_schema(field) : choice_schema(field)},
               {"minItems", 1},
               {"uniqueItems", true}};
-    case Type::part:
-      return {{"allOf", Json::array({reference(field.of)})}};
+    case Type::part: {
+      if (field.plain.empty()) return {{"allOf", Json::array({reference(field.of)})}};
+      const Field& plain = *find_field(kind_named(field.of), field.plain);
+      return {{"anyOf", Json::array({reference(field.of), value_schema(plain)})}};
+    }
     case Type::part_or_flag:
       return {{"anyOf", Json::array({{{"type", "boolean"}}, reference(field.of)})}};
+    case Type::values:
+      return variables_schema(number_schema(field.range));
+    case Type::texts:
+      return variables_schema(text_schema(field));
+    case Type::repeat:
+      return repeat_schema();
     case Type::named:
       return named_schema(kind_named(field.of));
     case Type::list: {
-      Json schema = {{"type", "array"}, {"items", reference(field.of)}};
+      Json entry = reference(field.of);
+      if (!field.words.empty()) entry = {{"anyOf", Json::array({{{"enum", parts_of(field.words)}}, entry})}};
+      Json schema = {{"type", "array"}, {"items", std::move(entry)}};
       if (field.needs_entries) schema["minItems"] = 1;
       return schema;
     }
@@ -194,6 +240,12 @@ Json field_schema(const Field& field) {
   return schema;
 }
 
+/// A rule for maps in which `key` is present. If the kind has defaults, its value may cancel one, and no rule holds.
+Json if_present(const Kind& kind, std::string_view key, Json rule) {
+  if (kind.defaults.empty()) return rule;
+  return {{"if", at(key, {{"not", cancelled()}})}, {"then", std::move(rule)}};
+}
+
 /// Field::one_of: each key excludes the rivals listed after it.
 Json exclusions(const Kind& kind) {
   Json all = Json::object();
@@ -201,10 +253,10 @@ Json exclusions(const Kind& kind) {
     Json later = Json::object();
     bool passed = false;
     for (const std::string_view key : parts_of(field.one_of)) {
-      if (passed) later[std::string(key)] = false;
+      if (passed) later[std::string(key)] = kind.defaults.empty() ? Json(false) : cancelled();
       passed = passed || key == field.key;
     }
-    if (!later.empty()) all[std::string(field.key)] = {{"properties", later}};
+    if (!later.empty()) all[std::string(field.key)] = if_present(kind, field.key, {{"properties", later}});
   }
   return all;
 }
@@ -221,10 +273,10 @@ Json engine_rule(const Field& field) {
 }
 
 /// Field::with, of a kind without defaults.
-Json beside_rule(const Field& field) {
+Json beside_rule(const Kind& kind, const Field& field) {
   std::vector<std::string_view> keys = parts_of(field.spared_by);
   keys.insert(keys.begin(), field.with);
-  return {{"if", required({field.key})}, {"then", one_required(keys)}};
+  return {{"if", required({field.key})}, {"then", one_required(kind, keys)}};
 }
 
 /// Kind::beneath: if a value of the map beneath is invalid in the map that would inherit it, that map needs its own.
@@ -245,15 +297,41 @@ void add_beneath_rules(const Field& field, Json& rules) {
   }
 }
 
+/// A property whose default can be cancelled. Texts for readers stay outside.
+Json or_none(Json property) {
+  Json outer = Json::object();
+  for (const char* key : {"title", "description", "default", "examples"}) {
+    if (!property.contains(key)) continue;
+    outer[key] = property[key];
+    property.erase(key);
+  }
+  outer["anyOf"] = Json::array({std::move(property), cancelled()});
+  return outer;
+}
+
+/// Lets an expression stand in place of every number below `schema`.
+void allow_expressions(Json& schema) {
+  if (!schema.is_structured()) return;
+  for (Json& item : schema) allow_expressions(item);
+  if (!schema.is_object()) return;
+  const bool is_number = schema.contains("type") && (schema["type"] == "number" || schema["type"] == "integer");
+  const bool is_choice = schema.contains("enum") && schema["enum"].is_array() && schema["enum"].front().is_number();
+  if ((!is_number && !is_choice) || schema.contains("const")) return;
+  Json outer = or_none(std::move(schema));
+  outer["anyOf"][1] = reference("expression");
+  schema = std::move(outer);
+}
+
 /// A map of this kind. Rules of the root require the keys that `defaults` may supply.
 Json kind_schema(const Kind& kind) {
   Json schema = {{"description", kind.doc}, {"type", "object"}};
   Json properties = Json::object(), rules = Json::array();
   std::vector<std::string_view> keys;
   for (const Field& field : kind.fields) {
-    properties[std::string(field.key)] = field_schema(field);
+    Json& property = properties[std::string(field.key)] = field_schema(field);
+    if (!kind.defaults.empty() && !field.own && field.type != Type::text) property = or_none(std::move(property));
     if (!field.engines.empty()) rules.push_back(engine_rule(field));
-    if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(field));
+    if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(kind, field));
     add_beneath_rules(field, rules);
   }
   if (kind.defaults.empty()) {
@@ -261,11 +339,11 @@ Json kind_schema(const Kind& kind) {
       if (need.size() == 1) {
         keys.push_back(need.front());
       } else {
-        rules.push_back(one_required(need));
+        rules.push_back(one_required(kind, need));
       }
     }
   }
-  if (!kind.any_of.empty()) rules.push_back(one_required(parts_of(kind.any_of)));
+  if (!kind.any_of.empty()) rules.push_back(one_required(kind, parts_of(kind.any_of)));
   schema["properties"] = properties;
   if (!keys.empty()) schema["required"] = keys;
   schema["additionalProperties"] = false;
@@ -277,7 +355,7 @@ Json kind_schema(const Kind& kind) {
 /// `defaults` has one of these keys for maps of this kind.
 Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
   Json part = required({kind.defaults});
-  part.update(at(kind.defaults, one_required(keys)));
+  part.update(at(kind.defaults, one_required(kind, keys)));
   Json whole = required({"defaults"});
   whole.update(at("defaults", std::move(part)));
   return whole;
@@ -286,17 +364,20 @@ Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
 /// Adds the required keys of a kind that has defaults. `each` wraps a schema of one map into one of the root.
 void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& rules) {
   for (const auto& need : needs_of(kind))
-    rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(need))}});
+    rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(kind, need))}});
   for (const Field& field : kind.fields) {
     if (field.with.empty()) continue;
     // The rule holds where the key is present, and where the default takes effect because no rival hides it.
-    const Json beside = {{"dependencies", {{std::string(field.key), Json::array({field.with})}}}};
+    const Json beside = {
+        {"dependencies", {{std::string(field.key), if_present(kind, field.key, present(kind, field.with))}}}};
     rules.push_back({{"if", has_default(kind, {field.with})}, {"else", each(beside)}});
     std::vector<std::string_view> hiding = rivals(field);
     hiding.push_back(field.with);
+    Json hidden = Json::array({one_required(kind, hiding), required({field.key})});
+    hidden[1].update(at(field.key, cancelled()));
     rules.push_back(
         {{"if", {{"allOf", Json::array({has_default(kind, {field.key}), {{"not", has_default(kind, {field.with})}}})}}},
-         {"then", each(one_required(hiding))}});
+         {"then", each({{"anyOf", std::move(hidden)}})}});
   }
 }
 
@@ -307,7 +388,7 @@ void add_part_rules(const Kind& owner, const Field& field, const std::function<J
       kind, [&](Json schema) { return each(at(field.key, std::move(schema))); }, rules);
   for (const auto& need : needs_of(kind)) {
     Json part = required({owner.defaults}), owned = required({field.key});
-    owned.update(at(field.key, one_required(need)));
+    owned.update(at(field.key, one_required(kind, need)));
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));
@@ -356,6 +437,16 @@ std::string json_schema(std::string_view root_name) {
   collect(root, held);
   Json definitions = {{"color", color_schema()}};
   for (const Kind* kind : held) definitions[std::string(kind->name)] = kind_schema(*kind);
+  if (root_name == "scene") {
+    allow_expressions(schema);
+    allow_expressions(definitions);
+    definitions["expression"] = {
+        {"description", "An expression: numbers, names of `let`, indices, + - * / ^ %, parentheses, pi, " +
+                            listed(formula_functions()) + ". Angles are in degrees."},
+        {"type", "string"},
+        {"pattern", "^="},
+        {"maxLength", longest_formula + 1}};
+  }
   schema["definitions"] = std::move(definitions);
   return text_of_json(schema, 2) + "\n";
 }

@@ -62,6 +62,9 @@ class Walk {
     if (step.text.empty())
       return refuse(step, "a name is missing in the path", "expected names with single dots between them");
     const bool moved = kind_ != nullptr ? into_key(step, last) : into_value(step);
+    if (moved && last && !family_.empty())
+      return refuse(step, fmt::format("{} has several members", in_backticks(step.text)),
+                    fmt::format("name one of them, such as {}.0", step.text));
     before_ = step.text;
     return moved;
   }
@@ -155,6 +158,16 @@ class Walk {
     switch (field_->type) {
       case Type::named:
         return into_named(step);
+      case Type::values:
+      case Type::texts:
+      case Type::repeat: {
+        Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
+        if (child == nullptr)
+          return refuse_name(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)));
+        node_ = child;
+        done_ = true;
+        return true;
+      }
       case Type::list: {
         const std::optional<std::uint64_t> i = parse_index(step.text);
         if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
@@ -179,15 +192,36 @@ class Walk {
     }
   }
 
+  bool refuse_name(const Step& step, std::string message) {
+    const std::string near = nearest(step.text, names_in(*node_));
+    return refuse(step, std::move(message),
+                  near.empty() ? "--set changes existing entries and adds none"
+                               : fmt::format("did you mean {}?", in_backticks(near)));
+  }
+
+  /// Members stand in a file as `row.0`, two steps of the path. The first of them is kept in family_ until the second.
+  Node* member(const Step& step) {
+    if (!node_->is(Node::Kind::map)) return nullptr;
+    if (!family_.empty()) {
+      const std::string name = family_ + "." + step.text;
+      family_.clear();
+      return node_->find(name);
+    }
+    if (node_->find_key(step.text + ".0") != nullptr) family_ = step.text;
+    return nullptr;
+  }
+
   bool into_named(const Step& step) {
     const Kind& kind = kind_named(field_->of);
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
-    if (child == nullptr) {
-      const std::string near = nearest(step.text, names_in(*node_));
-      return refuse(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)),
-                    near.empty() ? "--set changes existing entries and adds none"
-                                 : fmt::format("did you mean {}?", in_backticks(near)));
-    }
+    const std::string family = family_;
+    if (child == nullptr) child = member(step);
+    if (child == nullptr && !family_.empty()) return true;
+    if (child == nullptr && !family.empty())
+      return refuse(step, fmt::format("{} has no member {}", in_backticks(family), in_backticks(step.text)),
+                    fmt::format("its members are {}.0 and so on", family));
+    if (child == nullptr)
+      return refuse_name(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)));
     node_ = child;
     if (kind.also != nullptr && step.text == kind.also->key) {
       done_ = true;
@@ -217,7 +251,8 @@ class Walk {
   /// The kind of the map that node_ is. Null: node_ is a value of field_.
   const Kind* kind_;
   const Field* field_ = nullptr;
-  bool done_ = false;  // node_ has no parts
+  bool done_ = false;   // node_ has no parts
+  std::string family_;  // see member()
   std::string before_ = "scene";
   /// The first map that a step changed, the key that it got, and those that this key replaced. Null: no step did.
   Node* changed_ = nullptr;

@@ -21,6 +21,10 @@ struct Simulate {
   std::optional<std::uint64_t> max_collisions;
   bool as_printed = false;  // book only
   bool merge = false;       // colliding bodies merge into one
+  // From `stop`; regions that stop are in the World. The run ends before its duration when all bodies are at rest, or
+  // after so many collisions.
+  bool stop_at_rest = false;
+  std::optional<std::uint64_t> stop_collisions;
 };
 
 }  // namespace carom

@@ -23,7 +23,7 @@ constexpr Field sweep_fields[] = {
     {.key = "seed", .type = Type::whole, .range = {.min = 0}, .initial = "0", .doc = "The seed of what random and latin draw. It is not that of the scene.", .example = "1"},
     {.key = "skip_invalid", .type = Type::flag, .initial = "false", .doc = "Leaves out the runs whose scene is invalid, instead of refusing the sweep.", .example = "true"},
     {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Runs each combination several times, with other seeds.", .example = "{seeds: 10}"},
-    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|frames|video|sheet|vtk|xyz|gltf|flights|plots", .doc = "The outputs to write. Default: those of the base.", .example = "[collisions, energy]"},
+    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|regions|frames|video|sheet|vtk|xyz|gltf|flights|plots", .doc = "The outputs to write. Default: those of the base.", .example = "[collisions, energy]"},
     {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows.", .example = "{measures: [energy_lost_J]}"},
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "scene/check.h"
 #include "scene/scene_values.h"
@@ -30,7 +31,8 @@ class PathWalk {
   }
 
   bool at_map() const {
-    return view_ || (field_ != nullptr && (field_->type == Type::named || field_->type == Type::list));
+    return view_ || (field_ != nullptr && (field_->type == Type::named || field_->type == Type::list)) ||
+           (node_ != nullptr && node_->is(Node::Kind::map));
   }
   const Node* node() const { return node_; }
 
@@ -68,6 +70,7 @@ class PathWalk {
 
   bool into_value(std::string_view step) {
     if (field_->type == Type::named || field_->type == Type::list) return to_entry(step);
+    if ((field_->type == Type::values || field_->type == Type::texts) && node_->is(Node::Kind::map)) return to_number(step);
     const bool numbers = node_->is(Node::Kind::sequence);
     for (const auto& names : {std::vector<std::string_view>{"x", "y", "z"}, {"width", "height"}}) {
       if (!numbers || names.size() != node_->items.size()) continue;
@@ -79,11 +82,29 @@ class PathWalk {
     return fail(fmt::format("{} has no part {}", in_backticks(before_), in_backticks(step)), "end the path before it");
   }
 
+  /// A number with a name.
+  bool to_number(std::string_view step) {
+    const Node* number = node_->find(step);
+    if (number == nullptr) return fail(fmt::format("{} has no {}", in_backticks(before_), in_backticks(step)));
+    node_ = number;
+    return true;
+  }
+
   bool to_entry(std::string_view step) {
     const Kind& kind = kind_named(field_->of);
     const Node* entry = nullptr;
     if (field_->type == Type::named) {
-      entry = node_->find(step);
+      // Members stand in the tree as `row.0`, two steps of the path.
+      const std::string family = std::exchange(family_, {});
+      const std::string name = family.empty() ? std::string(step) : fmt::format("{}.{}", family, step);
+      entry = node_->find(name);
+      if (entry == nullptr && !family.empty())
+        return fail(fmt::format("{} has no member {}", in_backticks(family), in_backticks(step)),
+                    fmt::format("its members are {}.0 and so on", family));
+      if (entry == nullptr && node_->find_key(name + ".0") != nullptr) {
+        family_ = name;
+        return true;
+      }
     } else if (const auto index = parse_index(step); index && *index < node_->items.size()) {
       entry = &node_->items[static_cast<std::size_t>(*index)];
     }
@@ -108,6 +129,7 @@ class PathWalk {
   std::optional<View> view_;
   const Node* node_;
   const Field* field_ = nullptr;
+  std::string family_;  // the repeated thing whose member the next step names
   std::string before_ = "the scene";
   ValueAtPath* found_ = nullptr;
 };

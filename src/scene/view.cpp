@@ -92,9 +92,10 @@ const Node* View::given(const Field& field) const {
 View::Found View::search(const Field& field) const {
   for (const Node* layer : {own_, defaults_}) {
     if (layer == nullptr || (field.own && layer == defaults_)) continue;
-    if (const Node* node = layer->find(field.key)) return {node, false};
+    if (const Node* node = layer->find(field.key)) return {node->cancels ? nullptr : node, false};
     for (const std::string_view rival : rivals(field)) {
-      if (layer->find_key(rival) != nullptr) return {nullptr, true};
+      const Node* node = layer->find(rival);
+      if (node != nullptr && !node->cancels) return {nullptr, true};
     }
   }
   return {nullptr, false};

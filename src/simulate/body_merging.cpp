@@ -61,7 +61,10 @@ void BodyMerging::join(Entity whole, Entity part) {
     const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
     bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.fade)});
   }
-  for (const Entity i : {whole, part}) flat_.clear(i);
+  for (const Entity i : {whole, part}) {
+    flat_.clear(i);
+    bodies_.contact_work.change(i, bodies_.now, 0);
+  }
   bodies_.neighbours.remove(part);
   flights_.count(part);
   bodies_.body[part].event = {};
@@ -81,7 +84,7 @@ void BodyMerging::move_out(Entity whole) {
     bool free = true;
     for (const Entity e : bodies_.neighbours_of(whole)) {
       if (world.is_body(e)) continue;
-      const Touch there = touch(world, whole, f.x, e, world.fixed_position(e));
+      const Touch there = touch(world, whole, f.x, e, bodies_.fixed_position(e));
       if (!(there.gap < 0)) continue;
       const Vec3 out = there.gap * there.normal;
       bodies_.log.add_work(bodies_.merged.potential(whole, f.x + out) - bodies_.merged.potential(whole, f.x));

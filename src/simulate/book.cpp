@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geometry/contact_time.h"
 #include "physics/impact.h"
@@ -38,7 +39,9 @@ class BookSimulator final : public Simulator {
   double time() const override { return time_; }
   const State& state() override;
   std::span<const Collision> collisions() const override { return log_.collisions(); }
+  std::span<const RegionCrossing> crossings() const override { return crossings_; }
   const Tally& tally() const override { return log_.tally(); }
+  std::vector<Extremes> extremes() const override { return extremes_; }
 
  private:
   double frame_time(std::uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
@@ -47,9 +50,14 @@ class BookSimulator final : public Simulator {
   void handle_pairs();
   void handle_surfaces();
   void move();
+  void find_crossings();
+  bool rests() const;
+  void end_at(double time, EndReason reason, std::uint32_t region = 0);
+  bool end_until(double time);
   void handle_pair(Entity a, Entity b);
   void handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal);
   void record(const Collision& collision);
+  void take_extremes();
 
   const World& world_;
   const BookOptions options_;
@@ -60,6 +68,11 @@ class BookSimulator final : public Simulator {
   std::vector<Vec3> x_, v_, force_;
   State state_;
   EventLog log_;
+  // By region and body: whether it is inside, as of the last frame.
+  std::vector<std::uint8_t> inside_;
+  std::vector<RegionCrossing> crossings_;
+  std::optional<RunEnd> end_;  // in the last frame done
+  std::vector<Extremes> extremes_;  // by options_.watch, at the frames
 };
 
 BookSimulator::BookSimulator(const World& world, const State& initial, const BookOptions& options)
@@ -69,8 +82,19 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       x_(initial.position),
       v_(initial.velocity),
       force_(world.body_count()),
-      log_(options.max_collisions, options.record_collisions) {
+      log_(options.max_collisions, options.record_collisions),
+      inside_(world.regions.size() * world.body_count()),
+      extremes_(options.watch.size()) {
   for (const Vec3& v : v_) log_.note_speed(v.norm());
+  take_extremes();
+}
+
+void BookSimulator::take_extremes() {
+  for (std::size_t k = 0; k < extremes_.size(); ++k) {
+    const WatchedQuantity& watched = options_.watch[k];
+    for (Entity i = watched.first; i < watched.first + watched.count; ++i)
+      extremes_[k].take(quantity_of(watched.quantity, x_[i], v_[i], world_.mass[i]), frame_time(frames_));
+  }
 }
 
 void BookSimulator::record(const Collision& collision) {
@@ -130,6 +154,7 @@ void BookSimulator::do_frame() {
   handle_surfaces();
   move();
   ++frames_;
+  take_extremes();
 }
 
 /// The impulse of a scene is a force that lasts for the first frame only.
@@ -181,11 +206,59 @@ void BookSimulator::move() {
   }
 }
 
+/// Regions see the bodies at frames only.
+void BookSimulator::find_crossings() {
+  std::size_t k = 0;
+  for (std::uint32_t r = 0; r < world_.regions.size(); ++r) {
+    const WorldRegion& region = world_.regions[r];
+    for (Entity i = 0; i < world_.body_count(); ++i, ++k) {
+      if (!region.on.empty() && !std::binary_search(region.on.begin(), region.on.end(), i)) continue;
+      const bool now = holds(region, x_[i]);
+      if (now == (inside_[k] != 0)) continue;
+      inside_[k] = now;
+      crossings_.push_back({frame_time(frames_), r, i, now});
+      if (now && region.stops) end_at(frame_time(frames_), EndReason::region, r);
+    }
+  }
+}
+
+bool BookSimulator::rests() const {
+  return world_.gravity.isZero(0) && (frames_ > 0 || world_.impulse.empty()) &&
+         std::all_of(v_.begin(), v_.end(), [](const Vec3& v) { return v.isZero(0); });
+}
+
+void BookSimulator::end_at(double time, EndReason reason, std::uint32_t region) {
+  if (!end_) end_ = RunEnd{time, reason, region};
+}
+
+/// Ends the run if its end is at `time` (s) at the latest.
+bool BookSimulator::end_until(double time) {
+  if (!end_ || time < end_->time) return false;
+  log_.end(*end_);
+  time_ = std::max(time_, end_->time);
+  return true;
+}
+
 void BookSimulator::advance_to(double time) {
   log_.begin_advance();
+  crossings_.clear();
+  if (log_.tally().end) {
+    time_ = std::max(time, time_);
+    return;
+  }
+  if (frames_ == 0 && time_ == 0) {
+    find_crossings();
+    if (options_.stop_at_rest && rests()) end_at(0, EndReason::rest);
+  }
+  if (end_until(time)) return;
   // A time within rounding of a frame's time belongs to that frame.
   for (int frames = 1; frame_time(frames_) < time - stepped_tolerance::frame_rounding * options_.step; ++frames) {
     do_frame();
+    find_crossings();
+    if (options_.stop_collisions > 0 && log_.tally().collisions() >= options_.stop_collisions)
+      end_ = RunEnd{log_.tally().last_collision, EndReason::collisions, 0};
+    if (options_.stop_at_rest && rests()) end_at(frame_time(frames_), EndReason::rest);
+    if (end_until(time)) return;
     if (!log_.has_room(room_for_frame) || frames == frames_at_a_time) {
       time_ = std::min(frame_time(frames_), time);
       return;
@@ -196,10 +269,11 @@ void BookSimulator::advance_to(double time) {
 
 /// Between frames a body is on the straight line of the frame's update.
 const State& BookSimulator::state() {
-  state_.time = time_;
+  const std::optional<RunEnd>& end = log_.tally().end;
+  state_.time = end ? std::min(time_, end->time) : time_;
   state_.position = x_;
   state_.velocity = v_;
-  const double ahead = frame_time(frames_) - time_;
+  const double ahead = frame_time(frames_) - state_.time;
   if (ahead > stepped_tolerance::frame_rounding * options_.step)
     for (Entity i = 0; i < world_.body_count(); ++i) state_.position[i] -= ahead * v_[i];
   return state_;

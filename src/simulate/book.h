@@ -2,6 +2,7 @@
 // The source chapter's own program: frame by frame, overlap by overlap. See book.cpp.
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "simulate/simulator.h"
 
@@ -14,6 +15,9 @@ struct BookOptions {
   bool as_printed = false;           // listings 8.3 and 8.4 with their slips
   std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
   bool record_collisions = true;     // false: there is no buffer, and collisions() stays empty
+  bool stop_at_rest = false;
+  std::uint64_t stop_collisions = 0;  // 0: none
+  std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses (forces of the first frame).

@@ -47,11 +47,15 @@ ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, Fla
       following_(bodies.body.size()) {}
 
 Vec3 ConstrainedMotion::at(const std::vector<Vec3>& x, Entity e) const {
-  return bodies_.world.is_body(e) ? x[group_.index[e]] : bodies_.world.fixed_position(e);
+  return bodies_.world.is_body(e) ? x[group_.index[e]] : bodies_.fixed_position(e);
 }
 
 Vec3 ConstrainedMotion::rate(const std::vector<Vec3>& v, Entity e) const {
-  return bodies_.world.is_body(e) ? v[group_.index[e]] : Vec3(Vec3::Zero());
+  return bodies_.world.is_body(e) ? v[group_.index[e]] : bodies_.fixed_velocity(e);
+}
+
+Vec3 ConstrainedMotion::acceleration(const std::vector<Vec3>& a, Entity e) const {
+  return bodies_.world.is_body(e) ? a[group_.index[e]] : Vec3(Vec3::Zero());
 }
 
 void ConstrainedMotion::clear_index(const std::vector<Entity>& members) const {
@@ -241,7 +245,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       step.contacts.add({static_cast<std::uint32_t>(k), other, there.normal, -there.gap, 0, 0}, {i, e, there.feature},
                         there.gap);
     }
-    step.contacts.drop_hidden(world, step.x[k], first);
+    step.contacts.drop_hidden(bodies_, step.x[k], first);
   }
 }
 
@@ -260,9 +264,15 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
 /// strike, as with e = 0.
 void ConstrainedMotion::take_approaches(Step& step) {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
-  for (ContactConstraint& p : step.contacts.pairs) p.target = p.force = 0;
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    ContactConstraint& p = step.contacts.pairs[c];
+    p.target = p.force = 0;
+    p.surface = surface_speed(p.normal, step.contacts.names[c].e);
+  }
   const std::vector<Vec3> met = step.v;
-  bodies_.log.note(solve({step.inverse_mass, step.v, step.contacts.pairs}));
+  const Certificate certificate = solve({step.inverse_mass, step.v, step.contacts.pairs});
+  if (certificate.verdict == Certificate::Verdict::infeasible) step.contacts.check_room(bodies_, step.v);
+  bodies_.log.note(certificate);
   bodies_.log.take_up(step.inverse_mass, met, step.v, step.contacts.pairs, record_fast(step, met));
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
@@ -270,6 +280,11 @@ void ConstrainedMotion::take_approaches(Step& step) {
     if (group_.needed[i] < bodies_.now || (step.v[k] - before).norm() <= tol::velocity_change * before.norm()) continue;
     collapses_.count_in_turn(i, 1);
   }
+}
+
+/// The speed of a thing along the normal (m/s), if it is a fixed thing that moves.
+double ConstrainedMotion::surface_speed(const Vec3& normal, Entity e) const {
+  return bodies_.world.moves(e) ? normal.dot(bodies_.fixed_velocity(e)) : 0;
 }
 
 /// Records the impacts at velocities `met` (m/s) that contact absorbed although they were not slow: those that struck
@@ -312,9 +327,12 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
   ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied));
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const Entity e = step.contacts.names[c].e;
+    if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
     system.add(step.contacts.names[c], step.contacts.pairs[c].a, step.contacts.pairs[c].b,
                step.contacts.pairs[c].normal);
+  }
   step.a = system.accelerate(step.x, step.v);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
   if (stop_parting(step)) {
@@ -345,9 +363,14 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
     parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
     kept.push_back({p.a, p.b, p.normal});
     kept.back().bilateral = p.force > 0;
+    kept.back().surface = p.surface;
   }
-  if (parts) bodies_.log.note(solve({step.inverse_mass, step.v, kept}));
-  return parts;
+  if (!parts) return false;
+  bodies_.log.note(solve({step.inverse_mass, step.v, kept}));
+  double work = 0;
+  for (const ContactConstraint& p : kept) work += p.work();
+  if (work != 0) bodies_.log.carry(work);
+  return true;
 }
 
 /// Islands in which no body moves or accelerates are at rest.
@@ -360,6 +383,9 @@ void ConstrainedMotion::find_resting(Step& step) const {
   for (std::uint32_t k = 0; k < n; ++k) island[k] = islands.root(k);
   std::vector<std::uint8_t> moves(n, 1);  // by island
   for (const ContactConstraint& p : step.contacts.pairs) moves[island[p.a]] = 0;
+  // Its rim may come along.
+  for (const auto& [i, e, feature] : step.contacts.names)
+    if (bodies_.moving.moves(e, bodies_.now)) moves[island[group_.index[i]]] = 1;
   step.fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
@@ -409,6 +435,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   island.next_length = followed.next;
   if (followed.changes) count_change(island);
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
+  if (system.works()) step.forces = std::make_shared<ConstrainedSystem>(std::move(system));
 }
 
 /// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not
@@ -417,7 +444,7 @@ double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double le
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.contacts.names[pair];
   const std::uint32_t k = step.contacts.pairs[pair].a;
-  const Vec3 w = rate(step.v, e) - step.v[k], a = rate(step.a, e) - step.a[k];
+  const Vec3 w = rate(step.v, e) - step.v[k], a = acceleration(step.a, e) - step.a[k];
   RelativeMotion m{at(step.x, e) - step.x[k], w, a, w.norm(), true};
   const double speeds = step.v[k].norm() + rate(step.v, e).norm();
   for (int axis = 0; axis < 3; ++axis) {
@@ -436,7 +463,7 @@ double ConstrainedMotion::away_time(const Step& step, std::size_t pair) const {
   const ContactConstraint& p = step.contacts.pairs[pair];
   if (p.force > 0) return never;
   const Entity e = step.contacts.names[pair].e;
-  const double u = p.normal.dot(rate(step.v, e) - step.v[p.a]), w = p.normal.dot(rate(step.a, e) - step.a[p.a]);
+  const double u = p.normal.dot(rate(step.v, e) - step.v[p.a]), w = p.normal.dot(acceleration(step.a, e) - step.a[p.a]);
   const double far =
       4 * tol::contact_gap * std::max(bodies_.world.radius[step.contacts.names[pair].i], step.smallest);  // m
   double t = never;
@@ -489,10 +516,14 @@ void ConstrainedMotion::note_contacts(const Step& step) {
     group_.partners.write(i).push_back(e);
     if (bodies_.world.is_body(e)) group_.partners.write(e).push_back(i);
     if (!(step.contacts.pairs[c].force > 0)) continue;
-    group_.pressing.write(i).push_back({e, step.contacts.pairs[c].force});
+    const ContactConstraint& p = step.contacts.pairs[c];
+    group_.pressing.write(i).push_back({e, p.force, p.surface});
     if (!bodies_.world.is_body(e) && is_flat(bodies_.world, i, e, feature))
-      group_.floors.write(i).push_back(-step.contacts.pairs[c].normal);
+      group_.floors.write(i).push_back({-p.normal, bodies_.fixed_velocity(e)});
   }
+  if (!bodies_.moving.any()) return;
+  // The work along a path is integrated at its end.
+  for (const Entity i : step.members) step.path ? bodies_.contact_work.change(i, bodies_.now, 0) : group_.note_power(i);
 }
 
 /// Starts the members' flights until the step's end.
@@ -503,7 +534,14 @@ void ConstrainedMotion::begin_flights(const Step& step) {
   island.end = island.planned = bodies_.now + step.length;
   std::vector<Entity> stay;
   for (std::size_t k = 0; k < step.members.size(); ++k)
-    if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
+    if (begin_flight(step, k, step.members[k]))
+      stay.push_back(step.members[k]);
+    else if (step.forces)
+      step.forces->leave_out(k);
+  if (step.forces)
+    bodies_.contact_work.follow(stay, bodies_.now, [path = step.path, forces = step.forces](double seconds) {
+      return forces->work(*path->motion, std::min(seconds, path->motion->length()));
+    });
   bodies_.islands.retain(step.members.front(), std::move(stay));
   for (const Entity i : step.members) predictor_.predict(i);
 }

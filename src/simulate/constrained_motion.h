@@ -73,9 +73,11 @@ class ConstrainedMotion {
     std::vector<Vec3> down;              // m, closes the remaining gaps to these
     // s. A body that nothing binds stays for the time `grace`, to fall back.
     double length = 0, grace = 0;
-    double fade = 0;             // 1/s, of all members' accelerations
-    std::shared_ptr<Path> path;  // none: parabolas
-    bool undisturbed = false;    // the step before has reached its end
+    double fade = 0;                   // 1/s, of all members' accelerations
+    std::shared_ptr<const Path> path;  // none: parabolas
+    // Of the path, where things that move take part: to integrate their work. none: they do not.
+    std::shared_ptr<ConstrainedSystem> forces;
+    bool undisturbed = false;  // the step before has reached its end
   };
 
   bool follows(Entity i) const;
@@ -89,6 +91,7 @@ class ConstrainedMotion {
   void find_contacts(Step& step) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
+  double surface_speed(const Vec3& normal, Entity e) const;
   std::vector<std::uint8_t> record_fast(const Step& step, const std::vector<Vec3>& met) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
@@ -107,9 +110,9 @@ class ConstrainedMotion {
   void bend(Entity i, double length);
   void clear_index(const std::vector<Entity>& members) const;
 
-  Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
-  // The same of a velocity or an acceleration: fixed things have none.
-  Vec3 rate(const std::vector<Vec3>& v, Entity e) const;
+  Vec3 at(const std::vector<Vec3>& x, Entity e) const;            // m, of a member or a fixed thing
+  Vec3 rate(const std::vector<Vec3>& v, Entity e) const;          // m/s
+  Vec3 acceleration(const std::vector<Vec3>& a, Entity e) const;  // m/s^2
 
   ExactBodies& bodies_;
   ExactGroup& group_;

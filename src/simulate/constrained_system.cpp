@@ -21,6 +21,15 @@ namespace tol = exact_tolerance;
 
 namespace {
 
+/// Gauss's rule of six points on [0, 1], exact to degree 11.
+struct WorkPoint {
+  double at, weight;
+};
+constexpr WorkPoint work_points[] = {
+    {0.033765242898423986, 0.085662246189585178}, {0.16939530676686774, 0.18038078652406931},
+    {0.38069040695840154, 0.23395696728634552},   {0.61930959304159846, 0.23395696728634552},
+    {0.83060469323313226, 0.18038078652406931},   {0.96623475710157601, 0.085662246189585178}};
+
 // Samples of a step at which rims and opened contacts are examined.
 constexpr int samples = 6;
 
@@ -72,8 +81,28 @@ double greatest_norm(const std::vector<Vec3>& v) {
 
 ConstrainedSystem::ConstrainedSystem(const World& world, double time, std::vector<Entity> members,
                                      std::vector<Applied> applied)
-    : world_(world), time_(time), members_(std::move(members)), applied_(std::move(applied)) {
+    : world_(world),
+      time_(time),
+      members_(std::move(members)),
+      applied_(std::move(applied)),
+      left_(members_.size(), 0) {
   for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
+}
+
+void ConstrainedSystem::carry(Entity e, const Vec3& x, const Vec3& v) {
+  if (carrier_of(e) == nullptr) carriers_.push_back({e, x, v});
+}
+
+const ConstrainedSystem::Carrier* ConstrainedSystem::carrier_of(Entity e) const {
+  for (const Carrier& carrier : carriers_)
+    if (carrier.thing == e) return &carrier;
+  return nullptr;
+}
+
+/// Positions or velocities of the members, and of the moving things after them.
+std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const {
+  for (const Carrier& carrier : carriers_) of_members.push_back(carrier.*of_carrier);
+  return of_members;
 }
 
 void ConstrainedSystem::add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal) {
@@ -101,6 +130,10 @@ std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const
   std::vector<Vec3> a;
   a.reserve(v.size());
   for (std::size_t k = 0; k < v.size(); ++k) {
+    if (k >= applied_.size()) {
+      a.push_back(Vec3::Zero());
+      continue;
+    }
     const auto& [at_rest, fade, bent] = applied_[k];
     if (bent)
       a.push_back(free_acceleration(world_, members_[k], time_, x[k], v[k]));
@@ -120,8 +153,26 @@ double ConstrainedSystem::common_fade() const {
   return same ? fade : -1;
 }
 
+/// The position of a contact's second thing (m). x: of the members at the start, or of all points later.
 Vec3 ConstrainedSystem::place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const {
-  return b == ContactConstraint::fixed ? world_.fixed_position(e) : x[b];
+  if (b != ContactConstraint::fixed) return x[b];
+  const Carrier* const carrier = carrier_of(e);
+  if (carrier == nullptr) return world_.fixed_position(e);
+  return x.size() > members_.size() ? x[place_of_carrier(*carrier)] : carrier->x;
+}
+
+Vec3 ConstrainedSystem::relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const {
+  const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
+  return carrier == nullptr ? relative(v, row) : Vec3(carrier->v - v[row.a]);
+}
+
+/// The displacement of a contact's second thing relative to the first since the start (m).
+Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row,
+                              Entity e) const {
+  const Vec3 of_a = x[row.a] - motion.start(row.a);
+  if (row.b != ContactConstraint::fixed) return (x[row.b] - motion.start(row.b)) - of_a;
+  const Carrier* const carrier = carrier_of(e);
+  return (carrier == nullptr ? Vec3(Vec3::Zero()) : Vec3(x[place_of_carrier(*carrier)] - carrier->x)) - of_a;
 }
 
 std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
@@ -135,7 +186,7 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
     // Also beyond its rim.
     const Touch there = touch(world_, i, x[row.a], e, xe, feature);
     row.normal = there.normal;
-    row.target = -bending(world_, i, x[row.a], e, xe, there, relative(v, row));
+    row.target = -bending(world_, i, x[row.a], e, xe, there, relative_velocity(v, row, e));
   }
   certificate.merge(solve({inverse_mass_, a, rows}));
   return a;
@@ -178,7 +229,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
       if (is_flat(world_, i, e, feature)) continue;
       const double bend = bend_radius(world_, i, e),
                    room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
-      const double w = relative(v, rows[c]).norm(), bent = relative(a, rows[c]).norm() + w * w / bend;
+      const double w = relative_velocity(v, rows[c], e).norm(), bent = relative(a, rows[c]).norm() + w * w / bend;
       if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
       if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
     }
@@ -197,6 +248,10 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
 ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                       const std::vector<Vec3>& a, double first, double longest) {
   scales_ = scales(x, v);
+  // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
+  // opening too.
+  held_ = rows_;
+  for (ContactConstraint& row : held_) row.bilateral = row.force > 0;
   const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
@@ -207,16 +262,16 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
 /// Follows the motion by the method of order 8, with a first step of h (s).
 ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                              const std::vector<Vec3>& a, double h) {
-  // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
-  // opening too.
-  std::vector<ContactConstraint> rows = rows_;
-  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  std::vector<ContactConstraint> rows = held_;
   const auto smooth = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
     Certificate of_stage;
     return solve_rows(at, speed, rows, of_stage);
   };
   Followed followed;
-  auto motion = std::make_unique<DormandPrince>(x, v, a);
+  std::vector<Vec3> start = a;
+  start.resize(a.size() + carriers_.size(), Vec3::Zero());
+  auto motion =
+      std::make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
   const auto step = [&](double length) {
     return motion->step(length, smooth, tol::step_error * scales_.length, tol::step_error * scales_.speed);
   };
@@ -242,8 +297,8 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
                                                             double h) {
   std::vector<RadauCollocation::Forces> forces;
   for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
-  std::vector<ContactConstraint> rows = rows_;
-  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
+  std::vector<ContactConstraint> rows = held_;
   std::vector<double> inverse_mass(members_.size());
   const auto hold = [&](const std::vector<Vec3>& at, double s, std::vector<Vec3>& u) {
     for (std::size_t k = 0; k < members_.size(); ++k) inverse_mass[k] = inverse_mass_[k] / (1 + s * applied_[k].fade);
@@ -252,11 +307,12 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
       rows[c].target = 0;
       if (!is_flat(world_, i, e, feature))
         rows[c].normal = touch(world_, i, at[rows[c].a], e, place_of(at, rows[c].b, e), feature).normal;
+      if (const Carrier* carrier = carrier_of(e)) rows[c].surface = rows[c].normal.dot(carrier->v);
     }
     solve({inverse_mass, u, rows});
   };
   Followed followed;
-  auto motion = std::make_unique<RadauCollocation>(x, v);
+  auto motion = std::make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
   const auto step = [&](double length) {
     return motion->step(length, forces, hold, tol::step_error * scales_.length, tol::step_error * scales_.speed);
   };
@@ -272,6 +328,24 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
   if (change < h) step(change);
   followed.motion = std::move(motion);
   return followed;
+}
+
+/// The integral of force times velocity by Gauss's rule, with the forces that hold the motion on the surfaces.
+double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
+  std::vector<ContactConstraint> rows = held_;
+  double work = 0;
+  std::vector<Vec3> x, v;
+  for (const WorkPoint& point : work_points) {
+    motion.at(point.at * length, x, v);
+    Certificate certificate;
+    solve_rows(x, v, rows, certificate);
+    double power = 0;
+    for (std::size_t c = 0; c < rows.size(); ++c)
+      if (const Carrier* carrier = carrier_of(closed_[c].e); carrier != nullptr && !left_[rows[c].a])
+        power -= rows[c].force * rows[c].normal.dot(carrier->v);
+    work += point.weight * length * power;
+  }
+  return work;
 }
 
 double ConstrainedSystem::greatest_fade() const {
@@ -346,10 +420,9 @@ bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Ve
     const ContactConstraint& row = rows_[c];
     const Vec3 xe = place_of(x, row.b, e);
     if (touch(world_, i, x[row.a], e, xe).feature == feature) continue;
-    const Vec3 moved_e = row.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : Vec3(xe - motion.start(row.b));
     const double over = std::max(tol::step_error * smaller_radius(world_, closed_[c]),
                                  tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum()));  // m
-    if ((moved_e - (x[row.a] - motion.start(row.a))).norm() > over) return true;
+    if (moved(motion, x, row, e).norm() > over) return true;
   }
   return false;
 }
@@ -364,7 +437,10 @@ ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& 
     const double least = smaller_radius(world_, opened_[c]);
     const Vec3 xe = place_of(x, row.b, e);
     const double gap = touch(world_, i, x[row.a], e, xe).gap;
-    const Vec3 xe_first = row.b == ContactConstraint::fixed ? xe : motion.start(row.b);
+    const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
+    const Vec3 xe_first = row.b != ContactConstraint::fixed ? motion.start(row.b)
+                          : carrier != nullptr              ? carrier->x
+                                                            : xe;
     const double rounding = tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum());
     if (gap < -std::max(tol::step_error * least, rounding) &&
         gap < touch(world_, i, motion.start(row.a), e, xe_first).gap - tol::step_error * least)

@@ -29,6 +29,15 @@ class ConstrainedSystem {
 
   /// Adds a contact of members number a and b, or of a and a fixed thing. normal: from a to b.
   void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
+  /// Registers a fixed thing that moves, at its position (m) and velocity (m/s) at the start, before contacts with it
+  /// are added.
+  void carry(Entity e, const Vec3& x, const Vec3& v);
+  /// Whether such things do work on the members.
+  bool works() const { return !carriers_.empty(); }
+  /// Leaves member number k out of that work, because it does not take part in the motion.
+  void leave_out(std::size_t k) { left_[k] = 1; }
+  /// Their work (J) in the first `length` (s) of a motion that was followed. Forces change as they did then.
+  double work(const DenseMotion& motion, double length) const;
   /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
   void open(const std::vector<std::uint8_t>& which);
 
@@ -68,6 +77,19 @@ class ConstrainedSystem {
   const Certificate& certificate() const { return certificate_; }
 
  private:
+  /// A fixed thing that moves. In a motion that is followed it is one more point, after the members.
+  struct Carrier {
+    Entity thing;
+    Vec3 x, v;  // m, m/s: at the start
+  };
+
+  const Carrier* carrier_of(Entity e) const;
+  std::size_t place_of_carrier(const Carrier& carrier) const {
+    return members_.size() + static_cast<std::size_t>(&carrier - carriers_.data());
+  }
+  std::vector<Vec3> with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
+  Vec3 relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const;
+  Vec3 moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row, Entity e) const;
   std::vector<Vec3> forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
   bool any_bent() const;
   Vec3 place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const;
@@ -88,9 +110,12 @@ class ConstrainedSystem {
   std::vector<Entity> members_;
   std::vector<Applied> applied_;
   std::vector<double> inverse_mass_;  // 1/kg
+  std::vector<Carrier> carriers_;
+  std::vector<std::uint8_t> left_;  // by member: whether it is left out of their work
   std::vector<Contact> closed_, opened_;
   std::vector<ContactConstraint> rows_, opened_rows_;
-  Scales scales_;  // of the step that is followed
+  std::vector<ContactConstraint> held_;  // rows_ in the motion that is followed
+  Scales scales_;                        // of the step that is followed
   Certificate certificate_;
 };
 

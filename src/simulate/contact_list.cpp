@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/world.h"
+#include "simulate/exact_bodies.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -21,7 +22,28 @@ void ContactList::add(const ContactConstraint& pair, const Contact& name, double
   gaps.push_back(gap);
 }
 
-void ContactList::drop_hidden(const World& world, const Vec3& x, std::size_t first, double beside) {
+void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const {
+  if (!bodies.moving.any() || pairs.empty()) return;
+  std::size_t worst = 0;
+  for (std::size_t c = 1; c < pairs.size(); ++c)
+    if (approach(velocities, pairs[c]) > approach(velocities, pairs[worst])) worst = c;
+  // The thing on the other side of the body.
+  const auto& [body, thing, of_worst] = names[worst];
+  Entity other = no_entity;
+  double most = 0;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto& [i, e, feature] = names[c];
+    if (c == worst || (i != body && e != body)) continue;
+    const double opposite = (i == body ? -1 : 1) * pairs[worst].normal.dot(pairs[c].normal);
+    if (!(opposite > most)) continue;
+    most = opposite;
+    other = i == body ? e : i;
+  }
+  if (other != no_entity) bodies.fail_squeezed(body, thing, other);
+}
+
+void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::size_t first, double beside) {
+  const World& world = bodies.world;
   const auto fixed = [&](std::size_t c) { return !world.is_body(names[c].e); };
   const auto flat = [&](std::size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
   const auto hides = [&](std::size_t floor, std::size_t c) {
@@ -29,7 +51,7 @@ void ContactList::drop_hidden(const World& world, const Vec3& x, std::size_t fir
     if (floor == c || gaps[floor] > beside || !flat(floor) ||
         (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level))
       return false;
-    return lies_behind(world, names[c].i, x, names[c].e, -n);
+    return bodies.hidden(names[c].i, x, names[c].e, -n, bodies.fixed_velocity(names[floor].e));
   };
   std::vector<std::size_t> hidden;
   for (std::size_t c = first; c < pairs.size(); ++c)

@@ -9,6 +9,8 @@
 
 namespace carom {
 
+struct ExactBodies;
+
 /// Two things in contact.
 struct Contact {
   Entity i, e;           // i a body; in steps i < e
@@ -24,7 +26,10 @@ struct ContactList {
   void add(const ContactConstraint& pair, const Contact& name, double gap);
   /// Drops contacts of a body at x (m), from number `first` on, with things that lie wholly behind a flat fixed surface
   /// beside it. The surface must be no farther away than `beside` (m). Surfaces level with it stay.
-  void drop_hidden(const World& world, const Vec3& x, std::size_t first, double beside = never);
+  void drop_hidden(const ExactBodies& bodies, const Vec3& x, std::size_t first, double beside = never);
+  /// Throws SimulationError if things that move leave a body no room: the one with the fastest approach at these
+  /// velocities (m/s), which contacts could not prevent.
+  void check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const;
   /// Drops the contacts from number `first` on for which drops(number) is true.
   template <typename Drops>
   void drop_if(std::size_t first, Drops drops) {

@@ -25,6 +25,14 @@ void EventLog::record(const Collision& collision) {
                                       max_collisions_, collision.time));
 }
 
+void EventLog::remove(double energy, const Vec3& momentum) {
+  Removed& all = tally_.removed;
+  ++all.bodies;
+  removed_.add(energy);
+  all.energy = removed_.value();
+  all.momentum += momentum;
+}
+
 void EventLog::take_up(double approach, double energy) {
   TakenUp& all = tally_.taken_up;
   ++all.impacts;
@@ -37,10 +45,11 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
   bool any = false, any_recorded = false;
-  double of_recorded = 0;  // J
+  double of_recorded = 0, work = 0;  // J
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
     if (!(p.force > 0)) continue;
+    work += p.work();
     const double speed = approach(before, p);
     if (!recorded.empty() && recorded[c]) {
       of_recorded += 0.5 * p.force * speed;
@@ -50,8 +59,9 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
       any = true;
     }
   }
+  if (work != 0) carry(work);
   if (!any && !any_recorded) return;
-  double lost = 0;  // J
+  double lost = work;  // J
   for (std::size_t k = 0; k < before.size(); ++k)
     lost += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
   lose(lost);

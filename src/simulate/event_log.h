@@ -42,6 +42,11 @@ class EventLog {
     work_.add(work);
     tally_.work = work_.value();
   }
+  /// Books work (J) of moving things in lasting contact. It is part of what is booked as deviation.
+  void carry(double work) {
+    add_work(work);
+    deviate(work);
+  }
   /// Books work (J) of a force of the World, by its number there.
   void add_work(std::size_t force, double work) {
     add_work(work);
@@ -62,8 +67,8 @@ class EventLog {
   void take_up(double approach, double energy);
   /// The same for all pairs that press in a solution for the velocities `after` from those before (m/s). `inverse_mass`
   /// (1/kg) is by body. Approaches within a pair's slack, or within path errors, do not count. `recorded`: by pair,
-  /// whether the impact is recorded, or empty. Their energy is booked as lost, and removed from the deviation, because
-  /// the caller books the whole change of velocities as deviation.
+  /// whether the impact is recorded, or empty. Their energy is booked as lost, and that of moving things as work. Both
+  /// are removed from the deviation, because the caller books the whole change of velocities as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
   /// Books energy (J) of impacts that are already counted, in lasting contact.
@@ -73,6 +78,9 @@ class EventLog {
     deviate(-energy);
   }
   void count_collapse() { ++tally_.collapses; }
+  /// Books a body that leaves the world, with its energy (J) and momentum (kg m/s).
+  void remove(double energy, const Vec3& momentum);
+  void end(const RunEnd& end) { tally_.end = end; }
   /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {
     if (certificate.verdict == Certificate::Verdict::doubtful) ++tally_.doubtful;
@@ -86,8 +94,8 @@ class EventLog {
   const bool record_collisions_;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_, method_error_, work_;  // J
-  std::vector<Sum> force_work_;            // J
+  Sum energy_lost_, method_error_, work_, removed_;  // J
+  std::vector<Sum> force_work_;                      // J
 };
 
 }  // namespace carom

@@ -51,6 +51,9 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   if (!bodies_.world.forces.empty())
     offer(i, best,
           {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+  if (bodies_.moving.any())
+    offer(i, best,
+          {{bodies_.moving.next_switch(bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
   if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
     offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
@@ -65,7 +68,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
       offer(i, best, {contact.rest_time, contact.surface, 0, ExactEvent::Kind::rest, contact.feature});
     if (bodies_.world.is_plane(contact.surface)) continue;
     const Flight& f = bodies_.flights[i];
-    const FadingPath fixed{bodies_.world.fixed_position(contact.surface), Vec3::Zero(), Vec3::Zero(), 0};
+    const FadingPath fixed = flat_.path_of(contact.surface, f.start);
     const FeatureTime rim = leave_feature(bodies_.world, i, f.path(), contact.surface, fixed, contact.feature,
                                           Instant{bodies_.options.duration, 0} - f.start);
     if (rim.time < never)

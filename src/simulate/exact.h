@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "physics/integrator.h"
 #include "simulate/simulator.h"
@@ -28,6 +29,10 @@ struct ExactOptions {
   bool merge = false;             // bodies that meet become one
   bool record_collisions = true;  // false: there is no buffer, and collisions() stays empty
   bool record_paths = false;      // false: there is no buffer for paths()
+  // What ends the run before the duration, beside regions of the World.
+  bool stop_at_rest = false;
+  std::uint64_t stop_collisions = 0;  // 0: none
+  std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses. The simulator's own state

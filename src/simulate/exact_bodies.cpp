@@ -3,6 +3,8 @@
 // cached. Constant ones are recomputed only when a force starts or ends.
 #include "simulate/exact_bodies.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,6 +19,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
     : options(given_options),
       merged(given, options.merge),
       world(merged.world()),
+      moving(given),
       bounds(bounds_of(given)),
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
@@ -30,7 +33,8 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       body(given.body_count()),
       neighbours(world),
       islands(given.body_count()),
-      log(options.max_collisions, options.record_collisions, given.forces.size()) {}
+      log(options.max_collisions, options.record_collisions, given.forces.size()),
+      contact_work(given.body_count(), log) {}
 
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
@@ -89,11 +93,10 @@ Vec3 ExactBodies::bent_force_at(Entity i, const Vec3& x, const Vec3& v) const {
   return free_acceleration(world, i, now.hi, x, v);
 }
 
-Instant ExactBodies::flight_end(Entity i) const {
-  Instant end{never, 0};
-  if (in_group(i)) end = islands.due(i);
-  if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
-  return end;
+void ExactBodies::fail_squeezed(Entity i, Entity a, Entity b) const {
+  throw SimulationError(fmt::format("at t = {} s ", now.hi), {i, std::min(a, b), std::max(a, b)},
+                        {" has no room left between ", " and ",
+                         ": end or slow their `motion` before, leave room for the body, or shorten simulate.duration"});
 }
 
 std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {

@@ -6,10 +6,12 @@
 // first of all these is the next event. A predicted collision is a function of the two flights alone. It has the same
 // bits from either side and at any time of prediction. Neither outputs nor the search for neighbours can therefore
 // change it.
+#include <algorithm>
 #include <vector>
 
 #include "geometry/touch.h"
 #include "physics/bounds.h"
+#include "simulate/contact_work.h"
 #include "simulate/event_log.h"
 #include "simulate/exact.h"
 #include "simulate/exact_event.h"
@@ -18,6 +20,7 @@
 #include "simulate/large_pages.h"
 #include "simulate/lazy_array.h"
 #include "simulate/merged_bodies.h"
+#include "simulate/moving_things.h"
 #include "simulate/neighbours.h"
 #include "simulate/tolerances.h"
 
@@ -30,6 +33,7 @@ struct ExactBodies {
   const ExactOptions options;
   MergedBodies merged;
   const World& world;  // with the joint bodies' masses and volumes
+  const MovingThings moving;
   const Bounds bounds;
   const bool same_radius;  // all bodies have one radius throughout the run
   const bool varying;      // some force bends paths (force.h)
@@ -49,12 +53,15 @@ struct ExactBodies {
   Neighbours neighbours;
   Islands islands;
   EventLog log;
+  ContactWork contact_work;
 
   /// Throws SimulationError unless body i's position x (m) and velocity v (m/s) at `time` (s) are within bounds.
   void hold_to_bounds(Entity i, double time, const Vec3& x, const Vec3& v) const {
     if (!bounds.hold(x, v)) [[unlikely]]
       fail_out_of_bounds(bounds, i, time, x, v, remedies());
   }
+  /// Throws SimulationError: fixed things a and b, of which one moves, leave body i no room.
+  [[noreturn]] void fail_squeezed(Entity i, Entity a, Entity b) const;
   static constexpr double immovable = never;  // kg
 
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present
@@ -81,9 +88,23 @@ struct ExactBodies {
       apply_forces(i, x, v);
   }
   /// The latest end of body i's flight: the end of a step of its own or of its island.
-  Instant flight_end(Entity i) const;
+  [[gnu::always_inline]] Instant flight_end(Entity i) const {
+    Instant end{never, 0};
+    if (in_group(i)) end = islands.due(i);
+    if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
+    return end;
+  }
   /// The present position of a body or a fixed thing (m).
-  Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : world.fixed_position(e); }
+  Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : fixed_position(e); }
+  /// The present position (m) and velocity (m/s) of a fixed thing.
+  Vec3 fixed_position(Entity e) const { return moving.any() ? moving.position(e, now) : world.fixed_position(e); }
+  Vec3 fixed_velocity(Entity e) const { return moving.any() ? moving.velocity(e, now) : Vec3(Vec3::Zero()); }
+  /// Whether body i cannot strike a fixed thing, because it lies behind a flat surface of normal n, towards the body,
+  /// that moves at this velocity (m/s) and carries the body. A thing that comes out of the surface is not hidden.
+  bool hidden(Entity i, const Vec3& x, Entity fixed, const Vec3& n, const Vec3& velocity) const {
+    if (moving.any() && n.dot(moving.velocity(fixed, now) - velocity) > 0) return false;
+    return lies_behind(world, i, x, fixed, fixed_position(fixed), n);
+  }
 
   bool in_group(Entity i) const { return body[i].state == ContactState::group; }
   /// Whether body i's island moves by constrained motion, or by time stepping.

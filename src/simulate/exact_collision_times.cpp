@@ -114,11 +114,6 @@ FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, 
   return time_of_impact(bodies_.world, a, xa, b, xb, displacement, length, speeds, left, length);
 }
 
-/// The latest end of body i's flight.
-Instant ExactCollisionTimes::end_of(Entity i) const {
-  return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
-}
-
 /// The rounding of body i's speed by steps in contact (m/s).
 double ExactCollisionTimes::noise_in_contact(Entity i) const {
   return bodies_.in_lasting_contact(i)
@@ -126,8 +121,46 @@ double ExactCollisionTimes::noise_in_contact(Entity i) const {
              : 0;
 }
 
+/// The same for a fixed thing that moves, on its present leg. Times count from the leg's start, if that is later than
+/// the flight's.
+Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& feature) const {
+  const World& world = bodies_.world;
+  const Flight& f = bodies_.flights[i];
+  const Instant base = std::max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
+  const double since = base - f.start, horizon = end_of(i) - base;
+  if (!(horizon > 0)) return {never, 0};
+  const Vec3 x = f.position(since), v = f.velocity(since);
+  const Vec3 xs = bodies_.moving.position(surface, base), u = bodies_.moving.velocity(surface, base);
+  const double speeds = sum_of_speeds(v) + sum_of_speeds(u) + noise_in_contact(i);
+  const bool just_left = since == 0 && bodies_.body[i].origin_partner == surface;
+  const std::uint8_t left = just_left ? bodies_.body[i].origin_feature : no_feature;
+  FeatureTime first{never, 0};
+  if (f.curve != nullptr && !f.curve->is_parabola) {
+    PolynomialPath::Terms displacement = f.displacement_from(since, horizon);
+    for (Vec3& term : displacement) term = -term;
+    displacement[0] += horizon * u;
+    first = time_of_impact(world, i, x, surface, xs, displacement, horizon, speeds, left, horizon);
+  } else if (!f.is_parabola()) {
+    const FadingPath fixed{xs, u, Vec3::Zero(), 0};
+    first = time_of_impact(world, i, f.path().from(since), surface, fixed, speeds, left, horizon);
+  } else if (world.is_plane(surface)) {
+    const Vec3& n = world.plane(surface).normal;
+    const double noise = exact_tolerance::plane_rounding * speeds;
+    const double gap = plane_gap(x, xs, n, world.volume_of(i).support(n));
+    first = {plane_contact_time(gap, n.dot(v - u), n.dot(f.acceleration(since)), noise, just_left, horizon), 0};
+  } else {
+    const double moved = (xs - world.fixed_position(surface)).cwiseAbs().sum();
+    const RelativeMotion m{xs - x, u - v, -f.acceleration(since), speeds, just_left, moved};
+    first = time_of_impact(world, i, surface, m, left, horizon);
+  }
+  feature = first.feature;
+  return first.time == never ? Instant{never, 0} : base + first.time;
+}
+
 Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& feature) const {
   const World& world = bodies_.world;
+  if (world.moves(surface)) [[unlikely]]
+    return of_moving(i, surface, feature);
   const Flight& f = bodies_.flights[i];
   const Instant end = end_of(i);
   const bool step = end.hi < bodies_.options.duration;

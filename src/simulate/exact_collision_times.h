@@ -15,11 +15,15 @@ class ExactCollisionTimes {
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
 
  private:
+  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, std::uint8_t& feature) const;
   Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                     std::uint8_t& feature) const;
   FeatureTime of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq, double length,
                        double speeds, std::uint8_t left) const;
-  Instant end_of(Entity i) const;
+  /// The latest end of body i's flight.
+  [[gnu::always_inline]] Instant end_of(Entity i) const {
+    return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
+  }
   double noise_in_contact(Entity i) const;
 
   const ExactBodies& bodies_;

@@ -11,7 +11,7 @@ namespace carom {
 struct ExactEvent {
   // In the order of events at one instant.
   enum class Kind : std::uint8_t {
-    force,    // a force on the body starts or ends
+    force,    // a force on the body starts or ends, or a fixed thing changes its velocity
     rest,     // bounces end: a line in the record
     release,  // a body slides off a wall's face
     // A step of the contact group: no impact, but new forces.

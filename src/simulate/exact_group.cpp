@@ -51,10 +51,17 @@ void ExactGroup::join(Entity i) {
   margin.write(i) = 0;
   impacts.write(i) = 0;
   flat_.clear(i);
+  bodies_.contact_work.change(i, bodies_.now, 0);
   if (!islands.any()) bodies_.log.count_collapse();
   islands.create(i, bodies_.now);
   idle.write(i) = 0;
   needed.write(i) = bodies_.now;
+}
+
+void ExactGroup::unite(Entity a, Entity b) {
+  if (bodies_.moving.any() && !bodies_.islands.same(a, b))
+    for (const Entity i : {a, b}) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
+  bodies_.islands.merge(a, b, bodies_.now);
 }
 
 void ExactGroup::wake(Entity i) {
@@ -93,8 +100,8 @@ void ExactGroup::join_initial(Entity first) {
       const bool body = world.is_body(e);
       const bool i_in = bodies_.in_lasting_contact(i), e_in = bodies_.in_lasting_contact(e);
       if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
-      const Vec3 xe = body ? bodies_.flights[e].x : world.fixed_position(e);
-      const Vec3 ve = body ? bodies_.flights[e].v : Vec3(Vec3::Zero());
+      const Vec3 xe = body ? bodies_.flights[e].x : bodies_.fixed_position(e);
+      const Vec3 ve = body ? bodies_.flights[e].v : bodies_.fixed_velocity(e);
       const Vec3 ae = body ? bodies_.flights[e].a : Vec3(Vec3::Zero());
       const double rounding =
           exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]);
@@ -127,7 +134,7 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
   if (approach == 0 || !(bodies_.is_stepped(i) || (body && bodies_.is_stepped(e)))) return approach;
   const Instant& now = bodies_.now;
   const Vec3 vi = bodies_.velocity_without_kick(i, now);
-  const Vec3 ve = body ? bodies_.velocity_without_kick(e, now) : Vec3(Vec3::Zero());
+  const Vec3 ve = body ? bodies_.velocity_without_kick(e, now) : bodies_.fixed_velocity(e);
   const double met = n.dot(vi - ve);
   // A difference that is only rounding is no impact. It would be one for ever, because the kick brings the two
   // together.
@@ -139,7 +146,7 @@ bool ExactGroup::opens(Entity i) const {
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
   const auto parts_from = [&](Entity e) {
     const bool body = bodies_.world.is_body(e);
-    const Vec3 ve = body ? bodies_.velocity(e) : Vec3(Vec3::Zero());
+    const Vec3 ve = body ? bodies_.velocity(e) : bodies_.fixed_velocity(e);
     const Vec3 n = touch(bodies_.world, i, x, e, bodies_.position_of(e)).normal;
     return n.dot(ve - v) > bodies_.slow_speed(bodies_.applied[i].norm(), bodies_.smaller_length(i, e));
   };
@@ -167,13 +174,58 @@ void ExactGroup::part(Entity i) {
   partners.write(i).clear();
 }
 
+void ExactGroup::leave(Entity i) {
+  part(i);
+  set_carried(i, false);
+  if (!pressing[i].empty()) pressing.write(i).clear();
+  for (const Entity e : bodies_.neighbours_of(i))
+    if (bodies_.world.is_body(e) && !pressing[e].empty())
+      std::erase_if(pressing.write(e), [i](const PressingContact& contact) { return contact.partner == i; });
+  bodies_.islands.bend.write(i) = {};
+}
+
 bool ExactGroup::are_partners(Entity i, Entity e) const {
   return std::find(partners[i].begin(), partners[i].end(), e) != partners[i].end();
 }
 
 bool ExactGroup::hides(Entity i, Entity fixed) const {
-  return std::any_of(floors[i].begin(), floors[i].end(),
-                     [&](const Vec3& n) { return lies_behind(bodies_.world, i, bodies_.position(i), fixed, n); });
+  return std::any_of(floors[i].begin(), floors[i].end(), [&](const Floor& floor) {
+    return bodies_.hidden(i, bodies_.position(i), fixed, floor.normal, floor.velocity);
+  });
+}
+
+bool ExactGroup::switches(Entity i) const {
+  const auto now = [&](Entity e) { return bodies_.moving.switches(e, bodies_.now); };
+  return std::any_of(partners[i].begin(), partners[i].end(), now) ||
+         std::any_of(pressing[i].begin(), pressing[i].end(), [&](const PressingContact& p) { return now(p.partner); });
+}
+
+/// The power of the moving things that press on body i (W).
+double ExactGroup::power(Entity i) const {
+  double power = 0;
+  for (const PressingContact& p : pressing[i]) power -= p.force * p.surface;
+  return power;
+}
+
+void ExactGroup::note_power(Entity i) {
+  bodies_.contact_work.change(i, bodies_.now, power(i));
+}
+
+void ExactGroup::let_go(Entity i) {
+  if (!bodies_.moving.any()) return;
+  pressing.write(i).clear();
+  for (const Entity e : bodies_.neighbours_of(i))
+    if (bodies_.world.is_body(e) && e < i)
+      std::erase_if(pressing.write(e), [&](const PressingContact& p) { return p.partner == i; });
+}
+
+void ExactGroup::carry(Entity i, double approach, double surface) {
+  const double work = -bodies_.world.mass[i] * approach * surface;
+  const Instant& until = bodies_.islands.kicked_until[i];
+  if (bodies_.is_stepped(i) && bodies_.now < until)
+    bodies_.contact_work.push(i, bodies_.now, work / (until - bodies_.now));
+  else
+    bodies_.log.carry(work);
 }
 
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {

@@ -16,7 +16,14 @@ class PathLog;
 /// One end of a contact with a force. The list of the lower body has the other end.
 struct PressingContact {
   Entity partner;
-  double force;  // N
+  double force;        // N
+  double surface = 0;  // m/s, of a partner that moves: its speed along the normal, away from the body
+};
+
+/// A flat fixed thing that carries a body.
+struct Floor {
+  Vec3 normal;    // towards the body
+  Vec3 velocity;  // m/s
 };
 
 class ExactGroup {
@@ -25,8 +32,7 @@ class ExactGroup {
 
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what pressed on it in the last step
   LazyArray<std::vector<Entity>> partners;           // by body: things that constrained motion keeps it in contact with
-  // By body: normals, towards it, of the flat fixed things that carry it.
-  LazyArray<std::vector<Vec3>> floors;
+  LazyArray<std::vector<Floor>> floors;              // by body: the flat fixed things that carry it
   // Scratch of a step: a member's index in it, or ContactConstraint::fixed.
   LazyArray<std::uint32_t> index;
   LazyArray<std::uint32_t> impacts;  // by member: impacts that ended in contact since the last step
@@ -38,7 +44,7 @@ class ExactGroup {
   /// Puts body i into an island. If it sleeps, all that rest in contact with it wake too.
   void join(Entity i);
   /// Unites the islands of members a and b. The next step of the united island is due.
-  void unite(Entity a, Entity b) { bodies_.islands.merge(a, b, bodies_.now); }
+  void unite(Entity a, Entity b);
   /// The same, if one of them has only just joined. A time step of the other one continues.
   void unite_fresh(Entity a, Entity b) {
     if (bodies_.islands.of(a).fresh || bodies_.islands.of(b).fresh) unite(a, b);
@@ -64,6 +70,8 @@ class ExactGroup {
 
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
   void part(Entity i);
+  /// The same for member i, which leaves the world: nothing presses on it, and it on nothing.
+  void leave(Entity i);
   /// Whether constrained motion keeps bodies i and e in contact, so that they cannot meet.
   bool are_partners(Entity i, Entity e) const;
 
@@ -71,11 +79,24 @@ class ExactGroup {
   /// on.
   bool hides(Entity i, Entity fixed) const;
 
+  /// Whether something that presses on body i changes its velocity at the present instant.
+  bool switches(Entity i) const;
+  /// Stores the power of the moving things that press on member i from this instant on.
+  void note_power(Entity i);
+  /// The same within a time step, in which pushes go on.
+  void renew_power(Entity i) { bodies_.contact_work.renew(i, bodies_.now, power(i)); }
+  /// Where things move: nothing presses on member i any more.
+  void let_go(Entity i);
+  /// The same for an impulse that stops member i's approach (m/s) in the rest of its time step. `surface`: the speed of
+  /// the thing along the normal (m/s).
+  void carry(Entity i, double approach, double surface);
+
   /// Appends the forces of sleeping bodies, and of members between steps of time stepping.
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:
   void join_at_rest(Entity i);
+  double power(Entity i) const;
 
   ExactBodies& bodies_;
   FlatContacts& flat_;

@@ -35,7 +35,7 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed)
   const Vec3 x = bodies_.flights[struck].x;
   const auto hold = [&](Entity e) {
     const bool body = world.is_body(e);
-    normals.push_back(touch(world, struck, x, e, body ? bodies_.flights[e].x : world.fixed_position(e)).normal);
+    normals.push_back(touch(world, struck, x, e, body ? bodies_.flights[e].x : bodies_.fixed_position(e)).normal);
   };
   for (const PressingContact& p : parts_.group.pressing[struck])
     if (p.force > 0) hold(p.partner);
@@ -154,7 +154,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   parts_.flights.begin(a, xa, parts_.flat.keep_at(a, va - (impulse / ma) * n), {b, feature});
   parts_.flights.begin(b, xb, parts_.flat.keep_at(b, vb + (impulse / mb) * n), {a, feature});
   for (const Entity i : {a, b})
-    if (parts_.group.opens(i)) parts_.flights.release(i);
+    if (parts_.group.opens(i)) release(i);
   if (ends) {
     for (const Entity i : {a, b}) parts_.flights.hold(i);
     const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
@@ -172,6 +172,12 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   parts_.simultaneous.count_impact(b);
 }
 
+/// Lets member i fall, because an impact has thrown it off its support.
+void ExactImpacts::release(Entity i) {
+  parts_.flights.release(i);
+  parts_.group.let_go(i);
+}
+
 /// Whether an impact ends in contact because its restitution is zero, at any speed.
 bool ExactImpacts::is_plastic(const Collision& met, double press, double length) const {
   return met.restitution == 0 && press > 0 && met.approach_speed > bodies_.slow_speed(press, length);
@@ -182,13 +188,13 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
   const Flight f = bodies_.flights[i];
   const double t = bodies_.now - f.start;
   const Vec3 x = f.position(t), v = f.velocity(t);
-  const Vec3& point = world.fixed_position(surface);
+  const Vec3 point = bodies_.fixed_position(surface), u = bodies_.fixed_velocity(surface);
   const bool flat = is_flat(world, i, surface, feature);
   const Touch there = bodies_.touch_at(i, x, surface, point, feature);
   const Vec3& n = there.normal;
-  const double approach = v.dot(n) > bodies_.negligible_speed() ? v.dot(n) : 0;
+  const double towards = (v - u).dot(n), approach = towards > bodies_.negligible_speed() ? towards : 0;
   bodies_.refresh(i, x, v - approach * n);
-  const double bend = flat ? 0 : bending(world, i, x, surface, point, there, -v);
+  const double bend = flat ? 0 : bending(world, i, x, surface, point, there, u - v);
   return {i,
           surface,
           feature,
@@ -196,17 +202,18 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
           f.start == bodies_.now,
           x,
           v,
+          u,
           there,
           pair_restitution(world, i, surface),
           approach,
           parts_.group.approach_without_kick(approach, n, i, surface),
-          parts_.flat.acceleration_without(i, surface).dot(n) - bend};
+          parts_.flat.acceleration_without(i, surface).dot(n) + parts_.flat.drag_along(i, n, surface) - bend};
 }
 
 /// Whether a flat surface carries the body from this instant on. If so, `contact` has the instant at which its bounces
 /// are over.
 bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
-  const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
+  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
   const double separation = e * unkicked;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
   const std::size_t carrying = parts_.flat.of(i).count;
@@ -240,7 +247,7 @@ bool ExactImpacts::over_at_once(const FixedImpact& impact, double left) const {
 }
 
 bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
-  const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
+  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
   if (unkicked == 0 && (approach > 0 || bodies_.flights.curve(i) != nullptr)) return true;
   const bool alone = flat && !parts_.collapses.among_bodies(i);
   if (parts_.collapses.count_impact(i, surface, e, unkicked, press, bodies_.world.radius[i], alone)) return true;
@@ -252,12 +259,36 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   return (!flat || bodies_.in_lasting_contact(i)) && (separation == 0 || bodies_.too_low(x, separation, press));
 }
 
+/// Throws SimulationError where the thing that body i strikes and a surface opposite to it certainly leave the body no
+/// room, unless something else happens to it. Elastic impacts between the two would never end.
+void ExactImpacts::check_room(const FixedImpact& impact) const {
+  const World& world = bodies_.world;
+  const Vec3& n = impact.there.normal;
+  const double until = std::min(bodies_.moving.next_switch(bodies_.now.hi), bodies_.options.duration);
+  const Entity i = impact.body;
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    if (world.is_body(e) || e == impact.surface) continue;
+    const Vec3 point = bodies_.fixed_position(e), u = bodies_.fixed_velocity(e);
+    const Touch opposite = touch(world, i, impact.x, e, point);
+    if ((opposite.normal + n).norm() > exact_tolerance::level || !is_flat(world, i, e, opposite.feature)) continue;
+    const double closing = n.dot(u - impact.u);
+    if (opposite.gap > exact_tolerance::least_gap * world.radius[i] || !(closing > 0)) continue;
+    const double left = opposite.gap / closing;
+    if (bodies_.now.hi + left > until) continue;
+    const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
+    if (leave_feature(world, i, e, opposite.feature, along, left).time < never) continue;
+    bodies_.fail_squeezed(i, impact.surface, e);
+  }
+}
+
 void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature) {
   const World& world = bodies_.world;
   const FixedImpact impact = find_fixed(i, surface, feature);
+  if (bodies_.moving.any()) check_room(impact);
   const Vec3 &x = impact.x, &v = impact.v, &n = impact.there.normal;
   const double approach = impact.approach, met = impact.unkicked, mass = world.mass[i];
-  parts_.guard.note_restitution(impact.e);
+  // Elastic impacts between things that close in on a body have no end.
+  parts_.guard.note_restitution(impact.e == 1 && world.moves(surface) ? 0 : impact.e);
   bodies_.log.note_overlap(-impact.there.gap);
   bodies_.log.note_speed(v.norm());
   FlatContact contact;
@@ -268,6 +299,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   if (approach > 0 || separation > 0) {
+    if (bodies_.moving.any()) bodies_.log.add_work(-mass * (rests ? approach : met + separation) * n.dot(impact.u));
     const double lost = impact_loss(mass, ExactBodies::immovable, met, separation);
     bodies_.log.lose(lost);
     if (const double left = taken_over ? 0 : met + separation - approach; met != approach)
@@ -286,11 +318,12 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   } else {
     parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - (met + separation) * n), {surface, feature});
   }
-  if (parts_.group.opens(i)) parts_.flights.release(i);
+  if (parts_.group.opens(i)) release(i);
   if (ends) {
     parts_.flights.hold(i);
-    const double closing = n.dot(bodies_.velocity(i));
+    const double closing = n.dot(bodies_.velocity(i) - impact.u);
     if (closing > 0) parts_.flights.push(i, -closing * n);
+    if (closing > 0 && bodies_.moving.any()) parts_.group.carry(i, closing, n.dot(impact.u));
   }
   parts_.predictor.predict(i);
   if (ends) parts_.simultaneous.count_impact(i);

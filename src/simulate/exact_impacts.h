@@ -50,6 +50,7 @@ class ExactImpacts {
     bool flat;
     bool began_now;   // the flight began at this instant
     Vec3 x, v;        // m, m/s
+    Vec3 u;           // m/s, of the fixed thing
     Touch there;      // the contact of the two
     double e;         // restitution
     double approach;  // m/s
@@ -60,12 +61,14 @@ class ExactImpacts {
   double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   Vec3 pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there, const Vec3& w) const;
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
+  void release(Entity i);
   bool is_plastic(const Collision& met, double press, double length) const;
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature);
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
   bool over_at_once(const FixedImpact& impact, double left) const;
   bool ends_in_contact(const FixedImpact& impact);
+  void check_room(const FixedImpact& impact) const;
 
   ExactBodies& bodies_;
   const ImpactParts parts_;

@@ -28,7 +28,8 @@ std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State&
 
 ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
     : bodies_(world, options),
-      paths_(bodies_),
+      crossings_(bodies_),
+      paths_(bodies_, crossings_),
       collapses_(bodies_),
       flat_(bodies_, collapses_),
       group_(bodies_, flat_, collapses_, paths_),
@@ -41,7 +42,8 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       constrained_(bodies_, group_, flat_, collapses_, flights_, predictor_),
       merging_(bodies_, flat_, flights_, queue_, predictor_, paths_),
       guard_(world.body_count(), options.duration),
-      impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}) {
+      impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}),
+      attends_(watches() || world.body_count() > cached_bodies) {
   start(initial);
 }
 
@@ -77,29 +79,41 @@ void ExactSimulator::start(const State& initial) {
 void ExactSimulator::advance_to(double time) {
   bodies_.log.begin_advance();
   paths_.begin_advance();
-  state_fresh_ = false;
+  crossings_.begin_advance();
+  answers_.state_fresh = false;
   const Instant until{std::min(time, bodies_.options.duration), 0};
   const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
   std::uint32_t events = 0;
-  while (queue_.first_time() <= until.hi) {
-    const Entity i = queue_.first();
-    if (bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
-    if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
-    take_event(i);
-    // After many events without a result, the caller may need to check the clock.
-    if (++events % events_at_a_time == 0 && before_now() > time_) {
-      time_ = before_now();
-      return;
+  do {
+    while (queue_.first_time() <= until.hi) {
+      const Entity i = queue_.first();
+      if (attends_ && bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
+      if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
+      if (attends_ && watches()) [[unlikely]] {
+        if (is_over()) break;
+        if (happens_before(queue_.leaves_first(i) ? Instant{queue_.first_time(), 0} : bodies_.body[i].event.time,
+                           false))
+          continue;
+      }
+      take_event(i);
+      // After many events without a result, the caller may need to check the clock.
+      if (++events % events_at_a_time == 0 && before_now() > time_) {
+        time_ = before_now();
+        return crossings_.sort();
+      }
+      // A buffer is full. Stop just before the present instant, because more may happen at it.
+      if (paths_.full() || (attends_ && crossings_.full()) || !bodies_.log.has_room(collisions_of_event)) {
+        time_ = std::max(time_, before_now());
+        return crossings_.sort();
+      }
     }
-    // A buffer is full. Stop just before the present instant, because more may happen at it.
-    if (paths_.full() || !bodies_.log.has_room(collisions_of_event)) {
-      time_ = std::max(time_, before_now());
-      return;
-    }
-  }
+  } while (attends_ && happens_before(until, true));
   paths_.record_changes();
+  crossings_.sort();
   time_ = std::max(time, time_);
-  if (time_ >= bodies_.options.duration) flights_.book_last(time_);
+  if (time_ < bodies_.options.duration) return;
+  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time_, 0}); });
+  flights_.book_last(time_);
 }
 
 /// Takes body i's next event, or its exit from its region.
@@ -138,8 +152,7 @@ void ExactSimulator::process(Entity i) {
       impacts_.collide_fixed(i, event.partner, event.feature);
       break;
     case Kind::force:
-      flights_.end_step(i);
-      switch_forces(i);
+      take_switch(i);
       break;
     case Kind::rest:
       flat_.end_bounces(i);
@@ -163,7 +176,19 @@ void ExactSimulator::process(Entity i) {
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
 }
 
-/// Applies the start or end of a force on body i at the present instant.
+/// Applies a switch at the present instant to body i: of a force on it, or of the velocity of things that carry it.
+/// Otherwise the body flies on, and may meet such things elsewhere.
+void ExactSimulator::take_switch(Entity i) {
+  if (bodies_.moving.any()) {
+    const bool forced = !bodies_.world.forces.empty() &&
+                        bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
+    if (!forced && !flat_.switches(i) && !group_.switches(i)) return predictor_.predict(i);
+  }
+  flights_.end_step(i);
+  switch_forces(i);
+}
+
+/// Ends body i's flight, and begins the next under the present forces and on the present surfaces.
 void ExactSimulator::switch_forces(Entity i) {
   const Vec3 x = bodies_.position(i);
   Vec3 v = bodies_.velocity(i);
@@ -201,8 +226,89 @@ void ExactSimulator::end_flight(Entity i) {
   predictor_.predict(i);
 }
 
+bool ExactSimulator::watches() const {
+  const ExactOptions& options = bodies_.options;
+  return crossings_.any() || options.stop_at_rest || options.stop_collisions > 0;
+}
+
+/// When everything at the present instant has happened, and the next event is at `next`: ends the run, or takes a
+/// crossing before that. `at_it`: or at that instant. Returns whether either has happened.
+bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
+  if (is_over()) return false;
+  if (!at_it && !(bodies_.now < next)) return false;
+  const ExactOptions& options = bodies_.options;
+  if (options.stop_collisions > 0 && tally().collisions() >= options.stop_collisions) {
+    end_run(bodies_.now.hi, EndReason::collisions, 0);
+    return true;
+  }
+  if (options.stop_at_rest && all_rest()) {
+    end_run(bodies_.now.hi, EndReason::rest, 0);
+    return true;
+  }
+  paths_.record_changes();
+  const Instant sure = crossings_.first_sure();
+  if (!(at_it ? sure <= next : sure < next)) return false;
+  if (!take_crossing(crossings_.take())) return true;
+  // The run has ended. What else crosses at that instant is recorded too.
+  const double end = tally().end->time;
+  while (const std::optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
+  return true;
+}
+
+/// Does what a region does to a body that enters it. Returns whether the run ends.
+bool ExactSimulator::take_crossing(const Crossings::Taken& taken) {
+  const RegionCrossing& crossing = taken.crossing;
+  const WorldRegion& region = bodies_.world.regions[crossing.region];
+  if (!crossing.enters || !(region.removes || region.stops)) return false;
+  if (bodies_.now < taken.at) bodies_.now = taken.at;
+  if (region.removes) {
+    paths_.note_change(crossing.body);
+    for (const Entity k : BodyRemoval(bodies_, group_, flat_, flights_, queue_).remove(crossing.body))
+      if (bodies_.in_group(k)) step_island(k);
+    paths_.delay(taken.sure);
+    guard_.count(StallGuard::Happened::other, bodies_.now.hi);
+  }
+  if (!region.stops || is_over()) return false;
+  end_run(bodies_.now.hi, EndReason::region, crossing.region);
+  return true;
+}
+
+/// Ends the run at `time` (s), the present instant or just before it.
+void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region) {
+  time = std::max({time, time_, paths_.latest()});
+  bodies_.log.end({time, reason, region});
+  paths_.end(time);
+  flights_.book_last(time);
+}
+
+/// Whether body i stays where it is until something else comes.
+bool ExactSimulator::rests(Entity i) const {
+  if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) return true;
+  if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, bodies_.now.hi) < bodies_.options.duration)
+    return false;
+  if (bodies_.body[i].state == ContactState::asleep) return true;
+  for (std::size_t k = 0; k < flat_.of(i).count; ++k)
+    if (flat_.of(i).at[k].settling) return false;
+  const Flight f = bodies_.flights[i];
+  if (!f.v.isZero(0) || bodies_.is_stepped(i)) return false;
+  if (f.curve == nullptr) return f.a.isZero(0);
+  return std::all_of(f.curve->displacement.begin(), f.curve->displacement.end(),
+                     [](const Vec3& term) { return term.isZero(0); });
+}
+
+/// Whether all bodies rest. The search begins at a body that moved before, so that it seldom goes far.
+bool ExactSimulator::all_rest() {
+  const Entity n = bodies_.world.body_count();
+  for (Entity looked = 0; looked < n; ++looked) {
+    if (!rests(answers_.awake)) return false;
+    answers_.awake = answers_.awake + 1 == n ? 0 : answers_.awake + 1;
+  }
+  return true;
+}
+
 /// Takes the next step of body i's island.
 void ExactSimulator::step_island(Entity i) {
+  bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
   if (bodies_.islands.of(i).busy || !constrained_.advance(i)) stepping_.advance(i);
 }
@@ -216,39 +322,39 @@ Effort ExactSimulator::effort() const {
 }
 
 const State& ExactSimulator::state() {
-  if (state_fresh_) return state_;
+  if (answers_.state_fresh) return answers_.state;
   const World& world = bodies_.world;
-  const Instant at{time_, 0};
-  state_.time = time_;
-  state_.position.resize(world.body_count());
-  state_.velocity.resize(world.body_count());
+  answers_.state.time = is_over() ? tally().end->time : time_;
+  const Instant at{answers_.state.time, 0};
+  answers_.state.position.resize(world.body_count());
+  answers_.state.velocity.resize(world.body_count());
   for (Entity i = 0; i < world.body_count(); ++i) {
-    state_.position[i] = flights_.position_of_method(i, at);
-    state_.velocity[i] = flights_.velocity_of_method(i, at);
+    answers_.state.position[i] = flights_.position_of_method(i, at);
+    answers_.state.velocity[i] = flights_.velocity_of_method(i, at);
   }
   if (bodies_.merged.any()) {
-    state_.mass = world.mass;
-    state_.radius = world.radius;
-    state_.volume = world.volume;
-    state_.part_of = bodies_.merged.whole_of();
-    state_.join_parts();
+    answers_.state.mass = world.mass;
+    answers_.state.radius = world.radius;
+    answers_.state.volume = world.volume;
+    answers_.state.part_of = bodies_.merged.whole_of();
+    answers_.state.join_parts();
   }
-  state_fresh_ = true;
-  return state_;
+  answers_.state_fresh = true;
+  return answers_.state;
 }
 
 std::span<const ContactForce> ExactSimulator::contacts() {
-  contact_forces_.clear();
+  answers_.contact_forces.clear();
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
-    if (flat_.of(i).count > 0) flat_.report(i, contact_forces_);
-    group_.report(i, contact_forces_);
+    if (flat_.of(i).count > 0) flat_.report(i, answers_.contact_forces);
+    group_.report(i, answers_.contact_forces);
   }
   bodies_.islands.for_each([&](const Island& island) {
-    if (island.constrained) constrained_.report(island, time_, contact_forces_);
+    if (island.constrained) constrained_.report(island, time_, answers_.contact_forces);
   });
-  std::sort(contact_forces_.begin(), contact_forces_.end(),
+  std::sort(answers_.contact_forces.begin(), answers_.contact_forces.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
-  return contact_forces_;
+  return answers_.contact_forces;
 }
 
 }  // namespace carom

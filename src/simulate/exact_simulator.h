@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "simulate/body_merging.h"
+#include "simulate/body_removal.h"
 #include "simulate/collapse_detector.h"
 #include "simulate/constrained_motion.h"
+#include "simulate/crossings.h"
 #include "simulate/event_predictor.h"
 #include "simulate/event_prefetch.h"
 #include "simulate/event_queue.h"
@@ -29,20 +31,39 @@ class ExactSimulator final : public Simulator {
   const State& state() override;
   std::span<const Collision> collisions() const override { return bodies_.log.collisions(); }
   std::span<const PathPiece> paths() const override { return paths_.pieces(); }
+  std::span<const RegionCrossing> crossings() const override { return crossings_.recorded(); }
   const Tally& tally() const override { return bodies_.log.tally(); }
+  std::vector<Extremes> extremes() const override { return paths_.extremes().up_to(time_); }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
 
  private:
+  /// What queries have found.
+  struct Answers {
+    State state;
+    bool state_fresh = false;
+    std::vector<ContactForce> contact_forces;
+    Entity awake = 0;  // a body that moved when it was last looked for
+  };
+
   void start(const State& initial);
   void take_event(Entity i);
   void process(Entity i);
+  void take_switch(Entity i);
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);
   void end_flight(Entity i);
   void step_island(Entity i);
+  bool watches() const;
+  bool happens_before(const Instant& next, bool at_it);
+  bool take_crossing(const Crossings::Taken& taken);
+  void end_run(double time, EndReason reason, std::uint32_t region);
+  bool is_over() const { return tally().end.has_value(); }
+  bool rests(Entity i) const;
+  bool all_rest();
 
   ExactBodies bodies_;
+  Crossings crossings_;
   PathLog paths_;
   CollapseDetector collapses_;
   FlatContacts flat_;
@@ -59,9 +80,9 @@ class ExactSimulator final : public Simulator {
   ExactImpacts impacts_;
   Effort effort_;
   double time_ = 0;  // s: time that advance_to has reached
-  State state_;
-  bool state_fresh_ = false;
-  std::vector<ContactForce> contact_forces_;
+  // Whether regions or the run's end depend on the paths between events, or events are prefetched.
+  const bool attends_;
+  Answers answers_;
 };
 
 }  // namespace carom

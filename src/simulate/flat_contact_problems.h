@@ -9,15 +9,21 @@ namespace carom {
 /// The motion of one body on flat surfaces.
 struct FlatSolution {
   Vec3 u;               // allowed
+  double work = 0;      // by surfaces that move: of one mass unit, in the unit of u squared
   unsigned active = 0;  // bit k where surface k presses
   Certificate certificate;
 };
 
-/// The allowed motion for one body and flat surfaces with these unit normals, from the surface to the body. At most 32
-/// of them.
-FlatSolution solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
+/// A flat surface: its unit normal, from the surface to the body, and its own motion along that.
+struct FlatSurface {
+  Vec3 normal;
+  double u = 0;
+};
 
-/// u without its components along any of the unit normals: motion that keeps all contacts.
-FlatSolution keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
+/// The allowed motion for one body and flat surfaces. At most 32 of them.
+FlatSolution solve_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces);
+
+/// u with the surfaces' components along their normals: motion that keeps all contacts.
+FlatSolution keep_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces);
 
 }  // namespace carom

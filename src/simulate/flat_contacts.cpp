@@ -10,7 +10,6 @@
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/collapse_detector.h"
-#include "simulate/flat_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -21,15 +20,49 @@ namespace {
 
 constexpr std::size_t most = FlatContactList::most;
 
-/// Stores the normals of all contacts except those with `without`. Returns their number.
-std::size_t normals_of(const FlatContactList& contacts, Entity without, std::array<Vec3, most>& normals) {
+}  // namespace
+
+/// Stores the surfaces of all contacts except those with `without`. Returns their number. Their motion is `share` times
+/// their velocity: 1 where velocities are meant. Accelerations of a body that they carry have to outweigh drag.
+std::size_t FlatContacts::surfaces_of(const FlatContactList& contacts, Entity without, double share,
+                                      Surfaces& surfaces) const {
   std::size_t n = 0;
-  for (std::size_t k = 0; k < contacts.count; ++k)
-    if (contacts.at[k].surface != without) normals[n++] = contacts.at[k].normal;
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    const auto& [surface, feature, normal, settling, rest_time, residual_speed] = contacts.at[k];
+    if (surface == without) continue;
+    const double along = bodies_.moving.any() ? normal.dot(bodies_.fixed_velocity(surface)) : 0;
+    surfaces[n++] = {normal, share * along};
+  }
   return n;
 }
 
-}  // namespace
+bool FlatContacts::switches(Entity i) const {
+  for (std::size_t k = 0; k < contacts_[i].count; ++k)
+    if (bodies_.moving.switches(contacts_[i].at[k].surface, bodies_.now)) return true;
+  return false;
+}
+
+FadingPath FlatContacts::path_of(Entity surface, const Instant& start) const {
+  if (!bodies_.world.moves(surface)) return {bodies_.world.fixed_position(surface), Vec3::Zero(), Vec3::Zero(), 0};
+  // A body that a surface carries has begun its flight on the surface's present leg.
+  return {bodies_.moving.position(surface, start), bodies_.moving.velocity(surface, bodies_.now), Vec3::Zero(), 0};
+}
+
+/// Notes the quality of a solution for body i's velocity, and books the work of moving surfaces. Throws SimulationError
+/// where they leave the body no room.
+FlatSolution FlatContacts::allow(Entity i, const FlatSolution& solution) const {
+  if (bodies_.moving.any()) {
+    if (solution.certificate.verdict == Certificate::Verdict::infeasible) {
+      const FlatContactList& contacts = contacts_[i];
+      bodies_.fail_squeezed(i, contacts.at[0].surface, contacts.at[contacts.count - 1].surface);
+    }
+    const double work = bodies_.world.mass[i] * solution.work;
+    bodies_.log.lose(work);
+    bodies_.log.add_work(work);
+  }
+  bodies_.log.note(solution.certificate);
+  return solution;
+}
 
 bool FlatContacts::carry(Entity i, Entity surface) const {
   for (std::size_t k = 0; k < contacts_[i].count; ++k)
@@ -40,7 +73,9 @@ bool FlatContacts::carry(Entity i, Entity surface) const {
 bool FlatContacts::hide(Entity i, Entity fixed) const {
   const FlatContactList& contacts = contacts_[i];
   for (std::size_t k = 0; k < contacts.count; ++k)
-    if (lies_behind(bodies_.world, i, bodies_.position(i), fixed, contacts.at[k].normal)) return true;
+    if (bodies_.hidden(i, bodies_.position(i), fixed, contacts.at[k].normal,
+                       bodies_.fixed_velocity(contacts.at[k].surface)))
+      return true;
   return false;
 }
 
@@ -59,24 +94,26 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   remove(i, surface);
   const Flight f = bodies_.flights[i];
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = f.acceleration(bodies_.now - f.start);
+  const Vec3 w = v - bodies_.fixed_velocity(surface);
   // A little ahead, the body is over the other surface's face, if the rims are no farther apart than rounding.
   const double ahead =
       std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
-  const double speed = v.norm();
+  const double speed = w.norm();
   if (speed == 0) return {};
-  const Vec3 there = x + ahead / speed * v;
+  const Vec3 there = x + ahead / speed * w;
   FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
   double longest = -1;
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || e == surface || carry(i, e)) continue;
-    const Vec3& point = world.fixed_position(e);
+    const Vec3 point = bodies_.fixed_position(e), u = bodies_.fixed_velocity(e);
     const Touch level = touch(world, i, there, e, point);
     const double rounding =
         exact_tolerance::initial_rounding * (x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
     if (!is_flat(world, i, e, level.feature) || std::abs(level.gap) > rounding ||
-        (level.normal + normal).norm() > velocity_rounding)
+        (level.normal + normal).norm() > velocity_rounding ||
+        std::abs(normal.dot(v - u)) > velocity_rounding * (v.norm() + u.norm()))
       continue;
-    const RelativeMotion m{point - there, -v, -a, speed, true};
+    const RelativeMotion m{point - there, u - v, -a, speed, true};
     const double stay = leave_feature(world, i, e, level.feature, m, bodies_.options.duration).time;
     if (!(stay > longest)) continue;
     longest = stay;
@@ -117,12 +154,13 @@ void FlatContacts::find_initial(Entity i) {
   Flight f = bodies_.flights[i];
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || contacts_[i].count == most) continue;
-    const Vec3& point = world.fixed_position(e);
+    const Vec3 point = bodies_.fixed_position(e), u = bodies_.fixed_velocity(e);
     const Touch there = touch(world, i, f.x, e, point);
     const double rounding =
         exact_tolerance::flat_rounding * (f.x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
     if (!is_flat(world, i, e, there.feature) || std::abs(there.gap) > rounding ||
-        std::abs(there.normal.dot(f.v)) > velocity_rounding * f.v.norm() || there.normal.dot(bodies_.applied[i]) <= 0)
+        std::abs(there.normal.dot(f.v - u)) > velocity_rounding * (f.v.norm() + u.norm()) ||
+        there.normal.dot(bodies_.applied[i]) + drag_along(i, there.normal, e) <= 0)
       continue;
     add(i, {e, there.feature, -there.normal, false, {}, 0});
     f.x += there.gap * there.normal;
@@ -130,6 +168,7 @@ void FlatContacts::find_initial(Entity i) {
   }
   f.a = keep_pressing(i) - f.fade * f.v;
   bodies_.flights.set(i, f);
+  if (bodies_.moving.any()) bodies_.contact_work.change(i, bodies_.now, power(i));
 }
 
 void FlatContacts::end_bounces(Entity i) {
@@ -140,7 +179,7 @@ void FlatContacts::end_bounces(Entity i) {
     const World& world = bodies_.world;
     const Vec3 point =
         bodies_
-            .touch_at(i, bodies_.position(i), contact.surface, world.fixed_position(contact.surface), contact.feature)
+            .touch_at(i, bodies_.position(i), contact.surface, bodies_.fixed_position(contact.surface), contact.feature)
             .point;
     bodies_.log.record(make_collision(world, CollisionKind::rest, bodies_.now.hi, i, contact.surface, point,
                                       -contact.normal, contact.residual_speed, 0,
@@ -155,7 +194,8 @@ void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double ap
   // It is in turn with the impact that threw the body at the surface.
   collapses_.count_in_turn(i, 1 - e);
   const Vec3 point =
-      bodies_.touch_at(i, bodies_.position(i), contact.surface, world.fixed_position(contact.surface), contact.feature)
+      bodies_
+          .touch_at(i, bodies_.position(i), contact.surface, bodies_.fixed_position(contact.surface), contact.feature)
           .point;
   bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, contact.surface, point,
                                     -contact.normal, approach, 0, e));
@@ -179,9 +219,11 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
     const FlatContact& contact = contacts.at[k];
     const Vec3 n = -contact.normal;
     // Into the surface.
-    const double u = n.dot(v);
-    press[k] = n.dot(acceleration_without(i, contact.surface));
-    kept[k] = std::abs(u) <= noise || (press[k] > 0 && bodies_.too_low(x, u, press[k]));
+    const Vec3 of_surface = bodies_.fixed_velocity(contact.surface);
+    const double u = n.dot(v - of_surface);
+    press[k] = n.dot(acceleration_without(i, contact.surface)) + drag_along(i, n, contact.surface);
+    kept[k] = std::abs(u) <= noise + velocity_rounding * of_surface.norm() ||
+              (press[k] > 0 && bodies_.too_low(x, u, press[k]));
     if (kept[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(bodies_.world, i, contact.surface);
     kept[k] = e < 1 && now + 2 * e * u / (press[k] * (1 - e)) == now;
@@ -191,19 +233,17 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (kept[k]) press[n++] = press[k];
   keep(contacts, kept);
-  std::array<Vec3, most> normals;
-  n = normals_of(contacts, no_entity, normals);
-  FlatSolution solution = solve_flat_contacts(v, {normals.data(), n});
-  bodies_.log.note(solution.certificate);
+  Surfaces surfaces;
+  n = surfaces_of(contacts, no_entity, 1, surfaces);
+  FlatSolution solution = allow(i, solve_flat_contacts(v, {surfaces.data(), n}));
   // A push into one surface may lift the body off another.
   for (std::size_t k = 0; k < contacts.count; ++k) {
-    const double u = normals[k].dot(solution.u);
-    kept[k] = u <= noise || bodies_.too_low(x, u, press[k]);
+    const double u = surfaces[k].normal.dot(solution.u) - surfaces[k].u;
+    kept[k] = u <= noise + velocity_rounding * std::abs(surfaces[k].u) || bodies_.too_low(x, u, press[k]);
   }
   keep(contacts, kept);
-  n = normals_of(contacts, no_entity, normals);
-  solution = keep_flat_contacts(solution.u, {normals.data(), n});
-  bodies_.log.note(solution.certificate);
+  n = surfaces_of(contacts, no_entity, 1, surfaces);
+  solution = allow(i, keep_flat_contacts(solution.u, {surfaces.data(), n}));
   const Vec3& allowed = solution.u;
   if (contacts.count == 0) bodies_.log.remove_resting(1);
   bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - allowed).dot(v + allowed));
@@ -212,9 +252,9 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
 
 Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
   FlatContactList& contacts = contacts_.write(i);
-  std::array<Vec3, most> normals;
-  const std::size_t n = normals_of(contacts, no_entity, normals);
-  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {normals.data(), n});
+  Surfaces surfaces;
+  const std::size_t n = surfaces_of(contacts, no_entity, bodies_.fade[i], surfaces);
+  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
   bodies_.log.note(solution.certificate);
   std::array<bool, most> presses;
   for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
@@ -225,23 +265,45 @@ Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
 
 Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
   if (contacts_[i].count == 0) return bodies_.applied[i];
-  std::array<Vec3, most> normals;
-  const std::size_t n = normals_of(contacts_[i], surface, normals);
-  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {normals.data(), n});
+  Surfaces surfaces;
+  const std::size_t n = surfaces_of(contacts_[i], surface, bodies_.fade[i], surfaces);
+  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
   bodies_.log.note(solution.certificate);
   return solution.u;
 }
 
-void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
-  const FlatContactList& contacts = contacts_[i];
+/// The contacts of body i with their forces (N).
+std::vector<ContactConstraint> FlatContacts::forces_on(Entity i) const {
+  Surfaces surfaces;
+  const std::size_t n = surfaces_of(contacts_[i], no_entity, bodies_.fade[i], surfaces);
   std::vector<ContactConstraint> pairs;
-  for (std::size_t k = 0; k < contacts.count; ++k)
-    pairs.push_back({0, ContactConstraint::fixed, -contacts.at[k].normal});
+  for (std::size_t k = 0; k < n; ++k) {
+    pairs.push_back({0, ContactConstraint::fixed, -surfaces[k].normal});
+    pairs.back().surface = -surfaces[k].u;
+  }
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
   solve({{&inverse_mass, 1}, {&a, 1}, pairs});
+  return pairs;
+}
+
+double FlatContacts::power(Entity i) const {
+  const FlatContactList& contacts = contacts_[i];
+  bool moving = false;
   for (std::size_t k = 0; k < contacts.count; ++k)
-    if (pairs[k].force > 0) forces.push_back({i, contacts.at[k].surface, pairs[k].force});
+    moving = moving || bodies_.moving.moves(contacts.at[k].surface, bodies_.now);
+  if (!moving) return 0;
+  const std::vector<ContactConstraint> pairs = forces_on(i);
+  double power = 0;
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    power += std::max(pairs[k].force, 0.0) * contacts.at[k].normal.dot(bodies_.fixed_velocity(contacts.at[k].surface));
+  return power;
+}
+
+void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
+  const std::vector<ContactConstraint> pairs = forces_on(i);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (pairs[k].force > 0) forces.push_back({i, contacts_[i].at[k].surface, pairs[k].force});
 }
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 
 #include "physics/contact_force.h"
 #include "simulate/exact_bodies.h"
+#include "simulate/flat_contact_problems.h"
 
 namespace carom {
 
@@ -38,8 +39,14 @@ class FlatContacts {
   FlatContacts(ExactBodies& bodies, CollapseDetector& collapses)
       : bodies_(bodies), collapses_(collapses), contacts_(bodies.body.size()) {}
 
-  const FlatContactList& of(Entity i) const { return contacts_[i]; }
+  [[gnu::always_inline]] const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carry(Entity i, Entity surface) const;
+  /// Whether a surface that carries body i changes its velocity at the present instant.
+  bool switches(Entity i) const;
+  /// The path of a fixed thing from `start` (s) on, as long as its present velocity lasts.
+  FadingPath path_of(Entity surface, const Instant& start) const;
+  /// The power of moving surfaces that carry body i (W).
+  double power(Entity i) const;
   /// Whether body i cannot strike this fixed thing, because it lies behind a surface that carries the body.
   bool hide(Entity i, Entity fixed) const;
 
@@ -72,10 +79,19 @@ class FlatContacts {
   /// surface (m/s^2).
   Vec3 acceleration_without(Entity i, Entity surface) const;
 
+  /// The acceleration (m/s^2) along n, the direction to a surface that moves, by drag on a body that it carries.
+  double drag_along(Entity i, const Vec3& n, Entity surface) const {
+    return bodies_.moving.any() ? -bodies_.fade[i] * n.dot(bodies_.fixed_velocity(surface)) : 0;
+  }
+
   /// Appends the forces that keep body i on its surfaces.
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:
+  using Surfaces = std::array<FlatSurface, FlatContactList::most>;
+  std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
+  FlatSolution allow(Entity i, const FlatSolution& solution) const;
+  std::vector<ContactConstraint> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);
   void record_bounce(Entity i, const FlatContact& contact, double approach, double e);

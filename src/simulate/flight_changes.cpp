@@ -56,10 +56,18 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   end_change(i, origin);
 }
 
-void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
+inline void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
+  if (bodies_.moving.any()) [[unlikely]]
+    note_power(i);
   bodies_.body[i].set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
+}
+
+/// Stores the power of moving surfaces that carry body i by itself. That of islands is stored with their steps.
+void FlightChanges::note_power(Entity i) {
+  if (!bodies_.in_group(i))
+    bodies_.contact_work.change(i, bodies_.now, bodies_.in_lasting_contact(i) ? 0 : flat_.power(i));
 }
 
 /// Starts a step of body i's flight: by the scene's method if it is free, otherwise by that of contact.
@@ -127,6 +135,7 @@ void FlightChanges::release(Entity i) {
   Islands& islands = bodies_.islands;
   book_taking(i, bodies_.now);
   take(i, 0);
+  bodies_.contact_work.change(i, bodies_.now, 0);
   const Vec3 pending = (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
@@ -256,19 +265,30 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
                       potential(bodies_.world, i, x) + work);
 }
 
+void FlightChanges::take_out(Entity i, const Vec3& x) {
+  if (stepped_[i]) stepped_.write(i) = false;
+  take(i, 0);
+  bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+  bodies_.body[i].set_origin({});
+  count(i);
+}
+
+Vec3 FlightChanges::book_until(Entity i, const Instant& at) {
+  const Flight f = bodies_.flights[i];
+  const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
+  const Vec3 v = bodies_.velocity_without_kick(i, at);
+  bodies_.hold_to_bounds(i, at.hi, x, v);
+  bodies_.log.note_speed(v.norm());
+  book(i, x, at);
+  bodies_.contact_work.change(i, at, 0);
+  if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
+  return v;
+}
+
 void FlightChanges::book_last(double time) {
   if (ended_) return;
   ended_ = true;
-  const Instant at{time, 0};
-  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
-    const Flight f = bodies_.flights[i];
-    const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
-    const Vec3 v = bodies_.velocity_without_kick(i, at);
-    bodies_.hold_to_bounds(i, time, x, v);
-    bodies_.log.note_speed(v.norm());
-    book(i, x, at);
-    if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
-  }
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) book_until(i, {time, 0});
 }
 
 }  // namespace carom

@@ -65,6 +65,11 @@ class FlightChanges {
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
+  /// Leaves body i at x (m), out of the world.
+  void take_out(Entity i, const Vec3& x);
+  /// Books body i's flight up to an instant, with the energy that its kick has in advance. Returns its velocity there
+  /// (m/s).
+  Vec3 book_until(Entity i, const Instant& at);
   /// Books all flights up to `time` (s), the run's end. Only the first call has an effect.
   /// Between collisions a speed is greatest at an end of a flight.
   void book_last(double time);
@@ -76,7 +81,8 @@ class FlightChanges {
   void end_closed(Entity i);
   void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
-  void end_change(Entity i, const FlightOrigin& origin);
+  [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
+  [[gnu::noinline]] void note_power(Entity i);
   void book_stepped(Entity i, const Instant& end);
   void book_taking(Entity i, const Instant& end);
   void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);

@@ -70,4 +70,9 @@ void MergedBodies::join(Entity whole, Entity part) {
   whole_of_[part] = whole;
 }
 
+void MergedBodies::remove(Entity i) {
+  if (whole_of_.empty()) begin();
+  whole_of_[i] = no_entity;
+}
+
 }  // namespace carom

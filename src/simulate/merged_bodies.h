@@ -1,6 +1,6 @@
 #pragma once
 // Bodies that have merged: the parts of each joint body, and the World with the joint masses and volumes. Forces act on
-// the parts.
+// the parts. Bodies that have left the world are marked too.
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,7 +25,7 @@ class MergedBodies {
   bool any() const { return !whole_of_.empty(); }
   const std::vector<Entity>& whole_of() const {
     return whole_of_;
-  }  // by body: the body that it is part of; empty: none has merged
+  }  // by body: the body that it is part of; no_entity: it has left the world; empty: none has merged or left
 
   /// The parts of body i; none: only itself.
   std::span<const Entity> parts_of(Entity i) const {
@@ -40,6 +40,8 @@ class MergedBodies {
 
   /// Makes body `part` a part of body `whole`. Masses and volumes add up, and restitution is weighted by mass.
   void join(Entity whole, Entity part);
+  /// Takes body i, with its parts, out of the world.
+  void remove(Entity i);
 
  private:
   void begin();

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "physics/world.h"
+#include "simulate/crossings.h"
 
 namespace carom {
 
@@ -21,12 +22,22 @@ double first_double(const Instant& at) {
 
 }  // namespace
 
+PathLog::PathLog(const ExactBodies& bodies, Crossings& crossings)
+    : bodies_(bodies),
+      extremes_(bodies),
+      crossings_(crossings),
+      followed_(bodies.options.record_paths || crossings.any() || bodies.options.stop_at_rest ||
+                bodies.options.stop_collisions > 0),
+      wanted_(followed_ || extremes_.any()) {}
+
 void PathLog::begin_advance() {
   pieces_.clear();
   full_ = false;
 }
 
 void PathLog::note(Entity i) {
+  if (extremes_.any()) extremes_.note(i);
+  if (!followed_) return;
   if (changed_at_ != bodies_.now) record_changes();
   changed_at_ = bodies_.now;
   changed_.push_back(i);
@@ -35,10 +46,19 @@ void PathLog::note(Entity i) {
 void PathLog::record_changes() {
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  const double from = first_double(changed_at_);
-  for (const Entity i : changed_) pieces_.push_back(piece_of(i, from));
+  if (changed_.empty()) return;
+  latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);
+  if (bodies_.options.record_paths)
+    for (const Entity i : changed_) pieces_.push_back(piece_of(i, latest_));
+  if (crossings_.any())
+    for (const Entity i : changed_) crossings_.follow(i, changed_at_);
   changed_.clear();
   full_ = full_ || pieces_.size() >= path_buffer;
+}
+
+void PathLog::end(double time) {
+  end_ = time;
+  record_changes();
 }
 
 PathPiece PathLog::piece_of(Entity i, double from) const {
@@ -54,7 +74,8 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
   if (bodies_.is_constrained(i)) piece.bend = bodies_.islands.bend[i];
   if (bodies_.merged.any()) {
     const Entity whole = bodies_.merged.whole_of()[i];
-    if (whole != i) piece.part_of = whole;
+    piece.removed = whole == no_entity;
+    if (whole != i && !piece.removed) piece.part_of = whole;
     piece.joint = world.mass[i] != given.mass[i] || world.radius[i] != given.radius[i];
     piece.mass = world.mass[i];
     piece.radius = world.radius[i];

@@ -70,7 +70,7 @@ void RegionGrid::shape(Octave& grid, std::size_t regions) {
   grid.most = all ? ~std::size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
 }
 
-RegionGrid::Bucket& RegionGrid::bucket_of(Octave& grid, const Region& region) {
+inline RegionGrid::Bucket& RegionGrid::bucket_of(Octave& grid, const Region& region) {
   const std::int64_t x = wrap(cell_of(region.x, grid.per_width), grid.low[0], grid.cells[0]);
   const std::int64_t y = wrap(cell_of(region.y, grid.per_width), grid.low[1], grid.cells[1]);
   const std::int64_t z = wrap(cell_of(region.z, grid.per_width), grid.low[2], grid.cells[2]);

@@ -55,7 +55,7 @@ class RegionGrid {
   static std::int64_t wrap(Cell c, Cell low, std::int64_t cells);
   Octave& octave_of(int level);
   void shape(Octave& grid, std::size_t regions);
-  Bucket& bucket_of(Octave& grid, const Region& region);
+  [[gnu::always_inline]] Bucket& bucket_of(Octave& grid, const Region& region);
   void link(Bucket& first, Entity i);
   void unlink(Bucket& first, Entity i);
   void take(const Bucket* from, const Bucket* end, std::size_t most, std::size_t& count,

@@ -5,14 +5,37 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace carom {
 
+namespace {
+
+std::string joined(const std::string& before, const std::vector<Entity>& things, const std::vector<std::string>& after,
+                   const std::function<std::string(Entity)>& name) {
+  std::string text = before;
+  for (std::size_t k = 0; k < things.size(); ++k) text += name(things[k]) + after[k];
+  return text;
+}
+
+/// The name of a thing that has none.
+std::string numbered(Entity e) {
+  return fmt::format("body {}", e);
+}
+
+}  // namespace
+
 SimulationError::SimulationError(const std::string& before, Entity body, const std::string& after)
-    : runtime_error(fmt::format("{}body {}{}", before, body, after)), about_{{before, body, after}} {}
+    : SimulationError(before, std::vector{body}, {after}) {}
+
+SimulationError::SimulationError(std::string before, std::vector<Entity> things, std::vector<std::string> after)
+    : runtime_error(joined(before, things, after, numbered)),
+      before_(std::move(before)),
+      things_(std::move(things)),
+      after_(std::move(after)) {}
 
 SimulationError SimulationError::named(const std::function<std::string(Entity)>& name) const {
-  return about_ ? SimulationError(about_->before + name(about_->body) + about_->after) : *this;
+  return things_.empty() ? *this : SimulationError(joined(before_, things_, after_, name));
 }
 
 void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,

@@ -1,9 +1,9 @@
 #pragma once
 // Reasons why a run cannot continue.
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "physics/bounds.h"
 #include "physics/entity.h"
@@ -16,17 +16,16 @@ class SimulationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
   /// An error about a body, which simulators identify by number: "<before>body 3<after>".
   SimulationError(const std::string& before, Entity body, const std::string& after);
+  /// An error about several things. after: the text after each of them.
+  SimulationError(std::string before, std::vector<Entity> things, std::vector<std::string> after);
 
-  /// The same error with the body's name in place of its number.
+  /// The same error with the things' names in place of their numbers.
   SimulationError named(const std::function<std::string(Entity)>& name) const;
 
  private:
-  struct About {
-    std::string before;
-    Entity body;
-    std::string after;
-  };
-  std::optional<About> about_;
+  std::string before_;
+  std::vector<Entity> things_;
+  std::vector<std::string> after_;  // by thing
 };
 
 /// Remedies against a speed, and against a position, that is out of bounds.

@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "physics/collision.h"
 #include "physics/contact_force.h"
+#include "physics/extremes.h"
 #include "physics/path_piece.h"
 #include "physics/state.h"
 #include "physics/tally.h"
+#include "physics/world_region.h"
 #include "simulate/simulation_error.h"
 
 namespace carom {
@@ -30,15 +33,21 @@ class Simulator {
 
   /// Advances to `time` (s), or less far if the collision buffer is full or many events have passed.
   /// Call it again while time() < `time`. Throws SimulationError.
+  /// A run that has ended, as the tally says, stands still: only time() goes on.
   virtual void advance_to(double time) = 0;
   virtual double time() const = 0;   // s
-  virtual const State& state() = 0;  // at time(); valid until the next advance_to
+  virtual const State& state() = 0;  // at time(), or at the run's end; valid until the next advance_to
   /// Collisions since the last advance_to, in order. Empty if they are not recorded.
   virtual std::span<const Collision> collisions() const = 0;
   /// Pieces of paths since the last advance_to, in order. Before the first advance these are the paths at time 0. Empty
   /// if they are not recorded.
   virtual std::span<const PathPiece> paths() const { return {}; }
+  /// Crossings of the World's regions since the last advance_to, by time, then region, then body. All are recorded. The
+  /// first advance has those at time 0.
+  virtual std::span<const RegionCrossing> crossings() const { return {}; }
   virtual const Tally& tally() const = 0;       // up to time()
+  /// The extremes of the watched quantities from time 0 to time(), in the order in which they are watched.
+  virtual std::vector<Extremes> extremes() const { return {}; }
   virtual Effort effort() const { return {}; }  // up to the present; zero where it is not counted
   /// At time(), ordered by a, then b. Valid until the next advance_to.
   virtual std::span<const ContactForce> contacts() { return {}; }

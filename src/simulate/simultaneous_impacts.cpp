@@ -70,9 +70,11 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
     // The pair belongs to the body that was added first.
     if (body && (index[e] != ContactConstraint::fixed || !bodies_.in_group(e) || !bodies_.islands.same(e, i))) continue;
     const Touch there = touch(world, i, x, e, bodies_.position_of(e));
-    set.near.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
+    ContactConstraint pair{k, ContactConstraint::fixed, there.normal};
+    if (!body) pair.surface = there.normal.dot(bodies_.fixed_velocity(e));
+    set.near.add(pair, {i, e, there.feature}, there.gap);
   }
-  set.near.drop_hidden(world, x, first, group_.margin[i]);
+  set.near.drop_hidden(bodies_, x, first, group_.margin[i]);
   set.added.resize(set.near.pairs.size(), 0);
   for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
     const Entity e = set.near.names[c].e;
@@ -119,7 +121,7 @@ double SimultaneousImpacts::approach(const Struck& set, const std::vector<Vec3>&
   if (bodies_.world.is_body(e))
     v = group_.index[e] == ContactConstraint::fixed ? bodies_.velocity(e) : velocities[group_.index[e]];
   const ContactConstraint& p = set.near.pairs[near];
-  return p.normal.dot(velocities[p.a] - v);
+  return p.normal.dot(velocities[p.a] - v) - p.surface;
 }
 
 /// The allowed speed of approach (m/s) for which the two are no closer than their margin at the next step. It is
@@ -217,6 +219,8 @@ bool SimultaneousImpacts::makes_energy(const Struck& set) {
     const Vec3 &before = set.before[k], &after = set.after[k];
     made += (0.5 * (after - before).dot(after + before) - set.forced[k].dot(after)) / set.inverse_mass[k];
   }
+  for (const ContactConstraint& p : set.pairs) made -= p.work();
+  for (const ContactConstraint& p : set.impacts) made -= p.work();
   return made > 0;
 }
 
@@ -230,8 +234,10 @@ void SimultaneousImpacts::note_forces(const Struck& set) {
     const Entity partner = std::max(i, e);
     std::erase_if(list, [&](const PressingContact& p) { return p.partner == partner; });
     const double rest = remaining(set, i, e);
-    if (force > 0 && rest > 0) list.push_back({partner, force / rest});
+    if (force > 0 && rest > 0) list.push_back({partner, force / rest, set.pairs[c].surface});
   }
+  if (!bodies_.moving.any()) return;
+  for (const Entity i : set.members) group_.renew_power(i);
 }
 
 /// Begins the flights. Returns the bodies with changed velocities.

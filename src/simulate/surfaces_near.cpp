@@ -19,6 +19,11 @@ constexpr std::size_t few = 12;
 // Number of cells in the cache.
 constexpr std::size_t most_cells = 65536;
 
+/// Half the edges of the box around a wall (m).
+Vec3 half_of(const Wall& wall) {
+  return wall.half_width * wall.right.cwiseAbs() + wall.half_height * wall.up.cwiseAbs();
+}
+
 }  // namespace
 
 std::size_t SurfacesNear::Hash::operator()(const Cell& cell) const {
@@ -34,9 +39,37 @@ SurfacesNear::SurfacesNear(const World& world) : world_(world) {
   for (const Plane& plane : world.planes)
     planes_.push_back({plane.normal, plane.point.dot(plane.normal), 0x1p-48 * plane.point.cwiseAbs().sum()});
   for (Entity k = 0; k < world.fixed_count(); ++k) all_.push_back(world.body_count() + k);
+  if (!world.moves()) return;
+  for (const Entity e : all_) sweep(e);
 }
 
-bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
+/// Finds the places of a thing's centre: those at the starts of its legs, and in the direction of the last one.
+void SurfacesNear::sweep(Entity e) {
+  const Vec3& start = world_.fixed_position(e);
+  Places& places = places_.emplace_back(Places{start, start});
+  if (!world_.moves(e)) return;
+  const auto include = [&](const Vec3& x) {
+    places.low = places.low.cwiseMin(x);
+    places.high = places.high.cwiseMax(x);
+    if (!world_.is_plane(e)) return;
+    HalfSpace& plane = planes_[e - world_.body_count()];
+    plane.offset = std::max(plane.offset, plane.normal.dot(x));
+    plane.rounding = std::max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
+  };
+  const std::vector<MotionLeg>& legs = world_.legs(e);
+  for (const MotionLeg& leg : legs) include(place_on(start, leg, {leg.from, 0}));
+  const Vec3& last = legs.back().velocity;
+  if (world_.is_plane(e)) {
+    HalfSpace& plane = planes_[e - world_.body_count()];
+    if (plane.normal.dot(last) > 0) plane.offset = never;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (last[axis] < 0) places.low[axis] = -never;
+    if (last[axis] > 0) places.high[axis] = never;
+  }
+}
+
+inline bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
   if (world_.is_plane(e)) {
     const HalfSpace& plane = planes_[e - world_.body_count()];
     return center.dot(plane.normal) - plane.offset <= reach + plane.rounding + 0x1p-48 * center.cwiseAbs().sum();
@@ -46,6 +79,22 @@ bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
     return ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).squaredNorm() <= reach * reach;
   }
   return (center - nearest_on_wall(world_.wall(e), center)).squaredNorm() <= reach * reach;
+}
+
+/// The same where things move: whether the surface is ever near.
+bool SurfacesNear::comes_near(Entity e, const Vec3& center, double reach) const {
+  if (!world_.moves(e) || world_.is_plane(e)) return is_near(e, center, reach);
+  const Places& places = places_[e - world_.body_count()];
+  const Vec3 half = world_.is_obstacle(e) ? world_.obstacle(e).volume.half : half_of(world_.wall(e));
+  const Vec3 nearest = center.cwiseMax(places.low).cwiseMin(places.high);
+  return ((center - nearest).cwiseAbs() - half).cwiseMax(0).squaredNorm() <= reach * reach;
+}
+
+/// Adds those that are ever near.
+void SurfacesNear::take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
+                                  std::vector<Entity>& found) const {
+  for (const Entity e : from)
+    if (comes_near(e, center, reach)) found.push_back(e);
 }
 
 void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
@@ -64,13 +113,14 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
       const Vec3 middle = width * Vec3(static_cast<double>(cell.x) + 0.5, static_cast<double>(cell.y) + 0.5,
                                        static_cast<double>(cell.z) + 0.5);
       std::vector<Entity> in_reach;
-      for (const Entity e : all_)
-        // Half of the cell's diagonal.
-        if (is_near(e, middle, (0.5 + 0.8661) * width)) in_reach.push_back(e);
+      // Half of the cell's diagonal.
+      take_ever_near(all_, middle, (0.5 + 0.8661) * width, in_reach);
       known = cells_.emplace(cell, std::move(in_reach)).first;
     }
     candidates = &known->second;
   }
+  if (world_.moves()) [[unlikely]]
+    return take_ever_near(*candidates, center, reach, found);
   for (const Entity e : *candidates)
     if (is_near(e, center, reach)) found.push_back(e);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The fixed surfaces near a position. Where there are many, the few near a cell of space are collected once, at the
-// first search in that cell.
+// The fixed surfaces near a position. One that moves is near if it ever comes there. Where there are many, the few near
+// a cell of space are collected once, at the first search in that cell.
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -27,6 +27,10 @@ class SurfacesNear {
     Vec3 normal;
     double offset, rounding;  // m
   };
+  /// The box around all places of a wall's or an obstacle's centre.
+  struct Places {
+    Vec3 low, high;  // m
+  };
   struct Cell {
     std::int64_t x, y, z;
     int size;  // 2^size m wide
@@ -36,10 +40,15 @@ class SurfacesNear {
     std::size_t operator()(const Cell& cell) const;
   };
 
-  bool is_near(Entity e, const Vec3& center, double reach) const;
+  void sweep(Entity e);
+  [[gnu::always_inline]] bool is_near(Entity e, const Vec3& center, double reach) const;
+  bool comes_near(Entity e, const Vec3& center, double reach) const;
+  [[gnu::noinline]] void take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
+                                        std::vector<Entity>& found) const;
 
   const World& world_;
-  std::vector<HalfSpace> planes_;
+  std::vector<HalfSpace> planes_;  // of a plane that moves: the farthest out along its normal
+  std::vector<Places> places_;     // by fixed thing; empty: nothing moves
   std::vector<Entity> all_;
   std::unordered_map<Cell, std::vector<Entity>, Hash> cells_;
 };

@@ -151,7 +151,8 @@ void TimeStepping::find_pairs(Step& step) const {
       if (body && !of_other_island && e < i) continue;
       const Vec3 xe = asleep ? bodies_.flights[e].x : bodies_.position_of(e);
       const Touch there = touch(world, i, step.x[k], e, xe);
-      const Vec3 ve = !body ? Vec3(Vec3::Zero()) : of_other_island ? bodies_.velocity(e) : step.v[other];
+      const Vec3 still = asleep ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(e);
+      const Vec3 ve = !body ? still : of_other_island ? bodies_.velocity(e) : step.v[other];
       const double rate = there.normal.dot(ve - step.v[k]);
       if (group_.strikes(i, e, -rate / tol::fast_impact, step.greatest)) continue;
       const double margin_e = !body ? 0 : of_other_island ? group_.margin[e] : margin_of(other);
@@ -172,11 +173,12 @@ void TimeStepping::find_pairs(Step& step) const {
       if (step.greatest > 0 && margin > tol::parting_margin * step.smallest && there.gap < tol::margin_slack * margin &&
           pair_restitution(world, i, e) < 1)
         pair.target = (tol::margin_slack * margin - std::max(there.gap, 0.0)) / h;
+      if (!body) pair.surface = there.normal.dot(ve);
       for (const PressingContact& p : group_.pressing[i])
         if (p.partner == e) pair.force = p.force * h;
       step.contacts.add(pair, {i, e, there.feature}, there.gap);
     }
-    step.contacts.drop_hidden(world, step.x[k], first);
+    step.contacts.drop_hidden(bodies_, step.x[k], first);
   }
 }
 
@@ -193,7 +195,10 @@ void TimeStepping::take_slow_impacts(Step& step) const {
     p.slack = std::max(p.slack, tol::slow_slack * fastest);
     p.force = 0;
   }
-  bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, step.impacts, ContactAccuracy::energy}));
+  const Certificate certificate =
+      carom::solve({step.inverse_mass, step.after_impacts, step.impacts, ContactAccuracy::energy});
+  if (certificate.verdict == Certificate::Verdict::infeasible) step.contacts.check_room(bodies_, step.after_impacts);
+  bodies_.log.note(certificate);
 }
 
 /// Computes the velocities that keep every pair apart until the step ends. Where margins are wide some pairs separate.
@@ -228,6 +233,7 @@ void TimeStepping::keep_apart(Step& step) const {
     press_only();
     certificate = press();
   }
+  if (certificate.verdict == Certificate::Verdict::infeasible) step.contacts.check_room(bodies_, step.solved);
   bodies_.log.note(certificate);
 }
 
@@ -238,6 +244,7 @@ double TimeStepping::lost_by_impacts(const Step& step) {
     const Vec3& v = step.after_impacts[k];
     lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
   }
+  for (const ContactConstraint& p : step.impacts) lost += p.work();
   return lost;
 }
 
@@ -257,6 +264,7 @@ bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free)
     const Vec3 forced = free[k] - v + drag * (free[k] - solved);  // m/s
     made += (0.5 * (solved - v).dot(solved + v) - forced.dot(solved)) / step.inverse_mass[k];
   }
+  for (const ContactConstraint& p : step.contacts.pairs) made -= p.work();
   return made > 0;
 }
 
@@ -297,10 +305,14 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   for (std::uint32_t k = 0; k < n; ++k) still[k] = step.island[k] == k;
   const double unit = std::sqrt(step.greatest * step.smallest);  // m/s
   const double slow = std::max(tol::standstill * unit, 16 * tol::least_margin * step.smallest / step.length);
+  // The rim of a thing that moves may come along.
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+    if (bodies_.moving.moves(step.contacts.names[c].e, bodies_.now)) still[step.island[step.contacts.pairs[c].a]] = 0;
+  const std::vector<std::uint8_t> may_stop = still;
   const bool jammed = step.short_steps > tol::many_short_steps;
   for (std::uint32_t k = 0; k < n; ++k) {
     Vec3& v = step.solved[k];
-    if (jammed && step.carried[k] && v.norm() <= tol::jammed_speed * unit) v.setZero();
+    if (jammed && may_stop[step.island[k]] && step.carried[k] && v.norm() <= tol::jammed_speed * unit) v.setZero();
     if (!step.carried[k] || v.norm() > slow) still[step.island[k]] = 0;
   }
   return still;
@@ -378,6 +390,7 @@ double TimeStepping::taken(const Step& step) const {
     const Vec3 forced = step.length * (bodies_.applied[i] - bodies_.fade[i] * solved);  // m/s
     sum += (0.5 * (v - solved).dot(v + solved) + forced.dot(solved)) / step.inverse_mass[k];
   }
+  for (const ContactConstraint& p : step.contacts.pairs) sum += p.work();
   return sum;
 }
 
@@ -390,7 +403,9 @@ void TimeStepping::begin_flights(Step& step) {
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
     if (step.contacts.pairs[c].force > 0)
       group_.pressing.write(step.contacts.names[c].i)
-          .push_back({step.contacts.names[c].e, step.contacts.pairs[c].force / h});
+          .push_back({step.contacts.names[c].e, step.contacts.pairs[c].force / h, step.contacts.pairs[c].surface});
+  if (bodies_.moving.any())
+    for (const Entity i : step.members) group_.note_power(i);
   Island& island = bodies_.islands.of(step.members.front());
   island.fresh = island.constrained = false;
   island.step_length = h;

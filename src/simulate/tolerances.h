@@ -16,6 +16,8 @@ namespace carom::exact_tolerance {
 inline constexpr double velocity_rounding = 0x1p-48;
 // Share of coordinates: a displacement that is rounding.
 inline constexpr double position_rounding = 0x1p-48;
+// Share of the time since a flight's start: the rounding of two roots at one place of a path.
+inline constexpr double crossing_rounding = 0x1p-50;
 // Share of a radius: lower elastic hops that drag shortens without end are over.
 inline constexpr double fading_hop = 0x1p-32;
 // Share of coordinates: a gap to a flat surface by the rounding of a scene's numbers.
@@ -75,6 +77,9 @@ inline constexpr int burst_of_bodies = 16;
 inline constexpr double waking_lift = 1e-4;
 // Volume of three unit normals that hold a body on all sides.
 inline constexpr double least_volume = 1e-3;
+
+// Share of a radius: in less room between things that certainly close in on a body, the run ends with an error.
+inline constexpr double least_gap = 0x1p-10;
 
 // The contact group (exact_group.h).
 

@@ -93,8 +93,9 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
   const double of_a = problem.inverse_mass[c.a], of_b = fixed ? 0 : problem.inverse_mass[c.b];
   const double per_force = c.normal.squaredNorm() * (of_a + of_b);
   Vec3 a = problem.motion[c.a], b = fixed ? none : problem.motion[c.b];
-  const double scale = std::abs(c.target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
-  const auto excess = [&] { return c.normal.dot(b - a) - c.target; };
+  const double target = c.target - c.surface;
+  const double scale = std::abs(target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
+  const auto excess = [&] { return c.normal.dot(b - a) - target; };
   double w = excess(), force = 0;
   if (c.bilateral || !(w >= 0))
     for (int pass = 0; pass < 2; ++pass) {
@@ -118,7 +119,7 @@ bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_
   return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t k) {
     const ContactConstraint& c = problem.contacts[k];
     const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : problem.motion[c.b];
-    return !c.bilateral && c.normal.dot(b - problem.motion[c.a]) >= c.target;
+    return !c.bilateral && c.normal.dot(b - problem.motion[c.a]) >= c.target - c.surface;
   });
 }
 
@@ -201,7 +202,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.b = from.b == ContactConstraint::fixed ? from.b : place[from.b];
     row.bilateral = from.bilateral;
     row.normal = from.normal;
-    row.target = from.target;
+    row.target = from.target - from.surface;
     row.slack = problem.accuracy == ContactAccuracy::rounding ? 0 : from.slack;
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }

@@ -31,12 +31,16 @@ struct ContactConstraint {
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral
   // normal . (u_b - u_a) must equal the target, and the force may pull too.
   bool bilateral = false;
+  // normal . u_b of a fixed thing that moves; in the unit of u. Otherwise 0.
+  double surface = 0;
+  /// The work of such a thing by the force, which pushes a against the normal.
+  double work() const { return -force * surface; }
 };
 
 /// The speed of approach of a contact's bodies along its normal, in the unit of `motion`.
 inline double approach(std::span<const Vec3> motion, const ContactConstraint& c) {
   const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : motion[c.b];
-  return c.normal.dot(motion[c.a] - b);
+  return c.normal.dot(motion[c.a] - b) - c.surface;
 }
 
 /// The required accuracy of a solution. A contact that is off by its slack s has the kinetic energy of the correcting

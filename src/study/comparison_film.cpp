@@ -76,7 +76,8 @@ std::vector<FilmTile> film_tiles(const RunSet& runs) {
   if (count > most_tiles)
     throw ExportError(fmt::format("a film shows at most {} runs side by side, not {}: name fewer, or leave --video out",
                                   most_tiles, count));
-  ComparisonPlan plan{"", runs.parameters(), {}, {}, {}};
+  ComparisonPlan plan;
+  plan.parameters = runs.parameters();
   Outcomes outcomes(plan, 0, count);
   for (std::size_t i = 0; i < count; ++i) outcomes.add(i, runs.run(i), true, {});
   outcomes.finish();

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "files/folder_names.h"
 #include "files/manifest.h"
@@ -17,6 +18,7 @@
 #include "files/publication.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "scene/expand.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
@@ -125,7 +127,8 @@ void name_all(std::vector<ListedRun>& runs) {
 }
 
 bool is_parameter(const std::string& path) {
-  return path != "scene" && path != "title" && path != "caption" && !path.starts_with("output.");
+  return path != "scene" && path != "title" && path != "caption" && !path.starts_with("output.") &&
+         !path.starts_with("measures.");
 }
 
 /// The numbers of these runs in a sweep, by their ids. Empty if one does not belong to it.
@@ -185,7 +188,40 @@ std::string digest_of(const std::vector<ListedRun>& runs, const std::function<vo
   return hash.hex();
 }
 
+namespace {
+
+/// The expressions of runs' scenes. A value follows from `let` if one expression makes it in all of them.
+class SharedExpressions {
+ public:
+  void add(const ListedRun& run) {
+    const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+    const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+    ExpressionTexts own = manifest ? manifest->expressions : ExpressionTexts();
+    if (std::exchange(first_, false)) {
+      texts_ = std::move(own);
+      return;
+    }
+    std::erase_if(texts_, [&](const auto& text) {
+      const auto found = own.find(text.first);
+      return found == own.end() || found->second != text.second;
+    });
+  }
+
+  /// `everywhere`: all scenes have the path.
+  bool make(const std::string& path, bool everywhere) const {
+    const bool exists = everywhere || repeat_of(texts_, path) != nullptr;
+    return exists && (!everywhere || expression_at(texts_, path) != nullptr);
+  }
+
+ private:
+  bool first_ = true;
+  ExpressionTexts texts_;
+};
+
+}  // namespace
+
 RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_check) : runs_(std::move(runs)) {
+  SharedExpressions expressions;
   // Of all scenes, each path once, in the order of the first scene with it.
   std::vector<SceneValue> all;
   std::map<std::string, std::size_t> known;  // its paths
@@ -198,6 +234,7 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_ch
     const std::vector<SceneValue> values = values_of(run);
     if (values.empty()) continue;
     ++scenes;
+    expressions.add(run);
     for (const SceneValue& value : values) {
       if (!is_parameter(value.path)) continue;
       const auto [found, fresh] = known.emplace(value.path, all.size());
@@ -211,6 +248,7 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_ch
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (counts[k] == scenes && !varying.contains(k)) continue;
+    if (expressions.make(all[k].path, counts[k] == scenes)) continue;
     numbers_.emplace(all[k].path, parameters_.size());
     parameters_.push_back({all[k].path, all[k].unit});
   }
@@ -229,7 +267,7 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_ch
 }
 
 RunSet::RunSet(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
-  const ComparisonPlan plan = comparison_plan(sweep);
+  const ComparisonPlan plan = comparison_plan(sweep, {});
   parameters_ = plan.parameters;
   seed_ = plan.seed;
   in_sweep_ = numbers_in(sweep, runs_);

@@ -124,7 +124,8 @@ std::vector<std::string> stored_failures(const std::string& path) {
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-                         const std::string& skipped, const std::function<void()>& stop_check) {
+                         const std::string& skipped, const std::function<void()>& stop_check)
+    : base_text_(base_text) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail("make", {-1, path}, "", error.message());
@@ -197,7 +198,7 @@ void SweepFolder::put(const char* name, const std::string& text) {
   if (auto record = read_record(place_.folder, name)) begun_.push_back(std::move(*record));
 }
 
-ComparisonPlan comparison_plan(const Sweep& sweep) {
+ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text) {
   ComparisonPlan plan;
   plan.title = sweep.title;
   for (const std::string& path : sweep.paths) {
@@ -206,6 +207,7 @@ ComparisonPlan comparison_plan(const Sweep& sweep) {
   }
   for (const SweepMeasure& measure : sweep.measures) plan.measures.push_back(measure.name);
   for (const SweepChart& chart : sweep.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
+  plan.own = own_measure_names(base_text);
   if (sweep.seeds > 0) plan.seed = sweep.paths.size() - 1;
   plan.collisions = sweep.collisions;
   return plan;
@@ -217,7 +219,8 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
   std::optional<std::vector<SceneValue>> own;  // of the scene
   for (std::size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
-    if (run.values[p]) continue;
+    // The scene of a run has the number of an expression.
+    if (!out.values.back().empty() && !out.values.back().starts_with('=')) continue;
     if (!own) {
       const Descriptor place = open_folder(AT_FDCWD, folder, true);
       const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : std::nullopt;
@@ -242,7 +245,7 @@ void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statu
     return run;
   };
   std::vector<std::unique_ptr<OutputFile>> files =
-      write_comparison(place_, comparison_plan(sweep), kept.size(), compared, watch);
+      write_comparison(place_, comparison_plan(sweep, base_text_), kept.size(), compared, watch);
 
   Json failed = Json::array();
   for (const std::size_t number : kept)

@@ -47,8 +47,8 @@ std::vector<std::string> stored_failures(const std::string& folder);
 /// A value that its block does not set comes from its scene, and is empty if the scene lacks it.
 ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder);
 
-/// The plan of the comparison of a sweep's runs.
-ComparisonPlan comparison_plan(const Sweep& sweep);
+/// The plan of the comparison of a sweep's runs. `base_text`: the text of the base scene.
+ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text);
 
 class SweepFolder {
  public:
@@ -78,6 +78,7 @@ class SweepFolder {
 
   Descriptor folder_;
   FilePlace place_;
+  std::string base_text_;
   std::vector<FileRecord> begun_;
 };
 

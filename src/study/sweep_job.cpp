@@ -197,7 +197,7 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
 void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_progress) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
-  measures_ = measures_of(comparison_plan(sweep_));
+  measures_ = measures_of(comparison_plan(sweep_, base_.text()));
   // By the first run of the batch.
   std::map<std::size_t, WrongRuns> wrong;
   Tasks tasks;
@@ -376,13 +376,10 @@ std::string SweepJob::work(const Unit& unit) {
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
   }
   const RunWatch watch{settings_.stop_check, [](double, std::uint64_t, std::uint64_t) {}};
-  const auto measure = [&](const Scene& its, const State& end, const Summary& summary) {
-    std::vector<Measured> out;
-    for (const Measure& one : measures_)
-      if (one.column == nullptr) out.push_back({one.name, value_of(one, its, end, summary)});
-    return out;
-  };
-  const RunSettings how{Durability::deferred, measure};
+  RunSettings how;
+  how.durability = Durability::deferred;
+  std::copy_if(measures_.begin(), measures_.end(), std::back_inserter(how.measures),
+               [](const Measure& measure) { return !measure.is_stored(); });
   const std::vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::vector<std::size_t>& runs = unit.scenarios[i];

@@ -25,6 +25,8 @@ struct Node {
   bool quoted = false;
   /// An error about this value was reported, so the value must not be used.
   bool bad = false;
+  /// The word `none` in place of a value that defaults would give.
+  bool cancels = false;
   /// The place of the value. A value without a place of its own (null, a block below its key) has that of its key.
   Place place;
   std::string text;       // of a scalar

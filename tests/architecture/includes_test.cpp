@@ -32,6 +32,7 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"Eigen", {"Eigen/"}},
     {"vector intrinsics", {"immintrin.h"}},
     {"yaml-cpp", {"yaml-cpp/"}},
+    {"muParser", {"muParser"}},
     {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
     {"assimp", {"assimp/"}},
     {"libpng", {"png.h"}},

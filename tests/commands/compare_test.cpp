@@ -48,6 +48,41 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
   EXPECT_EQ(manifest["files"].size(), 2u);
 }
 
+TEST(CompareCommand, ListsNumbersOfLetAndNotWhatFollowsFromThem) {
+  const Workplace here;
+  here.write("ramp.yaml", R"(scene: 1
+let: {tilt: 20, r: 0.1, n: 3, height: '= 2 * r'}
+defaults: {ball: {radius: = r, mass: 1}}
+balls:
+  row: {repeat: = n, position: ['= -3 * i * r * cos(tilt)', '= 3 * i * r * sin(tilt) + height', 0]}
+  red: {radius: 0.05, position: [0, 3, 0]}
+planes: {ramp: {point: [0, 0, 0], normal: ['= sin(tilt)', '= cos(tilt)', 0]}}
+simulate: {duration: 0.1}
+output: {collisions: true}
+)");
+  const auto run = [&](const std::string& name, const std::string& set) {
+    ASSERT_EQ(here.carom({"run", "ramp.yaml", "-o", "runs/" + name, "--set", set, "-q"}).code, 0);
+  };
+  run("a", "let.tilt=20");
+  run("b", "let.tilt=30");
+  run("c", "let.r=0.08");
+  run("d", "let.n=5");
+  run("e", "balls.row.position.z=1");
+  run("f", "balls.red.radius=0.06");
+  const auto varied = [&](const std::vector<std::string>& runs) {
+    std::vector<std::string> words = {"compare", "--force"};
+    for (const std::string& name : runs) words.push_back("runs/" + name);
+    const std::string out = here.carom(words).out;
+    const std::size_t at = out.find("varied      ");
+    return at == std::string::npos ? out : out.substr(at + 12, out.find('\n', at) - at - 12);
+  };
+  EXPECT_EQ(varied({"a", "b"}), "let.tilt");
+  EXPECT_EQ(varied({"a", "b", "c", "d"}), "let.tilt, let.r and let.n");
+  // A value that no expression made is listed, also beside an expression of the defaults.
+  EXPECT_EQ(varied({"a", "e"}), "balls.row.0.position.z, balls.row.1.position.z and balls.row.2.position.z");
+  EXPECT_EQ(varied({"a", "f"}), "balls.red.radius");
+}
+
 TEST(CompareCommand, IsUpToDateUntilARunOrTheRequestChanges) {
   const Workplace here;
   make_runs(here);

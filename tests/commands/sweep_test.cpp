@@ -89,7 +89,7 @@ TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
   const std::vector<std::string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 7u);
   EXPECT_TRUE(
-      rows[0].ends_with(",frames,stepped_contact_s,balls.red.position.z,balls.red.mass,balls.red.speed_m_per_s"))
+      rows[0].ends_with(",frames,stepped_contact_s,removed_J,ended_by,balls.red.position.z,balls.red.mass,balls.red.speed_m_per_s"))
       << rows[0];
   EXPECT_TRUE(rows[4].starts_with("r0004,")) << rows[4];
   EXPECT_NE(rows[4].find(",0.025,10,"), std::string::npos) << rows[4];
@@ -466,6 +466,29 @@ TEST(Sweep, VariesASceneFromTheCommandLine) {
                                      "balls.red.position.z=0,0.01", "--set", "simulate.duration=1", "-q"});
   EXPECT_EQ(sweep.code, 0) << sweep.err;
   EXPECT_TRUE(here.has("output/balls.sweep/runs/r0006/summary.csv"));
+}
+
+TEST(Sweep, VariesNumbersOfLetAndTakesExpressionsOfThem) {
+  const Workplace here;
+  here.write("row.yaml", R"(scene: 1
+let: {r: 0.1, n: 2}
+balls: {row: {repeat: = n, radius: = r, mass: 1, position: [= 3 * r * i, 0, 0]}}
+simulate: {duration: 0.1}
+output: {energy: {every: 0.1}}
+)");
+  const Finished run = here.carom({"sweep", "row.yaml", "--grid", "let.n=1:3:3", "--grid", "let.r=0.2,= n / 8", "-q"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::istringstream table(here.files("output/row.sweep").at("summary.csv"));
+  std::string line, ends;
+  for (std::getline(table, line); std::getline(table, line);) {
+    const std::size_t last = line.rfind(','), before = line.rfind(',', last - 1);
+    ends += line.substr(before) + "\n";
+  }
+  EXPECT_EQ(ends, ",1,0.2\n,1,0.125\n,2,0.2\n,2,0.25\n,3,0.2\n,3,0.375\n");
+  EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.q=1,2"}).err.find("`let` has no `q`"),
+            std::string::npos);
+  EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.r=1,= q"}).err.find("no number is named `q`"),
+            std::string::npos);
 }
 
 TEST(Sweep, InterruptedIsResumedByTheSameCommand) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
 #include "compare/compared_run.h"
 #include "compare/comparison_testing.h"
@@ -52,48 +53,102 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
       "`balls.red.speed`: no quantity `speed`; the quantities are x_m, y_m, z_m, vx_m_per_s, vy_m_per_s, vz_m_per_s, "
       "speed_m_per_s, kinetic_J");
   EXPECT_EQ(error_of("balls.red", scene), "`balls.red` has no quantity: expected one such as balls.NAME.speed_m_per_s");
-  EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member: expected one such as groups.gas.0.x_m");
+  EXPECT_EQ(error_of("max(balls.red)", scene),
+            "`max(balls.red)` has no quantity: expected one such as balls.NAME.speed_m_per_s");
+  EXPECT_EQ(error_of("max(balls.red.y_m, 3)", scene),
+            "`max(balls.red.y_m, 3)`: expected one quantity, such as max(balls.NAME.y_m)");
+  EXPECT_EQ(error_of("hits(red, rde)", scene), "`hits(red, rde)`: nothing is named `rde`; did you mean `red`?");
+  EXPECT_EQ(error_of("hits()", scene), "`hits()`: expected one or two names, such as hits(red, blue)");
+  EXPECT_EQ(error_of("max(balls.red.y_m) / 2", scene),
+            "`max(balls.red.y_m) / 2`: arithmetic begins with `=`, such as '= max(balls.red.y_m) / 2'");
+  EXPECT_EQ(error_of("count(y_m)", scene), "`count(y_m)`: expected a comparison, such as count(y_m < 0)");
+  EXPECT_EQ(error_of("first(red", scene),
+            "`first(red` lacks a closing parenthesis; in YAML, a measure with a comma needs quotes");
+  EXPECT_EQ(error_of("= 1 +", scene), "`= 1 +`: the expression ends too early; expected a number or a name after it");
+  EXPECT_EQ(error_of("= let.r", scene), "`let` has no `r`");
+  EXPECT_EQ(error_of("= hits(red) + nothing", scene),
+            "`= hits(red) + nothing`: no number is named `nothing`; expected a measure, let.NAME or a number");
+  EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member; expected one such as groups.gas.0.x_m");
   EXPECT_EQ(error_of("groups.gas.3.x_m", scene), "`groups.gas.3.x_m`: the members of `gas` are 0 to 2");
-  EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: only groups have members: balls.NAME.x_m");
+  EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: balls has no `red.0`; did you mean `red`?");
+  EXPECT_EQ(error_of("regions.hole.entries", scene), "`regions.hole.entries`: no region is named `hole`");
   EXPECT_NE(error_of("", scene), "");
   EXPECT_NE(error_of("...", scene), "");
 }
 
-TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
-  const Place place;
-  const Scene scene = scene_of(place, mixed);
-  const auto value = [&](const char* name) {
-    return value_of(parse_measure(name, scene), scene, scene.initial, Summary{});
-  };
-  EXPECT_EQ(value("balls.red.x_m"), -1);
-  EXPECT_EQ(value("balls.red.vz_m_per_s"), 1.2);
-  EXPECT_DOUBLE_EQ(value("balls.red.speed_m_per_s"), 1.3);
-  EXPECT_DOUBLE_EQ(value("balls.red.kinetic_J"), 1.5 * 1.69);
+/// The values of measures, as the run itself finds them.
+std::vector<Measured> measured(const Place& place, const std::string& yaml, const std::vector<std::string>& names) {
+  const Scene scene = scene_of(place, yaml);
+  RunSettings settings;
+  for (const std::string& name : names) settings.measures.push_back(parse_measure(name, scene));
+  return run_scene({&scene, place / "run", 0}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}})
+      .facts.measures;
 }
 
-TEST(MeasureValues, AreTheSameFromTheStateAndFromTheTrajectory) {
+TEST(MeasureValues, AreTheSameFromTheRunAndFromItsTables) {
   const Place place;
-  const std::vector<std::string> names = {"balls.red.y_m",           "balls.red.speed_m_per_s",
-                                          "groups.gas.1.vx_m_per_s", "groups.gas.2.kinetic_J",
-                                          "max_speed_m_per_s",       "first_collision_s"};
-  ComparisonPlan plan{"", {}, names, {}, {}};
-  std::vector<double> from_state;
-  place.write("run.yaml", mixed);
-  const Scene scene = load_scene(place / "run.yaml");
-  RunSettings settings;
-  settings.measure = [&](const Scene& of, const State& end, const Summary& summary) {
-    for (const Measure& measure : measures_of(plan)) from_state.push_back(value_of(measure, of, end, summary));
-    return std::vector<Measured>();
-  };
-  run_scene({&scene, place / "run", 0}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}});
-  const RunRecord run = read_run({"run", place / "run", {}}, measures_of(plan));
-  ASSERT_EQ(run.measures.size(), names.size());
+  const std::vector<std::string> names = {"balls.red.y_m",
+                                          "balls.red.speed_m_per_s",
+                                          "groups.gas.1.vx_m_per_s",
+                                          "groups.gas.2.kinetic_J",
+                                          "hits(red, gas)",
+                                          "first(gas, red)",
+                                          "hits(room)",
+                                          "hits(gas, room.x_max)",
+                                          "count(x_m > 7.5)",
+                                          "count(groups.gas.y_m <= 1 / 2)",
+                                          "= hits(room) / max(1, collisions)"};
+  const std::string yaml = mixed + "room: {min: [-2, -1, -1], max: [9, 1, 2]}\n";
+  const std::string long_run =
+      std::regex_replace(yaml, std::regex("duration: 1\\}\noutput: \\{"), "duration: 40}\noutput: {collisions: true, ");
+  const std::vector<Measured> of_run = measured(place, long_run, names);
+  ASSERT_EQ(of_run.size(), names.size());
+  const RunRecord with = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
+  // The same run without its own measures: its tables have them.
+  place.write("run/manifest.json", std::regex_replace(place.read("run/manifest.json"),
+                                                      std::regex("\"measures\": \\{[^}]*\\}"), "\"measures\": {}"));
+  const RunRecord without = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (std::isnan(from_state[k]))
-      EXPECT_TRUE(std::isnan(run.measures[k])) << names[k];
-    else
-      EXPECT_EQ(run.measures[k], from_state[k]) << names[k];
+    EXPECT_EQ(with.measures[k], of_run[k].value) << names[k];
+    EXPECT_EQ(without.measures[k], of_run[k].value) << names[k];
   }
+  EXPECT_GT(of_run[6].value, 0);
+}
+
+TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
+  const Place place;
+  const auto values = measured(
+      place, mixed,
+      {"balls.red.x_m", "balls.red.vz_m_per_s", "balls.red.speed_m_per_s", "balls.red.kinetic_J", "max(balls.red.x_m)",
+       "time_of_min(balls.red.x_m)", "= 2 * balls.red.kinetic_J / balls.red.speed_m_per_s ^ 2", "first(red, gas)",
+       "= hits(red) / hits(gas, red)", "count(x_m < 0)"});
+  const double expected[] = {-0.7, 1.2, 1.3, 1.5 * 1.69, -0.7, 0, 3};
+  for (std::size_t k = 0; k < std::size(expected); ++k)
+    EXPECT_DOUBLE_EQ(values[k].value, expected[k]) << values[k].name;
+  EXPECT_TRUE(std::isnan(values[7].value)) << "they never meet";
+  EXPECT_TRUE(std::isnan(values[8].value)) << "0 / 0";
+  EXPECT_EQ(values[9].value, 1);
+}
+
+TEST(OwnMeasures, AreTheLastColumnsOfTheSummary) {
+  const Place place;
+  place.run(std::regex_replace(mixed, std::regex("scene: 1"),
+                               "scene: 1\nlet: {twice: 2}\nmeasures: {end: balls.red.x_m, more: '= twice * let.twice', "
+                               "twice: '= 2 * end'}"),
+            "run");
+  const std::string summary = place.read("run/summary.csv");
+  EXPECT_NE(summary.find(",ended_by,end,more,twice\n"), std::string::npos) << summary;
+  EXPECT_NE(summary.find(",duration,-0.7,-2.8,-1.4\n"), std::string::npos) << summary;
+}
+
+TEST(OwnMeasures, AreColumnsOfAComparisonByTheirNames) {
+  const Place place;
+  place.run(std::regex_replace(mixed, std::regex("scene: 1"), "scene: 1\nmeasures: {end: balls.red.x_m}"), "run");
+  ComparisonPlan plan;
+  plan.own = {"end"};
+  const auto measures = measures_of(plan);
+  ASSERT_EQ(measures.size(), 1u);
+  EXPECT_EQ(read_run({"run", place / "run", {}}, measures).measures[0], -0.7);
 }
 
 TEST(MeasureValues, OfAJointBodyArePartOfNoOther) {
@@ -118,6 +173,11 @@ TEST(MeasureLabels, HaveTheirUnits) {
   EXPECT_EQ(label_of("momentum_drift_kg_m_per_s"), "momentum drift (kg m/s)");
   EXPECT_EQ(label_of("balls.red_one.speed_m_per_s"), "balls.red_one speed (m/s)");
   EXPECT_EQ(label_of("collisions"), "collisions");
+  EXPECT_EQ(label_of("max(balls.red.y_m)"), "maximum balls.red y (m)");
+  EXPECT_EQ(label_of("time_of_min(balls.red.speed_m_per_s)"), "time of the minimum balls.red speed (s)");
+  EXPECT_EQ(label_of("first(red, blue)"), "first hit of red, blue (s)");
+  EXPECT_EQ(label_of("= hits(red) / 2"), "= hits(red) / 2");
+  EXPECT_EQ(unit_of("max(balls.red.kinetic_J)"), "J");
   EXPECT_EQ(unit_of("impulse_N_s"), "N s");
   EXPECT_EQ(unit_of("first_collision_s"), "s");
 }

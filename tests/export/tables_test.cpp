@@ -186,18 +186,21 @@ TEST(Tables, TheSummaryIsOneRow) {
   summary.resting = 5;
   summary.frames = 18446744073709551615ULL;
   summary.stepped_contact = 0.75;
+  summary.energy.removed = 0.5;
+  summary.ended_by = "region pocket";
   {
     Exports exports(scene, temp / "run");
     play(scene, exports);
     exports.finish(summary, {});
   }
-  EXPECT_EQ(read(temp / "run/summary.csv"),
-            "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,"
-            "last_collision_s,energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,"
-            "momentum_drift_kg_m_per_s,max_overlap_m,max_speed_m_per_s,resting,frames,stepped_contact_s\n"
-            "r\xEF\xBF\xBD"
-            "1,\"'=cmd|' /C calc'!A0, \"\"quoted\"\"\",exact,done,0.2,4,3,2,1,,0.125,51,50,1,0,-1e-17,2,3e-17,4,5,"
-            "18446744073709551615,0.75\n");
+  EXPECT_EQ(
+      read(temp / "run/summary.csv"),
+      "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,"
+      "last_collision_s,energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,"
+      "momentum_drift_kg_m_per_s,max_overlap_m,max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by\n"
+      "r\xEF\xBF\xBD"
+      "1,\"'=cmd|' /C calc'!A0, \"\"quoted\"\"\",exact,done,0.2,4,3,2,1,,0.125,51,50,1,0,-1e-17,2,3e-17,4,5,"
+      "18446744073709551615,0.75,0.5,region pocket\n");
 }
 
 TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {

@@ -101,6 +101,19 @@ std::vector<std::string> scene_seeds() {
   for (const std::string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
     if (std::string text = bytes_of(path); text.size() < longest_seed) seeds.push_back(std::move(text));
   add_texts_of_tests("scene: 1", seeds);
+  seeds.emplace_back(R"(scene: 1
+let: {n: 3, r: 0.1, gap: '= r / 10'}
+defaults: {ball: {mass: = 2 * r, radius: = r, color: red}}
+balls:
+  row: {repeat: = n, position: ['= i * (2 * r + gap)', '= sin(30) ^ 2', 0], color: none}
+  grid: {repeat: {i: 2, j: = n}, position: ['= i', '= 3 + j % 2', '= min(j, 5)'], velocity: [= -r, 0, 0]}
+groups: {gas: {repeat: 2, count: 3, in: {min: [= 9 * i, 9, 0], max: [= 9 * i + 3, 12, 3]}, ball: {mass: 1}}}
+planes: {sides: {repeat: 2, point: [= 100 - 200 * i, 0, 0], normal: [= 2 * i - 1, 0, 0]}, none: {repeat: 0, point: [= i, 0, 0], normal: [0, 1, 0]}}
+forces: [{repeat: = n, spring: {anchor: [= i, 1, 0], stiffness: 1}, on: ['row.{i}']}, {drag: {linear: = gap}, on: [row, gas.1.2]}]
+restitution: = 1 / 2
+camera: {follow: row}
+simulate: {duration: 1}
+)");
   return seeds;
 }
 
@@ -132,6 +145,8 @@ std::vector<std::string> sweep_seeds() {
 
 void apply_settings_bytes(std::string_view bytes) {
   static const MemoryFile base(R"(scene: 1
+let: {r: 0.1, n: 2}
+bodies: {row: {repeat: = n, mass: 1, radius: = r, position: [= 10 + i, 0, 0]}}
 defaults: {ball: {mass: 1, radius: 0.1}}
 balls: {red: {position: [0, 1, 0]}, blue: {position: [1, 1, 0], velocity: [-1, 0, 0]}}
 groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [2, 0, 0], max: [4, 2, 2]}, speed: 1}}
@@ -170,7 +185,10 @@ std::vector<std::string> settings_seeds() {
       "balls.red.density=1000",
       "simulate={duration: 1, engine: stepped, integrator: verlet, step: 0.01}",
       "restitution={combine: minimum}\nrestitution.pairs=[{between: [red, blue], value: 0.5}]",
-      "title=\"a = b\"\nlights.sun.color=red"};
+      "title=\"a = b\"\nlights.sun.color=red",
+      "let.r=0.2\nlet.n== 2 + 3",
+      "bodies.row.repeat={i: 2, j: 3}\nbodies.row.position='[= j, = i, 0]'",
+      "balls.red.mass== 2 * r\nballs.red.velocity=[= r, 0, 0]"};
 }
 
 }  // namespace carom::fuzz

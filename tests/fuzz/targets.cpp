@@ -29,10 +29,12 @@ const Target* find_target(std::string_view name) {
 }
 
 std::vector<std::string> words() {
-  std::set<std::string> all = {"[0, 0, 0]", "[1e3, -2, .5]", "{",     "}",    "[",   "]",   ": ",  "- ",
-                               "\n  ",      "1e308",         "-0",    "0x10", "~",   "yes", "off", "&a",
-                               "*a",        "!!x",           "|",     ">",    "# ",  "\"",  "'",   ",",
-                               "<<",        "...",           "\n---", "null", "nan", ".inf"};
+  std::set<std::string> all = {
+      "[0, 0, 0]", "[1e3, -2, .5]", "{",         "}",           "[",   "]",    ": ",  "- ",
+      "\n  ",      "1e308",         "-0",        "0x10",        "~",   "yes",  "off", "&a",
+      "*a",        "!!x",           "|",         ">",           "# ",  "\"",   "'",   ",",
+      "<<",        "...",           "\n---",     "null",        "nan", ".inf", "= ",  "'= i * r'",
+      "= sin(",    "{i}",           "repeat: 3", "let: {r: 1}", "none"};
   for (const std::span<const Kind>& family : families())
     for (const Kind& kind : family)
       for (const Field& field : kind.fields) {

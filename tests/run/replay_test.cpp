@@ -84,6 +84,10 @@ void expect_same_states(const World& world, double duration, const Record& run, 
     for (const double at : {std::nextafter(t, 0), t, std::nextafter(t, 2 * duration)})
       if (at <= duration) times.push_back(at);
   }
+  // A run that stops has no states after its end.
+  if (run.tally.end)
+    for (double& t : times)
+      if (t >= run.tally.end->time) t = duration;
   std::sort(times.begin(), times.end());
   Replay replay(world, from(run.pieces), run.tally);
   for (const double t : times) {

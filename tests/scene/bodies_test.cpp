@@ -142,7 +142,7 @@ TEST(BodyErrors, ObstaclesHaveNoMass) {
             "   3 | obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"
             "     |                 ^~~~\n"
             "     = `mass` is a key of `ball` or `body`\n"
-            "     = expected radius, cylinder, box, mesh, fit, position, restitution, color or visible\n");
+            "     = expected radius, cylinder, box, mesh, fit, position, motion, restitution, color, visible or repeat\n");
 }
 
 TEST(Overlaps, OfEveryVolumeWithEveryOtherAreErrors) {

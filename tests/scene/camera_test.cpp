@@ -124,7 +124,7 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
 }
 
 TEST(CameraErrors, WhatCannotBeFollowedIsNamed) {
-  EXPECT_EQ(error_of("{follow: floor}"), "`floor` never moves: there is nothing to follow");
+  EXPECT_EQ(error_of("{follow: floor}"), "`floor` is a fixed thing: there is nothing to follow");
   EXPECT_EQ(error_of("{follow: rde}"), "nothing is named `rde`");
   for (const std::string part :
        {"camera: {follow: zz}\n", "trails: {on: [zz]}\n", "forces: [{uniform: [1, 0, 0], on: [zz]}]\n"})

@@ -15,13 +15,14 @@ TEST(SceneErrors, MisspeltKeyNamesTheNearOne) {
 }
 
 TEST(SceneErrors, KeyOfAnotherPlaceNamesWhereItBelongs) {
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, far: 3}\n"),
-            "scene.yaml:2:25: error: unknown key `far` in `simulate`\n"
-            "   2 | simulate: {duration: 1, far: 3}\n"
-            "     |                         ^~~\n"
-            "     = `far` is a key of `camera`\n"
-            "     = expected duration, engine, step, as_printed, rest_speed, max_collisions, integrator, contact or "
-            "tolerance\n");
+  EXPECT_EQ(
+      errors_of("scene: 1\nsimulate: {duration: 1, far: 3}\n"),
+      "scene.yaml:2:25: error: unknown key `far` in `simulate`\n"
+      "   2 | simulate: {duration: 1, far: 3}\n"
+      "     |                         ^~~\n"
+      "     = `far` is a key of `camera`\n"
+      "     = expected duration, stop, engine, step, as_printed, rest_speed, max_collisions, integrator, contact or "
+      "tolerance\n");
 }
 
 TEST(SceneErrors, WrongTypeNamesTheExpectedOne) {

@@ -43,7 +43,7 @@ TEST(ForceErrors, NamesThatMeanNothingOrNothingThatMoves) {
             "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
             "     |                               ^~~\n"
             "     = did you mean `red`?\n"
-            "scene.yaml:8:36: error: `floor` never moves: no force acts on it\n"
+            "scene.yaml:8:36: error: `floor` is a fixed thing: no force acts on it\n"
             "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
             "     |                                    ^~~~~\n"
             "     = expected balls, bodies, groups or members (gas.3)\n"

@@ -342,7 +342,7 @@ TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
   EXPECT_NE(wrong.find("nothing is named `gsa`"), std::string::npos);
   EXPECT_NE(wrong.find("did you mean `gas`?"), std::string::npos);
   EXPECT_NE(wrong.find("expected gas.0 to gas.4"), std::string::npos);
-  EXPECT_NE(wrong.find("`room` and `room` never move, so they never meet"), std::string::npos);
+  EXPECT_NE(wrong.find("`room` and `room` are fixed things, which never meet"), std::string::npos);
   EXPECT_NE(wrong.find("`a` does not meet itself"), std::string::npos);
 }
 

@@ -84,10 +84,15 @@ struct Beyond {
 const std::vector<Beyond>& beyond_schemas() {
   static const std::vector<Beyond> all = {
       {"nothing is named", "which names there are"},
-      {"never move, so they never meet", "what a name stands for"},
+      {"no number is named", "which names there are"},
+      {"there is no `", "which members there are"},
+      {"`repeat` in `defaults`", "defaults have the definition of their things"},
+      {"are fixed things, which never meet", "what a name stands for"},
       {"does not meet itself", "two names against one another"},
-      {"never moves: no force acts on it", "what a name stands for"},
-      {"never moves: it has no trail", "what a name stands for"},
+      {"is a fixed thing: no force acts on it", "what a name stands for"},
+      {"is a fixed thing: it has no trail", "what a name stands for"},
+      {"is a fixed thing: it enters no region", "what a name stands for"},
+      {"no region is named", "which names there are"},
       {"the scale of colours ends at", "two numbers against one another"},
       {"has no meaning for groups", "two keys against one another"},
       {"an MP4 has no transparency", "two keys against one another"},

@@ -16,7 +16,7 @@ std::vector<Json> values_for(const Field& field, bool few) {
   static const Json many = json_of_yaml(R"([
       ~, true, 0, -0.0, 1, -1, 0.5, 16, 1e300, 18446744073709551615, '', text, '4', Red, '#12g', '#aBc', -a.mp4, "a\nb",
       [], [1], [16, 17], [1, 2, 3], [0, -0.0, 0], [0.1, 0.2, 0.3], [1, 2, x], [1, 2, ~], [1, 2, 3, 4], [-99, 2, 3],
-      [0, 3, -5], none, group, [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}])");
+      [0, 3, -5], none, group, [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}, '= 1', '= x', ['= 1', 2, 3]])");
   std::vector<Json> values(few ? one_each.begin() : many.begin(), few ? one_each.end() : many.end());
   const bool chosen = field.type == Type::choice || field.type == Type::pixels;
   for (const std::string_view choice : chosen ? choices(field) : std::vector<std::string_view>())
@@ -99,7 +99,8 @@ class Varying {
         value = kept;
       }
     } else if (field.type == Type::list) {
-      for (std::size_t i = 0; i < kept.size(); ++i) map(value[i], *kind, fmt::format("{}.{}.", path, i));
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        if (value[i].is_object()) map(value[i], *kind, fmt::format("{}.{}.", path, i));
     } else if (value.is_object()) {
       map(value, *kind, path + ".");
     }
@@ -116,12 +117,25 @@ std::vector<std::string> right_scenes() {
   return {"{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
           R"(
 scene: 1
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+walls: {fence: {center: [20, 1, 0], normal: [1, 0, 0], size: [1, 1]}}
+regions:
+  pocket: {radius: 0.3, position: [-6, 0, 0], on: [red], action: remove}
+  can: {cylinder: {radius: 0.1, height: 1}, position: [0, 3, 0]}
+  crate: {box: [1, 1, 1], position: [3, 3, 0], action: stop}
+  below: {plane: {point: [0, -1, 0], normal: [0, -1, 0]}}
+simulate: {duration: 1, stop: [rest, {collisions: 100}, {region: pocket}]}
+output: {regions: true, trajectory: {every: 0.1}}
+)",
+          R"(
+scene: 1
 title: Balls
 seed: 3
 gravity: [0, -1, 0]
+let: {r: 0.1, two: 2}
 restitution: {default: 0.9, combine: minimum, pairs: [{between: [red, blue], value: 0.5}]}
 planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
-walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1]}}
+walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
         color: crimson, mesh: box.stl}
@@ -202,6 +216,18 @@ output:
   gltf: {fps: 2}
   flights: true
   plots: true
+)",
+          R"(
+scene: 1
+balls: {row: {repeat: 2, mass: 1, radius: 0.1, position: ['= i', 0, 0]}}
+bodies: {bricks: {repeat: {i: 2, j: 2}, mass: 1, box: [0.2, 0.2, 0.2], position: ['= i', '= 5 + j', 0]}}
+groups: {gas: {repeat: 2, count: 2, in: {min: ['= 3 * i', 9, 0], max: ['= 3 * i + 2', 11, 2]}, ball: {mass: 1, radius: 0.1}}}
+planes: {sides: {repeat: 2, point: ['= 100 * (1 - 2 * i)', 0, 0], normal: ['= 2 * i - 1', 0, 0]}}
+walls: {fences: {repeat: 2, center: ['= -20 - i', 1, 0], normal: [-1, 0, 0], size: [1, 1]}}
+obstacles: {posts: {repeat: 2, radius: 0.1, position: ['= i', -5, 0]}}
+forces: [{repeat: 2, acceleration: ['= i + 1', 0, 0], on: ['row.{i}']}]
+lights: {lamps: {repeat: 2, position: ['= i', 9, 0]}}
+simulate: {duration: 1}
 )",
           "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
           "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",

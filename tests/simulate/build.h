@@ -51,6 +51,11 @@ struct Problem {
     const Vec3 n = normal.normalized(), u = (up - n * n.dot(up)).normalized();
     world.walls.push_back({center, n, u.cross(n), u, width / 2, height / 2, std::nullopt});
   }
+  /// Lets a fixed thing move. All of them must be there.
+  void move(Entity fixed, const std::vector<MotionWindow>& windows) {
+    world.motions.resize(world.fixed_count());
+    world.motions[fixed - world.body_count()] = legs_of(windows);
+  }
   void room(const Vec3& min, const Vec3& max) {
     for (int k = 0; k < 3; ++k) {
       plane(min, Vec3::Unit(k));

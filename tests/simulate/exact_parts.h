@@ -6,6 +6,7 @@
 #include "simulate/build.h"
 #include "simulate/collapse_detector.h"
 #include "simulate/constrained_motion.h"
+#include "simulate/crossings.h"
 #include "simulate/event_predictor.h"
 #include "simulate/event_prefetch.h"
 #include "simulate/exact_group.h"
@@ -22,7 +23,8 @@ struct ExactParts {
   explicit ExactParts(Problem given)
       : problem(std::move(given)),
         bodies(problem.world, problem.options),
-        paths(bodies),
+        crossings(bodies),
+        paths(bodies, crossings),
         collapses(bodies),
         flat(bodies, collapses),
         group(bodies, flat, collapses, paths),
@@ -43,6 +45,7 @@ struct ExactParts {
 
   const Problem problem;
   ExactBodies bodies;
+  Crossings crossings;
   PathLog paths;
   CollapseDetector collapses;
   FlatContacts flat;

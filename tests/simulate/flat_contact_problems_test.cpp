@@ -9,7 +9,7 @@ namespace carom {
 namespace {
 
 TEST(FlatContactProblems, TheNearestAllowedMotionIsChosen) {
-  const Vec3 up = Vec3::Unit(1), slope = Vec3(0.6, 0.8, 0), other = Vec3(-0.6, 0.8, 0), back = Vec3::Unit(2);
+  const FlatSurface up{Vec3::Unit(1)}, slope{Vec3(0.6, 0.8, 0)}, other{Vec3(-0.6, 0.8, 0)}, back{Vec3::Unit(2)};
   const Vec3 g(0, -10, -1);
   EXPECT_EQ(solve_flat_contacts(Vec3(1, 2, 3), std::vector{up}).u, Vec3(1, 2, 3));
   EXPECT_EQ(solve_flat_contacts(Vec3(1, 2, 3), std::vector{up}).active, 0u);
@@ -20,13 +20,14 @@ TEST(FlatContactProblems, TheNearestAllowedMotionIsChosen) {
   EXPECT_EQ(solve_flat_contacts(g, std::vector{slope, other}).active, 3u);
   EXPECT_EQ(solve_flat_contacts(g, std::vector{slope, other, back}).u, Vec3(0, 0, 0));
   EXPECT_EQ(solve_flat_contacts(g, std::vector{slope, other, back}).active, 7u);
-  EXPECT_EQ(solve_flat_contacts(g, std::vector{Vec3(1, 0, 0), up}).u, Vec3(0, 0, -1));
-  EXPECT_EQ(solve_flat_contacts(g, std::vector{Vec3(1, 0, 0), up}).active, 2u)
+  EXPECT_EQ(solve_flat_contacts(g, std::vector{FlatSurface{Vec3(1, 0, 0)}, up}).u, Vec3(0, 0, -1));
+  EXPECT_EQ(solve_flat_contacts(g, std::vector{FlatSurface{Vec3(1, 0, 0)}, up}).active, 2u)
       << "a wall that nothing presses on is not active";
 }
 
 TEST(FlatContactProblems, KeptContactsLeaveWhatIsAlongAll) {
-  const Vec3 up = Vec3::Unit(1), slope = Vec3(0.6, 0.8, 0), back = Vec3::Unit(2), u(1, 2, 3);
+  const FlatSurface up{Vec3::Unit(1)}, slope{Vec3(0.6, 0.8, 0)}, back{Vec3::Unit(2)};
+  const Vec3 u(1, 2, 3);
   EXPECT_EQ(keep_flat_contacts(u, {}).u, u);
   EXPECT_EQ(keep_flat_contacts(u, std::vector{up}).u, Vec3(1, 0, 3));
   EXPECT_EQ(keep_flat_contacts(-u, std::vector{up}).u, Vec3(-1, 0, -3)) << "whichever way it would part";

@@ -166,6 +166,7 @@ class Check {
     const double residual = static_cast<double>(end - start) + t.energy_lost + t.method_error - t.work;
     // Losses of lasting contact beside impacts: first order in time steps, else almost nothing.
     const double least = t.stepped_contact > 0 ? -1e-3 : -1e-6, most = t.stepped_contact > 0 ? 5e-2 : 1e-6;
+    size += std::abs(t.work);
     if (!(t.method_error >= least * size && t.method_error <= most * size))
       fail("contact took " + text(t.method_error) + " J beside impacts, of " + text(size) + " J");
     if (!(std::abs(residual) <= tolerance))
@@ -210,10 +211,12 @@ class Check {
     if (at == times_.end() || *at != c.time) return;
     const State& s = seen_.seen[static_cast<std::size_t>(at - times_.begin())];
     const bool body = world_.is_body(c.b);
-    const Long3 xb = body ? Long3(s.position[c.b].cast<long double>()) : Long3(Long3::Zero());
-    const double distance = static_cast<double>(gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb));
+    const Vec3 xb = body ? s.position[c.b] : fixed_position(world_, c.b, {c.time, 0});
+    const double distance =
+        static_cast<double>(gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb.cast<long double>()));
     const double tick = std::nextafter(c.time, 1e300) - c.time;
-    const double speed = s.velocity[c.a].norm() + (body ? s.velocity[c.b].norm() : 0) + c.approach_speed;
+    const Vec3 vb = body ? s.velocity[c.b] : fixed_velocity(world_, c.b, {c.time, 0});
+    const double speed = s.velocity[c.a].norm() + vb.norm() + c.approach_speed;
     // Collisions ended together by a collapse are in one place within a billionth of a radius.
     const double place = c.separation_speed == 0 && c.restitution > 0 ? 1e-9 * world_.radius[c.a] : 0;
     if (!(std::abs(distance) <= paths_->allowed(c.a, c.b) + 2 * tick * speed + place))
@@ -236,8 +239,8 @@ class Check {
     if (first_.records.empty()) return;
     const Collision& c = first_.records[0];
     const double next = first_.records.size() > 1 ? first_.records[1].time : scene_.options.duration;
-    const double speed =
-        seen_.start.velocity[c.a].norm() + (world_.is_body(c.b) ? seen_.start.velocity[c.b].norm() : 0);
+    const Vec3 vb = world_.is_body(c.b) ? seen_.start.velocity[c.b] : fixed_velocity(world_, c.b, {c.time, 0});
+    const double speed = seen_.start.velocity[c.a].norm() + vb.norm();
     if (!(next > c.time * (1 + 1e-6)) || c.time == 0 || c.approach_speed < 1e-2 * speed) return;
     RandomScene other = turned(scene_);
     other.options.duration = std::min(other.options.duration, next);

@@ -98,8 +98,9 @@ Verdict check_stepped(const RandomScene& scene) {
       }
       for (Entity b = a + 1; b < world.body_count() + world.fixed_count(); ++b) {
         const bool body = world.is_body(b);
-        const Long3 xb = body ? Long3(s.position[b].cast<long double>()) : Long3(Long3::Zero());
-        const double depth = -static_cast<double>(gap(world, a, s.position[a].cast<long double>(), b, xb));
+        const Vec3 xb = body ? s.position[b] : fixed_position(world, b, {s.time, 0});
+        const double depth =
+            -static_cast<double>(gap(world, a, s.position[a].cast<long double>(), b, xb.cast<long double>()));
         const double size = body ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
         if (!lively && depth > deepest * size + 1e-12 * s.position[a].norm())
           fail(std::to_string(a) + " and " + std::to_string(b) + " overlap by " + text(depth / size) +

@@ -59,16 +59,16 @@ Real volumes(const Long3& d, const Volume& a, const Volume& b) {
   return joined(joined(gap[0], gap[1]), gap[2]);
 }
 
-Real at_plane(const Long3& x, const Volume& v, const Plane& p) {
+Real at_plane(const Long3& x, const Volume& v, const Plane& p, const Long3& point) {
   const Long3 n = p.normal.cast<Real>();
   Real reach = v.half.x();
   if (v.shape == Shape::cylinder) reach = v.half.x() * level(n) + v.half.y() * std::abs(n.y());
   if (v.shape == Shape::box) reach = v.half.cast<Real>().dot(n.cwiseAbs());
-  return (x - p.point.cast<Real>()).dot(n) - reach;
+  return (x - point).dot(n) - reach;
 }
 
-Real sphere_at_wall(const Long3& x, Real radius, const Wall& w) {
-  const Long3 d = x - w.center.cast<Real>();
+Real sphere_at_wall(const Long3& x, Real radius, const Wall& w, const Long3& center) {
+  const Long3 d = x - center;
   const Real r = d.dot(w.right.cast<Real>()), u = d.dot(w.up.cast<Real>()), n = d.dot(w.normal.cast<Real>());
   return std::hypot(r - clamped(r, w.half_width), u - clamped(u, w.half_height), n) - radius;
 }
@@ -78,10 +78,10 @@ Real sphere_at_wall(const Long3& x, Real radius, const Wall& w) {
 long double gap(const World& world, Entity a, const Long3& xa, Entity b, const Long3& xb) {
   const Volume v = world.volume_of(a);
   if (world.is_body(b)) return volumes(xb - xa, v, world.volume_of(b));
-  if (world.is_plane(b)) return at_plane(xa, v, world.plane(b));
-  if (world.is_obstacle(b)) return volumes(world.obstacle(b).center.cast<Real>() - xa, v, world.obstacle(b).volume);
-  if (v.shape == Shape::sphere) return sphere_at_wall(xa, v.half.x(), world.wall(b));
-  return touch(world, a, xa.cast<double>(), b, world.wall(b).center).gap;
+  if (world.is_plane(b)) return at_plane(xa, v, world.plane(b), xb);
+  if (world.is_obstacle(b)) return volumes(xb - xa, v, world.obstacle(b).volume);
+  if (v.shape == Shape::sphere) return sphere_at_wall(xa, v.half.x(), world.wall(b), xb);
+  return touch(world, a, xa.cast<double>(), b, xb.cast<double>()).gap;
 }
 
 }  // namespace carom::stress

@@ -96,8 +96,8 @@ bool Maker::is_free(const Vec3& x, const Volume& volume) {
   bool free = true;
   for (Entity e = 0; free && e < me + 1 + world.fixed_count(); ++e) {
     if (e == me) continue;
-    const Long3 other = e < me ? Long3(scene.initial.position[e].cast<long double>()) : Long3(Long3::Zero());
-    free = gap(world, me, at, e, other) > margin;
+    const Vec3 other = e < me ? scene.initial.position[e] : world.fixed_position(e);
+    free = gap(world, me, at, e, other.cast<long double>()) > margin;
   }
   world.mass.pop_back();
   world.radius.pop_back();
@@ -159,6 +159,23 @@ void Maker::rules() {
       return (p.a_first == a && p.b_first == b) || (p.a_first == b && p.b_first == a);
     });
     if (a != b && !known) world.pairs.push_back({a, 1, b, 1, restitution()});
+  }
+}
+
+void Maker::motions(World& world, double duration, double speed) {
+  for (Entity e = world.body_count(); e < world.body_count() + world.fixed_count(); ++e) {
+    if (!chance(0.5)) continue;
+    std::vector<MotionWindow> windows;
+    double from = chance(0.4) ? 0 : duration * uniform(0, 0.7);
+    for (int k = whole(1, 3); k > 0; --k) {
+      const bool last = k == 1 && chance(0.3);
+      const double until = last ? std::numeric_limits<double>::infinity() : from + duration * uniform(0.01, 0.3);
+      const Vec3 along = chance(0.5) ? Vec3(any({-1, 1}) * Vec3::Unit(whole(0, 2))) : direction();
+      windows.push_back({from, until, speed * uniform(0, 1) * along});
+      from = chance(0.3) ? until : until + duration * uniform(0.01, 0.3);
+    }
+    world.motions.resize(world.fixed_count());
+    world.motions[e - world.body_count()] = legs_of(windows);
   }
 }
 

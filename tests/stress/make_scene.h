@@ -42,6 +42,7 @@ class Maker {
   double restitution();  // 0 … 1, often one for all
   void rules();          // combination, pairs, coefficients of fixed things
   void forces(double duration, double acceleration);
+  void motions(World& world, double duration, double speed);  // of fixed things, up to this speed
 
   RandomScene& scene;
 

@@ -38,9 +38,15 @@ Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const s
     for (const State& s : seen) extent = std::max(extent, extent_of(s.position[i]) + world.radius[i]);
     extent_.push_back(extent);
   }
-  for (const Plane& p : world.planes) extent_.push_back(extent_of(p.point));
-  for (const Wall& w : world.walls) extent_.push_back(extent_of(w.center) + w.half_width + w.half_height);
-  for (const Obstacle& o : world.obstacles) extent_.push_back(extent_of(o.center) + o.volume.reach());
+  const auto farthest = [&](Entity e) {
+    double most = extent_of(world.fixed_position(e));
+    for (const double t : times) most = std::max(most, extent_of(fixed_position(world, e, {t, 0})));
+    return most;
+  };
+  Entity e = world.body_count();
+  for (std::size_t k = 0; k < world.planes.size(); ++k) extent_.push_back(farthest(e++));
+  for (const Wall& w : world.walls) extent_.push_back(farthest(e++) + w.half_width + w.half_height);
+  for (const Obstacle& o : world.obstacles) extent_.push_back(farthest(e++) + o.volume.reach());
 }
 
 double Paths::rounding(Entity a, Entity b) const {
@@ -84,9 +90,7 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
     const double reach = world.radius[a] + (body ? world.radius[b] : world.obstacle(b).volume.reach());
     if ((pa.x - pb.x).norm() - reach > speed * length) return 1;
   }
-  const auto at = [&](double t) {
-    return static_cast<double>(gap(world, a, on(xa, va, aa, t), b, body ? on(xb, vb, ab, t) : xb));
-  };
+  const auto at = [&](double t) { return static_cast<double>(gap(world, a, on(xa, va, aa, t), b, on(xb, vb, ab, t))); };
   struct Span {
     double from, to, at_from, at_to, least;
     bool operator<(const Span& other) const { return least > other.least; }
@@ -137,8 +141,8 @@ std::vector<std::string> Paths::overlaps() const {
       for (Entity b = a + 1; b < all; ++b) {
         if (gone(b) || known.contains({a, b})) continue;
         const Path there = b < bodies ? paths[b]
-                                      : Path{world.is_body(b) ? Vec3(Vec3::Zero()) : world.fixed_position(b),
-                                             Vec3::Zero(), Vec3::Zero(), true};
+                                      : Path{fixed_position(world, b, {times_[k], 0}),
+                                             fixed_velocity(world, b, {times_[k], 0}), Vec3::Zero(), true};
         const bool dense = paths[a].known && there.known;
         double least;
         if (dense) {

@@ -27,6 +27,9 @@ std::span<const char* const> family_names();
 /// The seed modulo the number of families chooses one. `bytes`: the source of its numbers while they last.
 RandomScene make_scene(std::uint64_t seed, std::string_view bytes = {});
 
+/// The same scene with fixed things that move.
+RandomScene with_motions(RandomScene scene);
+
 /// The scene as a file that `carom run` reads, to the last bit. `simulate`: more keys (", engine: book").
 std::string as_yaml(const RandomScene& scene, const std::string& simulate = {});
 

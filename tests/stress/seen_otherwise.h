@@ -28,10 +28,13 @@ inline Motion mirrored(Motion m, int axis) {
   flip(world.gravity);
   for (Plane& p : world.planes) flip(p.point), flip(p.normal);
   for (Obstacle& o : world.obstacles) flip(o.center);
+  for (WorldRegion& r : world.regions) flip(r.position), flip(r.normal);
   for (Wall& w : world.walls) {
     for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
     w.right = -w.right;  // right x up = normal
   }
+  for (std::vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) flip(leg.velocity), flip(leg.start), flip(leg.start_low);
   for (Force& f : world.forces) {
     if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
     if (auto* even = std::get_if<UniformAcceleration>(&f.law)) flip(even->value);
@@ -59,7 +62,10 @@ inline Motion scaled(Motion m, const Units& units) {
   world.gravity *= l / (t * t);
   for (Plane& p : world.planes) p.point *= l;
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
+  for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
   for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
+  for (std::vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
   for (Force& f : world.forces) {
     f.from *= t;
     f.until *= t;
@@ -116,7 +122,8 @@ inline std::string difference(const Observed& a, const Observed& b, double lost,
   return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
 }
 
-/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. first:
+/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. Fixed
+/// things of neither move. first:
 /// whether this one's bodies come first.
 inline Motion together(const Motion& motion, Motion other, bool first) {
   const Vec3 away(1024, 512, -2048);

@@ -26,6 +26,17 @@ TEST_P(RandomScenes, HoldInStepsToo) {
   }
 }
 
+TEST_P(RandomScenes, HoldEveryInvariantWhereFixedThingsMove) {
+  for (int k = 0; k < scenes_per_group; ++k) {
+    const RandomScene scene = with_motions(make_scene(static_cast<std::uint64_t>(GetParam() + groups * k)));
+    if (!scene.world.moves()) continue;
+    for (const std::string& violation : check(scene).violations)
+      ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
+    for (const std::string& violation : check_stepped(scene).violations)
+      ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
+  }
+}
+
 // A group is a family: the seed modulo their number chooses it.
 INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups), [](const auto& group) {
   return std::string(family_names()[static_cast<std::size_t>(group.param)]);

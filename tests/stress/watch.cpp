@@ -68,6 +68,9 @@ std::vector<double> sample_times(const RandomScene& scene, const std::vector<Col
   for (const Force& f : scene.world.forces)
     for (const double t : {f.from, f.until})
       if (t > 0 && t < duration) about(t);
+  for (const std::vector<MotionLeg>& legs : scene.world.motions)
+    for (const MotionLeg& leg : legs)
+      if (leg.from > 0 && leg.from < duration) about(leg.from);
   times.erase(std::remove_if(times.begin(), times.end(), [&](double t) { return !(t >= 0 && t <= duration); }),
               times.end());
   std::sort(times.begin(), times.end());
@@ -92,11 +95,22 @@ RandomScene scaled(RandomScene scene, int length, int time, int mass) {
     o.center *= l;
     o.volume.half *= l;
   }
+  for (WorldRegion& r : world.regions) {
+    r.position *= l;
+    r.volume.half *= l;
+  }
   for (Force& f : world.forces) {
     value(f) *= (per_mass(f) ? 1 : m) * l / (t * t);
     f.from *= t;
     f.until *= t;
   }
+  for (std::vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) {
+      leg.from *= t;
+      leg.velocity *= l / t;
+      leg.start *= l;
+      leg.start_low *= l;
+    }
   world.gravity *= l / (t * t);
   for (Vec3& x : scene.initial.position) x *= l;
   for (Vec3& v : scene.initial.velocity) v *= l / t;
@@ -154,6 +168,9 @@ RandomScene turned(RandomScene scene) {
     turn(o.center);
     turn(o.volume.half);
   }
+  for (std::vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs)
+      for (Vec3* v : {&leg.velocity, &leg.start, &leg.start_low}) turn(*v);
   for (Force& f : world.forces) turn(value(f));
   turn(world.gravity);
   for (Vec3& x : scene.initial.position) turn(x);

@@ -67,22 +67,41 @@ std::string bodies(const RandomScene& scene) {
   return world.body_count() == 0 ? "" : out;
 }
 
+std::string motion(const World& world, Entity e) {
+  if (!world.moves(e)) return "";
+  const std::vector<MotionLeg>& legs = world.legs(e);
+  std::string list;
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    if (legs[k].velocity.isZero(0)) continue;
+    list += (list.empty() ? "{from: " : ", {from: ") + text(legs[k].from);
+    if (k + 1 < legs.size()) list += ", until: " + text(legs[k + 1].from);
+    list += ", velocity: " + text(legs[k].velocity) + "}";
+  }
+  return ", motion: [" + list + "]";
+}
+
 std::string fixed(const World& world) {
   std::string out;
   Entity e = world.body_count();
   if (!world.planes.empty()) out += "planes:\n";
-  for (const Plane& p : world.planes)
-    out += "  " + name(world, e++) + ": {point: " + text(p.point) + ", normal: " + text(p.normal) +
-           text(p.restitution) + "}\n";
+  for (const Plane& p : world.planes) {
+    out += "  " + name(world, e) + ": {point: " + text(p.point) + ", normal: " + text(p.normal) + text(p.restitution) +
+           motion(world, e) + "}\n";
+    ++e;
+  }
   if (!world.walls.empty()) out += "walls:\n";
-  for (const Wall& w : world.walls)
-    out += "  " + name(world, e++) + ": {center: " + text(w.center) + ", normal: " + text(w.normal) +
+  for (const Wall& w : world.walls) {
+    out += "  " + name(world, e) + ": {center: " + text(w.center) + ", normal: " + text(w.normal) +
            ", up: " + text(w.up) + ", size: [" + text(2 * w.half_width) + ", " + text(2 * w.half_height) + "]" +
-           text(w.restitution) + "}\n";
+           text(w.restitution) + motion(world, e) + "}\n";
+    ++e;
+  }
   if (!world.obstacles.empty()) out += "obstacles:\n";
-  for (const Obstacle& o : world.obstacles)
-    out += "  " + name(world, e++) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) +
-           "}\n";
+  for (const Obstacle& o : world.obstacles) {
+    out += "  " + name(world, e) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) +
+           motion(world, e) + "}\n";
+    ++e;
+  }
   return out;
 }
 

@@ -1,0 +1,215 @@
+// What a run measured itself is in its manifest. Other measures of the end come from the last rows of trajectory.csv,
+// those of collisions from collisions.csv. Extremes over a run are not stored: the run has to measure them.
+#include "compare/stored_measures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "compare/compared_run.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
+#include "files/stored_table.h"
+#include "run/summary_columns.h"
+#include "scene/formula.h"
+#include "yaml/diagnostics.h"
+
+namespace carom {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+/// Whether a name in a table is `name`, or that of one of several: gas.3, room.x_min.
+bool is_of(std::string_view stored, std::string_view name) {
+  return stored == name || (stored.size() > name.size() && stored.starts_with(name) && stored[name.size()] == '.');
+}
+
+/// The file from which a measure can be derived. Null: from none.
+const char* table_of(const Measure& measure) {
+  switch (measure.form) {
+    case MeasureForm::at_end:
+    case MeasureForm::count:
+      return "trajectory.csv";
+    case MeasureForm::first_hit:
+    case MeasureForm::hits:
+      return "collisions.csv";
+    case MeasureForm::entries:
+    case MeasureForm::inside:
+    case MeasureForm::first_entry:
+    case MeasureForm::first_entrant:
+      return "regions.csv";
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+const Manifest* StoredMeasures::manifest() {
+  if (!manifest_) manifest_ = read_manifest(folder_, manifest_name);
+  return *manifest_ ? &**manifest_ : nullptr;
+}
+
+const Measured* StoredMeasures::measured(const std::string& name) {
+  const Manifest* of = manifest();
+  if (of == nullptr) return nullptr;
+  const auto found =
+      std::find_if(of->measures.begin(), of->measures.end(), [&](const Measured& one) { return one.name == name; });
+  return found == of->measures.end() ? nullptr : &*found;
+}
+
+bool StoredMeasures::has_file(const char* name) const {
+  return stored_size(folder_, name).has_value();
+}
+
+const Scene& StoredMeasures::scene() {
+  if (!scene_) scene_ = load_run_scene(path_);
+  return *scene_;
+}
+
+const std::vector<EndMotion>& StoredMeasures::ends() {
+  if (!ends_) ends_ = end_of_trajectory(folder_);
+  return *ends_;
+}
+
+bool StoredMeasures::has(const Measure& measure) {
+  if (measure.form == MeasureForm::column || measured(measure.name) != nullptr) return true;
+  if (!std::all_of(measure.parts.begin(), measure.parts.end(), [this](const Measure& part) { return has(part); }))
+    return false;
+  if (measure.form == MeasureForm::expression || measure.form == MeasureForm::given) return true;
+  const char* table = table_of(measure);
+  return table != nullptr && has_file(table);
+}
+
+bool StoredMeasures::have(std::span<const Measure> measures) {
+  return std::all_of(measures.begin(), measures.end(), [this](const Measure& measure) { return has(measure); });
+}
+
+Measured StoredMeasures::value(const Measure& measure, const std::vector<std::string>& summary) {
+  if (measure.form != MeasureForm::column)
+    if (const Measured* known = measured(measure.name)) return *known;
+  Measured value{measure.name, number(measure, summary), {}};
+  if (measure.is_text()) value.text = visits(measure).entrant;
+  return value;
+}
+
+double StoredMeasures::number(const Measure& measure, const std::vector<std::string>& summary) {
+  if (measure.form == MeasureForm::column) {
+    const auto column = static_cast<std::size_t>(measure.column - summary_columns().data());
+    return number_in(summary[column]).value_or(undefined);
+  }
+  if (const Measured* known = measured(measure.name)) return known->value;
+  if (const char* table = table_of(measure); table != nullptr && !has_file(table))
+    throw ExportError(fmt::format(
+        "{} has no {}, needed for {}: run its scene.yaml again with that output, or with the measure in `measures`",
+        path_, table, measure.name));
+  switch (measure.form) {
+    case MeasureForm::at_end:
+      return at_end(measure);
+    case MeasureForm::count:
+      return counted(measure, summary);
+    case MeasureForm::first_hit:
+      return meetings(measure).first;
+    case MeasureForm::hits:
+      return meetings(measure).count;
+    case MeasureForm::entries:
+      return visits(measure).entries;
+    case MeasureForm::inside:
+      return visits(measure).inside;
+    case MeasureForm::first_entry:
+      return visits(measure).first;
+    case MeasureForm::first_entrant:
+      return undefined;
+    case MeasureForm::expression:
+      return evaluated(measure, summary);
+    case MeasureForm::given: {
+      const auto found = scene().numbers.find(measure.things[0]);
+      return found == scene().numbers.end() ? undefined : found->second;
+    }
+    case MeasureForm::own:
+      return undefined;
+    default:
+      throw ExportError(
+          fmt::format("{} did not measure {}: run its scene.yaml again with this in `measures`", path_, measure.name));
+  }
+}
+
+double StoredMeasures::quantity(const Measure& measure, std::size_t body) {
+  const EndMotion& motion = ends()[body];
+  double mass = 1;
+  if (measure.quantity == Quantity::kinetic) {
+    // Once bodies have merged or left, a trajectory does not contain their masses.
+    if (ends().size() != scene().world.body_count()) return undefined;
+    mass = scene().world.mass[body];
+  }
+  return quantity_of(measure.quantity, motion.position, motion.velocity, mass);
+}
+
+double StoredMeasures::at_end(const Measure& measure) {
+  const auto found =
+      std::find_if(ends().begin(), ends().end(), [&](const EndMotion& m) { return m.body == measure.body; });
+  return found == ends().end() ? undefined : quantity(measure, static_cast<std::size_t>(found - ends().begin()));
+}
+
+double StoredMeasures::counted(const Measure& measure, const std::vector<std::string>& summary) {
+  const double limit = evaluated(measure, summary);
+  double count = 0;
+  for (std::size_t i = 0; i < ends().size(); ++i)
+    if (measure.body.empty() || is_of(ends()[i].body, measure.body))
+      count += compares(quantity(measure, i), measure.relation, limit) ? 1 : 0;
+  return count;
+}
+
+double StoredMeasures::evaluated(const Measure& measure, const std::vector<std::string>& summary) {
+  std::vector<double> values;
+  for (const Measure& part : measure.parts) values.push_back(number(part, summary));
+  return formula_value(measure, values);
+}
+
+StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
+  StoredTable table(open_stored(folder_, "collisions.csv"));
+  const auto time = table.find("time_s"), kind = table.find("kind"), a = table.find("a"), b = table.find("b");
+  Meetings found{0, undefined};
+  if (!time || !kind || !a || !b) return found;
+  while (const std::vector<std::string_view>* row = table.next()) {
+    if (row->size() <= std::max({*time, *kind, *a, *b}) || (*row)[*kind] == "rest") continue;
+    if (!meet(measure.things,
+              [&](const std::string& name, bool first) { return is_of((*row)[first ? *a : *b], name); }))
+      continue;
+    if (found.count == 0) found.first = number_in((*row)[*time]).value_or(undefined);
+    ++found.count;
+  }
+  return found;
+}
+
+StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
+  StoredTable table(open_stored(folder_, "regions.csv"));
+  const auto time = table.find("time_s"), region = table.find("region"), body = table.find("body"),
+             what = table.find("what");
+  Visits found{0, 0, undefined, {}};
+  if (!time || !region || !body || !what) return found;
+  std::set<std::string> removing;
+  for (std::size_t r = 0; r < scene().world.regions.size(); ++r)
+    if (scene().world.regions[r].removes) removing.insert(scene().roster.regions[r]);
+  std::set<std::pair<std::string, std::string>> inside;  // region, body
+  while (const std::vector<std::string_view>* row = table.next()) {
+    if (row->size() <= std::max({*time, *region, *body, *what})) continue;
+    const std::string in((*row)[*region]), who((*row)[*body]);
+    const bool enters = (*row)[*what] == "enter";
+    if (enters && removing.contains(in)) std::erase_if(inside, [&](const auto& of) { return of.second == who; });
+    if (!is_of(in, measure.things[0])) continue;
+    if (!enters) inside.erase({in, who});
+    if (enters && !removing.contains(in)) inside.insert({in, who});
+    if (!enters) continue;
+    if (found.entries == 0) found.first = number_in((*row)[*time]).value_or(undefined), found.entrant = who;
+    ++found.entries;
+  }
+  found.inside = static_cast<double>(inside.size());
+  return found;
+}
+
+}  // namespace carom

@@ -1,0 +1,258 @@
+// A region is what meets a few conditions: to be on one side of a plane, or within a distance of a point or an axis.
+// Along a path each condition is a polynomial, of degree 2 or 4 on a parabola. Its roots are isolated in Bernstein's
+// basis, by the number of changes of sign (Farouki, Computer Aided Geometric Design 29 (2012) 379). They are then
+// refined on the path itself, for a parabola in double-double, so that a time has the rounding of one number.
+// Conditions on single coordinates come first: far from the region the powers of a distance have no digits left.
+#include "geometry/region_crossing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "numerics/compensated.h"
+
+namespace carom {
+
+CenterPath CenterPath::along(const Vec3& x, const Vec3& v, const Vec3& a, double length) {
+  CenterPath path{x, v, a, true, {}, length};
+  path.displacement.fill(Vec3::Zero());
+  path.displacement[0] = length * v;
+  path.displacement[1] = (0.5 * length * length) * a;
+  return path;
+}
+
+CenterPath CenterPath::along(const Vec3& x, const PolynomialPath::Terms& displacement, double length) {
+  return {x, Vec3::Zero(), Vec3::Zero(), false, displacement, length};
+}
+
+namespace {
+
+struct Stretch {
+  double from, to;  // s
+};
+
+constexpr std::size_t most_degree = 2 * PolynomialPath::terms;
+
+/// A polynomial on [0, 1] in Bernstein's basis.
+struct Bernstein {
+  std::array<double, most_degree + 1> b{};
+  std::size_t degree = 0;
+
+  /// From the coefficients of powers.
+  static Bernstein of_powers(const std::array<double, most_degree + 1>& a, std::size_t degree) {
+    Bernstein to;
+    to.degree = degree;
+    for (std::size_t i = 0; i <= degree; ++i) {
+      // C(i, k) / C(degree, k)
+      double share = 1;
+      for (std::size_t k = 0; k <= i; ++k) {
+        to.b[i] += share * a[k];
+        if (k < i) share *= static_cast<double>(i - k) / static_cast<double>(degree - k);
+      }
+    }
+    return to;
+  }
+
+  int changes() const {
+    int count = 0;
+    double last = 0;
+    for (std::size_t i = 0; i <= degree; ++i) {
+      if (b[i] == 0) continue;
+      count += last != 0 && (last < 0) != (b[i] < 0);
+      last = b[i];
+    }
+    return count;
+  }
+
+  /// Leaves the left half, and returns the right half (de Casteljau).
+  Bernstein split() {
+    Bernstein right;
+    right.degree = degree;
+    Bernstein work = *this;
+    for (std::size_t level = 0; level <= degree; ++level) {
+      b[level] = work.b[0];
+      right.b[degree - level] = work.b[degree - level];
+      for (std::size_t i = 0; i + level < degree; ++i) work.b[i] = 0.5 * (work.b[i] + work.b[i + 1]);
+    }
+    return right;
+  }
+};
+
+/// A condition on a centre: met where its value is below zero. It is a distance along an axis, or the squared distance
+/// in some coordinates, less a limit.
+class Condition {
+ public:
+  /// (x - point) . normal < reach
+  static Condition side(const CenterPath& path, const Vec3& point, const Vec3& normal, double reach) {
+    return {path, point, normal, reach, false};
+  }
+  /// |x - point| < reach, in the coordinates that `axes` has as ones
+  static Condition round(const CenterPath& path, const Vec3& point, const Vec3& axes, double reach) {
+    return {path, point, axes, reach, true};
+  }
+
+  double value(double t) const {
+    std::array<DoubleDouble, 3> d;
+    const Vec3 bent = path_.parabola ? Vec3(Vec3::Zero()) : PolynomialPath::value(path_.displacement, t / path_.length);
+    const DoubleDouble half_square = two_product(0.5 * t, t);
+    for (int k = 0; k < 3; ++k) {
+      DoubleDouble& at = d[static_cast<std::size_t>(k)];
+      at = two_sum(path_.x[k], -point_[k]);
+      at = path_.parabola ? at + (two_product(t, path_.v[k]) + half_square * DoubleDouble{path_.a[k], 0})
+                          : at + DoubleDouble{bent[k], 0};
+    }
+    DoubleDouble sum = round_ ? -two_product(reach_, reach_) : DoubleDouble{-reach_, 0};
+    for (int k = 0; k < 3; ++k) {
+      const DoubleDouble& at = d[static_cast<std::size_t>(k)];
+      if (axes_[k] != 0) sum = sum + at * (round_ ? at : DoubleDouble{axes_[k], 0});
+    }
+    return sum.value();
+  }
+
+  double slope(double t) const {
+    const Vec3 w = path_.parabola ? Vec3(path_.v + t * path_.a)
+                                  : Vec3(PolynomialPath::slope(path_.displacement, t / path_.length) / path_.length);
+    return round_ ? 2 * axes_.cwiseProduct(distance(t)).dot(w) : axes_.dot(w);
+  }
+
+  /// As a polynomial on an interval.
+  Bernstein on(const Stretch& in) const {
+    const PolynomialPath::Terms terms =
+        PolynomialPath::shifted(path_.displacement, in.from / path_.length, (in.to - in.from) / path_.length);
+    const std::size_t count = path_.parabola ? 2 : PolynomialPath::terms;
+    std::array<double, most_degree + 1> a{};
+    a[0] = value(in.from);
+    if (!round_) {
+      for (std::size_t k = 0; k < count; ++k) a[k + 1] = axes_.dot(terms[k]);
+      return Bernstein::of_powers(a, count);
+    }
+    const Vec3 start = axes_.cwiseProduct(distance(in.from));
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3 term = axes_.cwiseProduct(terms[k]);
+      a[k + 1] += 2 * start.dot(term);
+      for (std::size_t j = 0; j < count; ++j) a[k + j + 2] += term.dot(terms[j]);
+    }
+    return Bernstein::of_powers(a, 2 * count);
+  }
+
+ private:
+  Condition(const CenterPath& path, const Vec3& point, const Vec3& axes, double reach, bool round)
+      : path_(path), point_(point), axes_(axes), reach_(reach), round_(round) {}
+
+  /// From the point, m.
+  Vec3 distance(double t) const {
+    const Vec3 way = path_.parabola ? Vec3(t * (path_.v + (0.5 * t) * path_.a))
+                                    : PolynomialPath::value(path_.displacement, t / path_.length);
+    return (path_.x - point_) + way;
+  }
+
+  const CenterPath& path_;
+  Vec3 point_, axes_;
+  double reach_;
+  bool round_;
+};
+
+/// The only root of a condition in an interval: Newton's method, with bisection where it leaves the bracket.
+double refine(const Condition& condition, const Stretch& in, bool falling) {
+  double l = in.from, r = in.to, t = l + 0.5 * (r - l), step = r - l;
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double value = condition.value(t);
+    if (value == 0) return t;
+    ((value > 0) == falling ? l : r) = t;
+    const double newton = t - value / condition.slope(t);
+    double next = newton;
+    if (!(newton > l && newton < r) || std::abs(newton - t) > 0.5 * std::abs(step)) next = l + 0.5 * (r - l);
+    step = next - t;
+    if (next == t || next == l || next == r) return next;
+    t = next;
+  }
+  return t;
+}
+
+/// Appends the roots of a condition in an interval at which its sign changes, in order.
+void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, std::vector<double>& roots) {
+  const int changes = f.changes();
+  if (changes == 0) return;
+  const double middle = in.from + 0.5 * (in.to - in.from);
+  const bool narrow = !(middle > in.from && middle < in.to);
+  if (changes == 1 || narrow) {
+    const bool falling = f.b[0] > 0 || f.b[f.degree] < 0;
+    if (changes % 2 == 1) roots.push_back(narrow ? in.to : refine(condition, in, falling));
+    return;
+  }
+  Bernstein right = f.split();
+  add_roots(condition, f, {in.from, middle}, roots);
+  // A root at the middle itself is none of the open halves.
+  if (right.b[0] == 0 && f.changes() % 2 == 0) {
+    const auto sign = [](const Bernstein& of, bool last) {
+      for (std::size_t k = 0; k <= of.degree; ++k)
+        if (const double b = of.b[last ? of.degree - k : k]; b != 0) return b < 0 ? -1 : 1;
+      return 0;
+    };
+    if (sign(f, true) * sign(right, false) < 0) roots.push_back(middle);
+  }
+  add_roots(condition, right, {middle, in.to}, roots);
+}
+
+/// Reduces the intervals to those in which the condition is met.
+void restrict_to(const Condition& condition, std::vector<Stretch>& intervals) {
+  std::vector<Stretch> met;
+  std::vector<double> roots;
+  for (const Stretch& in : intervals) {
+    Bernstein f = condition.on(in);
+    double sign = 0;
+    for (std::size_t k = 0; k <= f.degree && sign == 0; ++k) sign = f.b[k];
+    roots.clear();
+    add_roots(condition, f, in, roots);
+    double from = in.from;
+    bool below = sign < 0;
+    for (const double root : roots) {
+      if (below) met.push_back({from, root});
+      from = root;
+      below = !below;
+    }
+    if (below) met.push_back({from, in.to});
+  }
+  intervals = std::move(met);
+}
+
+/// When the path is inside the region, `margin` (m) wider on all sides.
+std::vector<Stretch> inside_of(const WorldRegion& region, const CenterPath& path, const Stretch& in, double margin) {
+  std::vector<Stretch> intervals{in};
+  if (region.is_side()) {
+    restrict_to(Condition::side(path, region.position, -region.normal, margin), intervals);
+    return intervals;
+  }
+  const Vec3& half = region.volume.half;
+  for (int k = 0; k < 3 && !intervals.empty(); ++k)
+    for (const double side : {-1.0, 1.0})
+      restrict_to(Condition::side(path, region.position, side * Vec3::Unit(k), half[k] + margin), intervals);
+  if (region.volume.shape == Shape::box || intervals.empty()) return intervals;
+  const Vec3 axes = region.volume.shape == Shape::sphere ? Vec3(1, 1, 1) : Vec3(1, 0, 1);
+  restrict_to(Condition::round(path, region.position, axes, half.x() + margin), intervals);
+  return intervals;
+}
+
+}  // namespace
+
+std::optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath& path, double from, bool inside,
+                                          double margin) {
+  if (!(path.length > from)) return std::nullopt;
+  const std::vector<Stretch> deep = inside_of(region, path, {from, path.length}, inside ? margin : -margin);
+  double sure = from;
+  if (!inside) {
+    if (deep.empty()) return std::nullopt;
+    sure = deep.front().from;
+  } else if (!deep.empty() && deep.front().from == from) {
+    sure = deep.front().to;
+    if (sure == path.length) return std::nullopt;
+  }
+  if (sure == from) return CrossingTime{from, from};
+  // The boundary itself is crossed before.
+  const std::vector<Stretch> real = inside_of(region, path, {from, sure}, 0);
+  if (real.empty()) return CrossingTime{inside ? from : sure, sure};
+  return CrossingTime{inside ? real.back().to : real.back().from, sure};
+}
+
+}  // namespace carom

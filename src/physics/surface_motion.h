@@ -1,0 +1,49 @@
+#pragma once
+// Fixed things that move: at constant velocities in windows of time. Outside the windows a thing stands where it has
+// arrived. Its motion is a list of legs, and each leg starts from an exact sum of those before it. Positions therefore
+// have no error that grows. On a plane only the velocity along its normal has an effect, because there is no friction.
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "numerics/compensated.h"
+#include "numerics/vec3.h"
+#include "physics/entity.h"
+
+namespace carom {
+
+struct World;
+
+/// A window of time in which a fixed thing moves.
+struct MotionWindow {
+  double from = 0;                                         // s
+  double until = std::numeric_limits<double>::infinity();  // s
+  Vec3 velocity = Vec3(0, 0, 0);                           // m/s
+};
+
+/// A time from which on a fixed thing has a constant velocity, which may be zero. It lasts until the next leg starts.
+struct MotionLeg {
+  double from;     // s
+  Vec3 velocity;   // m/s
+  Vec3 start;      // m, the displacement since time 0 at `from`
+  Vec3 start_low;  // m, the digits of it that `start` lacks
+};
+
+/// The legs of windows in order that do not overlap. None: the thing never moves.
+std::vector<MotionLeg> legs_of(std::span<const MotionWindow> windows);
+
+/// The leg of a fixed thing that moves at a time (s).
+const MotionLeg& leg_at(const std::vector<MotionLeg>& legs, const DoubleDouble& time);
+/// The displacement since time 0 (m) on this leg, at a time (s), added to `from` (m). It is rounded once.
+Vec3 place_on(const Vec3& from, const MotionLeg& leg, const DoubleDouble& time);
+
+/// The point of a plane, or the centre of a wall or an obstacle (m) at a time (s).
+Vec3 fixed_position(const World& world, Entity fixed, const DoubleDouble& time);
+/// The velocity of a fixed thing (m/s) from a time (s) on.
+Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time);
+
+/// Sets the positions of planes, walls and obstacles that move (m) to those at a time (s) in a copy of their World.
+/// Returns whether any has changed.
+bool place_fixed_things(const World& world, double time, World& copy);
+
+}  // namespace carom

@@ -1,0 +1,355 @@
+// Measures by their grammar. An expression is read from left to right; each measure in it becomes a part, and `m0`,
+// `m1`, ... take their places. What is left is arithmetic (scene/formula.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "run/measure.h"
+#include "run/measure_scope.h"
+#include "scene/formula.h"
+#include "yaml/diagnostics.h"
+#include "yaml/joined.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t longest = 4096;  // letters of a measure
+
+bool is_letter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+struct Call {
+  std::string_view name;
+  MeasureForm form;
+  std::string_view example;
+};
+
+constexpr std::array<Call, 7> calls = {{{"max", MeasureForm::greatest, "max(balls.NAME.y_m)"},
+                                        {"min", MeasureForm::least, "min(balls.NAME.y_m)"},
+                                        {"time_of_max", MeasureForm::greatest_time, "time_of_max(balls.NAME.y_m)"},
+                                        {"time_of_min", MeasureForm::least_time, "time_of_min(balls.NAME.y_m)"},
+                                        {"first", MeasureForm::first_hit, "first(red, blue)"},
+                                        {"hits", MeasureForm::hits, "hits(red, blue)"},
+                                        {"count", MeasureForm::count, "count(y_m < 0)"}}};
+
+struct RegionText {
+  std::string_view name;
+  MeasureForm form;
+};
+
+constexpr std::array<RegionText, 4> of_regions = {{{"entries", MeasureForm::entries},
+                                                   {"inside", MeasureForm::inside},
+                                                   {"first_s", MeasureForm::first_entry},
+                                                   {"first", MeasureForm::first_entrant}}};
+
+struct RelationText {
+  std::string_view sign;
+  Relation relation;
+};
+
+// A longer sign comes before its beginning.
+constexpr std::array<RelationText, 4> relations = {
+    {{"<=", Relation::at_most}, {">=", Relation::at_least}, {"<", Relation::less}, {">", Relation::greater}}};
+
+const Call* find_call(std::string_view name) {
+  const auto found = std::find_if(calls.begin(), calls.end(), [&](const Call& call) { return call.name == name; });
+  return found == calls.end() ? nullptr : &*found;
+}
+
+bool is_kind(std::string_view word) {
+  return word == "balls" || word == "bodies" || word == "groups";
+}
+
+std::optional<Quantity> find_quantity(std::string_view name) {
+  for (int k = 0; k <= static_cast<int>(Quantity::kinetic); ++k)
+    if (name_of(static_cast<Quantity>(k)) == name) return static_cast<Quantity>(k);
+  return std::nullopt;
+}
+
+Quantity quantity_named(std::string_view name, std::string_view whole) {
+  if (const auto quantity = find_quantity(name)) return *quantity;
+  std::vector<std::string_view> names;
+  for (int k = 0; k <= static_cast<int>(Quantity::kinetic); ++k) names.push_back(name_of(static_cast<Quantity>(k)));
+  const std::string near = near_name(name, names);
+  throw MeasureError(fmt::format("{}: no quantity {}{}", in_backticks(whole), in_backticks(name),
+                                 near.empty() ? fmt::format("; the quantities are {}", joined(names, ", ")) : near));
+}
+
+/// "balls.red.y_m" into the measure, or "y_m" for all bodies. `one`: it must be one body.
+void read_quantity(std::string_view text, bool one, Measure& measure) {
+  const std::size_t first = text.find('.'), last = text.rfind('.');
+  if (first == std::string_view::npos && !one) {
+    measure.quantity = quantity_named(text, measure.name);
+    return;
+  }
+  measure.kind = text.substr(0, first);
+  if (!is_kind(measure.kind))
+    throw MeasureError(fmt::format("{}: expected a quantity such as balls.NAME.y_m, not {}", in_backticks(measure.name),
+                                   in_backticks(text)));
+  if (first == last)
+    throw MeasureError(fmt::format("{} has no quantity: expected one such as {}.NAME.speed_m_per_s",
+                                   in_backticks(measure.name), measure.kind));
+  measure.body = text.substr(first + 1, last - first - 1);
+  measure.quantity = quantity_named(text.substr(last + 1), measure.name);
+}
+
+std::vector<std::string_view> arguments_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (text[i] != ',' || depth != 0) continue;
+    parts.push_back(trimmed(text.substr(begin, i - begin)));
+    begin = i + 1;
+  }
+  parts.push_back(trimmed(text.substr(begin)));
+  return parts;
+}
+
+/// The end of what opens at `open`, a parenthesis: the place of the one that closes it.
+std::size_t closing_of(std::string_view text, std::size_t open) {
+  int depth = 0;
+  for (std::size_t i = open; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (depth == 0) return i;
+  }
+  throw MeasureError(
+      fmt::format("{} lacks a closing parenthesis; in YAML, a measure with a comma needs quotes", in_backticks(text)));
+}
+
+/// Reads an expression, and takes the measures in it as parts.
+class FormulaParts {
+ public:
+  FormulaParts(std::string_view text, std::span<const std::string> own, Measure& measure)
+      : text_(text), own_(own), measure_(measure) {}
+
+  void read() {
+    while (at_ < text_.size()) {
+      if (is_letter(text_[at_]))
+        word();
+      else if (is_digit(text_[at_]) || text_[at_] == '.')
+        number();
+      else
+        measure_.formula += text_[at_++];
+    }
+  }
+
+ private:
+  std::size_t end_of_word(std::size_t from) const {
+    while (from < text_.size() && (is_letter(text_[from]) || is_digit(text_[from]))) ++from;
+    return from;
+  }
+
+  /// Digits, so that the e of 1e3 is no name.
+  void number() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) ++at_;
+    if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
+      std::size_t after = at_ + 1;
+      if (after < text_.size() && (text_[after] == '+' || text_[after] == '-')) ++after;
+      if (after < text_.size() && is_digit(text_[after])) at_ = end_of_word(after);
+    }
+    measure_.formula += text_.substr(begin, at_ - begin);
+  }
+
+  void word() {
+    const std::size_t end = end_of_word(at_);
+    const std::string_view word = text_.substr(at_, end - at_);
+    if (end < text_.size() && text_[end] == '.') return part(end_of_path(end));
+    std::size_t open = end;
+    while (open < text_.size() && is_blank(text_[open])) ++open;
+    if (open < text_.size() && text_[open] == '(' && find_call(word) != nullptr) {
+      const std::size_t close = closing_of(text_, open);
+      const auto arguments = arguments_of(text_.substr(open + 1, close - open - 1));
+      const bool arithmetic = (word == "max" || word == "min") &&
+                              (arguments.size() > 1 || arguments.front().find('(') != std::string_view::npos);
+      if (!arithmetic) return part(close + 1);
+    } else if (find_summary_column(word) != nullptr || std::find(own_.begin(), own_.end(), word) != own_.end()) {
+      return part(end);
+    }
+    measure_.formula += word;
+    at_ = end;
+  }
+
+  /// The end of "balls.red.y_m", "groups.gas.17.x_m", "regions.left-pocket.entries", "let.h". Names may have hyphens,
+  /// the last word has none.
+  std::size_t end_of_path(std::size_t dot) const {
+    std::size_t end = dot + 1;
+    if (text_.substr(at_, dot - at_) != "let")
+      while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '-')) ++end;
+    else
+      end = end_of_word(end);
+    while (end + 1 < text_.size() && text_[end] == '.') end = end_of_word(end + 1);
+    return end;
+  }
+
+  void part(std::size_t end) {
+    const Measure part = parse_measure(text_.substr(at_, end - at_), own_);
+    if (part.is_text())
+      throw MeasureError(
+          fmt::format("{} is a name, not a number, and cannot stand in an expression", in_backticks(part.name)));
+    measure_.formula += fmt::format("m{}", measure_.parts.size());
+    measure_.parts.push_back(part);
+    at_ = end;
+  }
+
+  std::string_view text_;
+  std::span<const std::string> own_;
+  Measure& measure_;
+  std::size_t at_ = 0;
+};
+
+/// "m0", "m1", ...
+std::vector<std::string> names_of_parts(const Measure& measure) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < measure.parts.size(); ++k) names.push_back(fmt::format("m{}", k));
+  return names;
+}
+
+void read_formula(std::string_view text, std::span<const std::string> own, Measure& measure) {
+  FormulaParts(text, own, measure).read();
+  try {
+    const Formula checked(measure.formula, names_of_parts(measure), "expected a measure, let.NAME or a number");
+  } catch (const FormulaError& error) {
+    throw MeasureError(fmt::format("{}: {}{}{}", in_backticks(measure.name), error.message,
+                                   error.remedy.empty() ? "" : "; ", error.remedy));
+  }
+}
+
+void read_count(std::string_view inside, std::span<const std::string> own, Measure& measure) {
+  for (const RelationText& text : relations) {
+    const std::size_t at = inside.find(text.sign);
+    if (at == std::string_view::npos) continue;
+    const std::string_view quantity = trimmed(inside.substr(0, at)),
+                           limit = trimmed(inside.substr(at + text.sign.size()));
+    measure.relation = text.relation;
+    read_quantity(quantity, false, measure);
+    if (limit.empty()) break;
+    read_formula(limit, own, measure);
+    measure.name = fmt::format("count({} {} {})", quantity, text.sign, limit);
+    return;
+  }
+  throw MeasureError(fmt::format("{}: expected a comparison, such as count(y_m < 0)", in_backticks(measure.name)));
+}
+
+void read_call(const Call& call, std::string_view inside, std::span<const std::string> own, Measure& measure) {
+  measure.form = call.form;
+  if (call.form == MeasureForm::count) return read_count(trimmed(inside), own, measure);
+  const auto arguments = arguments_of(inside);
+  const bool of_things = call.form == MeasureForm::first_hit || call.form == MeasureForm::hits;
+  const bool empty =
+      std::any_of(arguments.begin(), arguments.end(), [](std::string_view text) { return text.empty(); });
+  if (empty || arguments.size() > (of_things ? 2 : 1))
+    throw MeasureError(fmt::format("{}: expected {}, such as {}", in_backticks(measure.name),
+                                   of_things ? "one or two names" : "one quantity", call.example));
+  measure.name = fmt::format("{}({})", call.name, joined(arguments, ", "));
+  if (!of_things) return read_quantity(arguments.front(), false, measure);
+  measure.things.assign(arguments.begin(), arguments.end());
+}
+
+void read_region(std::string_view text, Measure& measure) {
+  const std::size_t last = text.rfind('.');
+  const std::string_view word = text.substr(last + 1);
+  const auto found =
+      std::find_if(of_regions.begin(), of_regions.end(), [&](const auto& of) { return of.name == word; });
+  constexpr std::string_view begin = "regions.";
+  if (found == of_regions.end() || last < begin.size()) {
+    std::vector<std::string_view> names;
+    for (const RegionText& of : of_regions) names.push_back(of.name);
+    throw MeasureError(fmt::format("{}: of a region there are {}, such as regions.NAME.entries", in_backticks(text),
+                                   joined(names, ", ")));
+  }
+  measure.form = found->form;
+  measure.things = {std::string(text.substr(begin.size(), last - begin.size()))};
+}
+
+[[noreturn]] void refuse_name(std::string_view name, std::span<const std::string> own) {
+  std::vector<std::string_view> names(own.begin(), own.end());
+  for (const SummaryColumn& column : summary_columns())
+    if (column.number != nullptr) names.push_back(column.name);
+  for (const Call& call : calls) names.push_back(call.name);
+  const std::string near = near_name(name, names);
+  throw MeasureError(fmt::format(
+      "no measure {}{}", in_backticks(name),
+      near.empty() ? "; a measure is a numeric column of summary.csv, a quantity such as balls.NAME.speed_m_per_s, an "
+                     "extreme such as max(balls.NAME.y_m), hits(a, b), regions.NAME.entries or `= expression`"
+                   : near));
+}
+
+}  // namespace
+
+double formula_value(const Measure& measure, std::span<const double> parts) {
+  constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+  if (!std::all_of(parts.begin(), parts.end(), [](double value) { return std::isfinite(value); })) return undefined;
+  try {
+    return Formula(measure.formula, names_of_parts(measure)).value(parts);
+  } catch (const FormulaError&) {
+    return undefined;
+  }
+}
+
+Measure parse_measure(std::string_view text, std::span<const std::string> own) {
+  const std::string_view name = trimmed(text);
+  if (name.size() > longest) throw MeasureError(fmt::format("a measure has at most {} letters", longest));
+  Measure measure;
+  measure.name = name;
+  if (name.starts_with('=')) {
+    measure.form = MeasureForm::expression;
+    read_formula(trimmed(name.substr(1)), own, measure);
+    return measure;
+  }
+  measure.column = find_summary_column(name);
+  if (measure.column != nullptr) {
+    if (measure.column->number == nullptr)
+      throw MeasureError(fmt::format("{} of summary.csv is text, not a measure", in_backticks(name)));
+    return measure;
+  }
+  const std::size_t open = name.find('(');
+  if (open != std::string_view::npos) {
+    const Call* call = find_call(trimmed(name.substr(0, open)));
+    if (call == nullptr) refuse_name(name, own);
+    const std::size_t close = closing_of(name, open);
+    if (close + 1 != name.size())
+      throw MeasureError(fmt::format("{}: arithmetic begins with `=`, such as '= {}'", in_backticks(name), name));
+    read_call(*call, name.substr(open + 1, close - open - 1), own, measure);
+    return measure;
+  }
+  if (name.starts_with("regions.")) {
+    read_region(name, measure);
+    return measure;
+  }
+  if (name.starts_with("let.") && name.find('.', 4) == std::string_view::npos && name.size() > 4) {
+    measure.form = MeasureForm::given;
+    measure.things = {std::string(name.substr(4))};
+    return measure;
+  }
+  if (std::find(own.begin(), own.end(), name) != own.end()) {
+    measure.form = MeasureForm::own;
+    measure.things = {std::string(name)};
+    return measure;
+  }
+  if (!is_kind(name.substr(0, name.find('.'))) || name.find('.') == std::string_view::npos) refuse_name(name, own);
+  measure.form = MeasureForm::at_end;
+  read_quantity(name, true, measure);
+  return measure;
+}
+
+}  // namespace carom

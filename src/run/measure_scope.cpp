@@ -1,0 +1,210 @@
+// Looks names up in the scene's roster, where the members of a group are name.0, name.1, ...
+#include "run/measure_scope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "scene/formula.h"
+#include "scene/scene.h"
+#include "yaml/diagnostics.h"
+#include "yaml/joined.h"
+
+namespace carom {
+namespace {
+
+const BodyRange* find_range(const Scene& scene, std::string_view name) {
+  const auto& bodies = scene.roster.bodies;
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const BodyRange& range) { return range.name == name; });
+  return found == bodies.end() ? nullptr : &*found;
+}
+
+/// The member "17" of a group. Throws MeasureError.
+EntityRange member_of(const BodyRange& range, std::string_view number, const Measure& measure) {
+  Entity member = 0;
+  const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), member);
+  if (error != std::errc() || stop != number.data() + number.size() || member >= range.count)
+    throw MeasureError(fmt::format("{}: the members of {} are 0 to {}", in_backticks(measure.name),
+                                   in_backticks(range.name),
+                                   range.count == 0 ? "none" : std::to_string(range.count - 1)));
+  return {range.first + member, 1};
+}
+
+/// Whether a fixed thing's name is `name`, or that of one of several: room.x_min, posts.3.
+bool is_of(std::string_view fixed, std::string_view name) {
+  return fixed == name || (fixed.size() > name.size() && fixed.starts_with(name) && fixed[name.size()] == '.');
+}
+
+}  // namespace
+
+std::string near_name(std::string_view word, const std::vector<std::string_view>& names) {
+  const std::string near = nearest(word, names);
+  return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
+}
+
+EntityRange bodies_of(const Measure& measure, const Scene& scene) {
+  if (measure.kind.empty()) return {0, scene.world.body_count()};
+  const bool groups = measure.kind == "groups";
+  const auto fits = [&](const BodyRange& range) { return range.group == groups && is_of(range.name, measure.body); };
+  // A name stands for one thing, or for all members of a repeated one, which follow one another.
+  EntityRange bodies;
+  bool found = false;
+  for (const BodyRange& range : scene.roster.bodies) {
+    if (!fits(range)) continue;
+    if (!found) bodies.first = range.first;
+    found = true;
+    bodies.count += range.count;
+  }
+  const std::size_t dot = measure.body.rfind('.');
+  if (!found && groups && dot != std::string::npos)
+    if (const BodyRange* range = find_range(scene, measure.body.substr(0, dot)); range != nullptr && range->group)
+      return member_of(*range, std::string_view(measure.body).substr(dot + 1), measure);
+  if (!found) {
+    std::vector<std::string_view> names;
+    for (const BodyRange& range : scene.roster.bodies)
+      if (range.group == groups) names.push_back(range.name);
+    throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind,
+                                   in_backticks(measure.body), near_name(measure.body, names)));
+  }
+  const BodyRange* whole = find_range(scene, measure.body);
+  if (measure.form == MeasureForm::at_end && (whole == nullptr || whole->group))
+    throw MeasureError(fmt::format("{} has no member; expected one such as {}.{}.0.{}", in_backticks(measure.name),
+                                   measure.kind, measure.body, name_of(measure.quantity)));
+  return bodies;
+}
+
+std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene) {
+  std::vector<EntityRange> things;
+  std::vector<std::string_view> names;
+  for (const BodyRange& range : scene.roster.bodies) {
+    names.push_back(range.name);
+    if (is_of(range.name, name)) things.push_back({range.first, range.count});
+  }
+  for (std::size_t k = 0; k < scene.roster.fixed.size(); ++k) {
+    const std::string_view fixed = scene.roster.fixed[k].name;
+    names.push_back(fixed);
+    if (is_of(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
+  }
+  if (!things.empty()) return things;
+  const std::size_t dot = name.rfind('.');
+  if (dot != std::string_view::npos)
+    if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
+      return {member_of(*range, name.substr(dot + 1), measure)};
+  throw MeasureError(
+      fmt::format("{}: nothing is named {}{}", in_backticks(measure.name), in_backticks(name), near_name(name, names)));
+}
+
+std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene) {
+  const std::string& name = measure.things[0];
+  std::vector<std::uint32_t> regions;
+  std::vector<std::string_view> names;
+  for (std::uint32_t r = 0; r < scene.roster.regions.size(); ++r) {
+    names.push_back(scene.roster.regions[r]);
+    if (is_of(scene.roster.regions[r], name)) regions.push_back(r);
+  }
+  if (regions.empty())
+    throw MeasureError(fmt::format("{}: no region is named {}{}", in_backticks(measure.name), in_backticks(name),
+                                   near_name(name, names)));
+  return regions;
+}
+
+namespace {
+
+std::vector<std::string> own_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const OwnMeasure& own : scene.measures) names.push_back(own.name);
+  return names;
+}
+
+/// The scene's own measure of this name.
+Measure defined(const std::string& name, const Scene& scene) {
+  const auto found = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                  [&](const OwnMeasure& own) { return own.name == name; });
+  Measure measure = parse_measure(found->text, own_names(scene));
+  measure.name = name;
+  return measure;
+}
+
+/// Throws MeasureError unless the scene has all that the measure names. `above`: the scene's own measures of which it
+/// is a part.
+void check(const Measure& measure, const Scene& scene, std::vector<std::string>& above) {
+  for (const Measure& part : measure.parts) check(part, scene, above);
+  switch (measure.form) {
+    case MeasureForm::at_end:
+    case MeasureForm::greatest:
+    case MeasureForm::least:
+    case MeasureForm::greatest_time:
+    case MeasureForm::least_time:
+    case MeasureForm::count:
+      bodies_of(measure, scene);
+      return;
+    case MeasureForm::first_hit:
+    case MeasureForm::hits:
+      for (const std::string& name : measure.things) things_named(name, measure, scene);
+      return;
+    case MeasureForm::entries:
+    case MeasureForm::inside:
+    case MeasureForm::first_entry:
+    case MeasureForm::first_entrant:
+      regions_named(measure, scene);
+      return;
+    case MeasureForm::given:
+      if (!scene.numbers.contains(measure.things[0])) {
+        std::vector<std::string_view> names;
+        for (const auto& [name, number] : scene.numbers) names.push_back(name);
+        throw MeasureError(
+            fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), near_name(measure.things[0], names)));
+      }
+      return;
+    case MeasureForm::own: {
+      if (std::find(above.begin(), above.end(), measure.things[0]) != above.end())
+        throw MeasureError(
+            fmt::format("{} is defined by itself: {}", in_backticks(measure.things[0]), joined(above, ", ")));
+      above.push_back(measure.things[0]);
+      check(defined(measure.things[0], scene), scene, above);
+      above.pop_back();
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+Measure own_measure(const OwnMeasure& own, const Scene& scene) {
+  if (find_summary_column(own.name) != nullptr || is_formula_word(own.name))
+    throw MeasureError(fmt::format("{} is already a {}; give the measure another name", in_backticks(own.name),
+                                   is_formula_word(own.name) ? "function" : "column of summary.csv"));
+  std::vector<std::string> above = {own.name};
+  Measure measure = defined(own.name, scene);
+  check(measure, scene, above);
+  return measure;
+}
+
+}  // namespace
+
+Measure parse_measure(std::string_view name, const Scene& scene) {
+  Measure measure = parse_measure(name, own_names(scene));
+  std::vector<std::string> above;
+  check(measure, scene, above);
+  return measure;
+}
+
+std::vector<Measure> own_measures(const Scene& scene) {
+  std::vector<Measure> measures;
+  for (const OwnMeasure& own : scene.measures) measures.push_back(own_measure(own, scene));
+  return measures;
+}
+
+std::string measure_fault(const Scene& scene, const OwnMeasure& measure) {
+  try {
+    own_measure(measure, scene);
+    return {};
+  } catch (const MeasureError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace carom

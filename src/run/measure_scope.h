@@ -1,0 +1,32 @@
+#pragma once
+// The names in measures to the bodies and fixed things of a scene.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "physics/entity.h"
+#include "run/measure.h"
+
+namespace carom {
+
+struct Scene;
+
+struct EntityRange {
+  Entity first = 0, count = 0;
+  bool has(Entity e) const { return e >= first && e - first < count; }
+};
+
+/// "; did you mean `red`?", or empty.
+std::string near_name(std::string_view word, const std::vector<std::string_view>& names);
+
+/// The bodies of a measure of a quantity: one, the members of a group, or all. Throws MeasureError.
+EntityRange bodies_of(const Measure& measure, const Scene& scene);
+
+/// What a measure's name stands for: bodies, members of a group, fixed things, the room or one of its sides.
+/// Throws MeasureError.
+std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene);
+
+/// The regions of a measure of regions: one, or all members of a repeated one; ascending. Throws MeasureError.
+std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene);
+
+}  // namespace carom

@@ -1,0 +1,177 @@
+// Each measure says what has to be recorded, before the run. Its value is made from that at the end.
+#include "run/measuring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/body_now.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+bool any_has(const std::vector<EntityRange>& ranges, Entity e) {
+  return std::any_of(ranges.begin(), ranges.end(), [&](const EntityRange& range) { return range.has(e); });
+}
+
+bool is_extreme(MeasureForm form) {
+  return form == MeasureForm::greatest || form == MeasureForm::least || form == MeasureForm::greatest_time ||
+         form == MeasureForm::least_time;
+}
+
+bool is_of_region(MeasureForm form) {
+  return form == MeasureForm::entries || form == MeasureForm::inside || form == MeasureForm::first_entry ||
+         form == MeasureForm::first_entrant;
+}
+
+WatchedQuantity watched_by(const Measure& measure, const Scene& scene) {
+  const EntityRange bodies = bodies_of(measure, scene);
+  return {measure.quantity, bodies.first, bodies.count};
+}
+
+}  // namespace
+
+Measuring::Measuring(const Scene& scene, std::vector<Measure> measures)
+    : scene_(scene), measures_(std::move(measures)) {
+  for (const Measure& measure : measures_) prepare(measure);
+}
+
+void Measuring::prepare(const Measure& measure) {
+  for (const Measure& part : measure.parts) prepare(part);
+  if (measure.form == MeasureForm::at_end || measure.form == MeasureForm::count) bodies_of(measure, scene_);
+  if (is_extreme(measure.form)) {
+    const WatchedQuantity watched = watched_by(measure, scene_);
+    if (std::find(watched_.begin(), watched_.end(), watched) == watched_.end()) watched_.push_back(watched);
+  }
+  if (is_of_region(measure.form) && std::none_of(visits_.begin(), visits_.end(),
+                                                 [&](const Visits& visits) { return visits.name == measure.things[0]; }))
+    visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
+  if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
+  if (std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return m.things == measure.things; }))
+    return;
+  Meeting meeting{measure.things, things_named(measure.things[0], measure, scene_), {}, 0, undefined};
+  if (measure.things.size() > 1) meeting.b = things_named(measure.things[1], measure, scene_);
+  meetings_.push_back(std::move(meeting));
+}
+
+void Measuring::record(std::span<const Collision> collisions, std::span<const RegionCrossing> crossings) {
+  for (Visits& visits : visits_) {
+    for (const RegionCrossing& c : crossings) {
+      if (!std::binary_search(visits.regions.begin(), visits.regions.end(), c.region)) continue;
+      visits.inside[{c.region, c.body}] = c.enters;
+      if (!c.enters) continue;
+      if (visits.entries == 0) visits.first = c.time, visits.entrant = c.body;
+      ++visits.entries;
+    }
+  }
+  for (Meeting& meeting : meetings_) {
+    for (const Collision& c : collisions) {
+      if (c.kind == CollisionKind::rest) continue;
+      const auto has = [&](const std::string& name, bool first) {
+        return any_has(name == meeting.things[0] ? meeting.a : meeting.b, first ? c.a : c.b);
+      };
+      if (!meet(meeting.things, has)) continue;
+      if (meeting.count == 0) meeting.first = c.time;
+      ++meeting.count;
+    }
+  }
+}
+
+std::vector<Measured> Measuring::values(const MeasuredRun& run) const {
+  std::vector<Measured> values;
+  for (const Measure& measure : measures_) {
+    Measured& measured = values.emplace_back(measure.name);
+    measured.value = value(measure, run);
+    if (measure.is_text()) measured.text = first_entrant(measure);
+  }
+  return values;
+}
+
+double Measuring::at_end(const Measure& measure, Entity body, const State& end) const {
+  if (is_gone(end, body)) return undefined;
+  return quantity_of(measure.quantity, end.position[body], end.velocity[body], mass_now(scene_.world, end, body));
+}
+
+double Measuring::evaluated(const Measure& measure, const MeasuredRun& run) const {
+  std::vector<double> values;
+  for (const Measure& part : measure.parts) values.push_back(value(part, run));
+  return formula_value(measure, values);
+}
+
+double Measuring::counted(const Measure& measure, const MeasuredRun& run) const {
+  const double limit = evaluated(measure, run);
+  const EntityRange bodies = bodies_of(measure, scene_);
+  double count = 0;
+  for (Entity i = bodies.first; i < bodies.first + bodies.count; ++i)
+    count += compares(at_end(measure, i, run.state), measure.relation, limit) ? 1 : 0;
+  return count;
+}
+
+const Extremes& Measuring::extremes(const Measure& measure, const MeasuredRun& run) const {
+  const auto found = std::find(watched_.begin(), watched_.end(), watched_by(measure, scene_));
+  return run.extremes[static_cast<std::size_t>(found - watched_.begin())];
+}
+
+/// Bodies inside a region that are still in the world.
+double Measuring::inside(const Visits& visits, const State& end) const {
+  double count = 0;
+  for (const auto& [of, is_inside] : visits.inside) count += is_inside && !is_gone(end, of.second) ? 1 : 0;
+  return count;
+}
+
+std::string Measuring::first_entrant(const Measure& measure) const {
+  const auto found =
+      std::find_if(visits_.begin(), visits_.end(), [&](const Visits& v) { return v.name == measure.things[0]; });
+  return found->entrant == no_entity ? std::string() : scene_.roster.name(found->entrant);
+}
+
+double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
+  const auto visits = [&]() -> const Visits& {
+    return *std::find_if(visits_.begin(), visits_.end(), [&](const Visits& v) { return v.name == measure.things[0]; });
+  };
+  const auto meeting = [&]() -> const Meeting& {
+    return *std::find_if(meetings_.begin(), meetings_.end(),
+                         [&](const Meeting& m) { return m.things == measure.things; });
+  };
+  switch (measure.form) {
+    case MeasureForm::column:
+      return measure.column->number(run.summary);
+    case MeasureForm::at_end:
+      return at_end(measure, bodies_of(measure, scene_).first, run.state);
+    case MeasureForm::greatest:
+      return extremes(measure, run).greatest.value;
+    case MeasureForm::least:
+      return extremes(measure, run).least.value;
+    case MeasureForm::greatest_time:
+      return extremes(measure, run).greatest.time;
+    case MeasureForm::least_time:
+      return extremes(measure, run).least.time;
+    case MeasureForm::first_hit:
+      return meeting().first;
+    case MeasureForm::hits:
+      return meeting().count;
+    case MeasureForm::entries:
+      return visits().entries;
+    case MeasureForm::inside:
+      return inside(visits(), run.state);
+    case MeasureForm::first_entry:
+      return visits().first;
+    case MeasureForm::count:
+      return counted(measure, run);
+    case MeasureForm::expression:
+      return evaluated(measure, run);
+    case MeasureForm::given:
+      return scene_.numbers.at(measure.things[0]);
+    case MeasureForm::own:
+      return value(*std::find_if(measures_.begin(), measures_.end(),
+                                 [&](const Measure& other) { return other.name == measure.things[0]; }),
+                   run);
+    default:
+      return undefined;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,107 @@
+// Decodes regions, and what ends a run before its duration.
+// A region with an error still gets a number, so that the numbers of the others do not shift.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "physics/world.h"
+#include "scene/decode.h"
+#include "scene/expand.h"
+#include "scene/member.h"
+#include "scene/scene.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+/// Share of the coordinates: a region with a smaller size is lost in the rounding of positions.
+constexpr double smallest_share = 0x1p-40;
+
+std::optional<Volume> volume_of(const RegionKeys& region) {
+  if (region.radius) return Volume::sphere(*region.radius);
+  if (region.box) return Volume::box(*region.box);
+  if (!region.cylinder || !region.cylinder->radius || !region.cylinder->height) return std::nullopt;
+  return Volume::cylinder(*region.cylinder->radius, *region.cylinder->height);
+}
+
+WorldRegion decode_region(const View& view, const std::string& name, const Inventory& inventory,
+                          Diagnostics& diagnostics) {
+  const auto keys = filled<RegionKeys>(view);
+  WorldRegion region;
+  if (keys.plane) {
+    region.position = keys.plane->point;
+    region.normal = unit(keys.plane->normal);
+  } else if (const std::optional<Volume> volume = volume_of(keys); volume && keys.position) {
+    region.position = *keys.position;
+    region.volume = *volume;
+    const double size = 2 * volume->half.minCoeff(), far = region.position.cwiseAbs().maxCoeff();
+    if (size < smallest_share * far)
+      diagnostics.add(
+          view.place("position"),
+          fmt::format("{} is {} m wide and {} m from the origin", in_backticks(name), shortest(size), shortest(far)),
+          "doubles do not resolve it there: bring it nearer, or make it larger");
+  }
+  if (auto on = find_bodies(keys.on, inventory, "it enters no region", diagnostics)) region.on = std::move(*on);
+  region.removes = keys.action == RegionAction::remove;
+  region.stops = keys.action == RegionAction::stop;
+  return region;
+}
+
+class Regions {
+ public:
+  Regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
+      : root_(root), inventory_(inventory), scene_(scene), diagnostics_(diagnostics) {}
+
+  void run() {
+    const Node* regions = root_.find("regions");
+    for (std::size_t i = 0; regions != nullptr && regions->is(Node::Kind::map) && i < regions->keys.size(); ++i) {
+      const Key& key = regions->keys[i];
+      if (inventory_.names.contains(key.text))
+        diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
+                         "names of bodies, groups, fixed things, the room and regions are unique in a scene");
+      const View view(&regions->items[i], kind_named("region"), key.place);
+      scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
+      scene_.roster.regions.push_back(key.text);
+    }
+    const Node* stops = scene_part(root_, "simulate").given("stop");
+    if (stops == nullptr || !stops->is(Node::Kind::sequence)) return;
+    for (const Node& stop : stops->items) stop.is(Node::Kind::map) ? add(stop) : add_word(stop);
+  }
+
+ private:
+  void add_word(const Node& word) {
+    if (!word.bad && word.text == "rest") scene_.simulate.stop_at_rest = true;
+  }
+
+  void add(const Node& node) {
+    const auto [collisions, region] = filled<StopKeys>(View(&node, kind_named("stop"), node.place));
+    if (collisions)
+      scene_.simulate.stop_collisions = std::min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
+    if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
+    const std::vector<std::string>& names = scene_.roster.regions;
+    bool found = false;
+    for (std::size_t r = 0; r < names.size(); ++r) {
+      if (names[r] != region->text && family_of(names[r]) != region->text) continue;
+      scene_.world.regions[r].stops = found = true;
+    }
+    if (found) return;
+    const std::string near = nearest(region->text, std::vector<std::string_view>(names.begin(), names.end()));
+    diagnostics_.add(region->place, fmt::format("no region is named {}", in_backticks(region->text)),
+                     !near.empty()   ? fmt::format("did you mean {}?", in_backticks(near))
+                     : names.empty() ? "expected `regions` with that name"
+                                     : "expected a name of `regions`");
+  }
+
+  const Node& root_;
+  const Inventory& inventory_;
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  Regions(root, inventory, scene, diagnostics).run();
+}
+
+}  // namespace carom

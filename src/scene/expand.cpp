@@ -1,0 +1,448 @@
+// Walks the tree along the table of fields, which determines where numbers and names stand. Texts are never evaluated.
+// The map of a repeated thing is a template: for each member its expressions are evaluated in place, and it is copied.
+// Members are written out because everything that reads the tree then knows single things alone.
+#include "scene/expand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "scene/expressions.h"
+#include "scene/fields.h"
+#include "scene/scene.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+/// As many values as a file may have (document.cpp).
+constexpr double most_values = 6e6;
+/// Bytes of all expressions of repeated things, times their members. A second evaluates 40 million bytes of sines.
+constexpr double most_work = 2e8;
+/// Of things that are not repeated. Each is read by itself, in 10 microseconds.
+constexpr std::size_t most_expressions = 200'000;
+constexpr std::size_t most_indices = 8;
+/// Of expressions that a manifest lists.
+constexpr std::size_t most_texts = 10'000;
+
+constexpr std::string_view repeat_key = "repeat";
+
+/// Whether the tree has anything to expand.
+bool has_shorthands(const Node& node) {
+  if (is_expression(node) || has_braces(node)) return true;
+  for (const Key& key : node.keys)
+    if (key.text == repeat_key || key.text == "let") return true;
+  return std::any_of(node.items.begin(), node.items.end(), has_shorthands);
+}
+
+std::size_t count_values(const Node& node) {
+  std::size_t count = 1;
+  for (const Node& item : node.items) count += count_values(item);
+  return count;
+}
+
+/// Whether values of this field hold neither numbers nor names of things.
+bool is_text(const Field& field) {
+  if (field.range.min == field.range.max) return true;  // the version of the format
+  switch (field.type) {
+    case Type::flag:
+    case Type::text:
+    case Type::text_or_flag:
+    case Type::file:
+    case Type::values:  // `let` itself
+    case Type::texts:
+    case Type::repeat:
+      return true;
+    case Type::choice: {
+      const std::vector<std::string_view> all = choices(field);
+      return std::none_of(all.begin(), all.end(), [](std::string_view one) { return parse_number(one).has_value(); });
+    }
+    default:
+      return false;
+  }
+}
+
+/// The last step of the path of a number in a list of them.
+std::string step_of(const Field& field, std::size_t i) {
+  constexpr std::string_view axes[] = {"x", "y", "z"}, sides[] = {"width", "height"};
+  if ((field.type == Type::vector || field.type == Type::direction) && i < 3) return std::string(axes[i]);
+  if ((field.type == Type::extent || field.type == Type::pixels) && i < 2) return std::string(sides[i]);
+  return std::to_string(i);
+}
+
+/// The parts of a path before and after the number of a member: "bodies.bricks" and ".mass" of "bodies.bricks.3.mass".
+/// The first is empty if the path has none.
+std::pair<std::string, std::string> without_member(std::string_view path) {
+  const std::size_t name = path.find('.'), number = path.find('.', name + 1);
+  if (name == std::string_view::npos || number == std::string_view::npos) return {};
+  const std::size_t end = std::min(path.find('.', number + 1), path.size());
+  if (!parse_index(path.substr(number + 1, end - number - 1))) return {};
+  return {std::string(path.substr(0, number)), std::string(path.substr(end))};
+}
+
+class Expander {
+ public:
+  Expander(const Budget& budget, Diagnostics& diagnostics) : budget_(budget), diagnostics_(diagnostics) {}
+
+  ExpressionTexts run(Node& root) {
+    values_ = static_cast<double>(count_values(root));
+    if (Node* let = root.find("let"); let != nullptr && let->is(Node::Kind::map)) {
+      for (std::size_t i = 0; i < let->keys.size(); ++i) note("let." + let->keys[i].text, let->items[i]);
+      numbers_ = read_let(*let, diagnostics_);
+    }
+    map(root, kind_named("scene"), "");
+    note_defaults(root);
+    if (texts_.size() > most_texts) texts_.clear();
+    return std::move(texts_);
+  }
+
+ private:
+  /// What to do with an expression: evaluate it, add it to those of a template, or mark it so that nothing reads it.
+  enum class Mode : std::uint8_t { evaluate, collect, mark };
+
+  struct Counts {
+    std::vector<std::string> names;  // of indices
+    std::vector<double> counts;
+    double members = 1;
+  };
+
+  void map(Node& node, const Kind& kind, const std::string& path) {
+    if (!node.is(Node::Kind::map)) return;
+    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+      const Field* field = find_field(kind, node.keys[i].text);
+      if (field != nullptr && !is_text(*field))
+        value(node.items[i], *field, path.empty() ? node.keys[i].text : path + "." + node.keys[i].text);
+    }
+  }
+
+  void value(Node& node, const Field& field, const std::string& path) {
+    if (field.type == Type::named) return named(node, kind_named(field.of), path);
+    if (field.type == Type::list) return list(node, kind_named(field.of), path);
+    if (node.is(Node::Kind::map)) {
+      if (holds_map(field)) map(node, kind_named(field.of), path);
+      return;
+    }
+    scalar(node, path);
+    if (!node.is(Node::Kind::sequence)) return;
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+      if (is_expression(node.items[i]) || has_braces(node.items[i]))
+        scalar(node.items[i], path + "." + step_of(field, i));
+  }
+
+  void note(const std::string& path, const Node& node) {
+    if (is_expression(node) && !in_list_ && texts_.size() <= most_texts) texts_.emplace(path, node.text);
+  }
+
+  void note_repeat(const std::string& path, const Node& repeat) {
+    std::string text;
+    bool any = is_expression(repeat);
+    for (const Node& item : repeat.items) {
+      any = any || is_expression(item);
+      text += item.text + ";";
+    }
+    if (any && !in_list_) texts_.emplace(path + ".repeat", repeat.text + text);
+  }
+
+  /// Notes the expressions of defaults once more for each thing that uses them.
+  void note_defaults(const Node& root) {
+    if (texts_.lower_bound("defaults.") == texts_.lower_bound("defaults/")) return;
+    for (const Field& field : kind_named("scene").fields) {
+      const Node* things = field.type == Type::named ? root.find(field.key) : nullptr;
+      if (things == nullptr || !things->is(Node::Kind::map)) continue;
+      const Kind& kind = kind_named(field.of);
+      for (std::size_t i = 0; i < things->keys.size(); ++i) {
+        const std::string_view family = family_of(things->keys[i].text);
+        const std::string path =
+            fmt::format("{}.{}", field.key, family.empty() ? std::string_view(things->keys[i].text) : family);
+        note_defaults_of(things->items[i], kind, path);
+        for (const Field& part : kind.fields)
+          if (part.type == Type::part && things->items[i].find(part.key) != nullptr)
+            note_defaults_of(*things->items[i].find(part.key), kind_named(part.of),
+                             fmt::format("{}.{}", path, part.key));
+      }
+    }
+  }
+
+  void note_defaults_of(const Node& thing, const Kind& kind, const std::string& path) {
+    if (kind.defaults.empty()) return;
+    const std::string start = fmt::format("defaults.{}.", kind.defaults);
+    for (auto text = texts_.lower_bound(start); text != texts_.end() && text->first.starts_with(start); ++text) {
+      const std::string rest = text->first.substr(start.size());
+      const Field* field = find_field(kind, std::string_view(rest).substr(0, rest.find('.')));
+      if (field == nullptr || thing.find_key(field->key) != nullptr || texts_.size() > most_texts) continue;
+      const std::vector<std::string_view> others = rivals(*field);
+      if (std::none_of(others.begin(), others.end(), [&](auto key) { return thing.find_key(key) != nullptr; }))
+        texts_.emplace(path + "." + rest, text->second);
+    }
+  }
+
+  void scalar(Node& node, const std::string& path) {
+    if (node.bad || !(is_expression(node) || has_braces(node))) return;
+    if (mode_ == Mode::mark) {
+      node.bad = true;
+      return;
+    }
+    note(path, node);
+    if (mode_ == Mode::evaluate && ++evaluated_ > most_expressions) {
+      if (evaluated_ == most_expressions + 1)
+        diagnostics_.add(node.place, fmt::format("more than {} expressions", most_expressions),
+                         "things of one kind are made by `repeat`");
+      node.bad = true;
+      return;
+    }
+    std::optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
+    if (!slot) return;
+    if (mode_ == Mode::evaluate)
+      slot->fill(numbers_, diagnostics_);
+    else
+      slots_.push_back(std::move(*slot));
+  }
+
+  static bool is_repeated(const Node& node, const Kind& kind) {
+    return node.is(Node::Kind::map) && node.find_key(repeat_key) != nullptr && find_field(kind, repeat_key) != nullptr;
+  }
+
+  void named(Node& node, const Kind& kind, const std::string& path) {
+    if (!node.is(Node::Kind::map)) return;
+    bool repeats = false;
+    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+      if (kind.also != nullptr && node.keys[i].text == kind.also->key)
+        value(node.items[i], *kind.also, path + "." + node.keys[i].text);
+      else if (is_repeated(node.items[i], kind))
+        repeats = true;
+      else
+        map(node.items[i], kind, path + "." + node.keys[i].text);
+    }
+    if (!repeats) return;
+    Node whole = std::move(node);
+    std::vector<Node> made;
+    node = Node{};
+    node.kind = whole.kind;
+    node.place = whole.place;
+    for (std::size_t i = 0; i < whole.keys.size(); ++i) {
+      const Key& key = whole.keys[i];
+      made.clear();
+      if (!is_repeated(whole.items[i], kind) ||
+          !members(whole.items[i], key.place, kind, path + "." + key.text, made)) {
+        node.keys.push_back(key);
+        node.items.push_back(std::move(whole.items[i]));
+        continue;
+      }
+      for (std::size_t k = 0; k < made.size(); ++k) {
+        node.keys.push_back({fmt::format("{}.{}", key.text, k), key.place});
+        node.items.push_back(std::move(made[k]));
+      }
+    }
+  }
+
+  void list(Node& node, const Kind& kind, const std::string& path) {
+    if (!node.is(Node::Kind::sequence)) return;
+    std::vector<Node> made;
+    for (Node& item : node.items) {
+      if (is_repeated(item, kind)) {
+        in_list_ = true;
+        const bool good = members(item, item.place, kind, path, made);
+        in_list_ = false;
+        if (good) continue;
+      } else {
+        map(item, kind, fmt::format("{}.{}", path, made.size()));
+      }
+      made.push_back(std::move(item));
+    }
+    node.items = std::move(made);
+  }
+
+  /// Adds the members of a repeated thing to `made`. False: it has none, and stays as it is.
+  bool members(Node& thing, Place where, const Kind& kind, const std::string& path, std::vector<Node>& made) {
+    const std::size_t errors = diagnostics_.count(), before = numbers_.names.size(), first = made.size();
+    note_repeat(path, *thing.find(repeat_key));
+    const std::optional<Counts> counts = read_counts(*thing.find(repeat_key), where);
+    bool good = counts && counts->members > 0;
+    if (good) {
+      for (const std::string& name : counts->names) numbers_.add(name, 0);
+      good = make(thing, *counts, kind, path, made) && diagnostics_.count() == errors;
+      numbers_.names.resize(before);
+      numbers_.values.resize(before);
+      numbers_.known.resize(before);
+    }
+    if (good) return true;
+    made.resize(first);
+    mode_ = Mode::mark;
+    map(thing, kind, path);
+    mode_ = Mode::evaluate;
+    return false;
+  }
+
+  bool make(Node& thing, const Counts& counts, const Kind& kind, const std::string& path, std::vector<Node>& made) {
+    const auto at = thing.find_key(repeat_key) - thing.keys.data();
+    const Place where = thing.keys[static_cast<std::size_t>(at)].place;
+    Node pattern = thing;
+    pattern.keys.erase(pattern.keys.begin() + at);
+    pattern.items.erase(pattern.items.begin() + at);
+    slots_.clear();
+    mode_ = Mode::collect;
+    map(pattern, kind, path);
+    mode_ = Mode::evaluate;
+    const std::size_t count_of_values = count_values(pattern);
+    double work = 0;
+    for (const Slot& slot : slots_) work += static_cast<double>(slot.length()) * counts.members;
+    work_ += work;
+    values_ += static_cast<double>(count_of_values) * counts.members;
+    if (values_ > most_values || work_ > most_work) {
+      diagnostics_.add(
+          where,
+          values_ > most_values
+              ? fmt::format("with these members the scene has {} values; the limit is {}", values_, most_values)
+              : "evaluating the expressions of so many members takes too long",
+          "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
+      return false;
+    }
+    made.reserve(made.size() + static_cast<std::size_t>(counts.members));
+    return fill(pattern, counts, made);
+  }
+
+  bool fill(const Node& pattern, const Counts& counts, std::vector<Node>& made) {
+    const std::size_t indices = counts.names.size(), first = numbers_.names.size() - indices;
+    for (std::uint64_t member = 0; member < static_cast<std::uint64_t>(counts.members); ++member) {
+      std::uint64_t rest = member;
+      for (std::size_t k = indices; k-- > 0;) {
+        const auto count = static_cast<std::uint64_t>(counts.counts[k]);
+        numbers_.values[first + k] = static_cast<double>(rest % count);
+        rest /= count;
+      }
+      for (Slot& slot : slots_)
+        if (!slot.fill(numbers_, diagnostics_)) return false;
+      made.push_back(pattern);
+    }
+    return true;
+  }
+
+  /// The value of a count. None: an error was added.
+  std::optional<double> read_count(Node& node, const std::string& name) {
+    const std::size_t errors = diagnostics_.count();
+    const Place place = node.place;
+    if (is_expression(node)) {
+      std::optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
+      if (!slot || !slot->fill(numbers_, diagnostics_)) return std::nullopt;
+    }
+    const bool is_number = node.is(Node::Kind::scalar) && !node.quoted;
+    const std::optional<double> value = is_number ? parse_number(node.text) : std::nullopt;
+    if (value && *value >= 0 && std::floor(*value) == *value) return value;
+    node.bad = true;
+    if (diagnostics_.count() == errors)
+      diagnostics_.add(place,
+                       fmt::format("{} is {}", name,
+                                   node.is(Node::Kind::null)     ? "empty"
+                                   : node.is(Node::Kind::scalar) ? in_backticks(node.text)
+                                   : node.is(Node::Kind::map)    ? "a map of keys"
+                                                                 : "a list"),
+                       "expected a whole number of at least 0");
+    return std::nullopt;
+  }
+
+  std::optional<Counts> read_counts(Node& node, Place where) {
+    Counts counts;
+    bool good = true;
+    if (node.is(Node::Kind::map)) {
+      if (node.items.empty() || node.items.size() > most_indices) {
+        diagnostics_.add(node.place, fmt::format("`repeat` has {} indices", node.items.size()),
+                         fmt::format("expected 1 to {}, such as {{i: 6, j: 4}}", most_indices));
+        return std::nullopt;
+      }
+      for (std::size_t i = 0; i < node.keys.size(); ++i) {
+        good = check_index(node.keys[i], node.keys[i].place) && good;
+        const std::optional<double> count = read_count(node.items[i], in_backticks(node.keys[i].text));
+        good = good && count;
+        counts.names.push_back(node.keys[i].text);
+        counts.counts.push_back(count.value_or(0));
+        counts.members *= counts.counts.back();
+      }
+    } else {
+      good = check_index({"i", {}}, node.place);
+      const std::optional<double> count = read_count(node, "`repeat`");
+      good = good && count;
+      counts = {{"i"}, {count.value_or(0)}, count.value_or(0)};
+    }
+    if (!good) return std::nullopt;
+    if (budget_.enforced && counts.members > static_cast<double>(budget_.bodies)) {
+      diagnostics_.add(place_of_repeat(node, where),
+                       fmt::format("`repeat` makes {} members; the limit is {}", counts.members, budget_.bodies),
+                       "expected a smaller `repeat`");
+      return std::nullopt;
+    }
+    if (counts.members == 0) {
+      const Place place = node.place;
+      node = Node{};
+      node.kind = Node::Kind::scalar;
+      node.text = "0";
+      node.place = place;
+    }
+    return counts;
+  }
+
+  static Place place_of_repeat(const Node& node, Place where) { return node.is(Node::Kind::null) ? where : node.place; }
+
+  bool check_index(const Key& key, Place where) {
+    const std::string shown = in_backticks(key.text);
+    if (!is_name(key.text) || key.text.find('-') != std::string::npos) {
+      diagnostics_.add(where, fmt::format("{} is not a name for an index", shown),
+                       "expected letters, digits and _, a letter or _ first");
+    } else if (is_formula_word(key.text)) {
+      diagnostics_.add(where, fmt::format("{} is a {} of expressions", shown, key.text == "pi" ? "number" : "function"),
+                       "expected another name for the index");
+    } else if (numbers_.has(key.text)) {
+      diagnostics_.add(where, fmt::format("the index {} is a name of `let`, too", shown),
+                       "name the index otherwise, such as `repeat: {k: 7}`, or the number");
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  const Budget& budget_;
+  Diagnostics& diagnostics_;
+  NamedNumbers numbers_;
+  Mode mode_ = Mode::evaluate;
+  std::vector<Slot> slots_;  // of the template that is read
+  ExpressionTexts texts_;
+  bool in_list_ = false;  // in a repeated entry of a list
+  std::size_t evaluated_ = 0;
+  double values_ = 0, work_ = 0;
+};
+
+}  // namespace
+
+void write_out(Node& root) {
+  for (const Field& field : kind_named("scene").fields) {
+    if (field.plain.empty() || !root.is(Node::Kind::map)) continue;
+    Node* value = root.find(field.key);
+    if (value == nullptr || !value->is(Node::Kind::scalar)) continue;
+    Node whole;
+    whole.kind = Node::Kind::map;
+    whole.place = value->place;
+    whole.keys.push_back({std::string(field.plain), value->place});
+    whole.items.push_back(std::move(*value));
+    *value = std::move(whole);
+  }
+}
+
+const std::string* expression_at(const ExpressionTexts& texts, std::string_view path) {
+  if (const auto found = texts.find(std::string(path)); found != texts.end()) return &found->second;
+  const auto [family, rest] = without_member(path);
+  const auto found = family.empty() ? texts.end() : texts.find(family + rest);
+  return found == texts.end() ? nullptr : &found->second;
+}
+
+const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path) {
+  const std::string family = without_member(path).first;
+  const auto found = family.empty() ? texts.end() : texts.find(family + ".repeat");
+  return found == texts.end() ? nullptr : &found->second;
+}
+
+ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics) {
+  return has_shorthands(root) ? Expander(budget, diagnostics).run(root) : ExpressionTexts{};
+}
+
+}  // namespace carom

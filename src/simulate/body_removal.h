@@ -1,0 +1,34 @@
+#pragma once
+// Takes bodies out of the world. What rested on one falls.
+#include <vector>
+
+#include "physics/entity.h"
+
+namespace carom {
+
+class EventQueue;
+struct ExactBodies;
+class ExactGroup;
+class FlatContacts;
+class FlightChanges;
+
+class BodyRemoval {
+ public:
+  BodyRemoval(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, FlightChanges& flights, EventQueue& queue)
+      : bodies_(bodies), group_(group), flat_(flat), flights_(flights), queue_(queue) {}
+
+  /// Removes body i at the present instant, and books its energy and momentum. It stays at its position, out of the
+  /// world. Returns bodies in lasting contact, one of each island that has lost it: their forces are to be found anew.
+  std::vector<Entity> remove(Entity i);
+
+ private:
+  std::vector<Entity> release(Entity i);
+
+  ExactBodies& bodies_;
+  ExactGroup& group_;
+  FlatContacts& flat_;
+  FlightChanges& flights_;
+  EventQueue& queue_;
+};
+
+}  // namespace carom

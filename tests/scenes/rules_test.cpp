@@ -1,0 +1,105 @@
+// Scenes whose things are made by rules, and measured by names: closed forms of their comments.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "run/run_scene.h"
+#include "scenes/play.h"
+
+namespace carom::testing {
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+/// The value of a scene's own measure after its run.
+double measured(const std::string& name, const std::string& measure) {
+  Scene scene = load(name);
+  scene.output = {};
+  const std::string folder =
+      (std::filesystem::temp_directory_path() / fmt::format("carom_rules_{}_{}", name, getpid())).string();
+  const std::vector<Measured> all =
+      run_scene({&scene, folder, 0}, choose_engine(scene), {}, {[] {}, [](double, auto, auto) {}}).summary.measures;
+  std::filesystem::remove_all(folder);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Measured& one) { return one.name == measure; });
+  EXPECT_NE(found, all.end()) << measure;
+  return found == all.end() ? std::nan("") : found->value;
+}
+
+TEST(Cars, AreStruckWhenAndAsFastAsStated) {
+  const Played run = play("cars");
+  const Collision& hit = run.collisions.front();
+  const double c = 0.1, v = 20 - c * 20, first = 1.2 * 9000 / 10200 * v;
+  EXPECT_NEAR(hit.time, -std::log(1 - c * 20 / 20) / c, 1e-14);
+  EXPECT_NEAR(hit.time, stated("cars", "log(1 - c 20 m / v) / c ="), 1e-14);
+  EXPECT_NEAR(hit.approach_speed, v, 1e-13);
+  EXPECT_NEAR(hit.impulse / 1200, first, 1e-13);
+  EXPECT_NEAR(first, stated("cars", "(M + m) 18 m/s ="), 1e-13);
+}
+
+TEST(Cars, ArePushedIntoTheCrossing) {
+  EXPECT_EQ(measured("cars", "cars_in_crossing"), 6);
+  EXPECT_NEAR(measured("cars", "first_hit_s"), stated("cars", "log(1 - c 20 m / v) / c ="), 1e-14);
+}
+
+TEST(MarbleRun, BringsAllMarblesIntoTheCup) {
+  const double tilt = 12 * std::numbers::pi / 180, fall = 0.25 - 0.39 * std::tan(tilt) - 0.04 / std::cos(tilt);
+  const Played run = play("marble_run");
+  EXPECT_NEAR(run.collisions.front().time, std::sqrt(2 * fall / g_n), 1e-14);
+  EXPECT_NEAR(fall, stated("marble_run", "r / cos a ="), 1e-7);
+  EXPECT_NEAR(run.collisions.front().time, stated("marble_run", "in sqrt(2 s / g) ="), 1e-8);
+  EXPECT_EQ(measured("marble_run", "arrived"), 3);
+  ASSERT_TRUE(run.tally.end);
+  EXPECT_LT(run.tally.end->time, run.scene.simulate.duration);
+}
+
+TEST(BowlingShot, MeetsTheFirstPinWhenStated) {
+  const double reach = 0.108 + 0.06053, time = (3 - std::sqrt(square(reach) - square(0.03))) / 7;
+  EXPECT_NEAR(time, stated("bowling_shot", "aim^2)) / v ="), 1e-12);
+  EXPECT_NEAR(measured("bowling_shot", "first_hit_s"), time, 1e-13);
+  EXPECT_EQ(measured("bowling_shot", "left_on_deck"), 0);
+}
+
+TEST(Funnel, LetsAllBallsThrough) {
+  EXPECT_EQ(measured("funnel", "through"), 500);
+}
+
+TEST(Planets, FollowKeplersLaws) {
+  const double a = (12 + 0.35) / 2, gm = 4 * square(std::numbers::pi), period = std::pow(a, 1.5);
+  EXPECT_NEAR(period, stated("planets", "the period is a^(3/2) ="), 1e-13);
+  // The earth's orbit is crossed where 1 = a (1 - e cos E).
+  const double e = (12 - 0.35) / (12 + 0.35), anomaly = std::acos((1 - 1 / a) / e);
+  const double half = (anomaly - e * std::sin(anomaly)) / (2 * std::numbers::pi) * period;
+  EXPECT_NEAR(measured("planets", "arrives_s"), period / 2 - half, 1e-12);
+  EXPECT_NEAR(stated("planets", "within the earth's orbit from t ="), period / 2 - half, 1e-13);
+  EXPECT_NEAR(stated("planets", "7.565101077051418 s to"), period / 2 + half, 1e-13);
+  const double fastest = std::sqrt(gm * (2 / 0.35 - 1 / a));
+  EXPECT_NEAR(measured("planets", "fastest"), fastest, 1e-11);
+  EXPECT_NEAR(fastest, stated("planets", "sqrt(gm (2 / 0.35 - 1 / a)) ="), 1e-13);
+  EXPECT_NEAR(measured("planets", "farthest_m"), 12, 1e-11);
+}
+
+TEST(BrickWall, LosesSixBricks) {
+  EXPECT_NEAR(measured("brick_wall", "first_hit_s"), 2.3 / 12, 1e-15);
+  EXPECT_NEAR(stated("brick_wall", "0.05 m) / v ="), 2.3 / 12, 1e-14);
+  EXPECT_EQ(measured("brick_wall", "knocked_out"), 6);
+}
+
+TEST(Pool, HasItsFirstHitAndItsBallsInPockets) {
+  const double k = 0.05 / 0.17, aim = 0.3 * std::numbers::pi / 180, r = 0.028575, l = 1.27;
+  const double way = l * std::cos(aim) - std::sqrt(square(2 * r) - square(l * std::sin(aim)));
+  const double time = -std::log(1 - k * way / 6) / k;
+  EXPECT_NEAR(way, stated("pool", "(l sin a)^2) ="), 1e-12);
+  EXPECT_NEAR(time, stated("pool", "log(1 - k s / v) / k ="), 1e-12);
+  EXPECT_NEAR(play("pool").collisions.front().time, time, 1e-14);
+  EXPECT_EQ(measured("pool", "potted"), 2);
+}
+
+}  // namespace
+}  // namespace carom::testing
