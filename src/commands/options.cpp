@@ -204,7 +204,7 @@ const Option table[] = {
        o.submit.batch = w;
      }},
     {"--plan", "", "", "show the runs, their values and which are done",
-     [](Options& o, const Words&) { o.plan = true; }},
+     [](Options& o, const Words&) { o.sweep.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
      [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halving (set by\nthe scene: ten halvings)",
