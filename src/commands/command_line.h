@@ -31,6 +31,7 @@ struct ChartWords {
 struct CompareOptions {
   std::vector<std::string> measures;
   std::vector<ChartWords> charts;
+  bool collisions = false;
   bool video = false;
 };
 
@@ -40,6 +41,7 @@ struct SweepWords {
   std::optional<std::uint64_t> random, latin;  // numbers of samples
   std::optional<std::uint64_t> repeat;         // seeds of each run
   bool skip_invalid = false;
+  bool plan = false;  // show, do not do
 };
 
 /// Of submit.
@@ -67,7 +69,6 @@ struct Options {
   SubmitOptions submit;
   SweepWords sweep;
   std::optional<Shard> shard;
-  bool plan = false;         // show, do not do
   bool watch = false;        // of run: again at each save
   bool accuracy = false;     // of check and run: estimate the error by more runs
   bool page = false;         // of explain: the whole format

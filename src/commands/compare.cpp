@@ -95,6 +95,7 @@ class CompareSession {
     if (!options_.compare.measures.empty()) plan.measures = options_.compare.measures;
     if (!options_.compare.charts.empty()) plan.charts.clear();
     for (const ChartWords& chart : options_.compare.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
+    plan.collisions = plan.collisions || options_.compare.collisions;
     check(plan, differences.runs());
     const std::string request =
         request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.compare.video);
@@ -227,6 +228,7 @@ const CommandText& compare_text() {
       {{"--output", "the comparison's folder (output/comparison)"},
        {"--measures"},
        {"--charts"},
+       {"--collisions"},
        {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
        {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
        {"--progress"}},

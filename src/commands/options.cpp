@@ -204,7 +204,7 @@ const Option table[] = {
        o.submit.batch = w;
      }},
     {"--plan", "", "", "show the runs, their values and which are done",
-     [](Options& o, const Words&) { o.plan = true; }},
+     [](Options& o, const Words&) { o.sweep.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
      [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halving (set by\nthe scene: ten halvings)",
@@ -226,6 +226,8 @@ const Option table[] = {
      [](Options& o, const Words& w) { o.compare.measures = split_lists(w); }},
     {"--charts", "", "LIST", "x:y or x:y:by; x and by are varied paths, y a measure\n(chosen from the varied paths)",
      read_charts},
+    {"--collisions", "", "", "a sheet of the workbook with the first collisions of each\nrun",
+     [](Options& o, const Words&) { o.compare.collisions = true; }},
     {"--video", "", "", "a film", [](Options& o, const Words&) { o.compare.video = true; }},
     {"--jobs", "-j", "N", "N scenes at a time (1); changes no result",
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},

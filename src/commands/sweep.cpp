@@ -63,7 +63,7 @@ class SweepSession {
       return refuse(fmt::format("the folder {} holds something else, or the sweep or its base has changed since",
                                 printable(folder_)));
     }
-    if (content == SweepContent::this_sweep && !options_.force && !options_.plan &&
+    if (content == SweepContent::this_sweep && !options_.force && !options_.sweep.plan &&
         !may_have_meshes(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
       SweepOutcome outcome{"up to date", 0, job.sweep().size(), {}, 0};
       outcome.skipped = stored_skips(folder_);
@@ -79,7 +79,7 @@ class SweepSession {
           fmt::format("the folder {} holds something other than this run", printable(job.run_folder(*other))));
     for (const std::string& path : job.idle_paths())
       complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
-    if (options_.plan) {
+    if (options_.sweep.plan) {
       show_plan(options_, job);
       return 0;
     }

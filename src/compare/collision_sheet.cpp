@@ -1,44 +1,54 @@
-// Reads collisions.csv of each run row by row, so that no file is held in memory. A limit on rows keeps the workbook
-// small.
+// Keeps the rows until all runs are read, because the form of a column's numbers follows from all of them. A limit on
+// rows keeps memory and the workbook small.
 #include "compare/collision_sheet.h"
 
 #include <algorithm>
 
 #include "compare/data_dictionary.h"
+#include "compare/number_look.h"
 
 namespace carom {
 
-CollisionSheet::CollisionSheet(Worksheet& sheet) : sheet_(sheet) {
-  sheet_.text(0, 0, "run", CellStyle::header);
-  std::size_t column = 1;
-  for (const ColumnText& text : collision_columns()) sheet_.text(0, column++, text.name, CellStyle::header);
-}
+CollisionSheet::CollisionSheet(Worksheet& sheet, std::size_t runs)
+    : sheet_(sheet), share_(std::max<std::size_t>(1, most / std::max<std::size_t>(runs, 1))) {}
 
 void CollisionSheet::add(const RunRecord& run) {
-  if (!run.done || full_ || !has_file(run, "collisions.csv")) return;
+  if (!run.done || rows_.size() >= most || !has_file(run, "collisions.csv")) return;
   StoredTable table = open_table(run, "collisions.csv");
   std::vector<std::size_t> from;
   for (const ColumnText& text : collision_columns())
     from.push_back(table.find(text.name).value_or(table.columns().size()));
+  ids_.push_back(run.run.id);
+  std::size_t taken = 0;
   while (const auto* cells = table.next()) {
-    if (rows_ == most) {
+    if (taken++ == share_) {
       full_ = true;
       return;
     }
-    ++rows_;
-    sheet_.text(rows_, 0, run.run.id);
-    for (std::size_t k = 0; k < from.size(); ++k)
-      if (from[k] < cells->size()) sheet_.cell(rows_, 1 + k, cell_of((*cells)[from[k]]));
+    Row& row = rows_.emplace_back(Row{static_cast<std::uint32_t>(ids_.size() - 1), {}});
+    for (const std::size_t k : from) row.cells.emplace_back(k < cells->size() ? (*cells)[k] : "");
   }
 }
 
 void CollisionSheet::finish() {
-  if (rows_ == 0) sheet_.text(1, 0, "No run has collisions in a collisions.csv.", CellStyle::note);
-  sheet_.fit_all(9, 30, 2);
+  std::vector<NumberLook> looks(collision_columns().size());
+  for (const Row& row : rows_)
+    for (std::size_t k = 0; k < looks.size(); ++k) looks[k].add(cell_of(row.cells[k]).number);
+  sheet_.set_head_row(0);
+  sheet_.head(0, 0, "run");
+  std::size_t column = 1;
+  for (const ColumnText& text : collision_columns()) sheet_.head(0, column++, label_of(text.name));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    sheet_.text(1 + i, 0, ids_[rows_[i].run]);
+    for (std::size_t k = 0; k < looks.size(); ++k)
+      sheet_.cell(1 + i, 1 + k, cell_of(rows_[i].cells[k]), CellStyle::plain, &looks[k]);
+  }
+  if (rows_.empty()) sheet_.text(1, 0, "No run has collisions in a collisions.csv.", CellStyle::note);
+  sheet_.fit_table();
   sheet_.freeze(1, 1);
-  worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(rows_, 1)),
+  worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(rows_.size(), 1)),
                        static_cast<lxw_col_t>(collision_columns().size()));
-  sheet_.print_table();
+  sheet_.print_table(0);
 }
 
 }  // namespace carom

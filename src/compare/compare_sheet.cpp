@@ -19,7 +19,7 @@ constexpr std::uint32_t chart_width = 650, chart_height = 385;  // pixels
 /// Error bars of a chart. Each is a series of its own.
 constexpr std::size_t most_bars = 120;
 constexpr std::size_t most_marked = 200;  // points of a line with markers
-constexpr std::size_t most_runs_over_time = 12;
+constexpr std::size_t most_differences = 12;
 
 // Distinct for people with colour vision deficiency, too (Okabe and Ito 2008).
 constexpr std::array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
@@ -153,16 +153,15 @@ void CompareSheet::place(lxw_chart* chart, std::size_t number) {
                              static_cast<lxw_col_t>(number % charts_across * columns_of_chart), chart, &options);
 }
 
-void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t first_row, std::size_t first_column) {
+void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t first_row) {
   const std::size_t last_row = first_row + data.x.size() - 1;
   const std::size_t bars = bars_of(data);
   const bool barred = data.numeric && bars > 0 && bars <= most_bars;
   // Texts along x are drawn as columns, in their order.
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
-  const CellRange x{"Compare", first_row, first_column, last_row};
+  const CellRange x{"Compare", first_row, 0, last_row};
   for (std::size_t k = 0; k < data.lines.size(); ++k) {
-    lxw_chart_series* series =
-        add_series(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, data.lines[k].name);
+    lxw_chart_series* series = add_series(chart, x, {"Compare", first_row, 1 + k, last_row}, data.lines[k].name);
     if (data.numeric) {
       set_line(series, k, data.joined && data.x.size() > 1);
       set_marker(series, k, data.x.size() <= most_marked || !data.joined);
@@ -177,7 +176,7 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
     for (std::size_t row = 0; row < data.x.size(); ++row)
       if (const double sd = data.lines[k].spread[row]; sd > 0) {
         unnamed.push_back(static_cast<std::int16_t>(data.lines.size() + unnamed.size()));
-        add_bar(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, first_row + row, sd, k);
+        add_bar(chart, x, {"Compare", first_row, 1 + k, last_row}, first_row + row, sd, k);
       }
   unnamed.push_back(-1);
   std::string title = data.title;
@@ -192,75 +191,110 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
   place(chart, number);
 }
 
-void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number) {
+void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number, std::size_t scenarios) {
   lxw_chart* chart = book_.add_chart(LXW_CHART_SCATTER_STRAIGHT);
   const std::string& name = series.front().name;
-  std::size_t drawn = 0, all = 0;
+  std::size_t drawn = 0;
+  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
   for (const PlacedSeries& one : series) {
-    if (one.name != name || ++all > most_runs_over_time) continue;
-    lxw_chart_series* line =
-        add_series(chart, {"Series", 1, one.time_column, one.rows}, {"Series", 1, one.value_column, one.rows}, one.run);
+    if (one.name != name) continue;
+    lxw_chart_series* line = add_series(chart, {"Series", 1, one.time_column, one.rows},
+                                        {"Series", 1, one.value_column, one.rows}, one.scenario);
     set_line(line, drawn, true);
     set_marker(line, 0, false);
     ++drawn;
+    low = std::fmin(low, one.least);
+    high = std::fmax(high, one.greatest);
   }
+  // An axis of rounding errors shows nothing.
+  constexpr double noise = 1e-6;
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (high - low < noise * largest) set_ends(chart->y_axis, std::min(low, 0.0), std::max(high, 0.0));
   std::string title = fmt::format("{} over time", label_of(name));
-  if (all > drawn) title += fmt::format(" ({} of {} runs)", drawn, all);
+  if (scenarios > drawn) title += fmt::format(" ({} of {})", drawn, scenarios);
   set_texts(chart, title, "time (s)", label_of(name), drawn > 1);
   place(chart, number);
 }
 
-void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t first_row) {
-  // Write row by row across all charts, because the sheet may be streamed.
-  std::size_t rows = 0, columns = 0;
-  for (const ChartData& chart : charts) {
-    rows = std::max(rows, chart.x.size());
-    sheet_.text(first_row, columns, chart.title, CellStyle::note);
-    columns += chart.lines.size() + 2;
+/// The points of a chart, below those of the charts before it.
+void CompareSheet::write_data(const ChartData& chart, std::size_t first_row) {
+  sheet_.text(first_row, 0, chart.title, CellStyle::note);
+  sheet_.set_head_row(first_row + 1);
+  sheet_.head(first_row + 1, 0, chart.x_label, CellStyle::swept_header);
+  NumberLook x_look, look;
+  for (const Cell& x : chart.x) x_look.add(x.number);
+  for (std::size_t k = 0; k < chart.lines.size(); ++k) {
+    const std::string& name = chart.lines[k].name;
+    sheet_.head(first_row + 1, 1 + k, name.empty() ? chart.y_label : name);
+    for (const double y : chart.lines[k].y) look.add(y);
   }
-  // Points, for three lines of text.
-  constexpr double head_height = 45;
-  worksheet_set_row(sheet_.get(), static_cast<lxw_row_t>(first_row + 1), head_height, nullptr);
-  std::size_t column = 0;
-  for (const ChartData& chart : charts) {
-    sheet_.text(first_row + 1, column, chart.x_label, CellStyle::swept_header);
-    for (std::size_t k = 0; k < chart.lines.size(); ++k) {
-      const std::string& name = chart.lines[k].name;
-      sheet_.text(first_row + 1, column + 1 + k, name.empty() ? chart.y_label : name, CellStyle::header);
-    }
-    column += chart.lines.size() + 2;
+  for (std::size_t row = 0; row < chart.x.size(); ++row) {
+    sheet_.cell(first_row + 2 + row, 0, chart.x[row], CellStyle::swept, &x_look);
+    for (std::size_t k = 0; k < chart.lines.size(); ++k)
+      sheet_.number(first_row + 2 + row, 1 + k, chart.lines[k].y[row], CellStyle::plain, &look);
   }
-  for (std::size_t row = 0; row < rows; ++row) {
-    column = 0;
-    for (const ChartData& chart : charts) {
-      if (row < chart.x.size()) {
-        sheet_.cell(first_row + 2 + row, column, chart.x[row], CellStyle::swept);
-        for (std::size_t k = 0; k < chart.lines.size(); ++k)
-          sheet_.number(first_row + 2 + row, column + 1 + k, chart.lines[k].y[row]);
-      }
-      column += chart.lines.size() + 2;
-    }
-  }
-  worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(std::max(columns, charts_across * columns_of_chart)),
-                       column_width, nullptr);
 }
 
-void CompareSheet::write(const std::string& title, const std::vector<std::string>& lines,
-                         const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series) {
-  sheet_.text(0, 0, title, CellStyle::title);
-  for (std::size_t k = 0; k < lines.size(); ++k) sheet_.text(1 + k, 0, lines[k], CellStyle::note);
-  charts_row_ = lines.size() + 2;
-  const std::size_t all = charts.size() + (series.empty() ? 0 : 1);
-  const std::size_t data_row = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart + 1;
-  write_data(charts, data_row);
-  std::size_t column = 0;
-  for (std::size_t k = 0; k < charts.size(); ++k) {
-    if (!charts[k].x.empty()) draw(charts[k], k, data_row + 2, column);
-    column += charts[k].lines.size() + 2;
+void CompareSheet::write_differences(const ComparisonPlan& plan, const DifferenceList& differences) {
+  constexpr std::size_t columns_of_path = 3;
+  sheet_.text(charts_row_, 0, "What differs", CellStyle::header);
+  for (std::size_t k = 1; k < columns_of_path; ++k) sheet_.text(charts_row_, k, "", CellStyle::header);
+  for (std::size_t k = 0; k < differences.runs.size(); ++k)
+    sheet_.text(charts_row_, columns_of_path + k, differences.runs[k], CellStyle::header);
+  ++charts_row_;
+  const std::size_t shown = std::min(differences.rows.size(), most_differences);
+  for (std::size_t i = 0; i < shown; ++i, ++charts_row_) {
+    const Difference& difference = differences.rows[i];
+    sheet_.text(charts_row_, 0, label_of(plan.parameters[difference.parameter]));
+    for (std::size_t k = 0; k < difference.values.size(); ++k) {
+      const std::string& value = difference.values[k];
+      sheet_.cell(charts_row_, columns_of_path + k, value.empty() ? Cell{"-"} : cell_of(value));
+    }
   }
-  if (!series.empty()) draw_over_time(series, charts.size());
+  if (shown < differences.rows.size())
+    sheet_.text(charts_row_++, 0, fmt::format("and {} more, on the sheet Parameters", differences.rows.size() - shown),
+                CellStyle::note);
+  ++charts_row_;
+}
+
+/// Prints the charts alone, two rows of them on a page. The tables below them repeat what other sheets have.
+void CompareSheet::set_pages(std::size_t charts, std::size_t last_row) {
+  constexpr std::size_t rows_on_page = 46;
+  std::vector<std::size_t> breaks;
+  std::size_t page = 0;
+  for (std::size_t k = 0; k < (charts + charts_across - 1) / charts_across; ++k) {
+    const std::size_t row = charts_row_ + k * rows_of_chart;
+    if (row + rows_of_chart <= page + rows_on_page) continue;
+    breaks.push_back(row);
+    page = row;
+  }
+  sheet_.print_pages(breaks);
+  worksheet_print_area(sheet_.get(), 0, 0, static_cast<lxw_row_t>(last_row),
+                       static_cast<lxw_col_t>(charts_across * columns_of_chart - 1));
+}
+
+void CompareSheet::write(const ComparisonPlan& plan, const std::string& line, const DifferenceList& differences,
+                         const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series,
+                         std::size_t scenarios) {
+  constexpr std::size_t columns = charts_across * columns_of_chart;
+  std::size_t widest = columns;
+  for (const ChartData& chart : charts) widest = std::max(widest, chart.lines.size() + 1);
+  worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(widest), column_width, nullptr);
+  sheet_.text(0, 0, plan.title, CellStyle::title);
+  sheet_.note(1, columns, line, columns * column_width);
+  charts_row_ = 3;
+  if (!differences.rows.empty()) write_differences(plan, differences);
+  const std::size_t all = charts.size() + (series.empty() ? 0 : 1);
+  const std::size_t end_of_charts = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart;
+  std::size_t row = end_of_charts + 1;
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    write_data(charts[k], row);
+    if (!charts[k].x.empty()) draw(charts[k], k, row + 2);
+    row += charts[k].x.size() + 3;
+  }
+  if (!series.empty()) draw_over_time(series, charts.size(), scenarios);
   worksheet_gridlines(sheet_.get(), LXW_HIDE_ALL_GRIDLINES);
-  sheet_.print_wide();
+  set_pages(all, end_of_charts - 1);
 }
 
 }  // namespace carom

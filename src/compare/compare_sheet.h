@@ -1,9 +1,11 @@
 #pragma once
 // The first sheet of the workbook: charts, and beneath them their numbers.
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "compare/charts.h"
+#include "compare/parameter_sheet.h"
 #include "compare/series.h"
 #include "compare/workbook.h"
 
@@ -13,14 +15,17 @@ class CompareSheet {
  public:
   explicit CompareSheet(Workbook& book, bool streamed) : book_(book), sheet_(book.add("Compare", streamed)) {}
 
-  /// `lines`: the text above the charts. `series`: their places on the sheet Series.
-  void write(const std::string& title, const std::vector<std::string>& lines, const std::vector<ChartData>& charts,
-             const std::vector<PlacedSeries>& series);
+  /// `line`: the text above the charts. `differences`: a list below it. `series`: their places on the sheet Series, of
+  /// so many scenarios.
+  void write(const ComparisonPlan& plan, const std::string& line, const DifferenceList& differences,
+             const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series, std::size_t scenarios);
 
  private:
-  void write_data(const std::vector<ChartData>& charts, std::size_t first_row);
-  void draw(const ChartData& data, std::size_t number, std::size_t first_row, std::size_t first_column);
-  void draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number);
+  void write_differences(const ComparisonPlan& plan, const DifferenceList& differences);
+  void write_data(const ChartData& chart, std::size_t first_row);
+  void draw(const ChartData& data, std::size_t number, std::size_t first_row);
+  void draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number, std::size_t scenarios);
+  void set_pages(std::size_t charts, std::size_t last_row);
   void place(lxw_chart* chart, std::size_t number);
 
   Workbook& book_;

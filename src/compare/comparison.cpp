@@ -16,6 +16,7 @@
 #include "compare/outcomes.h"
 #include "compare/parameter_sheet.h"
 #include "compare/pivot_sheet.h"
+#include "compare/scenarios.h"
 #include "compare/series.h"
 #include "compare/summary_sheet.h"
 #include "compare/workbook.h"
@@ -35,24 +36,33 @@ ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
   return plan;
 }
 
+/// What a first look at the values of all runs shows. Sheets are made in their order, before the runs are read.
+struct Variation {
+  bool two = false;  // whether two parameters vary independently
+  /// Whether the scenes have little in common: most parameters exist in some of them only.
+  bool unrelated = false;
+  ChosenScenarios scenarios;
+};
+
 class Comparison {
  public:
-  Comparison(const FilePlace& place, const ComparisonPlan& plan, std::size_t count, bool two_vary)
+  Comparison(const FilePlace& place, const ComparisonPlan& plan, std::size_t count, Variation variation)
       : place_(place),
         plan_(titled(plan, count)),
         count_(count),
         measures_(measures_of(plan)),
         book_(place, workbook_name, plan_.title),
         charts_(book_, !SummarySheet::is_table(count)),
-        summary_(place, book_, plan_, measures_, count),
+        unrelated_(variation.unrelated),
+        summary_(place, book_, plan_, measures_, count, unrelated_),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
-        pivot_(two_vary ? &book_.add("Pivot", true) : nullptr),
+        pivot_(variation.two ? &book_.add("Pivot", true) : nullptr),
         series_sheet_(book_.add("Series", true)),
-        collisions_(book_.add("Collisions", true)),
-        parameters_(book_.add("Parameters"), plan_),
+        collisions_(plan.collisions ? std::make_unique<CollisionSheet>(book_.add("Collisions", true), count) : nullptr),
+        parameters_(book_.add("Parameters"), plan_, unrelated_),
         about_(book_.add("About")),
         outcomes_(plan, measures_.size(), count),
-        series_(count, measures_) {
+        series_(std::move(variation.scenarios), measures_) {
     summary_.write_heads();
   }
 
@@ -65,8 +75,8 @@ class Comparison {
     if (run.done && run.summary[status_] == "doubtful") ++doubtful_;
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
-    series_.add(run);
-    collisions_.add(run);
+    series_.add(number, run);
+    if (collisions_) collisions_->add(run);
     common_.add(run);
     parameters_.add(run.run);
   }
@@ -75,23 +85,24 @@ class Comparison {
 
   std::vector<std::unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
+    summary_.finish();
     std::vector<std::unique_ptr<OutputFile>> files;
     files.push_back(summary_.take_table());
     if (plan_.seed) {
       files.push_back(std::make_unique<OutputFile>(place_, repeats_name));
       write_repeats(*files.back(), plan_, measures_, outcomes_);
+      files.back()->complete();
       write_repeats(*repeats_, plan_, measures_, outcomes_);
     }
-    summary_.finish();
     write_pivot_sheet();
     const std::vector<PlacedSeries> placed = write_series(series_sheet_, series_);
-    collisions_.finish();
+    if (collisions_) collisions_->finish();
     parameters_.finish(outcomes_, common_.values());
     write_charts(placed);
     write_about(about_, plan_, measures_, remarks());
     files.push_back(std::make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
-    for (const auto& file : files) file->complete();
+    files.back()->complete();
     return files;
   }
 
@@ -100,21 +111,28 @@ class Comparison {
     if (pivot_ == nullptr) return;
     const auto parameters = pivot_parameters(plan_, outcomes_);
     if (!parameters) return;
-    write_pivot(*pivot_, plan_, measures_, outcomes_, *parameters, summary_.parameter_columns(),
-                summary_.measure_columns(), summary_.is_table() ? count_ : 0);
+    write_pivot(*pivot_, plan_, measures_, outcomes_, *parameters,
+                {summary_.parameter_columns(), summary_.measure_columns(), summary_.first_row(),
+                 summary_.is_table() ? count_ : 0});
   }
 
   void write_charts(const std::vector<PlacedSeries>& placed) {
     std::vector<ChartData> charts;
-    for (const Chart& chart : chosen_charts(plan_, measures_, outcomes_))
+    for (Chart& chart : chosen_charts(plan_, measures_, outcomes_)) {
+      // Bars by run: no parameter orders runs of different scenes.
+      if (unrelated_ && plan_.charts.empty()) chart = {"", chart.y, ""};
       charts.push_back(chart_data(chart, plan_, measures_, outcomes_));
+    }
     std::string varied;
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
     std::string text = fmt::format("{} runs", count_);
     if (failed_ > 0) text += fmt::format(", {} of them failed", failed_);
     if (doubtful_ > 0) text += fmt::format(", {} of them doubtful", doubtful_);
-    if (!varied.empty()) text += "; varied: " + varied;
-    charts_.write(plan_.title, {text}, charts, placed);
+    if (unrelated_)
+      text += fmt::format(" of scenes with little in common; {} values differ", plan_.parameters.size());
+    else if (!varied.empty())
+      text += "; varied: " + varied;
+    charts_.write(plan_, text, parameters_.differences(), charts, placed, series_.scenarios().all);
   }
 
   std::vector<std::string> remarks() const {
@@ -122,15 +140,21 @@ class Comparison {
     if (!summary_.is_table())
       remarks.push_back(fmt::format("Summary is a table for up to {} runs, and a range with filters for more.",
                                     SummarySheet::most_in_table));
-    if (count_ + 1 > most_rows)
-      remarks.push_back(fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - 1));
-    remarks.push_back(fmt::format("Series: at most {} points of a run, evenly chosen.", series_.points()));
-    if (series_.left_out() > 0)
-      remarks.push_back(fmt::format("Series: {} runs left out, for lack of room or for tables that are too long.",
-                                    series_.left_out()));
-    if (collisions_.full())
+    if (count_ + summary_.first_row() > most_rows)
       remarks.push_back(
-          fmt::format("Collisions: the first {}; collisions.csv of each run has all.", CollisionSheet::most));
+          fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - summary_.first_row()));
+    const ChosenScenarios& scenarios = series_.scenarios();
+    if (scenarios.names.size() < scenarios.all)
+      remarks.push_back(fmt::format("Series: {} of {} {}, spread over the values of the parameters.",
+                                    scenarios.names.size(), scenarios.all, plan_.seed ? "scenarios" : "runs"));
+    remarks.push_back(fmt::format("Series: at most {} points of each, evenly chosen.", SeriesGatherer::most_points));
+    if (series_.left_out() > 0)
+      remarks.push_back(
+          fmt::format("Series: {} runs left out, for tables that are too long or other instants.", series_.left_out()));
+    if (collisions_ && collisions_->full())
+      remarks.push_back(fmt::format("Collisions: the first {} of each run; collisions.csv of each run has all.",
+                                    collisions_->share()));
+    if (!collisions_) remarks.emplace_back("Collisions: a sheet of them on request: carom compare DIR --collisions.");
     return remarks;
   }
 
@@ -141,10 +165,11 @@ class Comparison {
   std::vector<Measure> measures_;
   Workbook book_;
   CompareSheet charts_;
+  bool unrelated_;
   SummarySheet summary_;
   Worksheet *repeats_, *pivot_;
   Worksheet& series_sheet_;
-  CollisionSheet collisions_;
+  std::unique_ptr<CollisionSheet> collisions_;
   ParameterSheet parameters_;
   Worksheet& about_;
   Outcomes outcomes_;
@@ -152,17 +177,27 @@ class Comparison {
   CommonValues common_;
 };
 
-/// Whether two parameters vary independently. Sheets are made in their order, before the runs are read.
-bool do_two_vary(const ComparisonPlan& plan, std::size_t count, const std::function<ComparedRun(std::size_t)>& run,
-                 const ComparisonWatch& watch) {
-  if (plan.parameters.size() < 2) return false;
+/// Reads the values of all runs, and no other file of them.
+Variation variation_of(const ComparisonPlan& plan, std::size_t count,
+                       const std::function<ComparedRun(std::size_t)>& run, const ComparisonWatch& watch) {
+  Variation variation;
   Outcomes outcomes(plan, 0, count);
+  std::vector<std::size_t> points(count);
+  std::vector<bool> is_absent(plan.parameters.size());
   for (std::size_t i = 0; i < count; ++i) {
     watch.stop_check();
-    outcomes.add(i, run(i), false, {});
+    const ComparedRun one = run(i);
+    points[i] = outcomes.add(i, one, false, {});
+    // A failed run may have no scene at all.
+    if (std::all_of(one.values.begin(), one.values.end(), [](const auto& value) { return value.empty(); })) continue;
+    for (std::size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
   }
   outcomes.finish();
-  return pivot_parameters(plan, outcomes).has_value();
+  const auto absent = static_cast<std::size_t>(std::count(is_absent.begin(), is_absent.end(), true));
+  variation.unrelated = 2 * absent > plan.parameters.size();
+  variation.two = plan.parameters.size() > 1 && !variation.unrelated && pivot_parameters(plan, outcomes).has_value();
+  variation.scenarios = chosen_scenarios(plan, outcomes, points, variation.unrelated);
+  return variation;
 }
 
 }  // namespace
@@ -212,7 +247,7 @@ std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place
                                                           const std::function<ComparedRun(std::size_t)>& run,
                                                           const ComparisonWatch& watch) {
   check_charts(plan);
-  Comparison comparison(place, plan, count, do_two_vary(plan, count, run, watch));
+  Comparison comparison(place, plan, count, variation_of(plan, count, run, watch));
   for (std::size_t i = 0; i < count; ++i) {
     watch.stop_check();
     comparison.add(i, run(i));

@@ -37,6 +37,8 @@ struct ComparisonPlan {
   std::optional<std::size_t> seed;
   /// The names of the measures that the runs' scenes define. All of them are columns.
   std::vector<std::string> own{};
+  /// Whether the workbook has a sheet with the first collisions of each run.
+  bool collisions = false;
 };
 
 struct ComparedRun {

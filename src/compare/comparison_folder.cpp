@@ -39,6 +39,7 @@ std::string request_text(const ComparisonPlan& plan, const std::string& runs, bo
                           {"runs_sha256", runs},
                           {"measures", plan.measures},
                           {"charts", std::move(charts)},
+                          {"collisions", plan.collisions},
                           {"video", video}}}};
   return text_of_json(request);
 }

@@ -36,13 +36,15 @@ struct SheetText {
 };
 constexpr SheetText sheets[] = {
     {"Compare", "charts of the measures over the varied values, and below them their numbers"},
-    {"Summary", "a row for each run: its summary.csv, the varied values (tinted), further measures"},
+    {"Summary",
+     "a row for each run: the varied values (tinted), the measures, and what else differs; above them what does not"},
     {"Repeats",
      "a row for each scenario: mean, standard deviation (n - 1), minimum and maximum of its repeats, if any"},
     {"Pivot", "means of the measures by two parameters, if two vary"},
-    {"Series", "energy and bodies' motion over time, thinned; a column for each run"},
-    {"Collisions", "the collisions of all runs"},
-    {"Parameters", "varied values, run by run, and the values that all runs share"},
+    {"Series",
+     "energy and bodies' motion over time, thinned; a column for each of a few scenarios, the mean of its repeats"},
+    {"Collisions", "the first collisions of each run, on request"},
+    {"Parameters", "what varies, and the values that all runs share"},
     {"About", "this sheet"}};
 
 std::string meaning_of(const Measure& measure) {
@@ -94,8 +96,8 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
   sheet.text(row++, 0, plan.title, CellStyle::title);
   sheet.text(row++, 0,
              "written by carom " CAROM_VERSION
-             "; SI units, right-handed axes, y is up; numbers have 16 digits here and "
-             "all digits in the CSV files",
+             "; SI units, right-handed axes, y is up; cells show about five digits and "
+             "have 16, the CSV files all",
              CellStyle::note);
   section("Sheets");
   for (const SheetText& text : sheets) {
@@ -121,11 +123,13 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
       column("Repeats", measure.name + ".mean, .sd, .min, .max", unit_of(measure.name), meaning_of(measure));
   }
   for (const ColumnText& text : series_texts) column("Series", text.name, unit_of(text.name), text.meaning);
-  for (const ColumnText& text : collision_columns()) column("Collisions", text.name, unit_of(text.name), text.meaning);
+  if (plan.collisions)
+    for (const ColumnText& text : collision_columns())
+      column("Collisions", text.name, unit_of(text.name), text.meaning);
   sheet.fit(0, 12, 20);
   sheet.fit(1, 20, 48);
   sheet.fit(2, 8, 10);
-  sheet.fit(3, 80, 80);
+  sheet.fit(3, 110, 110);
   sheet.print_wide();
 }
 

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <set>
 
+#include "compare/charts.h"
+#include "compare/number_look.h"
 #include "files/csv.h"
 
 namespace carom {
@@ -65,8 +67,8 @@ Outcomes::Outcomes(const ComparisonPlan& plan, std::size_t measures, std::size_t
   values_.reserve(points * measures_);
 }
 
-void Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures) {
-  if (number % stride_ != 0) return;
+std::size_t Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures) {
+  if (number % stride_ != 0) return no_point;
   std::vector<std::uint32_t> key;
   for (std::size_t p = 0; p < varied_.size(); ++p) {
     if (p == seed_) continue;
@@ -91,7 +93,7 @@ void Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const 
     for (std::size_t p = 0, k = 0; p < varied_.size(); ++p)
       if (p != seed_) varied_[p].of_point.push_back(key[k++]);
   }
-  if (!done) return;
+  if (!done) return point;
   ++runs_[point];
   for (std::size_t k = 0; k < measures_; ++k) {
     if (seed_)
@@ -99,6 +101,7 @@ void Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const 
     else
       values_[point * measures_ + k] = measures[k];
   }
+  return point;
 }
 
 std::string_view Outcomes::id(std::size_t point) const {
@@ -174,24 +177,38 @@ void write_repeats(OutputFile& file, const ComparisonPlan& plan, const std::vect
 
 void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                    const Outcomes& outcomes) {
-  const std::vector<std::string> header = repeats_header(plan, measures);
+  std::vector<std::string> header;
+  for (std::size_t p = 0; p < plan.parameters.size(); ++p)
+    if (p != plan.seed) header.push_back(label_of(plan.parameters[p]));
+  header.emplace_back("n");
+  for (const Measure& measure : measures)
+    for (const SpreadColumn& of : spread_columns)
+      header.push_back(fmt::format("{}, {}", label_of(measure.name), of.name));
   const std::size_t parameters = plan.parameters.size() - 1;
+  sheet.set_head_row(0);
   for (std::size_t column = 0; column < header.size(); ++column)
-    sheet.text(0, column, header[column], column < parameters ? CellStyle::swept_header : CellStyle::header);
-  std::size_t row = 1;
-  for (std::size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row) {
+    sheet.head(0, column, header[column], column < parameters ? CellStyle::swept_header : CellStyle::header);
+  std::vector<NumberLook> looks(header.size());
+  const auto for_cells = [&](std::size_t i, const auto& use) {
     std::size_t column = 0;
     for (const Varied& varied : outcomes.varied())
-      if (varied.parameter != plan.seed) sheet.cell(row, column++, varied.values[varied.of_point[i]], CellStyle::swept);
-    sheet.number(row, column++, static_cast<double>(outcomes.runs(i)), CellStyle::whole);
+      if (varied.parameter != plan.seed) use(column++, varied.values[varied.of_point[i]]);
+    use(column++, Cell{{}, static_cast<double>(outcomes.runs(i))});
     for (std::size_t k = 0; k < measures.size(); ++k)
-      for (const SpreadColumn& of : spread_columns) sheet.number(row, column++, of.value(outcomes.spread(i, k)));
-  }
-  sheet.fit_all(10, 60, 2);
+      for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(outcomes.spread(i, k))});
+  };
+  for (std::size_t i = 0; i < outcomes.points(); ++i)
+    for_cells(i, [&](std::size_t column, const Cell& cell) { looks[column].add(cell.number); });
+  std::size_t row = 1;
+  for (std::size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row)
+    for_cells(i, [&](std::size_t column, const Cell& cell) {
+      sheet.cell(row, column, cell, column < parameters ? CellStyle::swept : CellStyle::plain, &looks[column]);
+    });
+  sheet.fit_table();
   sheet.freeze(1, parameters);
   worksheet_autofilter(sheet.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(row - 1, 1)),
                        static_cast<lxw_col_t>(header.size() - 1));
-  sheet.print_table();
+  sheet.print_table(0);
 }
 
 }  // namespace carom

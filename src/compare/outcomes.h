@@ -46,7 +46,9 @@ class Outcomes {
   static constexpr std::size_t most_points = 100'000;
 
   Outcomes(const ComparisonPlan& plan, std::size_t measures, std::size_t runs);
-  void add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures);
+  static constexpr std::size_t no_point = static_cast<std::size_t>(-1);
+  /// Returns the point of the run, or no_point if it is left out.
+  std::size_t add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures);
   /// To be called after the last add().
   void finish();
 

@@ -1,69 +1,92 @@
-// Varied values stand on the left, a row for each run. Common values stand on the right, once, instead of in every row.
+// The runs' values are on the sheet Summary. Of runs whose scenes have little in common, they are here instead, a row
+// for each value: such scenes differ in more values than a table has room for columns.
 #include "compare/parameter_sheet.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compare/charts.h"
+#include "scene/path_field.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t head_row = 1;
-
-void write_head(Worksheet& sheet, std::size_t row, std::size_t column, std::initializer_list<const char*> names) {
-  for (const char* name : names) sheet.text(row, column++, name, CellStyle::header);
+void write_head(Worksheet& sheet, std::size_t row, const std::vector<std::string>& names) {
+  for (std::size_t k = 0; k < names.size(); ++k) sheet.text(row, k, names[k], CellStyle::header);
 }
 
 }  // namespace
 
-ParameterSheet::ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan) : sheet_(sheet), plan_(plan) {
-  sheet_.text(0, 0, "Varied values, run by run", CellStyle::title);
-  sheet_.text(head_row, 0, "run", CellStyle::header);
-  for (std::size_t p = 0; p < plan.parameters.size(); ++p)
-    sheet_.text(head_row, 1 + p, label_of(plan.parameters[p]), CellStyle::swept_header);
+ParameterSheet::ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan, bool unrelated)
+    : sheet_(sheet), plan_(plan), unrelated_(unrelated) {
+  for (std::size_t p = 0; unrelated && p < plan.parameters.size(); ++p) differences_.rows.push_back({p, {}});
 }
 
 void ParameterSheet::add(const ComparedRun& run) {
-  ++runs_;
-  const std::size_t row = head_row + runs_;
-  if (runs_ == most + 1) sheet_.text(row, 0, "The sheet Summary has all of them.", CellStyle::note);
-  if (runs_ > most) return;
-  sheet_.text(row, 0, run.id);
-  for (std::size_t p = 0; p < run.values.size(); ++p) sheet_.cell(row, 1 + p, cell_of(run.values[p]), CellStyle::swept);
+  if (!unrelated_ || ++differences_.all_runs > DifferenceList::most_runs) return;
+  differences_.runs.push_back(run.id);
+  for (Difference& row : differences_.rows) row.values.push_back(run.values[row.parameter]);
 }
 
-std::size_t ParameterSheet::write_varied(const Outcomes& outcomes, std::size_t row, std::size_t first) {
-  sheet_.text(row++, first, "Ranges", CellStyle::title);
-  write_head(sheet_, row++, first, {"parameter", "unit", "values", "from", "to"});
+std::size_t ParameterSheet::write_ranges(const Outcomes& outcomes, std::size_t row) {
+  sheet_.text(row++, 0, "What varies", CellStyle::title);
+  write_head(sheet_, row++, {"parameter", "unit", "values", "from", "to"});
   for (const Varied& varied : outcomes.varied()) {
     const Parameter& parameter = plan_.parameters[varied.parameter];
-    sheet_.text(row, first, parameter.path, CellStyle::swept);
-    sheet_.text(row, first + 1, parameter.unit);
+    sheet_.text(row, 0, parameter.path, CellStyle::swept);
+    sheet_.text(row, 1, parameter.unit);
     if (varied.values.empty()) {
-      sheet_.text(row++, first + 3, "distinguishes repeats", CellStyle::note);
+      sheet_.text(row++, 3, "distinguishes repeats", CellStyle::note);
       continue;
     }
-    sheet_.number(row, first + 2, static_cast<double>(varied.values.size()), CellStyle::whole);
-    sheet_.cell(row, first + 3, varied.values.front());
-    sheet_.cell(row++, first + 4, varied.values.back());
+    sheet_.number(row, 2, static_cast<double>(varied.values.size()), CellStyle::whole);
+    sheet_.cell(row, 3, varied.values.front());
+    sheet_.cell(row++, 4, varied.values.back());
+  }
+  return row;
+}
+
+std::size_t ParameterSheet::write_differences(std::size_t row) {
+  // Values of the motion that all scenes have, then those that some lack, then cameras and colours.
+  const auto rank = [&](const Difference& difference) {
+    const bool lacks =
+        std::any_of(difference.values.begin(), difference.values.end(), [](auto& v) { return v.empty(); });
+    return (is_drawn(plan_.parameters[difference.parameter].path) ? 2 : 0) + (lacks ? 1 : 0);
+  };
+  std::stable_sort(differences_.rows.begin(), differences_.rows.end(),
+                   [&](const Difference& a, const Difference& b) { return rank(a) < rank(b); });
+  sheet_.text(row++, 0, "What differs", CellStyle::title);
+  if (differences_.all_runs > differences_.runs.size())
+    sheet_.text(
+        row++, 0,
+        fmt::format("The first {} runs; summary.csv has all {}.", differences_.runs.size(), differences_.all_runs),
+        CellStyle::note);
+  std::vector<std::string> heads = {"value of the scene", "unit"};
+  heads.insert(heads.end(), differences_.runs.begin(), differences_.runs.end());
+  write_head(sheet_, row++, heads);
+  for (const Difference& difference : differences_.rows) {
+    if (row >= most_rows) break;
+    sheet_.text(row, 0, plan_.parameters[difference.parameter].path, CellStyle::swept);
+    sheet_.text(row, 1, plan_.parameters[difference.parameter].unit);
+    for (std::size_t k = 0; k < difference.values.size(); ++k) sheet_.cell(row, 2 + k, cell_of(difference.values[k]));
+    ++row;
   }
   return row;
 }
 
 void ParameterSheet::finish(const Outcomes& outcomes, const std::vector<SceneValue>& common) {
-  const std::size_t first = plan_.parameters.size() + 2;
   std::size_t row = 0;
-  if (!plan_.parameters.empty()) row = write_varied(outcomes, row, first) + 1;
-  sheet_.text(row++, first, "Values that all runs share", CellStyle::title);
-  write_head(sheet_, row++, first, {"value of the scene", "unit", "value"});
+  if (!plan_.parameters.empty()) row = (unrelated_ ? write_differences(row) : write_ranges(outcomes, row)) + 1;
+  sheet_.text(row++, 0, "Values that all runs share", CellStyle::title);
+  write_head(sheet_, row++, {"value of the scene", "unit", "value"});
   for (const SceneValue& value : common) {
     if (find_parameter(plan_, value.path) || row >= most_rows) continue;
-    sheet_.text(row, first, value.path);
-    sheet_.text(row, first + 1, value.unit);
-    sheet_.cell(row++, first + 2, cell_of(value.text));
+    sheet_.text(row, 0, value.path);
+    sheet_.text(row, 1, value.unit);
+    sheet_.cell(row++, 2, cell_of(value.text));
   }
-  sheet_.fit_all(9, 60, 1);
-  sheet_.freeze(head_row + 1, 1);
+  sheet_.fit_all(9, 40, 1);
   sheet_.print_wide();
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "compare/charts.h"
+#include "compare/scenarios.h"
 
 namespace carom {
 namespace {
@@ -20,10 +21,10 @@ struct Mean {
   std::size_t count = 0;
 };
 
-std::string range_of(std::size_t column, std::size_t rows) {
+std::string range_of(std::size_t column, const SummaryPlace& summary) {
   char name[LXW_MAX_COL_NAME_LENGTH];
   lxw_col_to_name(name, static_cast<lxw_col_t>(column), LXW_TRUE);
-  return fmt::format("Summary!{0}$2:{0}${1}", name, rows + 1);
+  return fmt::format("Summary!{0}${1}:{0}${2}", name, summary.first_row + 1, summary.first_row + summary.rows);
 }
 
 std::string cell_name(std::size_t row, std::size_t column, bool row_fixed) {
@@ -64,24 +65,28 @@ std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const Compar
 
 void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
-                 const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,
-                 std::size_t rows) {
+                 const SummaryPlace& summary) {
   const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
   const std::size_t height = std::min(down.values.size(), most_labels);
   const std::size_t width = std::min(across.values.size(), most_labels);
   const std::size_t blocks = std::min(measures.size(), most_blocks);
   const bool literal = std::all_of(down.values.begin(), down.values.end(), is_literal) &&
                        std::all_of(across.values.begin(), across.values.end(), is_literal);
-  const bool formulas = rows > 0 && literal && blocks * height * width <= most_formulas;
+  const bool formulas = summary.rows > 0 && literal && blocks * height * width <= most_formulas;
+  const std::vector<std::string> names =
+      short_names({plan.parameters[parameters.first].path, plan.parameters[parameters.second].path});
+  NumberLook down_look, across_look;
+  for (const Cell& value : down.values) down_look.add(value.number);
+  for (const Cell& value : across.values) across_look.add(value.number);
   sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
-  sheet.text(
-      1, 0,
+  sheet.note(
+      1, std::max<std::size_t>(width + 1, 2),
       fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
                   label_of(plan.parameters[parameters.second]), formulas ? "; formulas over the sheet Summary" : "",
                   height < down.values.size() || width < across.values.size()
                       ? fmt::format("; only the first {} values of each", most_labels)
                       : ""),
-      CellStyle::note);
+      10 * static_cast<double>(std::max<std::size_t>(width + 1, 2)));
   std::size_t row = 3;
   for (std::size_t block = 0; block < blocks; ++block) {
     std::vector<Mean> means(height * width);
@@ -93,33 +98,36 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
       mean.sum += spread.mean() * static_cast<double>(spread.count());
       mean.count += spread.count();
     }
+    NumberLook look;
+    for (const Mean& mean : means)
+      if (mean.count > 0) look.add(mean.sum / static_cast<double>(mean.count));
     sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
     const std::size_t head = row++;
-    sheet.text(head, 0,
-               fmt::format("{} \\ {}", plan.parameters[parameters.first].path, plan.parameters[parameters.second].path),
-               CellStyle::header);
-    for (std::size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header);
+    sheet.text(head, 0, fmt::format("{} \\ {}", names[0], names[1]), CellStyle::header);
+    for (std::size_t k = 0; k < width; ++k)
+      sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header, &across_look);
     for (std::size_t i = 0; i < height; ++i, ++row) {
-      sheet.cell(row, 0, down.values[i], CellStyle::swept);
+      sheet.cell(row, 0, down.values[i], CellStyle::swept, &down_look);
       for (std::size_t k = 0; k < width; ++k) {
         const Mean& mean = means[i * width + k];
         if (mean.count == 0) continue;
         const double value = mean.sum / static_cast<double>(mean.count);
         if (!formulas) {
-          sheet.number(row, 1 + k, value);
+          sheet.number(row, 1 + k, value, CellStyle::plain, &look);
           continue;
         }
-        sheet.formula(row, 1 + k,
-                      fmt::format("=AVERAGEIFS({},{},{},{},{})", range_of(measure_columns[block], rows),
-                                  range_of(parameter_columns[parameters.first], rows), cell_name(row, 0, false),
-                                  range_of(parameter_columns[parameters.second], rows), cell_name(head, 1 + k, true)),
-                      value);
+        sheet.formula(
+            row, 1 + k,
+            fmt::format("=AVERAGEIFS({},{},{},{},{})", range_of(summary.measures[block], summary),
+                        range_of(summary.parameters[parameters.first], summary), cell_name(row, 0, false),
+                        range_of(summary.parameters[parameters.second], summary), cell_name(head, 1 + k, true)),
+            value, CellStyle::plain, &look);
       }
     }
     if (height > 0 && width > 0) add_scale(sheet, row - height, height, width);
     ++row;
   }
-  sheet.fit_all(11, 50);
+  sheet.fit_all(8, 50);
   sheet.freeze(0, 1);
   sheet.print_wide();
 }

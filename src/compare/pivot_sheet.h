@@ -11,10 +11,13 @@ namespace carom {
 std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const ComparisonPlan& plan,
                                                                     const Outcomes& outcomes);
 
-/// `columns`: of the sheet Summary, by parameter and by measure. `rows`: of its data; 0: no formulas.
+/// The place of the data on the sheet Summary.
+struct SummaryPlace {
+  std::vector<std::size_t> parameters, measures;  // columns, by parameter and by measure
+  std::size_t first_row, rows;                    // from 0; no rows: no formulas
+};
+
 void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
-                 const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
-                 const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,
-                 std::size_t rows);
+                 const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters, const SummaryPlace& summary);
 
 }  // namespace carom

@@ -1,19 +1,21 @@
-// Thins the series of each run to a common limit, which depends on the number of runs and columns.
-// Runs with equal instants share one column of times.
+// Only the runs of the chosen scenarios are read. Scenarios with equal instants share one column of times.
 #include "compare/series.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "files/stored_file.h"
 #include "run/stored_trajectory.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t fewest_points = 100;
 /// Bytes. A longer file is not read for a chart of 2,000 points.
 constexpr std::uint64_t longest_file = 64 << 20;
 
@@ -30,7 +32,7 @@ SeriesGroup read_energy(const RunRecord& run) {
     const auto column = table.find(name);
     if (!column) continue;
     from.push_back(*column);
-    group.columns.push_back({run.run.id, name, {}});
+    group.columns.push_back({0, name, {}});
   }
   while (const auto* cells = table.next()) {
     group.times.push_back(number_in((*cells)[0]).value_or(0));
@@ -47,7 +49,7 @@ SeriesGroup read_bodies(const RunRecord& run, const std::vector<Measure>& measur
   std::vector<std::string> bodies;
   for (const Measure& measure : measures) {
     bodies.push_back(measure.body);
-    group.columns.push_back({run.run.id, measure.name, {}});
+    group.columns.push_back({0, measure.name, {}});
   }
   const MotionColumns columns = motion_columns(table, bodies);
   std::string time;
@@ -83,28 +85,26 @@ void thin(SeriesGroup& group, std::size_t most) {
 
 }  // namespace
 
-SeriesGatherer::SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures) {
+SeriesGatherer::SeriesGatherer(ChosenScenarios scenarios, const std::vector<Measure>& measures)
+    : scenarios_(std::move(scenarios)) {
   // A trajectory has no masses, and so no kinetic energies.
   for (const Measure& measure : measures)
-    if (measure.form == MeasureForm::at_end && measure.quantity != Quantity::kinetic) bodies_.push_back(measure);
-  const std::size_t columns = 2 + bodies_.size();
-  points_ = std::clamp(most_cells / std::max<std::size_t>(1, columns * runs), fewest_points, most_points);
+    if (measure.form == MeasureForm::at_end && measure.quantity != Quantity::kinetic && bodies_.size() < most_bodies)
+      bodies_.push_back(measure);
 }
 
-void SeriesGatherer::add(const RunRecord& run) {
-  if (!run.done) return;
+void SeriesGatherer::add(std::size_t number, const RunRecord& run) {
+  const std::uint32_t scenario = scenarios_.of_run[number];
+  if (!run.done || scenario == ChosenScenarios::none) return;
   const bool energy = has_file(run, "energy.csv"), trajectory = has_file(run, "trajectory.csv");
   if (!energy && trajectory && bodies_.empty()) follow_first(run);
   const bool bodies = trajectory && !bodies_.empty();
-  if (!energy && !bodies) return;
-  const std::size_t columns = (energy ? 2 : 0) + (bodies ? bodies_.size() : 0) + 2;
-  const bool room = cells_ < most_cells && columns_ + columns <= most_columns;
-  if (!room || (energy && !is_short(run, "energy.csv")) || (bodies && !is_short(run, "trajectory.csv"))) {
+  if ((energy && !is_short(run, "energy.csv")) || (bodies && !is_short(run, "trajectory.csv"))) {
     ++left_out_;
     return;
   }
-  if (energy) take(run.run.id, read_energy(run));
-  if (bodies) take(run.run.id, read_bodies(run, bodies_));
+  if (energy) take(scenario, read_energy(run));
+  if (bodies) take(scenario, read_bodies(run, bodies_));
 }
 
 /// Without measures of bodies and without energies, follows the speeds of the first few bodies.
@@ -120,33 +120,63 @@ void SeriesGatherer::follow_first(const RunRecord& run) {
   }
 }
 
-void SeriesGatherer::take(const std::string& run, SeriesGroup part) {
-  thin(part, points_);
+void SeriesGatherer::take(std::uint32_t scenario, SeriesGroup part) {
+  thin(part, most_points);
   if (part.times.empty()) return;
+  for (SeriesColumn& column : part.columns) column.scenario = scenario;
+  // A repeat joins the mean of those before it.
+  for (SeriesGroup& group : groups_) {
+    const auto same = std::find_if(group.columns.begin(), group.columns.end(), [&](const SeriesColumn& column) {
+      return column.scenario == scenario && column.name == part.columns.front().name;
+    });
+    if (same == group.columns.end()) continue;
+    if (group.times != part.times) {
+      ++left_out_;
+      return;
+    }
+    for (std::size_t k = 0; k < part.columns.size(); ++k) {
+      SeriesColumn& mean = *(same + static_cast<std::ptrdiff_t>(k));
+      ++mean.runs;
+      for (std::size_t i = 0; i < mean.values.size(); ++i)
+        mean.values[i] += (part.columns[k].values[i] - mean.values[i]) / static_cast<double>(mean.runs);
+    }
+    return;
+  }
   auto group = std::find_if(groups_.begin(), groups_.end(), [&](const auto& g) { return g.times == part.times; });
   if (group == groups_.end()) {
     groups_.push_back({part.times, {}});
     group = groups_.end() - 1;
-    ++columns_;
-    cells_ += part.times.size();
   }
-  for (SeriesColumn& column : part.columns) {
-    ++columns_;
-    cells_ += column.values.size();
-    group->columns.push_back({run, std::move(column.name), std::move(column.values)});
-  }
+  std::move(part.columns.begin(), part.columns.end(), std::back_inserter(group->columns));
 }
 
 std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series) {
   std::vector<PlacedSeries> placed;
   std::size_t rows = 0, column = 0;
+  std::vector<NumberLook> looks;
+  const auto look_at = [&](const std::vector<double>& values) {
+    looks.emplace_back();
+    for (const double value : values) looks.back().add(value);
+  };
+  constexpr double least = 16;  // characters
+  std::size_t longest = 0;
+  for (const std::string& name : series.scenarios().names) longest = std::max(longest, letters_of(name));
+  sheet.set_head_row(0, std::min<std::size_t>(2 + longest / static_cast<std::size_t>(least), 5));
   for (const SeriesGroup& group : series.groups()) {
     rows = std::max(rows, group.times.size());
-    sheet.text(0, column, "time_s", CellStyle::header);
+    sheet.head(0, column, "time (s)");
+    look_at(group.times);
     const std::size_t time_column = column++;
     for (const SeriesColumn& values : group.columns) {
-      sheet.text(0, column, fmt::format("{}.{}", values.run, values.name), CellStyle::header);
-      placed.push_back({values.run, values.name, time_column, column++, group.times.size()});
+      const std::string& scenario = series.scenarios().names[values.scenario];
+      sheet.head(0, column, fmt::format("{}: {}", label_of(values.name), scenario));
+      look_at(values.values);
+      PlacedSeries& place =
+          placed.emplace_back(PlacedSeries{scenario, values.name, time_column, column++, group.times.size()});
+      for (const double value : values.values) {
+        place.least = std::fmin(place.least, value);
+        place.greatest = std::fmax(place.greatest, value);
+      }
     }
   }
   if (placed.empty()) {
@@ -157,16 +187,16 @@ std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& s
     column = 0;
     for (const SeriesGroup& group : series.groups()) {
       if (row < group.times.size()) {
-        sheet.number(row + 1, column, group.times[row]);
+        sheet.number(row + 1, column, group.times[row], CellStyle::plain, &looks[column]);
         for (std::size_t k = 0; k < group.columns.size(); ++k)
-          sheet.number(row + 1, column + 1 + k, group.columns[k].values[row]);
+          sheet.number(row + 1, column + 1 + k, group.columns[k].values[row], CellStyle::plain, &looks[column + 1 + k]);
       }
       column += 1 + group.columns.size();
     }
   }
-  sheet.fit_all(10, 40);
+  sheet.fit_table(least);
   sheet.freeze(1, 1);
-  sheet.print_table();
+  sheet.print_table(0);
   return placed;
 }
 

@@ -1,5 +1,6 @@
-// Writes summary.csv and the sheet Summary together, one row for each run.
-// A table needs its rows in memory, so more runs than most_in_table are streamed with filters instead.
+// Writes summary.csv run by run, and then the sheet Summary from it. Only then is it known which columns are the same
+// for all runs, and how many digits a column needs. A table needs its rows in memory, so more runs than most_in_table
+// are streamed with filters instead.
 #include "compare/summary_sheet.h"
 
 #include <fmt/format.h>
@@ -9,8 +10,11 @@
 #include <map>
 #include <utility>
 
+#include "compare/charts.h"
 #include "files/csv.h"
 #include "files/run_folder.h"
+#include "files/stored_file.h"
+#include "files/stored_table.h"
 #include "run/summary_columns.h"
 
 namespace carom {
@@ -30,16 +34,14 @@ std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPla
   std::vector<Column> columns;
   for (std::size_t k = 0; k < summary_columns().size(); ++k) {
     const SummaryColumn& summary = summary_columns()[k];
-    Column column{std::string(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}};
-    for (const char* name : {"energy_residual_J", "momentum_drift_kg_m_per_s", "max_overlap_m"})
-      if (column.name == name) column.style = CellStyle::rounding;
-    if (!column.is_text && unit_of(summary.name).empty()) column.style = CellStyle::whole;
-    columns.push_back(std::move(column));
+    columns.push_back(
+        {std::string(summary.name), label_of(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}});
   }
   for (std::size_t k = 0; k < plan.parameters.size(); ++k)
-    columns.push_back({plan.parameters[k].path, CellStyle::swept, false, {}, k, {}});
+    columns.push_back({plan.parameters[k].path, label_of(plan.parameters[k]), CellStyle::swept, false, {}, k, {}});
   for (std::size_t k = 0; k < measures.size(); ++k)
-    if (measures[k].column == nullptr) columns.push_back({measures[k].name, CellStyle::plain, false, {}, {}, k});
+    if (measures[k].column == nullptr)
+      columns.push_back({measures[k].name, label_of(measures[k].name), CellStyle::plain, false, {}, {}, k});
   if (columns.size() > most_columns)
     throw ExportError(
         fmt::format("a comparison of {} columns exceeds the {} of a spreadsheet: compare fewer parameters",
@@ -48,9 +50,11 @@ std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPla
 }
 
 SummarySheet::SummarySheet(const FilePlace& place, Workbook& book, const ComparisonPlan& plan,
-                           const std::vector<Measure>& measures, std::size_t count)
+                           const std::vector<Measure>& measures, std::size_t count, bool unrelated)
     : count_(count),
       parameters_(plan.parameters.size()),
+      unrelated_(unrelated),
+      place_(place),
       measures_(measures),
       columns_(make_columns(plan, measures)),
       sheet_(book.add("Summary", !is_table(count))),
@@ -58,84 +62,143 @@ SummarySheet::SummarySheet(const FilePlace& place, Workbook& book, const Compari
 
 void SummarySheet::write_heads() {
   CsvRow row(*table_);
-  // The column names of a table must differ in more than the case of letters, and must not be long.
-  std::map<std::string, int> taken;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    row.text(columns_[k].name);
-    std::string head = columns_[k].name.substr(0, longest_name - 8), lower = head;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (const int before = taken[lower]++; before > 0) head += fmt::format(" ({})", before + 1);
-    heads_.push_back(head);
-    sheet_.text(0, k, head, head_of(columns_[k].style));
-  }
+  for (const Column& column : columns_) row.text(column.name);
   row.end();
 }
 
 void SummarySheet::add(std::size_t number, const RunRecord& run) {
   CsvRow row(*table_);
-  const bool room = number + 1 < most_rows;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    const Column& column = columns_[k];
+  for (Column& column : columns_) {
+    Cell cell;
     if (column.measure && !run.texts[*column.measure].empty()) {
-      row.text(run.texts[*column.measure]);
-      if (room) sheet_.text(number + 1, k, run.texts[*column.measure]);
-      continue;
+      cell.text = run.texts[*column.measure];
+      row.text(cell.text);
+    } else if (column.measure) {
+      cell.number = run.measures[*column.measure];
+      row.number(cell.number);
+      cell.text = number_cell(cell.number);
+    } else {
+      cell.text = column.parameter ? run.run.values[*column.parameter] : run.summary[*column.summary];
+      if (column.name == "run") cell.text = run.run.id;
+      if (column.name == "status" && !run.done) cell.text = "failed";
+      if (!column.is_text) cell = cell_of(cell.text);
+      cell.is_number() ? row.number(cell.number) : row.text(cell.text);
     }
-    if (column.measure) {
-      row.number(run.measures[*column.measure]);
-      if (room) sheet_.number(number + 1, k, run.measures[*column.measure], column.style);
-      continue;
-    }
-    std::string text = column.parameter ? run.run.values[*column.parameter] : run.summary[*column.summary];
-    if (column.name == "run") text = run.run.id;
-    if (column.name == "status" && !run.done) text = "failed";
-    Cell cell{text};
-    if (!column.is_text) cell = cell_of(text);
-    cell.is_number() ? row.number(cell.number) : row.text(text);
-    if (room) sheet_.cell(number + 1, k, cell, column.style);
+    column.look.add(cell.number);
+    if (number == 0) column.first = cell.text;
+    column.is_constant = column.is_constant && column.first == cell.text;
   }
   row.end();
 }
 
+/// Parameters, measures, then the others that differ. Of unrelated runs, parameters that some of them lack are left
+/// out.
+void SummarySheet::choose_columns() {
+  const auto add = [&](const auto& belongs) {
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      if (std::find(shown_.begin(), shown_.end(), k) == shown_.end() && belongs(columns_[k])) shown_.push_back(k);
+  };
+  add([](const Column& column) { return column.name == "run"; });
+  if (!unrelated_) add([](const Column& column) { return column.parameter.has_value(); });
+  for (const Measure& measure : measures_)
+    add([&](const Column& column) { return !column.parameter && column.name == measure.name; });
+  add([&](const Column& column) { return !column.parameter && (count_ < 2 || !column.is_constant); });
+}
+
+/// "title: Two balls; engine: exact". Empty: no column is folded.
+std::string SummarySheet::folded() const {
+  std::string text;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Column& column = columns_[k];
+    if (column.parameter || column.first.empty() || std::find(shown_.begin(), shown_.end(), k) != shown_.end())
+      continue;
+    const Cell cell = column.is_text ? Cell{column.first} : cell_of(column.first);
+    text += fmt::format("{}{}: {}", text.empty() ? "The same in all runs: " : "; ", column.label,
+                        cell.is_number() ? fmt::format("{:.5g}", cell.number) : cell.text);
+  }
+  return text;
+}
+
+void SummarySheet::write_sheet_heads() {
+  constexpr std::size_t columns_of_note = 8;
+  constexpr double width_of_note = 100;  // characters
+  if (const std::string text = folded(); !text.empty()) {
+    sheet_.note(0, std::min(shown_.size(), columns_of_note), text, width_of_note);
+    head_row_ = 1;
+  }
+  sheet_.set_head_row(head_row_);
+  // The column names of a table must differ in more than the case of letters, and must not be long.
+  std::map<std::string, int> taken;
+  for (std::size_t k = 0; k < shown_.size(); ++k) {
+    const Column& column = columns_[shown_[k]];
+    std::string head = column.label.substr(0, longest_name - 8), lower = head;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (const int before = taken[lower]++; before > 0) head += fmt::format(" ({})", before + 1);
+    heads_.push_back(head);
+    sheet_.head(head_row_, k, head, head_of(column.style));
+  }
+}
+
+void SummarySheet::write_rows() {
+  Descriptor file = open_stored(place_.folder, part_name(summary_name));
+  if (!file) fail("read", place_, summary_name);
+  StoredTable table(std::move(file));
+  std::size_t row = first_row();
+  while (const auto* cells = table.next()) {
+    if (row == most_rows) return;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      if (shown_[k] >= cells->size()) continue;
+      const Column& column = columns_[shown_[k]];
+      const std::string_view text = (*cells)[shown_[k]];
+      sheet_.cell(row, k, column.is_text ? Cell{std::string(text)} : cell_of(text), column.style, &column.look);
+    }
+    ++row;
+  }
+}
+
 void SummarySheet::finish() {
-  const std::size_t rows = std::min(count_, most_rows - 1);
-  const auto last_row = static_cast<lxw_row_t>(rows);
-  const auto last_column = static_cast<lxw_col_t>(columns_.size() - 1);
+  table_->complete();
+  choose_columns();
+  write_sheet_heads();
+  write_rows();
+  const std::size_t rows = std::min(count_, most_rows - first_row());
+  const auto last_row = static_cast<lxw_row_t>(head_row_ + rows);
+  const auto last_column = static_cast<lxw_col_t>(shown_.size() - 1);
   if (is_table() && rows > 0) {
     make_table(last_row, last_column);
   } else if (rows > 0) {
-    worksheet_autofilter(sheet_.get(), 0, 0, last_row, last_column);
+    worksheet_autofilter(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column);
   }
   if (rows > 0) mark_rows(last_row, last_column);
-  // With room for the filters' buttons.
-  sheet_.fit_all(9, 60, 3);
-  sheet_.freeze(1, 1);
-  sheet_.print_table();
+  sheet_.fit_table();
+  sheet_.freeze(first_row(), 1);
+  sheet_.print_table(head_row_);
 }
 
 /// Tints rows that are not `done`, in any order of sorting.
 void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
-  const auto status =
-      std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "status"; });
+  const auto status = std::find_if(shown_.begin(), shown_.end(), [&](auto k) { return columns_[k].name == "status"; });
+  if (status == shown_.end()) return;
   char column[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(column, static_cast<lxw_col_t>(status - columns_.begin()), 1);
+  lxw_col_to_name(column, static_cast<lxw_col_t>(status - shown_.begin()), 1);
   for (const auto& [text, style] :
        {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
-    std::string formula = fmt::format("={}2=\"{}\"", column, text);
+    std::string formula = fmt::format("={}{}=\"{}\"", column, first_row() + 1, text);
     lxw_conditional_format rule{};
     rule.type = LXW_CONDITIONAL_TYPE_FORMULA;
     rule.value_string = formula.data();
     rule.format = sheet_.format(style);
-    worksheet_conditional_format_range(sheet_.get(), 1, 0, last_row, last_column, &rule);
+    worksheet_conditional_format_range(sheet_.get(), static_cast<lxw_row_t>(first_row()), 0, last_row, last_column,
+                                       &rule);
   }
 }
 
 void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
-  std::vector<lxw_table_column> columns(columns_.size());
+  std::vector<lxw_table_column> columns(shown_.size());
   std::vector<lxw_table_column*> pointers;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
+  for (std::size_t k = 0; k < shown_.size(); ++k) {
     columns[k].header = const_cast<char*>(heads_[k].c_str());
-    columns[k].header_format = sheet_.format(head_of(columns_[k].style));
+    columns[k].header_format = sheet_.format(head_of(columns_[shown_[k]].style));
     pointers.push_back(&columns[k]);
   }
   pointers.push_back(nullptr);
@@ -144,26 +207,31 @@ void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
   options.style_type = LXW_TABLE_STYLE_TYPE_LIGHT;
   options.style_type_number = 1;
   options.columns = pointers.data();
-  worksheet_add_table(sheet_.get(), 0, 0, last_row, last_column, &options);
+  worksheet_add_table(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column, &options);
 }
 
 std::unique_ptr<OutputFile> SummarySheet::take_table() {
   return std::move(table_);
 }
 
+std::size_t SummarySheet::place_of(std::size_t column) const {
+  const auto found = std::find(shown_.begin(), shown_.end(), column);
+  return found == shown_.end() ? 0 : static_cast<std::size_t>(found - shown_.begin());
+}
+
 std::vector<std::size_t> SummarySheet::parameter_columns() const {
   std::vector<std::size_t> places(parameters_);
   for (std::size_t k = 0; k < columns_.size(); ++k)
-    if (columns_[k].parameter) places[*columns_[k].parameter] = k;
+    if (columns_[k].parameter) places[*columns_[k].parameter] = place_of(k);
   return places;
 }
 
 std::vector<std::size_t> SummarySheet::measure_columns() const {
   std::vector<std::size_t> places(measures_.size());
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    if (columns_[k].measure) places[*columns_[k].measure] = k;
+    if (columns_[k].measure) places[*columns_[k].measure] = place_of(k);
     for (std::size_t m = 0; m < measures_.size(); ++m)
-      if (columns_[k].summary && measures_[m].name == columns_[k].name) places[m] = k;
+      if (columns_[k].summary && measures_[m].name == columns_[k].name) places[m] = place_of(k);
   }
   return places;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The sheet Summary with a row for each run, and summary.csv with the same columns.
+// summary.csv with a row for each run, and the sheet Summary of it: parameters, measures, then what else differs.
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -18,42 +18,58 @@ class SummarySheet {
   static constexpr std::size_t most_in_table = 2000;
   static bool is_table(std::size_t count) { return count <= most_in_table; }
 
-  /// For `count` runs. Adds the sheet to `book` and opens summary.csv in `place`.
+  /// For `count` runs. Adds the sheet to `book` and opens summary.csv in `place`. `unrelated`: see Variation.
   /// Throws ExportError if there are more columns than a sheet can hold.
   SummarySheet(const FilePlace& place, Workbook& book, const ComparisonPlan& plan, const std::vector<Measure>& measures,
-               std::size_t count);
+               std::size_t count, bool unrelated);
 
-  /// Writes the first row of both. To be called before the first run.
+  /// Writes the first row of the table. To be called before the first run.
   void write_heads();
-  /// Writes the row of run `number`, from 0 on. Runs must come in order.
+  /// Writes the row of run `number` to the table, from 0 on. Runs must come in order.
   void add(std::size_t number, const RunRecord& run);
-  /// To be called after the last run. summary.csv is complete without it.
+  /// Completes the table and writes the sheet from it. To be called after the last run.
   void finish();
-  /// Passes the ownership of summary.csv to the caller.
+  /// Passes the ownership of summary.csv, complete, to the caller.
   std::unique_ptr<OutputFile> take_table();
 
   bool is_table() const { return is_table(count_); }
-  /// The columns of the plan's parameters, in their order.
+  // After finish():
+  /// The columns of the sheet with the plan's parameters, in their order. A column that is left out counts as the
+  /// first.
   std::vector<std::size_t> parameter_columns() const;
-  /// The columns of the measures, in their order.
+  /// The columns of the sheet with the measures, in their order.
   std::vector<std::size_t> measure_columns() const;
+  /// The first row of the sheet with a run, from 0.
+  std::size_t first_row() const { return head_row_ + 1; }
 
  private:
   /// A column and the source of its cells: one of `summary`, `parameter`, `measure`.
   struct Column {
-    std::string name;
+    std::string name, label;
     CellStyle style = CellStyle::plain;
     bool is_text = false;
     std::optional<std::size_t> summary, parameter, measure;
+    NumberLook look{};
+    std::string first{};  // its first cell
+    bool is_constant = true;
   };
   static std::vector<Column> make_columns(const ComparisonPlan& plan, const std::vector<Measure>& measures);
+  void choose_columns();
+  std::string folded() const;
+  void write_sheet_heads();
+  void write_rows();
   void mark_rows(lxw_row_t last_row, lxw_col_t last_column);
   void make_table(lxw_row_t last_row, lxw_col_t last_column);
+  std::size_t place_of(std::size_t column) const;
 
   const std::size_t count_, parameters_;  // how many
+  const bool unrelated_;
+  const FilePlace place_;
   const std::vector<Measure>& measures_;
-  const std::vector<Column> columns_;
-  std::vector<std::string> heads_;  // of the table, by column
+  std::vector<Column> columns_;     // of the table
+  std::vector<std::size_t> shown_;  // of the sheet: indices of columns_
+  std::vector<std::string> heads_;  // of the sheet
+  std::size_t head_row_ = 0;
   Worksheet& sheet_;
   std::unique_ptr<OutputFile> table_;
 };

@@ -19,6 +19,11 @@ namespace carom {
 namespace {
 
 constexpr std::size_t longest_text = 32'767;  // characters of a cell
+constexpr std::size_t longest_foot = 80;      // characters of the title on printed pages
+/// The number of digits that a spreadsheet shows by default.
+constexpr std::size_t general_width = 11;
+constexpr double line_height = 15;         // points
+constexpr double characters_across = 190;  // of a printed page, at about two thirds of the size on the screen
 constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
 constexpr lxw_color_t doubtful_tint = 0xFFE699, failed_tint = 0xF8CBAD;
 
@@ -34,9 +39,6 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
   switch (style) {
     case CellStyle::whole:
       format_set_num_format(format, "#,##0");
-      break;
-    case CellStyle::rounding:
-      format_set_num_format(format, "0.00E+00");
       break;
     case CellStyle::swept:
       format_set_bg_color(format, tint);
@@ -67,10 +69,20 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
       format_set_bg_color(format, failed_tint);
       break;
     case CellStyle::plain:
-    case CellStyle::number_of_styles:
       break;
   }
   return format;
+}
+
+/// The width of a text's longest word.
+std::size_t longest_word(std::string_view text) {
+  std::size_t most = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    most = std::max(most, letters_of(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return most;
 }
 
 /// A failed write of a cell must not go unnoticed.
@@ -96,6 +108,18 @@ std::string without_guard(std::string_view text) {
   return std::string(text.substr(guarded ? 1 : 0));
 }
 
+lxw_format* CellFormats::get(CellStyle style, const std::string& numbers) {
+  lxw_format*& format = made_[{style, numbers}];
+  if (format != nullptr) return format;
+  format = make_format(book_, style);
+  if (!numbers.empty()) format_set_num_format(format, numbers.c_str());
+  return format;
+}
+
+lxw_format* Worksheet::format(CellStyle style, const NumberLook* look) const {
+  return formats_.get(style, look == nullptr ? "" : look->format());
+}
+
 void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle style) {
   if (style == CellStyle::title || style == CellStyle::note) return;
   if (widths_.size() <= column) widths_.resize(column + 1);
@@ -110,58 +134,115 @@ void Worksheet::text(std::size_t row, std::size_t column, std::string_view text,
                               style == CellStyle::plain ? nullptr : format(style)));
 }
 
-void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle style) {
-  lxw_format* const how = style == CellStyle::plain ? nullptr : format(style);
+void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle style, const NumberLook* look) {
+  lxw_format* const how = style == CellStyle::plain && look == nullptr ? nullptr : format(style, look);
   if (!std::isfinite(value)) {
     if (how != nullptr)
       must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
     return;
   }
-  // The number of digits that a spreadsheet shows by default.
-  widen(column, 11, style);
+  widen(column, look == nullptr ? general_width : look->width(), style);
   must(worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
                               value == 0 ? 0.0 : value, how));
 }
 
-void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle style) {
+void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle style, const NumberLook* look) {
   if (cell.is_number())
-    number(row, column, cell.number, style);
+    number(row, column, cell.number, style, look);
   else
     text(row, column, without_guard(cell.text), style);
 }
 
-void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value,
-                        CellStyle style) {
-  widen(column, 11, style);
+void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, CellStyle style,
+                        const NumberLook* look) {
+  widen(column, look == nullptr ? general_width : look->width(), style);
   must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
-                                   style == CellStyle::plain ? nullptr : format(style), value));
+                                   style == CellStyle::plain && look == nullptr ? nullptr : format(style, look),
+                                   value));
+}
+
+void Worksheet::head(std::size_t row, std::size_t column, std::string_view text, CellStyle style) {
+  if (words_.size() <= column) words_.resize(column + 1);
+  words_[column] = std::max(words_[column], longest_word(text));
+  const std::string shown = shortened(text, longest_text);
+  must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
+                              format(style)));
+}
+
+void Worksheet::set_head_row(std::size_t row, std::size_t lines) {
+  worksheet_set_row(sheet_, static_cast<lxw_row_t>(row), (static_cast<double>(lines) + 0.25) * line_height, nullptr);
+}
+
+void Worksheet::note(std::size_t row, std::size_t columns, std::string_view text, double width) {
+  const std::string shown = shortened(text, longest_text);
+  const double lines = std::ceil(1.1 * static_cast<double>(letters_of(shown)) / std::max(width, 1.0));
+  worksheet_set_row(sheet_, static_cast<lxw_row_t>(row), std::clamp(lines, 1.0, 25.0) * line_height, nullptr);
+  if (columns < 2)
+    must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), 0, shown.c_str(), format(CellStyle::wrapped)));
+  else
+    must(worksheet_merge_range(sheet_, static_cast<lxw_row_t>(row), 0, static_cast<lxw_row_t>(row),
+                               static_cast<lxw_col_t>(columns - 1), shown.c_str(), format(CellStyle::wrapped)));
 }
 
 void Worksheet::fit(std::size_t column, double least, double most, double more) {
   const double needed = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
   const auto number = static_cast<lxw_col_t>(column);
   worksheet_set_column(sheet_, number, number, std::clamp(needed, least, most), nullptr);
+  total_ += std::clamp(needed, least, most);
 }
 
 void Worksheet::fit_all(double least, double most, double more) {
+  total_ = 0;
   for (std::size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
+}
+
+void Worksheet::fit_table(double least) {
+  constexpr double most = 40, button = 3;
+  const std::size_t columns = std::max(widths_.size(), words_.size());
+  widths_.resize(columns);
+  words_.resize(columns);
+  total_ = 0;
+  for (std::size_t column = 0; column < columns; ++column) {
+    const double needed = static_cast<double>(std::max(widths_[column] + 1, words_[column])) + button;
+    const double width = std::clamp(needed, least, most);
+    const auto number = static_cast<lxw_col_t>(column);
+    worksheet_set_column(sheet_, number, number, width, nullptr);
+    total_ += width;
+  }
 }
 
 void Worksheet::freeze(std::size_t rows, std::size_t columns) {
   worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
 }
 
-void Worksheet::print_wide() {
+void Worksheet::set_paper() {
   worksheet_set_landscape(sheet_);
-  worksheet_set_paper(sheet_, 9);  // A4
-  worksheet_fit_to_pages(sheet_, 1, 0);
+  worksheet_set_paper(sheet_, 9);           // A4
+  constexpr double side = 0.5, end = 0.75;  // inches
+  worksheet_set_margins(sheet_, side, side, end, end);
+  // The name of the sheet, the title, the number of the page. An & has a meaning in this text.
+  std::string title;
+  for (const char c : shortened(formats_.title(), longest_foot)) title += c == '&' ? "&&" : std::string(1, c);
+  worksheet_set_footer(sheet_, fmt::format("&L&A&C{}&RPage &P of &N", title).c_str());
 }
 
-void Worksheet::print_table() {
-  worksheet_set_landscape(sheet_);
-  worksheet_set_paper(sheet_, 9);  // A4
-  worksheet_set_print_scale(sheet_, 75);
-  worksheet_repeat_rows(sheet_, 0, 0);
+void Worksheet::print_wide() {
+  set_paper();
+  const double pages = std::ceil(total_ / characters_across);
+  worksheet_fit_to_pages(sheet_, static_cast<std::uint16_t>(std::clamp(pages, 1.0, 1000.0)), 0);
+}
+
+void Worksheet::print_pages(const std::vector<std::size_t>& rows) {
+  set_paper();
+  worksheet_fit_to_pages(sheet_, 1, 0);
+  std::vector<lxw_row_t> breaks(rows.begin(), rows.end());
+  breaks.push_back(0);  // the end
+  worksheet_set_h_pagebreaks(sheet_, breaks.data());
+}
+
+void Worksheet::print_table(std::size_t head_row) {
+  print_wide();
+  worksheet_repeat_rows(sheet_, static_cast<lxw_row_t>(head_row), static_cast<lxw_row_t>(head_row));
   worksheet_repeat_columns(sheet_, 0, 0);
 }
 
@@ -180,8 +261,7 @@ Workbook::Workbook(const FilePlace& place, std::string name, const std::string& 
   // 2000-01-01 and not the clock, so that the same runs give the same bytes.
   properties.created = 946'684'800;
   workbook_set_properties(book_, &properties);
-  for (int style = 0; style < static_cast<int>(CellStyle::number_of_styles); ++style)
-    formats_.push_back(make_format(book_, static_cast<CellStyle>(style)));
+  formats_ = std::make_unique<CellFormats>(book_, subject);
 }
 
 Workbook::~Workbook() {
@@ -193,7 +273,7 @@ Worksheet& Workbook::add(const char* name, bool streamed) {
   lxw_worksheet* sheet = workbook_add_worksheet(book_, name);
   if (sheet == nullptr) fail("write", place_, name_, fmt::format("no sheet {} can be made", name));
   if (sheets_.empty()) worksheet_activate(sheet);
-  return sheets_.emplace_back(sheet, formats_);
+  return sheets_.emplace_back(sheet, *formats_);
 }
 
 lxw_chart* Workbook::add_chart(lxw_chart_type type) {

@@ -113,10 +113,11 @@ std::string Sweep::resolved(std::string_view base_name) const {
     for (const SweepValue& name : only) names += (names.empty() ? "" : ", ") + in_quotes(name.text);
     out += fmt::format("only: [{}]\n", names);
   }
-  if (measures.empty() && charts.empty()) return out;
+  if (measures.empty() && charts.empty() && !collisions) return out;
   out += "compare:\n";
   if (!measures.empty()) out += "  measures:\n";
   for (const SweepMeasure& measure : measures) out += fmt::format("    - {}\n", in_quotes(measure.name));
+  if (collisions) out += "  collisions: true\n";
   if (!charts.empty()) out += "  charts:\n";
   for (const SweepChart& chart : charts) {
     out += fmt::format("    - {{x: {}, y: {}", in_quotes(chart.x), in_quotes(chart.y));

@@ -79,6 +79,7 @@ class Sweep {
   std::vector<SweepValue> only;
   std::vector<SweepMeasure> measures;
   std::vector<SweepChart> charts;
+  bool collisions = false;  // whether the workbook has a sheet of them
 
   std::size_t size() const;
   SweepRun run(std::size_t number) const;  // number: from 0

@@ -52,6 +52,7 @@ constexpr Field repeat_fields[] = {
 constexpr Field compare_fields[] = {
     {.key = "measures", .type = Type::names, .doc = "Columns of summary.csv, and quantities of bodies at the end, such as balls.red.speed_m_per_s.", .example = "[energy_lost_J, balls.red.speed_m_per_s]"},
     {.key = "charts", .type = Type::list, .of = "chart", .doc = "Charts of the workbook. Default: each measure over the first path.", .example = "[{x: balls.red.mass, y: energy_lost_J}]"},
+    {.key = "collisions", .type = Type::flag, .initial = "false", .doc = "Whether the workbook has a sheet with the first collisions of each run.", .example = "true"},
 };
 
 constexpr Field chart_fields[] = {

@@ -404,6 +404,7 @@ class SweepReader {
     if (const Node* measures = usable(node->find("measures"))) {
       for (const Node& item : measures->items) sweep_.measures.push_back({item.text, where(item.place)});
     }
+    sweep_.collisions = as_flag(usable(node->find("collisions"))).value_or(false);
     const Node* charts = usable(node->find("charts"));
     if (charts == nullptr) return;
     for (const Node& item : charts->items) {

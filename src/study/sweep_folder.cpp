@@ -209,6 +209,7 @@ ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text)
   for (const SweepChart& chart : sweep.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
   plan.own = own_measure_names(base_text);
   if (sweep.seeds > 0) plan.seed = sweep.paths.size() - 1;
+  plan.collisions = sweep.collisions;
   return plan;
 }
 

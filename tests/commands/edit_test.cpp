@@ -127,18 +127,21 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
              "scene: 1\nbodies: {pin: {mass: 1, mesh: m/pin.obj, fit: sphere, position: [0, 0, 0]}}\n"
              "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
   here.write("b.yaml", two_balls());
-  const Finished run =
-      watched(here,
-              "await err waiting; cp -r output/a before\n"
-              "echo 'newmtl a\nKd 0 1 0' > m/pin.mtl\n"
-              "n=0; while cmp -s before/frames/frame_00000.png output/a/frames/frame_00000.png && [ $n -lt 500 ]; do "
-              "n=$((n+1)); sleep 0.02; done\n"
-              "cp output/a/frames/frame_00000.png green.png; cp output/a/manifest.json first\n"
-              "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
-              "n=0; while cmp -s first output/a/manifest.json && [ $n -lt 500 ]; do n=$((n+1)); sleep 0.02; done");
+  // The files of a run are absent for a moment while it is replaced.
+  const Finished run = watched(
+      here,
+      "differs() { n=0; until [ -s \"$1\" ] && ! cmp -s \"$1\" \"$2\"; do n=$((n + 1)); [ $n -lt 500 ] || exit 9; "
+      "sleep 0.02; done; }\n"
+      "await err waiting; cp -r output/a before\n"
+      "echo 'newmtl a\nKd 0 1 0' > m/pin.mtl\n"
+      "differs output/a/manifest.json before/manifest.json; cp -r output/a green\n"
+      "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
+      "differs output/a/manifest.json green/manifest.json");
   EXPECT_EQ(run.code, 143) << run.err << run.out;
-  EXPECT_NE(here.read("before/frames/frame_00000.png"), here.read("green.png"));
-  EXPECT_NE(here.read("output/a/frames/frame_00000.png"), here.read("green.png"));
+  const std::string frame = "/frames/frame_00000.png";
+  EXPECT_FALSE(here.read("green" + frame).empty());
+  EXPECT_NE(here.read("before" + frame), here.read("green" + frame));
+  EXPECT_NE(here.read("output/a" + frame), here.read("green" + frame));
 }
 
 TEST(Watch, HasNoJsonDocument) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compare/comparison_testing.h"
+#include "compare/number_look.h"
 #include "compare/outcomes.h"
+#include "compare/scenarios.h"
 
 namespace carom::testing {
 namespace {
@@ -28,6 +31,7 @@ class ComparisonOfSix : public ::testing::Test {
     plan.title = "Six runs";
     plan.parameters = {{"restitution.default", ""}, {"balls.red.mass", "kg"}};
     plan.measures = {"energy_lost_J", "collisions", "balls.red.speed_m_per_s", "balls.blue.kinetic_J"};
+    plan.collisions = true;
     place->compare(plan, runs, "out");
   }
   static void TearDownTestSuite() {
@@ -90,7 +94,8 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
   ASSERT_EQ(charts[0]["series"].size(), 2u);
   EXPECT_EQ(charts[2]["y"], "balls.red speed (m/s)");
   EXPECT_EQ(charts[4]["title"], "kinetic energy (J) over time");
-  EXPECT_EQ(charts[4]["series"].size(), 6u);
+  ASSERT_EQ(charts[4]["series"].size(), 6u);
+  EXPECT_EQ(charts[4]["series"][5]["name"], "default = 1, mass = 20 kg");
   // None covers another, or the numbers below.
   for (std::size_t a = 0; a < charts.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
@@ -111,25 +116,79 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
   }
 }
 
-TEST_F(ComparisonOfSix, SummarySheetIsATableOfNumbers) {
+TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
   const Json& summary = sheet("Summary");
-  EXPECT_EQ(summary["tables"], Json({{"Runs", "A1:AB7"}}));
-  EXPECT_EQ(summary["frozen"], "B2");
-  const auto rows = rows_of(place->read("out/summary.csv"));
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    for (std::size_t k = 0; k < rows[i].size(); ++k) {
-      const Json& value = summary["rows"][i][k];
-      if (k < 4 || rows[0][k] == "ended_by")
-        EXPECT_EQ(value, rows[i][k]);
-      else if (rows[i][k].empty())
-        EXPECT_TRUE(value.is_null());
-      else  // 16 digits
-        EXPECT_NEAR(value.get<double>(), std::stod(rows[i][k]), 1e-15 * std::abs(std::stod(rows[i][k]))) << rows[0][k];
+  const auto csv = rows_of(place->read("out/summary.csv"));
+  // The columns of the table, by their heads.
+  const std::vector<std::pair<std::string, std::string>> first = {
+      {"run", "run"},
+      {"restitution.default", "restitution.default"},
+      {"balls.red.mass (kg)", "balls.red.mass"},
+      {"energy lost (J)", "energy_lost_J"},
+      {"collisions", "collisions"},
+      {"balls.red speed (m/s)", "balls.red.speed_m_per_s"},
+      {"balls.blue kinetic energy (J)", "balls.blue.kinetic_J"}};
+  const Json& heads = summary["rows"][1];
+  ASSERT_GT(heads.size(), first.size());
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(heads[k], first[k].first);
+    const auto column =
+        static_cast<std::size_t>(std::find(csv[0].begin(), csv[0].end(), first[k].second) - csv[0].begin());
+    for (std::size_t i = 1; i < csv.size(); ++i) {
+      const Json& value = summary["rows"][i + 1][k];
+      if (k == 0)
+        EXPECT_EQ(value, csv[i][column]);
+      else  // 16 digits, however few are shown
+        EXPECT_NEAR(value.get<double>(), std::stod(csv[i][column]), 1e-15 * std::abs(std::stod(csv[i][column])));
     }
+  }
+  // A column that is the same in all runs stands in the line above, and no other does.
+  const std::string folded = summary["rows"][0][0];
+  EXPECT_TRUE(
+      folded.starts_with("The same in all runs: title: Two balls; engine: exact; status: done; duration (s): 1;"))
+      << folded;
+  for (std::size_t k = 1; k < csv[0].size(); ++k) {
+    bool same = true;
+    for (std::size_t i = 2; i < csv.size(); ++i) same = same && csv[i][k] == csv[1][k];
+    const bool is_first = std::any_of(first.begin(), first.end(), [&](auto& one) { return one.second == csv[0][k]; });
+    const std::string label = k < 2 ? csv[0][k] : label_of(csv[0][k]);
+    EXPECT_EQ(folded.find("; " + label + ": ") != std::string::npos || k == 1, same && !is_first && !csv[1][k].empty())
+        << label;
+    const bool is_column = std::find(heads.begin(), heads.end(), Json(label)) != heads.end();
+    EXPECT_TRUE(is_first || is_column != same) << label;
+  }
+  EXPECT_EQ(summary["tables"].begin().key(), "Runs");
+  EXPECT_TRUE(summary["tables"]["Runs"].get<std::string>().starts_with("A2:"));
+  EXPECT_TRUE(summary["tables"]["Runs"].get<std::string>().ends_with("8"));
+  EXPECT_EQ(summary["frozen"], "B3");
   // Varied columns are tinted, measured ones are not.
-  EXPECT_EQ(summary["fills"][24], "FFFFF2CC");
-  EXPECT_EQ(summary["fills"][25], "FFFFF2CC");
-  EXPECT_TRUE(summary["fills"][26].is_null());
+  EXPECT_EQ(summary["fills"][1], "FFFFF2CC");
+  EXPECT_EQ(summary["fills"][2], "FFFFF2CC");
+  EXPECT_TRUE(summary["fills"][3].is_null());
+}
+
+TEST_F(ComparisonOfSix, NumbersAreShownWithAboutFiveDigits) {
+  // 0.5, 0.75 and 1; 10 and 20 kg; 0 to 40 J; one collision; 0.5 to 2 m/s.
+  const Json& formats = sheet("Summary")["formats"];
+  EXPECT_EQ(formats[1], "0.00");
+  EXPECT_EQ(formats[2], "0");
+  EXPECT_EQ(formats[3], "0.000");
+  EXPECT_EQ(formats[4], "0");
+  EXPECT_EQ(formats[5], "0.0000");
+}
+
+TEST_F(ComparisonOfSix, PrintedPagesAreWideAndRepeatTheirHeads) {
+  for (const char* name : {"Summary", "Series", "Collisions"}) {
+    const Json& page = sheet(name)["print"];
+    EXPECT_EQ(page["orientation"], "landscape") << name;
+    EXPECT_TRUE(page["across"].is_null() || page["across"] >= 1) << name;  // 1 is the default
+    EXPECT_EQ(page["rows"], std::string(name) == "Summary" ? "$2:$2" : "$1:$1") << name;
+    EXPECT_EQ(page["columns"], "$A:$A") << name;
+  }
+  for (const auto& [name, one] : book()["sheets"].items()) {
+    EXPECT_EQ(one["print"]["foot"], "&A") << name;
+    EXPECT_EQ(one["print"]["pages"], "Page &P of &N") << name;
+  }
 }
 
 TEST_F(ComparisonOfSix, PivotIsTheFirstMeasureByTwoParameters) {
@@ -156,13 +215,16 @@ TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
   place->compare(twice, some, "together");
   EXPECT_EQ(place->workbook("together", true)["order"],
             Json({"Compare", "Summary", "Series", "Collisions", "Parameters", "About"}));
+  twice.collisions = false;
+  place->compare(twice, some, "together");
+  EXPECT_EQ(place->workbook("together", true)["order"], Json({"Compare", "Summary", "Series", "Parameters", "About"}));
 }
 
 TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   const Json& series = sheet("Series")["rows"];
   EXPECT_EQ(series.size(), 12u);  // eleven instants
-  EXPECT_EQ(series[0][0], "time_s");
-  EXPECT_EQ(series[0][1], "r1.kinetic_J");
+  EXPECT_EQ(series[0][0], "time (s)");
+  EXPECT_EQ(series[0][1], "kinetic energy (J): default = 0.5, mass = 10 kg");
   EXPECT_EQ(series[1][1], 40);
   EXPECT_EQ(series[11][0], 1);
   const Json& collisions = sheet("Collisions")["rows"];
@@ -171,12 +233,12 @@ TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   EXPECT_EQ(collisions[1][2], "body-body");
   EXPECT_EQ(sheet("Collisions")["filter"], "A1:P7");
   const Json& parameters = sheet("Parameters")["rows"];
-  EXPECT_EQ(parameters[1][2], "balls.red.mass (kg)");
-  EXPECT_EQ(parameters[2], Json({"r1", 0.5, 10, nullptr, "restitution.default", nullptr, 3, 0.5, 1}));
+  EXPECT_EQ(parameters[2], Json({"restitution.default", nullptr, 3, 0.5, 1}));
+  EXPECT_EQ(parameters[3], Json({"balls.red.mass", "kg", 2, 10, 20}));
   bool found = false;
   for (const Json& row : parameters) {
-    EXPECT_NE(row[4], "balls.red.restitution") << "it follows what was varied";
-    found = found || (row[4] == "balls.blue.mass" && row[5] == "kg" && row[6] == 10);
+    EXPECT_NE(row[0], "balls.red.restitution") << "it follows what was varied";
+    found = found || (row[0] == "balls.blue.mass" && row[1] == "kg" && row[2] == 10);
   }
   EXPECT_TRUE(found);
 }
@@ -188,7 +250,7 @@ TEST_F(ComparisonOfSix, WhatDiffersBehindACommaIsNotCommon) {
   std::string common;
   const Json rows = place->workbook("comma")["sheets"]["Parameters"]["rows"];
   for (const Json& row : rows)
-    if (row[2].is_string()) common += row[2].get<std::string>() + "\n";
+    if (row[0].is_string()) common += row[0].get<std::string>() + "\n";
   EXPECT_EQ(common.find("title\n"), std::string::npos) << common;
   EXPECT_EQ(common.find("balls.red.color\n"), std::string::npos) << common;
   EXPECT_NE(common.find("balls.red.mass\n"), std::string::npos) << common;
@@ -211,9 +273,11 @@ TEST_F(ComparisonOfSix, AFailedRunHasItsParametersAndNothingElse) {
   const std::string text = place->read("some/summary.csv");
   const auto rows = rows_of(text);
   EXPECT_TRUE(text.ends_with("\nr9,,,failed,,,,,,,,,,,,,,,,,,,,,-0.5,'=1+1,,\n")) << text;
-  const Json row = place->workbook("some")["sheets"]["Summary"]["rows"][2];
-  EXPECT_EQ(row[3], "failed");
-  EXPECT_EQ(row[24], -0.5);
+  const Json rows_of_sheet = place->workbook("some")["sheets"]["Summary"]["rows"];
+  const Json &heads = rows_of_sheet[rows_of_sheet.size() - 3], &row = rows_of_sheet[rows_of_sheet.size() - 1];
+  EXPECT_EQ(row[1], -0.5);
+  EXPECT_EQ(row[2], "=1+1");
+  EXPECT_EQ(row[static_cast<std::size_t>(std::find(heads.begin(), heads.end(), "status") - heads.begin())], "failed");
 }
 
 TEST_F(ComparisonOfSix, TextIsNoFormula) {
@@ -253,8 +317,8 @@ TEST_F(ComparisonOfSix, AWideTrajectoryGivesTheSame) {
   const auto rows = rows_of(place->read("wide_out/summary.csv"));
   EXPECT_EQ(std::vector(rows[1].begin() + 2, rows[1].end()), std::vector(rows[2].begin() + 2, rows[2].end()));
   const Json series = place->workbook("wide_out")["sheets"]["Series"]["rows"];
-  EXPECT_EQ(series[0][3], "a.balls.red.speed_m_per_s");
-  EXPECT_EQ(series[0][6], "b.balls.red.speed_m_per_s");
+  EXPECT_EQ(series[0][3], "balls.red speed (m/s): a");
+  EXPECT_EQ(series[0][6], "balls.red speed (m/s): b");
   for (std::size_t row = 1; row < series.size(); ++row) EXPECT_EQ(series[row][3], series[row][6]);
 }
 
@@ -267,8 +331,8 @@ TEST_F(ComparisonOfSix, ManyRunsAreStreamed) {
   place->compare(plan, many, "many");
   const Json sheets = place->workbook("many", true)["sheets"];
   EXPECT_TRUE(sheets["Summary"]["tables"].empty());
-  EXPECT_EQ(sheets["Summary"]["filter"], "A1:AB2101");
-  EXPECT_EQ(sheets["Summary"]["height"], 2101);
+  EXPECT_TRUE(sheets["Summary"]["filter"].get<std::string>().starts_with("A2:"));
+  EXPECT_EQ(sheets["Summary"]["height"], 2102);
   EXPECT_EQ(sheets["Collisions"]["height"], 2101);
   EXPECT_EQ(sheets["Compare"]["charts"], 5);
   EXPECT_EQ(rows_of(place->read("many/summary.csv"))[2100][24], "349.5");
@@ -292,6 +356,120 @@ TEST_F(ComparisonOfSix, ChartsOfThePlanAreDrawn) {
   EXPECT_THROW(check_charts(own), MeasureError);
   own.charts = {{"balls.red.mass", "collisions", "balls.blue.mass"}};
   EXPECT_THROW(check_charts(own), MeasureError);
+}
+
+TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
+  const Place place;
+  place.run(two_balls, "balls");
+  place.run(
+      "scene: 1\ntitle: A ball on a floor\nbodies: {cube: {mass: 1, box: [1, 1, 1], position: [0, 2, 0]}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 2}\n"
+      "output: {energy: {every: 0.1}, collisions: true}\n",
+      "cube");
+  ComparisonPlan plan;
+  plan.parameters = {{"balls.red.mass", "kg"},
+                     {"balls.red.radius", "m"},
+                     {"simulate.duration", "s"},
+                     {"bodies.cube.mass", "kg"},
+                     {"camera.eye.x", "m"}};
+  place.compare(
+      plan, {{"balls", place / "balls", {"10", "0.11", "1", "", ""}}, {"cube", place / "cube", {"", "", "2", "1", ""}}},
+      "out");
+  const Json book = place.workbook("out");
+  EXPECT_EQ(book["order"], Json({"Compare", "Summary", "Series", "Parameters", "About"}));
+  const Json& compare = book["sheets"]["Compare"];
+  EXPECT_EQ(compare["charts"].size(), 4u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(compare["charts"][k]["kind"], "BarChart");
+    EXPECT_EQ(compare["charts"][k]["x"], "run");
+  }
+  EXPECT_EQ(compare["charts"][3]["series"][1]["name"], "cube");
+  EXPECT_EQ(compare["rows"][3][0], "What differs");
+  EXPECT_EQ(compare["rows"][3][4], "cube");
+  EXPECT_EQ(compare["rows"][4][0], "simulate.duration (s)");
+  EXPECT_EQ(compare["rows"][4][3], 1);
+  EXPECT_EQ(compare["rows"][4][4], 2);
+  EXPECT_EQ(compare["rows"][5][0], "balls.red.mass (kg)");
+  EXPECT_EQ(compare["rows"][5][4], "-");
+  for (const Json& head : book["sheets"]["Summary"]["rows"][1]) EXPECT_NE(head, "balls.red.mass (kg)");
+  EXPECT_NE(place.read("out/summary.csv").find(",balls.red.mass,"), std::string::npos);
+}
+
+TEST(Collisions, OfEachRunHaveTheSameShareOfTheSheet) {
+  const Place place;
+  const std::string gas =
+      "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1]}\n"
+      "groups: {gas: {count: 40, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: 1}}\n"
+      "simulate: {duration: 5}\noutput: {collisions: true}\n";
+  place.run(gas, "gas");
+  ComparisonPlan plan;
+  plan.collisions = true;
+  std::vector<ComparedRun> runs;
+  for (int i = 0; i < 100; ++i) runs.push_back({"r" + std::to_string(i), place / "gas", {}});
+  ASSERT_GT(rows_of(place.read("gas/collisions.csv")).size(), 201u);
+  place.compare(plan, runs, "out");
+  const Json rows = place.workbook("out")["sheets"]["Collisions"]["rows"];
+  ASSERT_EQ(rows.size(), 20'001u);
+  EXPECT_EQ(rows[200][0], "r0");
+  EXPECT_EQ(rows[201][0], "r1");
+  EXPECT_EQ(rows[20'000][0], "r99");
+}
+
+TEST(NumberLook, HasFiveDigitsOfTheGreatestAndTwoOfTheLeast) {
+  const auto format = [](std::initializer_list<double> numbers) {
+    NumberLook look;
+    for (const double number : numbers) look.add(number);
+    return look.format();
+  };
+  EXPECT_EQ(format({}), "General");
+  EXPECT_EQ(format({std::nan("")}), "General");
+  EXPECT_EQ(format({0}), "0");
+  EXPECT_EQ(format({0.5, 0.75, 1}), "0.00");
+  EXPECT_EQ(format({1, 2, 300}), "0");
+  EXPECT_EQ(format({1, 123456}), "#,##0");
+  EXPECT_EQ(format({13.450413223140497, 3.8}), "0.000");
+  EXPECT_EQ(format({13.450413223140497, 7e-15, 0}), "0.000") << "rounding noise";
+  EXPECT_EQ(format({0.9103908980619376, -2.5}), "0.0000");
+  EXPECT_EQ(format({150.00000001, 0.0012345678}), "0.0000");
+  EXPECT_EQ(format({1e7 + 0.1}), "#,##0");
+  EXPECT_EQ(format({1e9 + 0.5}), "0.0000E+00");
+  EXPECT_EQ(format({8.881784197001252e-16, 0}), "0.0000E+00");
+  EXPECT_EQ(format({1.5e6, 1e-3}), "0.0000E+00");
+  EXPECT_EQ(format({12345.678}), "#,##0");
+  EXPECT_EQ(format({12345.678, 1.5}), "#,##0.0");
+}
+
+TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
+  ComparisonPlan plan;
+  plan.parameters = {{"defaults.ball.restitution", ""}, {"balls.red.position.z", "m"}, {"seed", ""}};
+  plan.seed = 2;
+  Outcomes outcomes(plan, 0, 25 * 40 * 2);
+  std::vector<std::size_t> points;
+  for (int e = 0; e < 25; ++e)
+    for (int z = 0; z < 40; ++z)
+      for (int seed = 0; seed < 2; ++seed)
+        points.push_back(outcomes.add(
+            points.size(), {"r", "", {std::to_string(e), std::to_string(z) + ".5", std::to_string(seed)}}, false, {}));
+  outcomes.finish();
+  const ChosenScenarios chosen = chosen_scenarios(plan, outcomes, points, false);
+  EXPECT_EQ(chosen.all, 1000u);
+  ASSERT_EQ(chosen.names.size(), ChosenScenarios::most);
+  // The four corners are among them.
+  for (const char* corner : {"restitution = 0, position.z = 0.5 m", "restitution = 0, position.z = 39.5 m",
+                             "restitution = 24, position.z = 0.5 m", "restitution = 24, position.z = 39.5 m"})
+    EXPECT_NE(std::find(chosen.names.begin(), chosen.names.end(), corner), chosen.names.end()) << corner;
+  // Both repeats of a scenario belong to it.
+  EXPECT_EQ(chosen.of_run[0], 0u);
+  EXPECT_EQ(chosen.of_run[1], 0u);
+  EXPECT_EQ(std::count(chosen.of_run.begin(), chosen.of_run.end(), ChosenScenarios::none), 2000 - 16);
+}
+
+TEST(ShortNames, AreAsLongAsNeededToTellPathsApart) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(short_names({"defaults.ball.restitution", "balls.red.position.z", "let.a"}),
+            (Names{"restitution", "position.z", "a"}));
+  EXPECT_EQ(short_names({"balls.red.mass", "balls.blue.mass"}), (Names{"red.mass", "blue.mass"}));
+  EXPECT_EQ(short_names({"seed"}), Names{"seed"});
 }
 
 TEST(Spread, IsThatOfTheNumbers) {
