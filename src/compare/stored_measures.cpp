@@ -127,8 +127,8 @@ double StoredMeasures::number(const Measure& measure, const std::vector<std::str
     case MeasureForm::expression:
       return evaluated(measure, summary);
     case MeasureForm::given: {
-      const auto found = scene().numbers.find(measure.things[0]);
-      return found == scene().numbers.end() ? undefined : found->second;
+      const auto found = scene().measures.numbers.find(measure.things[0]);
+      return found == scene().measures.numbers.end() ? undefined : found->second;
     }
     case MeasureForm::own:
       return undefined;

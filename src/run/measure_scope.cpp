@@ -115,13 +115,13 @@ namespace {
 
 std::vector<std::string> own_names(const Scene& scene) {
   std::vector<std::string> names;
-  for (const OwnMeasure& own : scene.measures) names.push_back(own.name);
+  for (const OwnMeasure& own : scene.measures.own) names.push_back(own.name);
   return names;
 }
 
 /// The scene's own measure of this name.
 Measure defined(const std::string& name, const Scene& scene) {
-  const auto found = std::find_if(scene.measures.begin(), scene.measures.end(),
+  const auto found = std::find_if(scene.measures.own.begin(), scene.measures.own.end(),
                                   [&](const OwnMeasure& own) { return own.name == name; });
   Measure measure = parse_measure(found->text, own_names(scene));
   measure.name = name;
@@ -152,9 +152,9 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
       regions_named(measure, scene);
       return;
     case MeasureForm::given:
-      if (!scene.numbers.contains(measure.things[0])) {
+      if (!scene.measures.numbers.contains(measure.things[0])) {
         std::vector<std::string_view> names;
-        for (const auto& [name, number] : scene.numbers) names.push_back(name);
+        for (const auto& [name, number] : scene.measures.numbers) names.push_back(name);
         throw MeasureError(
             fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), near_name(measure.things[0], names)));
       }
@@ -187,14 +187,18 @@ Measure own_measure(const OwnMeasure& own, const Scene& scene) {
 
 Measure parse_measure(std::string_view name, const Scene& scene) {
   Measure measure = parse_measure(name, own_names(scene));
+  check_names(measure, scene);
+  return measure;
+}
+
+void check_names(const Measure& measure, const Scene& scene) {
   std::vector<std::string> above;
   check(measure, scene, above);
-  return measure;
 }
 
 std::vector<Measure> own_measures(const Scene& scene) {
   std::vector<Measure> measures;
-  for (const OwnMeasure& own : scene.measures) measures.push_back(own_measure(own, scene));
+  for (const OwnMeasure& own : scene.measures.own) measures.push_back(own_measure(own, scene));
   return measures;
 }
 

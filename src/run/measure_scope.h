@@ -29,4 +29,7 @@ std::vector<EntityRange> things_named(std::string_view name, const Measure& meas
 /// The regions of a measure of regions: one, or all members of a repeated one; ascending. Throws MeasureError.
 std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene);
 
+/// Throws MeasureError unless the scene has all that the measure names.
+void check_names(const Measure& measure, const Scene& scene);
+
 }  // namespace carom

@@ -36,18 +36,27 @@ WatchedQuantity watched_by(const Measure& measure, const Scene& scene) {
 
 Measuring::Measuring(const Scene& scene, std::vector<Measure> measures)
     : scene_(scene), measures_(std::move(measures)) {
-  for (const Measure& measure : measures_) prepare(measure);
+  for (const Measure& measure : measures_) {
+    try {
+      prepare(measure);
+      known_.push_back(true);
+    } catch (const MeasureError&) {
+      known_.push_back(false);
+    }
+  }
 }
 
 void Measuring::prepare(const Measure& measure) {
   for (const Measure& part : measure.parts) prepare(part);
+  check_names(measure, scene_);
   if (measure.form == MeasureForm::at_end || measure.form == MeasureForm::count) bodies_of(measure, scene_);
   if (is_extreme(measure.form)) {
     const WatchedQuantity watched = watched_by(measure, scene_);
     if (std::find(watched_.begin(), watched_.end(), watched) == watched_.end()) watched_.push_back(watched);
   }
-  if (is_of_region(measure.form) && std::none_of(visits_.begin(), visits_.end(),
-                                                 [&](const Visits& visits) { return visits.name == measure.things[0]; }))
+  if (is_of_region(measure.form) && std::none_of(visits_.begin(), visits_.end(), [&](const Visits& visits) {
+        return visits.name == measure.things[0];
+      }))
     visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
   if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
   if (std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return m.things == measure.things; }))
@@ -82,8 +91,10 @@ void Measuring::record(std::span<const Collision> collisions, std::span<const Re
 
 std::vector<Measured> Measuring::values(const MeasuredRun& run) const {
   std::vector<Measured> values;
-  for (const Measure& measure : measures_) {
+  for (std::size_t k = 0; k < measures_.size(); ++k) {
+    const Measure& measure = measures_[k];
     Measured& measured = values.emplace_back(measure.name);
+    if (!known_[k]) continue;
     measured.value = value(measure, run);
     if (measure.is_text()) measured.text = first_entrant(measure);
   }
@@ -164,7 +175,7 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
     case MeasureForm::expression:
       return evaluated(measure, run);
     case MeasureForm::given:
-      return scene_.numbers.at(measure.things[0]);
+      return scene_.measures.numbers.at(measure.things[0]);
     case MeasureForm::own:
       return value(*std::find_if(measures_.begin(), measures_.end(),
                                  [&](const Measure& other) { return other.name == measure.things[0]; }),

@@ -21,7 +21,7 @@ struct MeasuredRun {
 
 class Measuring {
  public:
-  /// `scene` must outlive this object. Throws MeasureError where a measure names what the scene does not have.
+  /// `scene` must outlive this object. A measure that names what the scene does not have is undefined.
   Measuring(const Scene& scene, std::vector<Measure> measures);
 
   /// Whether a measure counts collisions.
@@ -47,7 +47,7 @@ class Measuring {
     std::string name;
     std::vector<std::uint32_t> regions;  // ascending
     double entries = 0;
-    double first;              // s, of the first entry; NaN: none
+    double first;  // s, of the first entry; NaN: none
     Entity entrant = no_entity;
     std::map<std::pair<std::uint32_t, Entity>, bool> inside{};  // by region and body
   };
@@ -63,6 +63,7 @@ class Measuring {
 
   const Scene& scene_;
   const std::vector<Measure> measures_;
+  std::vector<bool> known_;  // by measure: the scene has all that it names
   std::vector<Meeting> meetings_;
   std::vector<Visits> visits_;
   std::vector<WatchedQuantity> watched_;

@@ -260,7 +260,7 @@ class Run {
       const auto own = std::span(all).subspan(first_watched_[i], stage.measuring.watched().size());
       result.facts.measures = stage.measuring.values({end, result.summary, own});
     }
-    for (const OwnMeasure& own : stage.scene.measures)
+    for (const OwnMeasure& own : stage.scene.measures.own)
       for (const Measured& measured : result.facts.measures)
         if (measured.name == own.name) result.summary.measures.push_back(measured);
   }
@@ -275,9 +275,9 @@ class Run {
   std::vector<std::unique_ptr<Stage>> stages_;
   std::unique_ptr<Simulator> simulator_;
   std::vector<std::size_t> first_watched_;  // by show: the first of its quantities among all that are watched
-  StoredEnergy start_;     // at time 0
-  double simulate_s_ = 0;  // wall time
-  bool settled_ = false, ended_ = false;  // the steps; the timelines
+  StoredEnergy start_;                      // at time 0
+  double simulate_s_ = 0;                   // wall time
+  bool settled_ = false, ended_ = false;    // the steps; the timelines
 };
 
 }  // namespace

@@ -36,7 +36,7 @@ struct StageWatch {
 
 class Stage {
  public:
-  /// Opens the folder, and takes these measures. Throws ExportError, RenderError, MeasureError.
+  /// Opens the folder, and takes these measures. Throws ExportError, RenderError.
   Stage(const Show& show, Durability durability, std::vector<Measure> measures);
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;

@@ -362,7 +362,7 @@ class Checker : ValueChecker {
     }
     if (field.needs_entries && value.items.empty())
       refuse(value, fmt::format("{} has no entries", name), "expected at least one");
-    const std::vector<std::string_view> words = parts_of(field.words);
+    const std::vector<std::string_view> words = parts_of(field.plain);
     for (Node& item : value.items) {
       if (words.empty() || !item.is(Node::Kind::scalar))
         map(item, kind_named(field.of), "this entry of " + name, item.place, false);

@@ -233,7 +233,7 @@ std::string expected(const Field& field) {
     case Type::named:
       return "a map from names to entries";
     case Type::list:
-      return field.words.empty() ? "a list" : fmt::format("a list of maps, or {}", listed(parts_of(field.words)));
+      return field.plain.empty() ? "a list" : fmt::format("a list of maps, or {}", listed(parts_of(field.plain)));
     case Type::settings:
       return "a map from paths to values, such as {balls.red.mass: 2}";
     case Type::axes:

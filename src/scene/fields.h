@@ -93,12 +93,11 @@ struct Field {
   std::string_view engines = {};
   /// A regular expression for the schema, for a text or for names.
   std::string_view pattern = {};
-  /// Of a map: the key for which a plain value in place of the map stands.
+  /// What may stand in place of a map. For a map: a plain value, that of this key. For the maps of a list: these words,
+  /// separated by |.
   std::string_view plain = {};
   bool needs_entries = false;  // a list must not be empty
-  /// Of a list: words that may stand in place of maps, separated by |.
-  std::string_view words = {};
-  bool own = false;  // never taken from Kind::beneath
+  bool own = false;            // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
   bool drawn = false;
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).

@@ -56,8 +56,8 @@ std::string value_text(const Field& field) {
     case Type::named:
       return "by name: " + link;
     case Type::list:
-      return field.words.empty() ? "a list: " + link
-                                 : fmt::format("a list of {} or maps: {}", quoted_list(parts_of(field.words)), link);
+      return field.plain.empty() ? "a list: " + link
+                                 : fmt::format("a list of {} or maps: {}", quoted_list(parts_of(field.plain)), link);
     default:
       return expected(field) + ": " + link;
   }

@@ -112,14 +112,14 @@ struct SceneFile::Impl {
   void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
     if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
       for (std::size_t i = 0; i < let->items.size(); ++i)
-        if (const auto number = parse_number(let->items[i].text)) scene.numbers[let->keys[i].text] = *number;
+        if (const auto number = parse_number(let->items[i].text)) scene.measures.numbers[let->keys[i].text] = *number;
     const Node* measures = tree.find("measures");
     if (measures == nullptr || !measures->is(Node::Kind::map)) return;
     for (std::size_t i = 0; i < measures->items.size(); ++i)
-      if (!measures->items[i].bad) scene.measures.push_back({measures->keys[i].text, measures->items[i].text});
+      if (!measures->items[i].bad) scene.measures.own.push_back({measures->keys[i].text, measures->items[i].text});
     if (!diagnostics.empty() || !options.measure_fault) return;
     for (std::size_t i = 0; i < measures->items.size(); ++i) {
-      const std::string fault = options.measure_fault(scene, scene.measures[i]);
+      const std::string fault = options.measure_fault(scene, scene.measures.own[i]);
       const std::size_t remedy = std::min(fault.find("; "), fault.size());
       if (!fault.empty())
         diagnostics.add(measures->items[i].place, fault.substr(0, remedy),

@@ -126,6 +126,12 @@ struct OwnMeasure {
   std::string text;  // a measure, or '=' and an expression of measures (run/measure.h)
 };
 
+/// What the scene measures, and the numbers that measures may name.
+struct Measures {
+  std::vector<OwnMeasure> own;            // in the order of the file
+  std::map<std::string, double> numbers;  // of `let`
+};
+
 struct Scene {
   std::string file;  // as given on the command line
   std::string title;
@@ -141,8 +147,7 @@ struct Scene {
   bool transparent = false;  // there is no background
   Overlay overlay;
   Output output;
-  std::map<std::string, double> numbers;  // of `let`
-  std::vector<OwnMeasure> measures;
+  Measures measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
   /// In s: where the run is known to end, if that is before its duration. The loader does not know.

@@ -212,7 +212,7 @@ Json value_schema(const Field& field) {
       return named_schema(kind_named(field.of));
     case Type::list: {
       Json entry = reference(field.of);
-      if (!field.words.empty()) entry = {{"anyOf", Json::array({{{"enum", parts_of(field.words)}}, entry})}};
+      if (!field.plain.empty()) entry = {{"anyOf", Json::array({{{"enum", parts_of(field.plain)}}, entry})}};
       Json schema = {{"type", "array"}, {"items", std::move(entry)}};
       if (field.needs_entries) schema["minItems"] = 1;
       return schema;

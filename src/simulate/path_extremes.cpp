@@ -13,15 +13,15 @@ namespace carom {
 namespace {
 
 /// A polynomial in s, from the constant term on.
-using Series = std::vector<double>;
+using Coefficients = std::vector<double>;
 
-Series slope_of(const Series& of) {
-  Series slope;
+Coefficients slope_of(const Coefficients& of) {
+  Coefficients slope;
   for (std::size_t k = 1; k < of.size(); ++k) slope.push_back(static_cast<double>(k) * of[k]);
   return slope;
 }
 
-void add_product(const Series& p, const Series& q, Series& sum) {
+void add_product(const Coefficients& p, const Coefficients& q, Coefficients& sum) {
   sum.resize(std::max(sum.size(), p.size() + q.size() - 1));
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = 0; j < q.size(); ++j) sum[i + j] += p[i] * q[j];
@@ -36,11 +36,11 @@ struct Part {
   Vec3 velocity(double t) const { return flight.velocity(t) + more[0] + t * (more[1] + t * more[2]); }
 
   /// The velocity from t on as polynomials in s = (time - t) / length, by axis (m/s).
-  std::array<Series, 3> velocities(double t, double length) const {
+  std::array<Coefficients, 3> velocities(double t, double length) const {
     const PolynomialPath::Terms terms = flight.displacement_from(t, length);
     const std::array<Vec3, 3> beyond = {more[0] + t * (more[1] + t * more[2]), length * (more[1] + 2 * t * more[2]),
                                         length * length * more[2]};
-    std::array<Series, 3> v;
+    std::array<Coefficients, 3> v;
     for (int axis = 0; axis < 3; ++axis) {
       auto& of = v[static_cast<std::size_t>(axis)];
       for (std::size_t k = 0; k < terms.size(); ++k)
@@ -51,12 +51,12 @@ struct Part {
 };
 
 /// The polynomial in s that is zero where the quantity turns.
-Series turning(Quantity quantity, const std::array<Series, 3>& v) {
+Coefficients turning(Quantity quantity, const std::array<Coefficients, 3>& v) {
   const auto axis = static_cast<std::size_t>(quantity);
   if (is_place(quantity)) return v[axis];
   if (quantity <= Quantity::vz) return slope_of(v[axis - static_cast<std::size_t>(Quantity::vx)]);
-  Series power;
-  for (const Series& of : v) add_product(of, slope_of(of), power);
+  Coefficients power;
+  for (const Coefficients& of : v) add_product(of, slope_of(of), power);
   return power;
 }
 

@@ -37,10 +37,9 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
   const auto files = here.files("output/comparison");
   ASSERT_EQ(files.size(), 3u);
   const std::string& table = files.at("summary.csv");
-  EXPECT_NE(
-      table.find(
-          ",resting,frames,stepped_contact_s,balls.red.restitution,balls.red.speed_m_per_s\na,Two balls,exact,done,1,"),
-      std::string::npos)
+  EXPECT_NE(table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,balls.red.restitution,balls.red.speed_m_"
+                       "per_s\na,Two balls,exact,done,1,"),
+            std::string::npos)
       << table;
   EXPECT_NE(table.find("\nc,"), std::string::npos);
   EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));
@@ -377,11 +376,11 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
 TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
   const Workplace here;
   for (const std::string run : {"run", "same"})
-    ASSERT_EQ(here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", run, "--only", "collisions,trajectory"})
-                  .code,
-              0);
-  ASSERT_EQ(here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", "heavy", "--only",
-                        "collisions,trajectory", "--set", "defaults.ball.mass=2"})
+    ASSERT_EQ(
+        here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", run, "--only", "collisions,trajectory"}).code,
+        0);
+  ASSERT_EQ(here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", "heavy", "--only", "collisions,trajectory",
+                        "--set", "defaults.ball.mass=2"})
                 .code,
             0);
   // Columns: run,title,engine,status,duration_s,bodies,collisions.

@@ -171,7 +171,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
       }
     }
   }
-  EXPECT_EQ(run, 31);
+  EXPECT_EQ(run, 32);
   EXPECT_EQ(compared, 2);
   for (const char* file :
        {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",

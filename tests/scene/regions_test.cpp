@@ -125,7 +125,7 @@ TEST(RegionErrors, OfNamesAndActions) {
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], on: [rde]}"),
             "scene.yaml:6:57: error: nothing is named `rde`\n");
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], on: [floor]}"),
-            "scene.yaml:6:57: error: `floor` never moves: it enters no region\n");
+            "scene.yaml:6:57: error: `floor` is a fixed thing: it enters no region\n");
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], on: [pocket]}"),
             "scene.yaml:6:57: error: nothing is named `pocket`\n");
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], action: kill}"),

@@ -133,6 +133,7 @@ title: Balls
 seed: 3
 gravity: [0, -1, 0]
 let: {r: 0.1, two: 2}
+measures: {top: max(balls.red.y_m), twice: "= 2 * top"}
 restitution: {default: 0.9, combine: minimum, pairs: [{between: [red, blue], value: 0.5}]}
 planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
 walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}

@@ -50,8 +50,8 @@ Far far(const State& a, const State& b) {
 /// Scenes that both engines support, and whose outcome does not depend on the last bit, unlike those of many balls that
 /// keep colliding.
 std::vector<std::string> scenes_to_compare() {
-  const std::set<std::string> chaotic = {"balls_in_a_box", "gas_in_a_room",      "pile_at_rest",
-                                         "piston",         "benchmark/gas_1000", "benchmark/frame_100"};
+  const std::set<std::string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
+                                         "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
   std::vector<std::string> names;
   for (const std::string& name : scene_names()) {
     const Scene scene = load(name);
@@ -78,7 +78,12 @@ TEST_P(Agreement, OfExactAndSteppedWithinRoundingOrAtTheOrderOfTheMethod) {
     } else {
       const double falls = std::pow(4, order);
       EXPECT_LT(fine.x, 1.5 * coarse.x / falls + 2e-9) << order;
-      EXPECT_GT(coarse.x, 2e-9);
+      // Bodies that slide on a flat surface have closed forms in both.
+      if (const std::set<std::string> slide = {"cars", "pool"}; slide.count(GetParam()) != 0) {
+        EXPECT_EQ(coarse.x, 0);
+      } else {
+        EXPECT_GT(coarse.x, 2e-9);
+      }
     }
   }
 }
