@@ -226,7 +226,7 @@ constexpr Field attractor_fields[] = {
 
 constexpr Field simulate_fields[] = {
     {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "Simulated time.", .example = "2", .member = fills<Simulate, &Simulate::duration>},
-    {.key = "stop", .type = Type::list, .of = "stop", .doc = "What ends the run before its duration, as soon as one of these holds. rest: all bodies are at rest.", .example = "[rest, {collisions: 100}]", .title = "Ends of the run", .needs_entries = true, .plain = "rest"},
+    {.key = "stop", .type = Type::list, .of = "stop", .doc = "What ends the run before its duration, as soon as one of these holds. rest: all bodies are at rest.", .example = "[rest, {collisions: 100}]", .title = "Ends of the run", .plain = "rest", .needs_entries = true},
     {.key = "engine", .type = Type::choice, .of = engine_names,
      .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact", .member = fills<Simulate, &Simulate::engine>},
     {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines stepped and book; with dop853 the longest one. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
