@@ -81,7 +81,7 @@ class Regions {
     const std::vector<std::string>& names = scene_.roster.regions;
     bool found = false;
     for (std::size_t r = 0; r < names.size(); ++r) {
-      if (names[r] != region->text && family_of(names[r]) != region->text) continue;
+      if (names[r] != region->text && (region->text.empty() || family_of(names[r]) != region->text)) continue;
       scene_.world.regions[r].stops = found = true;
     }
     if (found) return;

@@ -226,6 +226,7 @@ groups: {gas: {repeat: 2, count: 2, in: {min: ['= 3 * i', 9, 0], max: ['= 3 * i 
 planes: {sides: {repeat: 2, point: ['= 100 * (1 - 2 * i)', 0, 0], normal: ['= 2 * i - 1', 0, 0]}}
 walls: {fences: {repeat: 2, center: ['= -20 - i', 1, 0], normal: [-1, 0, 0], size: [1, 1]}}
 obstacles: {posts: {repeat: 2, radius: 0.1, position: ['= i', -5, 0]}}
+regions: {holes: {repeat: 2, radius: 0.1, position: ['= i', -8, 0]}}
 forces: [{repeat: 2, acceleration: ['= i + 1', 0, 0], on: ['row.{i}']}]
 lights: {lamps: {repeat: 2, position: ['= i', 9, 0]}}
 simulate: {duration: 1}
