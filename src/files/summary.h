@@ -47,9 +47,9 @@ struct ContactCounts {
 
 /// A measure of a run: a number, or a text.
 struct Measured {
-  std::string name;  // "balls.red.speed_m_per_s"
+  std::string name;                                         // "balls.red.speed_m_per_s"
   double value = std::numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
-  std::string text{};  // empty: a number, or undefined
+  std::string text{};                                       // empty: a number, or undefined
 };
 
 /// How long a run has lasted.

@@ -93,7 +93,8 @@ std::vector<Measured> Measuring::values(const MeasuredRun& run) const {
   std::vector<Measured> values;
   for (std::size_t k = 0; k < measures_.size(); ++k) {
     const Measure& measure = measures_[k];
-    Measured& measured = values.emplace_back(measure.name);
+    Measured& measured = values.emplace_back();
+    measured.name = measure.name;
     if (!known_[k]) continue;
     measured.value = value(measure, run);
     if (measure.is_text()) measured.text = first_entrant(measure);

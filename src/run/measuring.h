@@ -8,6 +8,7 @@
 #include "physics/collision.h"
 #include "physics/extremes.h"
 #include "physics/state.h"
+#include "physics/world_region.h"
 #include "run/measure_scope.h"
 
 namespace carom {

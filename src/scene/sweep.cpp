@@ -42,9 +42,9 @@ SweepRun Sweep::run(std::size_t number) const {
   }
   if (seeds > 0) {
     // Without repeats the paths contain no seed.
-    const std::string seed = std::to_string(first_seed.value_or(0) + number % repeats);
-    run.values.back() = seed;
-    run.settings.push_back({"seed=" + seed, file});
+    const std::string of_run = std::to_string(first_seed.value_or(0) + number % repeats);
+    run.values.back() = of_run;
+    run.settings.push_back({"seed=" + of_run, file});
   }
   return run;
 }

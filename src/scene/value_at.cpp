@@ -70,7 +70,8 @@ class PathWalk {
 
   bool into_value(std::string_view step) {
     if (field_->type == Type::named || field_->type == Type::list) return to_entry(step);
-    if ((field_->type == Type::values || field_->type == Type::texts) && node_->is(Node::Kind::map)) return to_number(step);
+    if ((field_->type == Type::values || field_->type == Type::texts) && node_->is(Node::Kind::map))
+      return to_number(step);
     const bool numbers = node_->is(Node::Kind::sequence);
     for (const auto& names : {std::vector<std::string_view>{"x", "y", "z"}, {"width", "height"}}) {
       if (!numbers || names.size() != node_->items.size()) continue;

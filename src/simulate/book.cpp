@@ -71,7 +71,7 @@ class BookSimulator final : public Simulator {
   // By region and body: whether it is inside, as of the last frame.
   std::vector<std::uint8_t> inside_;
   std::vector<RegionCrossing> crossings_;
-  std::optional<RunEnd> end_;  // in the last frame done
+  std::optional<RunEnd> end_;       // in the last frame done
   std::vector<Extremes> extremes_;  // by options_.watch, at the frames
 };
 

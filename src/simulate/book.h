@@ -16,7 +16,7 @@ struct BookOptions {
   std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
   bool record_collisions = true;     // false: there is no buffer, and collisions() stays empty
   bool stop_at_rest = false;
-  std::uint64_t stop_collisions = 0;  // 0: none
+  std::uint64_t stop_collisions = 0;     // 0: none
   std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 

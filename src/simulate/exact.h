@@ -31,7 +31,7 @@ struct ExactOptions {
   bool record_paths = false;      // false: there is no buffer for paths()
   // What ends the run before the duration, beside regions of the World.
   bool stop_at_rest = false;
-  std::uint64_t stop_collisions = 0;  // 0: none
+  std::uint64_t stop_collisions = 0;     // 0: none
   std::vector<WatchedQuantity> watch{};  // for extremes()
 };
 

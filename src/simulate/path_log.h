@@ -14,7 +14,8 @@ class Crossings;
 
 class PathLog {
  public:
-  /// Records nothing unless options.record_paths, and watches nothing unless options.watch. The crossings follow the paths that have changed.
+  /// Records nothing unless options.record_paths, and watches nothing unless options.watch. The crossings follow the
+  /// paths that have changed.
   PathLog(const ExactBodies& bodies, Crossings& crossings);
 
   /// Empties the buffer for the next advance.

@@ -45,7 +45,7 @@ class Simulator {
   /// Crossings of the World's regions since the last advance_to, by time, then region, then body. All are recorded. The
   /// first advance has those at time 0.
   virtual std::span<const RegionCrossing> crossings() const { return {}; }
-  virtual const Tally& tally() const = 0;       // up to time()
+  virtual const Tally& tally() const = 0;  // up to time()
   /// The extremes of the watched quantities from time 0 to time(), in the order in which they are watched.
   virtual std::vector<Extremes> extremes() const { return {}; }
   virtual Effort effort() const { return {}; }  // up to the present; zero where it is not counted

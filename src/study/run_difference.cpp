@@ -114,8 +114,7 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
   EndDifference difference;
   difference.time_a = last_time(run_a);
   difference.time_b = last_time(run_b);
-  const std::vector<EndMotion> a = end_of_trajectory(run_a.folder.get()),
-                              b = end_of_trajectory(run_b.folder.get());
+  const std::vector<EndMotion> a = end_of_trajectory(run_a.folder.get()), b = end_of_trajectory(run_b.folder.get());
   std::map<std::string_view, const EndMotion*> of_b;
   for (const EndMotion& motion : b) of_b.emplace(motion.body, &motion);
   for (const EndMotion& motion : a) {

@@ -87,12 +87,14 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
             "carom run: --seed takes a whole number from 0 to 18446744073709551615, not `18446744073709551616`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "1", "--seed", "2"}), "carom run: --seed is given 2 times" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
-            "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, xyz, gltf, "
+            "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, "
+            "xyz, gltf, "
             "flights, plots, not `frmes`; "
             "did you mean `frames`?" +
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "energy,"}),
-            "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, xyz, gltf, "
+            "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, "
+            "xyz, gltf, "
             "flights, plots, not ``" +
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),

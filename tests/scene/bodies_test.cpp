@@ -137,12 +137,13 @@ TEST(BodyErrors, EdgesAndHeightsAreAboveZero) {
 }
 
 TEST(BodyErrors, ObstaclesHaveNoMass) {
-  EXPECT_EQ(errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:17: error: unknown key `mass` in obstacle `a`\n"
-            "   3 | obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"
-            "     |                 ^~~~\n"
-            "     = `mass` is a key of `ball` or `body`\n"
-            "     = expected radius, cylinder, box, mesh, fit, position, motion, restitution, color, visible or repeat\n");
+  EXPECT_EQ(
+      errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"),
+      "scene.yaml:3:17: error: unknown key `mass` in obstacle `a`\n"
+      "   3 | obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"
+      "     |                 ^~~~\n"
+      "     = `mass` is a key of `ball` or `body`\n"
+      "     = expected radius, cylinder, box, mesh, fit, position, motion, restitution, color, visible or repeat\n");
 }
 
 TEST(Overlaps, OfEveryVolumeWithEveryOtherAreErrors) {
