@@ -14,6 +14,7 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
+#include "run/measure_scope.h"
 #include "run/summary_columns.h"
 #include "scene/formula.h"
 #include "yaml/diagnostics.h"
@@ -22,11 +23,6 @@ namespace carom {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
-/// Whether a name in a table is `name`, or that of one of several: gas.3, room.x_min.
-bool is_of(std::string_view stored, std::string_view name) {
-  return stored == name || (stored.size() > name.size() && stored.starts_with(name) && stored[name.size()] == '.');
-}
 
 /// The file from which a measure can be derived. Null: from none.
 const char* table_of(const Measure& measure) {
@@ -159,7 +155,7 @@ double StoredMeasures::counted(const Measure& measure, const std::vector<std::st
   const double limit = evaluated(measure, summary);
   double count = 0;
   for (std::size_t i = 0; i < ends().size(); ++i)
-    if (measure.body.empty() || is_of(ends()[i].body, measure.body))
+    if (measure.body.empty() || is_named(ends()[i].body, measure.body))
       count += compares(quantity(measure, i), measure.relation, limit) ? 1 : 0;
   return count;
 }
@@ -177,9 +173,10 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   if (!time || !kind || !a || !b) return found;
   while (const std::vector<std::string_view>* row = table.next()) {
     if (row->size() <= std::max({*time, *kind, *a, *b}) || (*row)[*kind] == "rest") continue;
-    if (!meet(measure.things,
-              [&](const std::string& name, bool first) { return is_of((*row)[first ? *a : *b], name); }))
-      continue;
+    const auto has = [&](std::size_t name, bool first) {
+      return is_named((*row)[first ? *a : *b], measure.things[name]);
+    };
+    if (!meet(measure.things.size(), has)) continue;
     if (found.count == 0) found.first = number_in((*row)[*time]).value_or(undefined);
     ++found.count;
   }
@@ -201,7 +198,7 @@ StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
     const std::string in((*row)[*region]), who((*row)[*body]);
     const bool enters = (*row)[*what] == "enter";
     if (enters && removing.contains(in)) std::erase_if(inside, [&](const auto& of) { return of.second == who; });
-    if (!is_of(in, measure.things[0])) continue;
+    if (!is_named(in, measure.things[0])) continue;
     if (!enters) inside.erase({in, who});
     if (enters && !removing.contains(in)) inside.insert({in, who});
     if (!enters) continue;

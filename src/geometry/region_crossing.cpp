@@ -10,6 +10,8 @@
 #include <cmath>
 #include <vector>
 
+#include "numerics/bernstein.h"
+#include "numerics/bracketed_root.h"
 #include "numerics/compensated.h"
 
 namespace carom {
@@ -30,53 +32,6 @@ namespace {
 
 struct Stretch {
   double from, to;  // s
-};
-
-constexpr std::size_t most_degree = 2 * PolynomialPath::terms;
-
-/// A polynomial on [0, 1] in Bernstein's basis.
-struct Bernstein {
-  std::array<double, most_degree + 1> b{};
-  std::size_t degree = 0;
-
-  /// From the coefficients of powers.
-  static Bernstein of_powers(const std::array<double, most_degree + 1>& a, std::size_t degree) {
-    Bernstein to;
-    to.degree = degree;
-    for (std::size_t i = 0; i <= degree; ++i) {
-      // C(i, k) / C(degree, k)
-      double share = 1;
-      for (std::size_t k = 0; k <= i; ++k) {
-        to.b[i] += share * a[k];
-        if (k < i) share *= static_cast<double>(i - k) / static_cast<double>(degree - k);
-      }
-    }
-    return to;
-  }
-
-  int changes() const {
-    int count = 0;
-    double last = 0;
-    for (std::size_t i = 0; i <= degree; ++i) {
-      if (b[i] == 0) continue;
-      count += last != 0 && (last < 0) != (b[i] < 0);
-      last = b[i];
-    }
-    return count;
-  }
-
-  /// Leaves the left half, and returns the right half (de Casteljau).
-  Bernstein split() {
-    Bernstein right;
-    right.degree = degree;
-    Bernstein work = *this;
-    for (std::size_t level = 0; level <= degree; ++level) {
-      b[level] = work.b[0];
-      right.b[degree - level] = work.b[degree - level];
-      for (std::size_t i = 0; i + level < degree; ++i) work.b[i] = 0.5 * (work.b[i] + work.b[i + 1]);
-    }
-    return right;
-  }
 };
 
 /// A condition on a centre: met where its value is below zero. It is a distance along an axis, or the squared distance
@@ -121,7 +76,7 @@ class Condition {
     const PolynomialPath::Terms terms =
         PolynomialPath::shifted(path_.displacement, in.from / path_.length, (in.to - in.from) / path_.length);
     const std::size_t count = path_.parabola ? 2 : PolynomialPath::terms;
-    std::array<double, most_degree + 1> a{};
+    std::array<double, Bernstein::most_degree + 1> a{};
     a[0] = value(in.from);
     if (!round_) {
       for (std::size_t k = 0; k < count; ++k) a[k + 1] = axes_.dot(terms[k]);
@@ -153,21 +108,10 @@ class Condition {
   bool round_;
 };
 
-/// The only root of a condition in an interval: Newton's method, with bisection where it leaves the bracket.
+/// The only root of a condition in an interval.
 double refine(const Condition& condition, const Stretch& in, bool falling) {
-  double l = in.from, r = in.to, t = l + 0.5 * (r - l), step = r - l;
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    const double value = condition.value(t);
-    if (value == 0) return t;
-    ((value > 0) == falling ? l : r) = t;
-    const double newton = t - value / condition.slope(t);
-    double next = newton;
-    if (!(newton > l && newton < r) || std::abs(newton - t) > 0.5 * std::abs(step)) next = l + 0.5 * (r - l);
-    step = next - t;
-    if (next == t || next == l || next == r) return next;
-    t = next;
-  }
-  return t;
+  return bracketed_root([&](double t) { return condition.value(t); }, [&](double t) { return condition.slope(t); },
+                        in.from, in.to, falling);
 }
 
 /// Appends the roots of a condition in an interval at which its sign changes, in order.

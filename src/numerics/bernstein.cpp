@@ -1,69 +1,71 @@
-// Isolates roots by halving until one change of sign is left, then bisects. An interval of 2^-52 counts as a root.
+// Isolates roots by halving. An interval of 2^-52 with a change of sign counts as a root.
 #include "numerics/bernstein.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace carom {
 namespace {
 
 constexpr int most_halvings = 52;
 
-/// The Bernstein coefficients on [0, 1] of a polynomial in powers of s.
-std::vector<double> bernstein_form(std::span<const double> power) {
-  const std::size_t n = power.size();
-  std::vector<double> form(power.begin(), power.end());
-  // b_i = sum_k C(i, k) / C(n, k) c_k, by differences: first c_k / C(n, k), then sums.
-  double choose = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    form[k] /= choose;
-    choose = choose * static_cast<double>(n - 1 - k) / static_cast<double>(k + 1);
-  }
-  for (std::size_t round = 1; round < n; ++round)
-    for (std::size_t i = n; i-- > round;) form[i] += form[i - 1];
-  return form;
-}
-
-int changes_of_sign(const std::vector<double>& form) {
-  int changes = 0;
-  double last = 0;
-  for (const double b : form) {
-    if (b == 0) continue;
-    changes += last != 0 && (b < 0) != (last < 0);
-    last = b;
-  }
-  return changes;
-}
-
-/// The two halves of an interval (de Casteljau).
-void halve(const std::vector<double>& form, std::vector<double>& left, std::vector<double>& right) {
-  const std::size_t n = form.size();
-  right = form;
-  left.resize(n);
-  for (std::size_t round = 0; round < n; ++round) {
-    left[round] = right[0];
-    for (std::size_t i = 0; i + 1 + round < n; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
-  }
-}
-
-void isolate(const std::vector<double>& form, double from, double length, int halvings, std::vector<double>& roots) {
-  if (changes_of_sign(form) == 0) return;
+void isolate(Bernstein& f, double from, double length, int halvings, std::vector<double>& roots) {
+  if (f.changes() == 0) return;
   if (halvings == most_halvings) {
     roots.push_back(from);
     return;
   }
-  std::vector<double> left, right;
-  halve(form, left, right);
-  isolate(left, from, 0.5 * length, halvings + 1, roots);
-  if (right.front() == 0) roots.push_back(from + 0.5 * length);
+  Bernstein right = f.split();
+  isolate(f, from, 0.5 * length, halvings + 1, roots);
+  if (right.b[0] == 0) roots.push_back(from + 0.5 * length);
   isolate(right, from + 0.5 * length, 0.5 * length, halvings + 1, roots);
 }
 
 }  // namespace
 
+Bernstein Bernstein::of_powers(const std::array<double, most_degree + 1>& a, std::size_t degree) {
+  Bernstein to;
+  to.degree = degree;
+  for (std::size_t i = 0; i <= degree; ++i) {
+    // C(i, k) / C(degree, k)
+    double share = 1;
+    for (std::size_t k = 0; k <= i; ++k) {
+      to.b[i] += share * a[k];
+      if (k < i) share *= static_cast<double>(i - k) / static_cast<double>(degree - k);
+    }
+  }
+  return to;
+}
+
+int Bernstein::changes() const {
+  int count = 0;
+  double last = 0;
+  for (std::size_t i = 0; i <= degree; ++i) {
+    if (b[i] == 0) continue;
+    count += last != 0 && (last < 0) != (b[i] < 0);
+    last = b[i];
+  }
+  return count;
+}
+
+Bernstein Bernstein::split() {
+  Bernstein right;
+  right.degree = degree;
+  Bernstein work = *this;
+  for (std::size_t level = 0; level <= degree; ++level) {
+    b[level] = work.b[0];
+    right.b[degree - level] = work.b[degree - level];
+    for (std::size_t i = 0; i + level < degree; ++i) work.b[i] = 0.5 * (work.b[i] + work.b[i + 1]);
+  }
+  return right;
+}
+
 std::vector<double> roots_in_unit(std::span<const double> coefficients) {
   std::vector<double> roots;
-  if (coefficients.size() > 1) isolate(bernstein_form(coefficients), 0, 1, 0, roots);
+  if (coefficients.size() < 2) return roots;
+  std::array<double, Bernstein::most_degree + 1> powers{};
+  std::copy(coefficients.begin(), coefficients.end(), powers.begin());
+  Bernstein f = Bernstein::of_powers(powers, coefficients.size() - 1);
+  isolate(f, 0, 1, 0, roots);
   std::erase_if(roots, [](double s) { return !(s > 0 && s < 1); });
   roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
   return roots;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/bracketed_root.h"
+
 #include "numerics/compensated.h"
 
 namespace carom {
@@ -26,22 +28,8 @@ Polynomial Polynomial::derivative() const {
 namespace {
 
 /// The root of f between l and r, where f is monotone, and f(l) and f(r) differ in sign.
-/// The method is Newton's. Bisection replaces a step that leaves the bracket or is more than half the step before.
 double refine(const Polynomial& f, const Polynomial& df, double l, double r, bool falling) {
-  double t = l + 0.5 * (r - l);
-  double step = r - l;
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    const double value = f(t);
-    if (value == 0) return t;
-    ((value > 0) == falling ? l : r) = t;
-    const double newton = t - value / df(t);
-    double next = newton;
-    if (!(newton > l && newton < r) || std::abs(newton - t) > 0.5 * std::abs(step)) next = l + 0.5 * (r - l);
-    step = next - t;
-    if (next == t || next == l || next == r) return next;
-    t = next;
-  }
-  return t;
+  return bracketed_root(f, df, l, r, falling);
 }
 
 /// Roots in closed form, with a discriminant free of cancellation. False: products would underflow or overflow.

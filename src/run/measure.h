@@ -92,12 +92,12 @@ double formula_value(const Measure& measure, std::span<const double> parts);
 
 bool compares(double value, Relation relation, double limit);
 
-/// Whether a collision is one of the things of hits(a, b) or hits(a). has(name, first): whether the name has the first
-/// of the two that collided, or the second.
+/// Whether a collision is one of hits(a, b), or of hits(a) for one name. has(number, first): whether the name of this
+/// number has the first of the two that collided, or the second.
 template <typename Has>
-bool meet(const std::vector<std::string>& things, const Has& has) {
-  if (things.size() == 1) return has(things[0], true) || has(things[0], false);
-  return (has(things[0], true) && has(things[1], false)) || (has(things[0], false) && has(things[1], true));
+bool meet(std::size_t names, const Has& has) {
+  if (names == 1) return has(0, true) || has(0, false);
+  return (has(0, true) && has(1, false)) || (has(0, false) && has(1, true));
 }
 
 /// A readable label: "energy lost (J)", "balls.red speed (m/s)".

@@ -33,11 +33,6 @@ EntityRange member_of(const BodyRange& range, std::string_view number, const Mea
   return {range.first + member, 1};
 }
 
-/// Whether a fixed thing's name is `name`, or that of one of several: room.x_min, posts.3.
-bool is_of(std::string_view fixed, std::string_view name) {
-  return fixed == name || (fixed.size() > name.size() && fixed.starts_with(name) && fixed[name.size()] == '.');
-}
-
 }  // namespace
 
 std::string near_name(std::string_view word, const std::vector<std::string_view>& names) {
@@ -45,10 +40,14 @@ std::string near_name(std::string_view word, const std::vector<std::string_view>
   return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
 }
 
+bool is_named(std::string_view thing, std::string_view name) {
+  return thing == name || (thing.size() > name.size() && thing.starts_with(name) && thing[name.size()] == '.');
+}
+
 EntityRange bodies_of(const Measure& measure, const Scene& scene) {
   if (measure.kind.empty()) return {0, scene.world.body_count()};
   const bool groups = measure.kind == "groups";
-  const auto fits = [&](const BodyRange& range) { return range.group == groups && is_of(range.name, measure.body); };
+  const auto fits = [&](const BodyRange& range) { return range.group == groups && is_named(range.name, measure.body); };
   // A name stands for one thing, or for all members of a repeated one, which follow one another.
   EntityRange bodies;
   bool found = false;
@@ -81,12 +80,12 @@ std::vector<EntityRange> things_named(std::string_view name, const Measure& meas
   std::vector<std::string_view> names;
   for (const BodyRange& range : scene.roster.bodies) {
     names.push_back(range.name);
-    if (is_of(range.name, name)) things.push_back({range.first, range.count});
+    if (is_named(range.name, name)) things.push_back({range.first, range.count});
   }
   for (std::size_t k = 0; k < scene.roster.fixed.size(); ++k) {
     const std::string_view fixed = scene.roster.fixed[k].name;
     names.push_back(fixed);
-    if (is_of(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
+    if (is_named(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
   }
   if (!things.empty()) return things;
   const std::size_t dot = name.rfind('.');
@@ -103,7 +102,7 @@ std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& sc
   std::vector<std::string_view> names;
   for (std::uint32_t r = 0; r < scene.roster.regions.size(); ++r) {
     names.push_back(scene.roster.regions[r]);
-    if (is_of(scene.roster.regions[r], name)) regions.push_back(r);
+    if (is_named(scene.roster.regions[r], name)) regions.push_back(r);
   }
   if (regions.empty())
     throw MeasureError(fmt::format("{}: no region is named {}{}", in_backticks(measure.name), in_backticks(name),

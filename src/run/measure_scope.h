@@ -19,6 +19,9 @@ struct EntityRange {
 /// "; did you mean `red`?", or empty.
 std::string near_name(std::string_view word, const std::vector<std::string_view>& names);
 
+/// Whether a thing has this name, or is one of several that have it: gas.3, room.x_min, posts.2.
+bool is_named(std::string_view thing, std::string_view name);
+
 /// The bodies of a measure of a quantity: one, the members of a group, or all. Throws MeasureError.
 EntityRange bodies_of(const Measure& measure, const Scene& scene);
 

@@ -49,7 +49,6 @@ Measuring::Measuring(const Scene& scene, std::vector<Measure> measures)
 void Measuring::prepare(const Measure& measure) {
   for (const Measure& part : measure.parts) prepare(part);
   check_names(measure, scene_);
-  if (measure.form == MeasureForm::at_end || measure.form == MeasureForm::count) bodies_of(measure, scene_);
   if (is_extreme(measure.form)) {
     const WatchedQuantity watched = watched_by(measure, scene_);
     if (std::find(watched_.begin(), watched_.end(), watched) == watched_.end()) watched_.push_back(watched);
@@ -79,10 +78,10 @@ void Measuring::record(std::span<const Collision> collisions, std::span<const Re
   for (Meeting& meeting : meetings_) {
     for (const Collision& c : collisions) {
       if (c.kind == CollisionKind::rest) continue;
-      const auto has = [&](const std::string& name, bool first) {
-        return any_has(name == meeting.things[0] ? meeting.a : meeting.b, first ? c.a : c.b);
+      const auto has = [&](std::size_t name, bool first) {
+        return any_has(name == 0 ? meeting.a : meeting.b, first ? c.a : c.b);
       };
-      if (!meet(meeting.things, has)) continue;
+      if (!meet(meeting.things.size(), has)) continue;
       if (meeting.count == 0) meeting.first = c.time;
       ++meeting.count;
     }
