@@ -16,6 +16,7 @@
 #include "commands/scene_outcome.h"
 #include "commands/text.h"
 #include "commands/volumes.h"
+#include "export/tables.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"
@@ -241,9 +242,7 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
 
 Json collision_json(const Scene& scene, const Collision& c) {
   return {{"time_s", c.time},
-          {"kind", c.kind == CollisionKind::body_fixed ? "body-fixed"
-                   : c.kind == CollisionKind::merge    ? "merge"
-                                                       : "body-body"},
+          {"kind", name_of(c.kind)},
           {"a", scene.roster.name(c.a)},
           {"b", scene.roster.name(c.b)},
           {"x_m", c.position.x()},

@@ -64,13 +64,15 @@ std::string_view name_of(CollisionKind kind) {
       return "rest";
     case CollisionKind::merge:
       return "merge";
+    case CollisionKind::string:
+      return "string";
   }
   return "";
 }
 
 std::optional<CollisionKind> collision_kind_named(std::string_view name) {
-  for (const CollisionKind kind :
-       {CollisionKind::body_body, CollisionKind::body_fixed, CollisionKind::rest, CollisionKind::merge})
+  for (const CollisionKind kind : {CollisionKind::body_body, CollisionKind::body_fixed, CollisionKind::rest,
+                                   CollisionKind::merge, CollisionKind::string})
     if (name_of(kind) == name) return kind;
   return std::nullopt;
 }

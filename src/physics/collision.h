@@ -11,14 +11,15 @@ enum class CollisionKind : std::uint8_t {
   body_body,   // two bodies struck each other
   body_fixed,  // a body struck a fixed surface
   rest,        // a body's bounces on a surface ended; from here on it rests or slides
-  merge        // two bodies became one
+  merge,       // two bodies became one
+  string       // a string went taut; a: its body, b: the string
 };
 
 struct Collision {
   double time;  // s
   CollisionKind kind;
   Entity a;                 // the body with the lower number, or the only one
-  Entity b;                 // the other body, or the fixed surface
+  Entity b;                 // the other body, the fixed surface or the string
   Vec3 position;            // m, the point of contact
   Vec3 normal;              // unit, from a to b
   double approach_speed;    // m/s, along the normal, > 0: approaching

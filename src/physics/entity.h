@@ -5,7 +5,8 @@
 
 namespace carom {
 
-/// A body or a fixed thing, by number. Bodies have the numbers 0 .. body_count()-1. Planes, walls and obstacles follow.
+/// A body or a fixed thing, by number. Bodies have the numbers 0 .. body_count()-1. Planes, walls, obstacles
+/// and strings follow.
 using Entity = std::uint32_t;
 inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
 

@@ -39,6 +39,17 @@ struct Obstacle {
   std::optional<double> restitution;  // none: the moving body's
 };
 
+/// An inextensible, massless string between the centres of two bodies, or of a body and a fixed point. It is slack
+/// while the distance is below its length; where it goes taut is an impact. A rod holds the distance both ways.
+struct String {
+  Entity body;                 // the tied body
+  Entity other = no_entity;    // the other body; none: the anchor holds the other end
+  Vec3 anchor = Vec3::Zero();  // m, fixed
+  double length = 0;           // m, > 0
+  double restitution = 0;      // of the impact where it goes taut, >= 0
+  bool rod = false;
+};
+
 /// A force in a window of time, on some bodies or on all.
 struct Force {
   ForceLaw law;
@@ -73,16 +84,19 @@ struct World {
   Combine combine = Combine::average;
   std::vector<PairRestitution> pairs;  // the last match counts
   std::vector<WorldRegion> regions;
+  std::vector<String> strings;
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
   bool is_body(Entity e) const { return e < body_count(); }
   bool is_plane(Entity e) const { return e >= body_count() && e - body_count() < planes.size(); }
   bool is_wall(Entity e) const { return e >= walls_from() && e < obstacles_from(); }
-  bool is_obstacle(Entity e) const { return e >= obstacles_from(); }
+  bool is_obstacle(Entity e) const { return e >= obstacles_from() && e < strings_from(); }
+  bool is_string(Entity e) const { return e >= strings_from() && e - strings_from() < strings.size(); }
   const Plane& plane(Entity e) const { return planes[e - body_count()]; }
   const Wall& wall(Entity e) const { return walls[e - walls_from()]; }
   const Obstacle& obstacle(Entity e) const { return obstacles[e - obstacles_from()]; }
+  const String& string(Entity e) const { return strings[e - strings_from()]; }
 
   /// The volume of a body or an obstacle.
   Volume volume_of(Entity e) const {
@@ -101,6 +115,7 @@ struct World {
  private:
   std::size_t walls_from() const { return body_count() + planes.size(); }
   std::size_t obstacles_from() const { return walls_from() + walls.size(); }
+  std::size_t strings_from() const { return obstacles_from() + obstacles.size(); }
 };
 
 }  // namespace carom

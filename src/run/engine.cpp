@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "physics/force.h"
 #include "physics/world.h"
 #include "run/accuracy.h"
@@ -163,11 +165,12 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
 
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
                                           Recording recording, const StepChoice& steps) {
-  return makers[static_cast<std::size_t>(engine_of(world, simulate))]({world, initial, simulate, recording, steps});
+  return makers[static_cast<std::size_t>(engine_of(world, simulate))](
+      {world, initial, simulate, std::move(recording), steps});
 }
 
 std::unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording, const StepChoice& steps) {
-  return make_simulator(scene.world, scene.initial, scene.simulate, recording, steps);
+  return make_simulator(scene.world, scene.initial, scene.simulate, std::move(recording), steps);
 }
 
 void check_flights(const Scene& scene) {
