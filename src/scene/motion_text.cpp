@@ -22,7 +22,7 @@ class MotionText {
   std::string run() {
     simulate();
     const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
-                 combine, pairs, regions] = scene_.world;
+                 combine, pairs, regions, strings] = scene_.world;
     line("gravity", gravity, "combine", static_cast<int>(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
       line("pair", a_first, a_count, b_first, b_count, value);
@@ -40,6 +40,8 @@ class MotionText {
         line("motion", fixed, from, velocity, start, start_low);
     for (const Force& force : forces) write(force);
     for (const WorldRegion& region : regions) write(region);
+    for (const auto& [body, other, anchor, length, own, rod] : strings)
+      line("string", body, other, anchor, length, own, static_cast<int>(rod));
     return std::move(text_);
   }
 
