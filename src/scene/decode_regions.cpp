@@ -58,7 +58,7 @@ class Regions {
       const Key& key = regions->keys[i];
       if (inventory_.names.contains(key.text))
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
-                         "names of bodies, groups, fixed things, the room and regions are unique in a scene");
+                         "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene");
       const View view(&regions->items[i], kind_named("region"), key.place);
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
       scene_.roster.regions.push_back(key.text);

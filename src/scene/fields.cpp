@@ -36,6 +36,7 @@ constexpr Field scene_fields[] = {
     {.key = "walls", .type = Type::named, .of = "wall", .doc = "Two-sided fixed rectangles.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
     {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that face inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
     {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that no impact moves.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
+    {.key = "strings", .type = Type::named, .of = "string", .doc = "Strings and rods without mass, between bodies, or from a point to a body.", .example = "{s1: {from: [-1, 2, 0], to: crate, length: 1.5}}"},
     {.key = "regions", .type = Type::named, .of = "region", .doc = "Regions of space that the centres of bodies enter and leave. They touch nothing, and pictures do not show them.", .example = "{pocket: {radius: 0.3, position: [-6, 0, 0], action: remove}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
@@ -74,6 +75,7 @@ constexpr Field defaults_fields[] = {
     {.key = "wall", .type = Type::part, .of = "wall", .doc = "For every wall.", .example = "{size: [2, 1]}"},
     {.key = "obstacle", .type = Type::part, .of = "obstacle", .doc = "For every obstacle.", .example = "{radius: 0.1}"},
     {.key = "group", .type = Type::part, .of = "group", .doc = "For every group.", .example = "{speed: 1}"},
+    {.key = "string", .type = Type::part, .of = "string", .doc = "For every string.", .example = "{restitution: 0.2}"},
 };
 
 constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .member = fills<BodyKeys, &BodyKeys::mass>};
@@ -170,6 +172,15 @@ constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
     motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
+};
+
+constexpr Field string_fields[] = {
+    {.key = "from", .type = Type::point_or_name, .unit = "m", .needed = true, .doc = "One end: a fixed point, or the centre of a ball, body or member (gas.3).", .example = "[-1, 2, 0]", .title = "One end", .pattern = reference, .member = fills<StringKeys, &StringKeys::from>},
+    {.key = "to", .type = Type::name, .needed = true, .doc = "The other end: the centre of a ball, body or member (gas.3).", .example = "crate", .title = "The other end", .pattern = reference, .member = fills<StringKeys, &StringKeys::to>},
+    {.key = "length", .type = Type::number, .unit = "m", .range = above_0, .doc = "Greatest distance of its ends; of a rod the distance. Default: the distance at time 0.", .example = "1.5", .member = fills<StringKeys, &StringKeys::length>},
+    {.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution where the string goes taut.", .example = "0.2", .member = fills<StringKeys, &StringKeys::restitution>},
+    {.key = "rod", .type = Type::flag, .doc = "Whether it keeps its ends apart, too.", .example = "true", .title = "Rod", .member = fills<StringKeys, &StringKeys::rod>},
+    visible<StringKeys>, repeat,
 };
 
 constexpr std::string_view region_shapes = "radius|cylinder|box|plane";
@@ -305,6 +316,8 @@ constexpr Kind kinds_of_scenes[] = {
     {"room", "", "Six planes that face inward.", room_fields},
     {"obstacle", "an", "A body that no impact moves.", obstacle_fields, nullptr, "obstacle"},
     {"motion", "a", "A window of time in which a fixed thing moves.", motion_fields},
+    {"string", "a", "A string without mass that does not stretch: slack while its ends are nearer than its length.",
+     string_fields, nullptr, "string"},
     {"region", "a", "A region of space that the centres of bodies enter and leave.", region_fields},
     {"side", "", "One side of a plane.", side_fields},
     {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},

@@ -102,6 +102,15 @@ struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
   Vec3 position = Vec3(0, 0, 0);  // m
 };
 
+struct StringKeys {
+  const Node* from = nullptr;    // a point (m) or a name
+  const Node* to = nullptr;      // a name
+  std::optional<double> length;  // m; none: the distance of its ends at time 0
+  double restitution = 0;        // of the impact where it goes taut
+  bool rod = false;
+  bool visible = true;
+};
+
 struct RestitutionKeys {
   double coefficient = 1;  // of a body without one of its own
   Combine combine = Combine::average;

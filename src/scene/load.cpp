@@ -27,10 +27,16 @@ void stop_if_wrong(const Diagnostics& diagnostics, const LoadOptions& options) {
 /// The scene of a run must not be longer than a file that is read.
 void check_length(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
   if (inventory.families.empty() || scene.resolved.size() <= max_source_bytes) return;
-  const auto member = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
-                                   [](const BodyEntry& body) { return !family_of(body.key->text).empty(); });
+  std::optional<Place> where;
+  const auto look = [&](const auto& entries) {
+    for (std::size_t i = 0; i < entries.size() && !where; ++i)
+      if (!family_of(entries[i].key->text).empty()) where = entries[i].key->place;
+  };
+  look(inventory.bodies);
+  look(inventory.fixed);
+  look(inventory.strings);
   diagnostics.add(
-      member == inventory.bodies.end() ? inventory.fixed.front().key->place : member->key->place,
+      where.value_or(Place{}),
       fmt::format("with its members the scene has {} bytes; the limit is {}", scene.resolved.size(), max_source_bytes),
       "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
 }
@@ -91,9 +97,11 @@ struct SceneFile::Impl {
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
+    if (inventory.fits) decode_strings(tree, inventory, scene, diagnostics);
     decode_requests(tree, inventory, options, scene, diagnostics);
     if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
+    if (inventory.fits) decode_lengths(tree, inventory, scene, diagnostics);
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);

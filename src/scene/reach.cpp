@@ -29,6 +29,7 @@ class Reach {
       check_places(fixed_view(root_, entry), entry.key->text);
       if (entry.count == 1) check_motion(entry);
     }
+    for (const StringEntry& string : inventory_.strings) check_places(view_of_string(root_, string), string.key->text);
     for (const BodyEntry& body : inventory_.bodies) {
       if (body.count == 0) continue;
       const View view = body_view(root_, body);
@@ -39,15 +40,15 @@ class Reach {
   }
 
  private:
-  /// `view`: a body, a fixed thing or a group's box.
+  /// `view`: a body, a fixed thing, a string or a group's box.
   void check_places(const View& view, const std::string& name) {
-    for (const std::string_view key : {"position", "point", "center", "min", "max"}) {
+    for (const std::string_view key : {"position", "point", "center", "min", "max", "from"}) {
       if (find_field(view.kind(), key) == nullptr) continue;
       const std::optional<Vec3> at = view.vector(key);
       if (at)
         check_length(at->cwiseAbs().maxCoeff(), view.place(key), "{} is {} m from the origin", name, "bring it nearer");
     }
-    for (const std::string_view key : {"radius", "cylinder", "box", "size"}) {
+    for (const std::string_view key : {"radius", "cylinder", "box", "size", "length"}) {
       if (find_field(view.kind(), key) == nullptr || view.find(key) == nullptr) continue;
       check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m in size", name, "make it smaller");
     }

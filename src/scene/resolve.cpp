@@ -62,6 +62,7 @@ class Resolver {
       if (key.text == "walls") fixed("walls", "wall");
       if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
+    strings();
     regions();
     forces();
     simulate();
@@ -170,6 +171,18 @@ class Resolver {
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(known.mesh, overrides);
     return flow(view, overrides);
+  }
+
+  void strings() {
+    if (root_.find("strings") == nullptr) return;
+    heading("strings", root_.find("strings")->items.empty());
+    for (std::size_t i = 0; i < inventory_.strings.size(); ++i) {
+      const View view = view_of_string(root_, inventory_.strings[i]);
+      Overrides overrides;
+      if (view.find("length") == nullptr) overrides["length"] = shortest(scene_.world.strings[i].length);
+      entry(inventory_.strings[i].key->text, flow(view, overrides));
+    }
+    without_members("strings", "string");
   }
 
   void regions() {

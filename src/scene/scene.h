@@ -61,13 +61,14 @@ struct FixedName {
   std::optional<MeshUse> mesh = std::nullopt;  // only of an obstacle
 };
 
-/// The names of bodies and fixed things, in the order of the file. Every output has this order.
+/// The names of bodies, fixed things and strings, in the order of the file. Every output has this order.
 struct Roster {
   std::vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
   std::vector<FixedName> fixed;
+  std::vector<std::string> strings;              // by number in World::strings
   std::vector<std::string> regions;              // by number in World::regions
-  std::string name(Entity e) const;              // "red", "gas.17", "lane"
+  std::string name(Entity e) const;              // "red", "gas.17", "lane", "s1"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
 
