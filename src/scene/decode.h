@@ -38,6 +38,9 @@ struct FixedEntry {
   Entity count = 1;  // six for a room
 };
 
+/// Share of the coordinates: a smaller region, or a shorter string, is lost in the rounding of positions.
+inline constexpr double smallest_share = 0x1p-40;
+
 /// One string, in the order of the file.
 struct StringEntry {
   const Key* key;

@@ -14,9 +14,6 @@
 namespace carom {
 namespace {
 
-/// Share of the coordinates: a region with a smaller size is lost in the rounding of positions.
-constexpr double smallest_share = 0x1p-40;
-
 std::optional<Volume> volume_of(const RegionKeys& region) {
   if (region.radius) return Volume::sphere(*region.radius);
   if (region.box) return Volume::box(*region.box);

@@ -14,12 +14,9 @@
 namespace carom {
 namespace {
 
-/// Share of the coordinates: a shorter string is lost in the rounding of positions.
-constexpr double smallest_share = 0x1p-40;
-
 /// Share of coordinates and length: places and lengths are rounded, and so are the expressions that they come from.
 /// Ends whose distance differs from the length by less are as far apart as the string is long.
-constexpr double rounding_of_places = 0x1p-48;
+constexpr double rounding_of_lengths = 0x1p-48;
 
 constexpr std::string_view good_end = "expected a ball, a body or a member (gas.3)";
 
@@ -113,7 +110,7 @@ class Lengths {
           "doubles do not resolve it there: bring it nearer, or make it longer");
       return;
     }
-    if (std::fabs(distance - length) <= rounding_of_places * (far + length)) {
+    if (std::fabs(distance - length) <= rounding_of_lengths * (far + length)) {
       string.length = distance;
     } else if (distance > length || string.rod) {
       diagnostics_.add(view.place("length"),
