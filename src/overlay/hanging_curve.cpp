@@ -12,7 +12,7 @@ namespace {
 
 constexpr double most_strokes = 64;
 /// Of the length: ends so near to one vertical line that the rope hangs down double.
-constexpr double least_width = 1e-9;
+constexpr double least_gap = 1e-9;
 
 /// x > 0 with sinh(x) / x = q > 1. The start lies above it, and Newton's method then descends to it.
 double inverse_of_sinh_ratio(double q) {
@@ -35,7 +35,7 @@ std::vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length,
   const double rise = -way.dot(down);
   const Vec3 level = way + rise * down;
   const double width = level.norm();
-  if (!(width > least_width * length)) return {from + (length - rise) / 2 * down, to};
+  if (!(width > least_gap * length)) return {from + (length - rise) / 2 * down, to};
   const double ratio = std::sqrt((length - rise) * (length + rise)) / width;
   if (!(ratio > 1)) return {to};
   const double x = inverse_of_sinh_ratio(ratio);

@@ -129,6 +129,17 @@ output: {regions: true, trajectory: {every: 0.1}}
 )",
           R"(
 scene: 1
+defaults: {string: {length: 4}}
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= i', 3, 0]}}
+planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
+strings:
+  line: {from: [0, 4, 0], to: red, length: 3, restitution: 0.5, visible: false}
+  bar: {from: red, to: row.0, length: 2, rod: true}
+  nets: {repeat: 2, from: ['= i', 6, 0], to: 'row.{i}'}
+simulate: {duration: 1}
+)",
+          R"(
+scene: 1
 title: Balls
 seed: 3
 gravity: [0, -1, 0]
