@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-constexpr Size size{1280, 720};
+constexpr Size of_picture{1280, 720};
 const Vec3 down = -Vec3::UnitY();
 
 TEST(HangingCurve, IsACatenary) {
@@ -76,18 +76,18 @@ TEST(HangingCurve, KeepsItsLengthInEveryShape) {
     }
 }
 
-const std::string things =
+const std::string two_balls =
     "scene: 1\nsimulate: {duration: 9}\nbackground: black\noutput: {frames: true}\n"
     "balls:\n  red: {mass: 2, radius: 0.1, position: [0, 0, 0]}\n  blue: {mass: 2, radius: 0.2, position: [1, 0, 0]}\n"
     "camera: {eye: [0, 0, 5], target: [0, 0, 0]}\n";
 
 std::vector<Stroke> strokes_of(const Scene& scene, const State& state) {
   const History history(scene, picture_needs(scene));
-  return DrawingMaker(scene, history, size).at(state, *scene.camera).strokes;
+  return DrawingMaker(scene, history, of_picture).at(state, *scene.camera).strokes;
 }
 
 TEST(Strings, AreDrawnBetweenTheirEndsUnlessHidden) {
-  const Scene scene = load_text(things +
+  const Scene scene = load_text(two_balls +
                                 "strings:\n"
                                 "  line: {from: [0, 1, 0], to: red}\n"
                                 "  bar: {from: blue, to: red, rod: true}\n"
@@ -102,12 +102,12 @@ TEST(Strings, AreDrawnBetweenTheirEndsUnlessHidden) {
 }
 
 TEST(Strings, HangWhenSlack) {
-  const Scene scene = load_text(things + "strings: {line: {from: blue, to: red, length: 3}}\n");
+  const Scene scene = load_text(two_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
   const std::vector<Stroke> strokes = strokes_of(scene, scene.initial);
   ASSERT_GT(strokes.size(), 4u);
   double length = 0, lowest = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    if (i > 0) EXPECT_EQ(strokes[i].from, strokes[i - 1].to);
+    EXPECT_EQ(strokes[i].from, i > 0 ? strokes[i - 1].to : Vec3(0, 0, 0));
     length += (strokes[i].to - strokes[i].from).norm();
     lowest = std::min(lowest, strokes[i].to.y());
   }
@@ -116,14 +116,14 @@ TEST(Strings, HangWhenSlack) {
 }
 
 TEST(Strings, OfBodiesThatAreGoneAreNotDrawn) {
-  const Scene scene = load_text(things + "strings: {line: {from: blue, to: red, length: 3}}\n");
+  const Scene scene = load_text(two_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
   State state = scene.initial;
   state.part_of = {0, no_entity};
   EXPECT_TRUE(strokes_of(scene, state).empty());
 }
 
 TEST(Strings, CountForTheCollisionsOfBothBodies) {
-  const Scene scene = load_text(things +
+  const Scene scene = load_text(two_balls +
                                 "strings: {line: {from: blue, to: red, length: 3}}\nflash: true\n"
                                 "defaults: {ball: {color: {by: collisions}}}\n");
   History history(scene, picture_needs(scene));

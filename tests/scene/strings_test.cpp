@@ -125,30 +125,30 @@ TEST(Strings, CurveThePaths) {
 
 TEST(StringErrors, NameThePlaceAndTheRemedy) {
   EXPECT_EQ(errors_of(with("{from: [0, 4, 0], to: red, length: 2.5}")),
-            "scene.yaml:8:38: error: `s` is 2.5 m long, but its ends are 3 m apart at time 0\n"
+            "scene.yaml:8:41: error: `s` is 2.5 m long, but its ends are 3 m apart at time 0\n"
             "   8 |   s: {from: [0, 4, 0], to: red, length: 2.5}\n"
-            "     |                                         ^\n"
+            "     |                                         ^~~\n"
             "     = expected a length of at least that distance; without `length` it is the distance\n");
   EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: 3.5, rod: true}"),
-            "scene.yaml:8:38: error: `s` is 3.5 m long, but its ends are 3 m apart at time 0");
+            "scene.yaml:8:41: error: `s` is 3.5 m long, but its ends are 3 m apart at time 0");
   EXPECT_EQ(remedy("{from: [0, 4, 0], to: red, length: 3.5, rod: true}"),
             "the ends of a rod are as far apart as it is long: leave out `length`, or move an end");
-  EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: 0}"), "scene.yaml:8:38: error: `length` is 0");
-  EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: -1}"), "scene.yaml:8:38: error: `length` is -1");
-  EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, restitution: -1}"), "scene.yaml:8:43: error: `restitution` is -1");
+  EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: 0}"), "scene.yaml:8:41: error: `length` is 0");
+  EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: -1}"), "scene.yaml:8:41: error: `length` is -1");
+  EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, restitution: -1}"), "scene.yaml:8:46: error: `restitution` is -1");
   EXPECT_EQ(first_error("{from: [0, 1, 0], to: red}"),
             "scene.yaml:8:3: error: the ends of `s` are at the same point at time 0");
   EXPECT_EQ(remedy("{from: [0, 1, 0], to: red}"), "expected `length`: a number above 0 in m");
   EXPECT_EQ(errors_of(with("{from: [0, 1, 0], to: red, length: 1}")), "");
   EXPECT_EQ(first_error("{from: [1e9, 1, 0], to: red, length: 1e-4}"),
-            "scene.yaml:8:40: error: `s` is 0.0001 m long and 1000000000 m from the origin");
+            "scene.yaml:8:43: error: `s` is 1e-04 m long and 1e+09 m from the origin");
   EXPECT_EQ(first_error("{from: [0, 4e13, 0], to: red}"),
-            "scene.yaml:8:13: error: `s` is 40000000000000 m from the origin, more than 1e+12 times the smallest "
+            "scene.yaml:8:13: error: `s` is 4e+13 m from the origin, more than 1e+12 times the smallest "
             "size, 0.1 m");
 }
 
 TEST(StringErrors, OfTheEnds) {
-  EXPECT_EQ(first_error("{from: red, to: red}"), "scene.yaml:8:19: error: `red` is tied to itself");
+  EXPECT_EQ(first_error("{from: red, to: red}"), "scene.yaml:8:22: error: `red` is tied to itself");
   EXPECT_EQ(first_error("{from: rde, to: red}"), "scene.yaml:8:13: error: nothing is named `rde`");
   EXPECT_EQ(remedy("{from: rde, to: red}"), "did you mean `red`?");
   EXPECT_EQ(first_error("{from: floor, to: red}"),
@@ -157,15 +157,15 @@ TEST(StringErrors, OfTheEnds) {
             "expected a ball, a body or a member (gas.3); a fixed end is a point: `from: [x, y, z]`");
   EXPECT_EQ(first_error("{from: s, to: red}"), "scene.yaml:8:13: error: `s` is a string: no string is tied to it");
   EXPECT_EQ(first_error("{from: red, to: gas}"),
-            "scene.yaml:8:19: error: `gas` has 3 bodies: a string has one at each end");
+            "scene.yaml:8:22: error: `gas` has 3 bodies: a string has one at each end");
   EXPECT_EQ(remedy("{from: red, to: gas}"),
             "expected one of them, such as gas.0; for a string to each `repeat`, and 'gas.{i}'");
-  EXPECT_EQ(first_error("{from: red, to: [0, 1, 0]}"), "scene.yaml:8:19: error: `to` is a list");
+  EXPECT_EQ(first_error("{from: red, to: [0, 1, 0]}"), "scene.yaml:8:22: error: `to` is a list");
   EXPECT_EQ(first_error("{from: [0, 1], to: red}"), "scene.yaml:8:13: error: `from` has 2 numbers");
   EXPECT_EQ(first_error("{to: red}"), "scene.yaml:8:3: error: string `s` has no `from`");
   EXPECT_EQ(first_error("{from: [0, 4, 0]}"), "scene.yaml:8:3: error: string `s` has no `to`");
   EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, color: red}").substr(0, 58),
-            "scene.yaml:8:30: error: unknown key `color` in string `s`");
+            "scene.yaml:8:33: error: unknown key `color` in string `s`");
 }
 
 TEST(StringErrors, OfNamesAreReportedWhereverTheyAreUsed) {
@@ -196,7 +196,7 @@ TEST(StringErrors, OfOtherThingsDoNotHideThem) {
                                     "strings: {s: {from: [0, 4, 0], to: red, length: 1}}\n"
                                     "walls: {fence: {center: [20, 1, 0], normal: [1, 0, 0], size: [1, x]}}\n");
   EXPECT_NE(all.find("`s` is 1 m long"), std::string::npos) << all;
-  EXPECT_NE(all.find("2 errors"), std::string::npos) << all;
+  EXPECT_NE(all.find("`x` is not a number"), std::string::npos) << all;
 }
 
 }  // namespace
