@@ -76,7 +76,7 @@ TEST(HangingCurve, KeepsItsLengthInEveryShape) {
     }
 }
 
-const std::string two_balls =
+const std::string tied_balls =
     "scene: 1\nsimulate: {duration: 9}\nbackground: black\noutput: {frames: true}\n"
     "balls:\n  red: {mass: 2, radius: 0.1, position: [0, 0, 0]}\n  blue: {mass: 2, radius: 0.2, position: [1, 0, 0]}\n"
     "camera: {eye: [0, 0, 5], target: [0, 0, 0]}\n";
@@ -87,7 +87,7 @@ std::vector<Stroke> strokes_of(const Scene& scene, const State& state) {
 }
 
 TEST(Strings, AreDrawnBetweenTheirEndsUnlessHidden) {
-  const Scene scene = load_text(two_balls +
+  const Scene scene = load_text(tied_balls +
                                 "strings:\n"
                                 "  line: {from: [0, 1, 0], to: red}\n"
                                 "  bar: {from: blue, to: red, rod: true}\n"
@@ -102,7 +102,7 @@ TEST(Strings, AreDrawnBetweenTheirEndsUnlessHidden) {
 }
 
 TEST(Strings, HangWhenSlack) {
-  const Scene scene = load_text(two_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
+  const Scene scene = load_text(tied_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
   const std::vector<Stroke> strokes = strokes_of(scene, scene.initial);
   ASSERT_GT(strokes.size(), 4u);
   double length = 0, lowest = 0;
@@ -116,14 +116,14 @@ TEST(Strings, HangWhenSlack) {
 }
 
 TEST(Strings, OfBodiesThatAreGoneAreNotDrawn) {
-  const Scene scene = load_text(two_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
+  const Scene scene = load_text(tied_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
   State state = scene.initial;
   state.part_of = {0, no_entity};
   EXPECT_TRUE(strokes_of(scene, state).empty());
 }
 
 TEST(Strings, CountForTheCollisionsOfBothBodies) {
-  const Scene scene = load_text(two_balls +
+  const Scene scene = load_text(tied_balls +
                                 "strings: {line: {from: blue, to: red, length: 3}}\nflash: true\n"
                                 "defaults: {ball: {color: {by: collisions}}}\n");
   History history(scene, picture_needs(scene));
