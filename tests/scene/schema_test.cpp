@@ -118,6 +118,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"but `from` is", "two numbers against one another"},
       {"times the smallest size", "how far and how fast things are against how small they are"},
       {"the limit is", "how much a run may write, which --force lifts"},
+      {"not for `strings`", "what an engine can do depends on forces, volumes and strings together"},
       {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
       {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
       {"a contact sheet of", "how many pictures a size holds"},

@@ -129,12 +129,13 @@ output: {regions: true, trajectory: {every: 0.1}}
 )",
           R"(
 scene: 1
-defaults: {string: {length: 4}}
-balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= i', 3, 0]}}
+defaults: {string: {restitution: 0.5}}
+balls: {text: {mass: 1, radius: 0.1, position: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= 1 + i', 2, 3]}}
 planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
 strings:
-  line: {from: [0, 4, 0], to: red, length: 3, restitution: 0.5, visible: false}
-  bar: {from: red, to: row.0, length: 2, rod: true}
+  bar: {from: text, to: row.0, rod: true}
+  line: {from: [0, 4, 0], to: text, length: 9, restitution: 0.5, visible: false}
+  rope: {from: [0, 4, 0], to: text}
   nets: {repeat: 2, from: ['= i', 6, 0], to: 'row.{i}'}
 simulate: {duration: 1}
 )",
