@@ -13,13 +13,13 @@ namespace carom {
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                            double speeds, std::uint8_t left, double horizon);
 
-/// First t in [0, horizon] at which the distance of two points reaches s (m) from below, on a polynomial path from d (m)
-/// on: a string of that length goes taut. just_separated: it has just been taut, and its gap is zero by definition.
+/// First t in [0, horizon] at which the distance of two points reaches s (m) from below, on a polynomial path from d
+/// (m) on: a string of that length goes taut. just_separated: it has just been taut, and its gap is zero by definition.
 double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, double length, double s, double speeds,
                  bool just_separated, double horizon);
 
-/// The first function for things at xa and xb (m) on polynomial paths. displacement: that of b less that of a (m), by t / length
-/// (s).
+/// The first function for things at xa and xb (m) on polynomial paths. displacement: that of b less that of a (m), by t
+/// / length (s).
 FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
                            const PolynomialPath::Terms& displacement, double length, double speeds, std::uint8_t left,
                            double horizon);

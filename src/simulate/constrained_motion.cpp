@@ -258,8 +258,8 @@ void ConstrainedMotion::find_strings(Step& step, std::size_t k) const {
     const Touch there = touch(bodies_.world, i, step.x[k], e, xe);
     const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
     const bool apart = there.gap > tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
-    if (!s.rod && (there.gap > bodies_.contact_gap(i, step.x[k], xe) ||
-                   group_.strikes(i, e, approach, step.greatest, apart)))
+    if (!s.rod &&
+        (there.gap > bodies_.contact_gap(i, step.x[k], xe) || group_.strikes(i, e, approach, step.greatest, apart)))
       continue;
     ContactConstraint pair{static_cast<std::uint32_t>(k), other, there.normal, -there.gap};
     pair.bilateral = s.rod;
@@ -269,8 +269,7 @@ void ConstrainedMotion::find_strings(Step& step, std::size_t k) const {
 
 void ConstrainedMotion::close_overlaps(Step& step) const {
   bool overlap = false;
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
-  {
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const double closes = p.bilateral ? std::abs(p.target) : p.target;
     overlap = overlap || closes > tol::least_overlap * bodies_.world.radius[step.contacts.names[c].i];
@@ -336,12 +335,15 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
 
 /// Pairs that separate by more than path errors are not contacts. If they return, they meet.
 void ConstrainedMotion::drop_parting(Step& step) const {
+  const World& world = bodies_.world;
   const double parting =
       std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
   step.contacts.drop_if(0, [&](std::size_t c) {
     if (step.contacts.pairs[c].bilateral) return false;
     const Vec3 w = rate(step.v, step.contacts.names[c].e) - step.v[step.contacts.pairs[c].a];
-    return step.contacts.pairs[c].normal.dot(w) > parting;
+    // Strings hold by their curvature where nothing else pulls on them.
+    const double drift = world.is_string(step.contacts.names[c].e) ? tol::drift * step.fastest : 0;
+    return step.contacts.pairs[c].normal.dot(w) > parting + drift;
   });
 }
 

@@ -27,7 +27,8 @@ class ConstrainedSystem {
   /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object.
   ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied);
 
-  /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never opens.
+  /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never
+  /// opens.
   void add(const Contact& contact, const ContactConstraint& pair);
   /// Registers a fixed thing that moves, at its position (m) and velocity (m/s) at the start, before contacts with it
   /// are added.

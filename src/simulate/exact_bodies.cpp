@@ -143,7 +143,7 @@ double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
 }
 
 double ExactBodies::load_on(Entity i) const {
-  if (world.fixed_count() == 0 && world.forces.empty()) return 0;
+  if (world.fixed_count() == 0 && world.forces.empty() && !ties.anchored()) return 0;
   return fade[i] == 0 ? applied[i].norm() : force_at(i, position(i), velocity(i)).norm();
 }
 

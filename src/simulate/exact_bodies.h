@@ -142,7 +142,8 @@ struct ExactBodies {
   double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;
 
   /// The acceleration (m/s^2) with which body i may press on others.
-  /// It is zero in common free fall, without fixed things and other forces, because gravity moves all bodies alike.
+  /// It is zero in common free fall, without fixed things, anchors and other forces, because gravity moves all bodies
+  /// alike.
   double load_on(Entity i) const;
   /// The speed (m/s) below which impacts in lasting contact do not count one by one. It is rest_speed.
   /// By default it is a share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).

@@ -147,8 +147,8 @@ void ExactGroup::join_by_strings(Entity first) {
     const String& s = world.string(string);
     if (s.body != first) continue;
     const Flight f = bodies_.flights[first];
-    const Flight other = s.other == no_entity ? Flight{{}, s.anchor, Vec3::Zero(), Vec3::Zero()}
-                                              : bodies_.flights[s.other];
+    const Flight other =
+        s.other == no_entity ? Flight{{}, s.anchor, Vec3::Zero(), Vec3::Zero()} : bodies_.flights[s.other];
     const Touch there = touch(world, first, f.x, string, other.x);
     const double rounding =
         exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + other.x.cwiseAbs().sum() + s.length);

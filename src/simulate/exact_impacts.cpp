@@ -322,9 +322,8 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   const StringImpacts::Passed* const passed =
-      bodies_.ties.any() && !rests
-          ? strings_->pass_on({i, no_entity, n, approach, met + separation, n.dot(impact.u)})
-          : nullptr;
+      bodies_.ties.any() && !rests ? strings_->pass_on({i, no_entity, n, approach, met + separation, n.dot(impact.u)})
+                                   : nullptr;
   if (approach > 0 || separation > 0) {
     const double impulse = passed ? passed->impulse : mass * (rests ? approach : met + separation);
     if (bodies_.moving.any()) bodies_.log.add_work(-impulse * n.dot(impact.u));
@@ -336,7 +335,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     if (const double left = taken_over ? 0 : met + separation - approach; met != approach)
       bodies_.log.deviate(loss(approach, left) - lost);
     Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
-                                               impact.there.point, n, met, separation, impact.e);
+                                         impact.there.point, n, met, separation, impact.e);
     if (passed) {
       collision.impulse = impulse;
       collision.energy_lost = lost;

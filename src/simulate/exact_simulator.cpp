@@ -179,8 +179,7 @@ void ExactSimulator::process(Entity i) {
     case Kind::none:
       break;
   }
-  const bool impact =
-      event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
+  const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
 }
 

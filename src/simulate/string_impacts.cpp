@@ -11,8 +11,8 @@
 #include "simulate/collapse_detector.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
-#include "simulate/flight_changes.h"
 #include "simulate/flat_contacts.h"
+#include "simulate/flight_changes.h"
 #include "simulate/stall_guard.h"
 #include "simulate/tolerances.h"
 
@@ -56,8 +56,7 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
   const auto row = [&](Entity a, Entity b, const Vec3& normal, double target) {
     return ContactConstraint{index[a], b == no_entity ? ContactConstraint::fixed : index[b], normal, target};
   };
-  std::vector<ContactConstraint> rows{
-      row(strike.a, strike.b, strike.normal, strike.change - strike.approach)};
+  std::vector<ContactConstraint> rows{row(strike.a, strike.b, strike.normal, strike.change - strike.approach)};
   rows.front().surface = strike.surface;
   for (const Entity string : strings) {
     const String& s = bodies_.world.string(string);

@@ -14,6 +14,8 @@ class Ties {
 
   /// Whether there are any. Where there are none, no other function need be called.
   bool any() const { return !of_.empty(); }
+  /// Whether one of them has an anchor.
+  bool anchored() const { return anchored_; }
   /// The strings of body i, ascending.
   std::span<const Entity> of(Entity i) const {
     return of_.empty() ? std::span<const Entity>() : std::span<const Entity>(of_[i]);
@@ -28,6 +30,7 @@ class Ties {
  private:
   const World& world_;
   std::vector<std::vector<Entity>> of_;  // by body; empty: there are none
+  bool anchored_ = false;
 };
 
 }  // namespace carom
