@@ -39,6 +39,7 @@ Volume thin_box(Shape shape, const Wall& wall, Frame& frame) {
 
 PairKind pair_kind(const World& world, Entity a, Entity b) {
   if (world.is_plane(b)) return PairKind::half_space;
+  if (world.is_string(b)) return PairKind::string;
   const Shape shape = world.volume_of(a).shape;
   if (world.is_wall(b)) {
     if (shape == Shape::sphere) return PairKind::sphere_wall;

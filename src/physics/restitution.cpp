@@ -39,6 +39,7 @@ double pair_restitution(const World& world, Entity a, Entity b) {
   const double ea = world.restitution[a];
   const double ma = world.mass[a];
   if (world.is_body(b)) return combine_restitution(world.combine, ea, ma, world.restitution[b], world.mass[b]);
+  if (world.is_string(b)) return world.string(b).restitution;
   const std::optional<double>& own = world.is_plane(b)  ? world.plane(b).restitution
                                      : world.is_wall(b) ? world.wall(b).restitution
                                                         : world.obstacle(b).restitution;

@@ -36,6 +36,7 @@ constexpr int samples = 6;
 /// The least radius of curvature of the Minkowski sum of two volumes where it is round (m).
 /// A cylinder's rim is sharp. A sphere makes it as round as the sphere.
 double bend_radius(const World& world, Entity i, Entity e) {
+  if (world.is_string(e)) return world.string(e).length;
   const auto round = [&](Shape shape) {
     double sum = 0;
     for (const Entity k : {i, e}) {
@@ -51,7 +52,8 @@ double bend_radius(const World& world, Entity i, Entity e) {
 }
 
 double smaller_radius(const World& world, const Contact& c) {
-  return world.is_body(c.e) ? std::min(world.radius[c.i], world.radius[c.e]) : world.radius[c.i];
+  const Entity second = world.second_body(c.e);
+  return second != no_entity ? std::min(world.radius[c.i], world.radius[second]) : world.radius[c.i];
 }
 
 Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
@@ -105,9 +107,10 @@ std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members,
   return of_members;
 }
 
-void ConstrainedSystem::add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal) {
+void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pair) {
   closed_.push_back(contact);
-  rows_.push_back({a, b, normal});
+  rows_.push_back({pair.a, pair.b, pair.normal});
+  rows_.back().bilateral = pair.bilateral;
 }
 
 void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
@@ -251,7 +254,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
   // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
   // opening too.
   held_ = rows_;
-  for (ContactConstraint& row : held_) row.bilateral = row.force > 0;
+  for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.force > 0;
   const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
@@ -386,7 +389,8 @@ double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   motion.at(t, x, v);
   const std::vector<Vec3> a = accelerate(x, v);
   double greatest = 0;
-  for (std::size_t c = 0; c < rows_.size(); ++c) greatest = std::max(greatest, gap_acceleration(c, a));
+  for (std::size_t c = 0; c < rows_.size(); ++c)
+    if (!rows_[c].bilateral) greatest = std::max(greatest, gap_acceleration(c, a));
   return greatest / scales_.opening;
 }
 

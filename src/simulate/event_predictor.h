@@ -1,6 +1,7 @@
 #pragma once
 // The next event of a body, the first of these:
 // - a collision with a neighbour or a fixed thing
+// - a string that goes taut
 // - the end of its bounces
 // - a rim that it slides over
 // - a force that starts or ends
@@ -40,6 +41,7 @@ class EventPredictor {
  private:
   void predict_among(Entity i, std::span<const Entity> bodies);
   void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
+  [[gnu::noinline]] void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
   void meet_each(Entity i, std::span<const Entity> others, ExactEvent& best);
   void meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best);

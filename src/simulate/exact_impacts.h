@@ -2,6 +2,8 @@
 // The effect of impacts on velocities: of two bodies, and of a body and a fixed thing. Pairs are resolved one at a
 // time.
 
+#include <memory>
+
 #include "geometry/touch.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
@@ -21,6 +23,8 @@ class FlightChanges;
 class SimultaneousImpacts;
 class StallGuard;
 
+class StringImpacts;
+
 /// The parts of the simulator that an impact changes.
 struct ImpactParts {
   CollapseDetector& collapses;
@@ -35,12 +39,15 @@ struct ImpactParts {
 
 class ExactImpacts {
  public:
-  ExactImpacts(ExactBodies& bodies, const ImpactParts& parts) : bodies_(bodies), parts_(parts) {}
+  ExactImpacts(ExactBodies& bodies, const ImpactParts& parts);
+  ~ExactImpacts();
 
   /// Bodies a < b meet at the present instant, at this feature.
   void collide_pair(Entity a, Entity b, std::uint8_t feature);
   /// Body i meets a fixed thing at the present instant.
   void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
+  /// A string goes taut at the present instant.
+  void tighten(Entity string);
 
  private:
   /// A body and a fixed thing at the instant of their impact.
@@ -72,6 +79,7 @@ class ExactImpacts {
 
   ExactBodies& bodies_;
   const ImpactParts parts_;
+  const std::unique_ptr<StringImpacts> strings_;
 };
 
 }  // namespace carom

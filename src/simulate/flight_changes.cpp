@@ -192,6 +192,10 @@ void FlightChanges::count(Entity i) {
   bodies_.body[i].version = 1;
   for (ExactBody& body : bodies_.body)
     if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
+  for (const Entity string : bodies_.ties.of(i))
+    if (const Entity other = bodies_.ties.other(string, i); other != no_entity)
+      if (ExactEvent& event = bodies_.body[other].event; event.kind == ExactEvent::Kind::string)
+        event.partner_version = 0;
 }
 
 void FlightChanges::book_stepped(Entity i, const Instant& end) {

@@ -1,0 +1,36 @@
+#pragma once
+// The strings and rods of each body. A string has one name for both of its ends: its own number.
+#include <span>
+#include <vector>
+
+#include "physics/world.h"
+
+namespace carom {
+
+class Ties {
+ public:
+  /// `world` must outlive this object.
+  explicit Ties(const World& world);
+
+  /// Whether there are any. Where there are none, no other function need be called.
+  bool any() const { return !of_.empty(); }
+  /// Whether one of them has an anchor.
+  bool anchored() const { return anchored_; }
+  /// The strings of body i, ascending.
+  std::span<const Entity> of(Entity i) const {
+    return of_.empty() ? std::span<const Entity>() : std::span<const Entity>(of_[i]);
+  }
+  /// The body at the end of a string that body i does not hold; no_entity: the anchor is there.
+  Entity other(Entity string, Entity i) const;
+  /// Whether any of these bodies has a string.
+  bool any_of(std::span<const Entity> bodies) const;
+  /// Removes the strings of body i.
+  void untie(Entity i);
+
+ private:
+  const World& world_;
+  std::vector<std::vector<Entity>> of_;  // by body; empty: there are none
+  bool anchored_ = false;
+};
+
+}  // namespace carom

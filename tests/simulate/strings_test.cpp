@@ -1,0 +1,410 @@
+// Strings and rods against closed forms: pendulums, impacts on them, chains, cradles.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "numerics/polynomial.h"
+#include "physics/force_law.h"
+#include "simulate/build.h"
+
+namespace carom {
+namespace {
+
+struct Tied : Problem {
+  Tied() { world.gravity = Vec3(0, -g_n, 0); }
+  String& anchored(Entity body, const Vec3& anchor, double length) {
+    world.strings.push_back({body, no_entity, anchor, length});
+    return world.strings.back();
+  }
+  String& between(Entity body, Entity other, double length) {
+    world.strings.push_back({body, other, Vec3::Zero(), length});
+    return world.strings.back();
+  }
+};
+
+/// The period of a pendulum (s) that swings out to `angle` (rad), by the arithmetic-geometric mean.
+double period(double length, double angle) {
+  double a = 1, b = std::cos(angle / 2);
+  for (int k = 0; k < 8; ++k) {
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return 2 * M_PI * std::sqrt(length / g_n) / a;
+}
+
+Tied pendulum(double angle, double length, bool rod = false) {
+  Tied problem;
+  const Vec3 x(length * std::sin(angle), -length * std::cos(angle), 0);
+  const Entity bob = problem.ball(x, {0, 0, 0}, 2, 0.05);
+  problem.anchored(bob, {0, 0, 0}, x.norm()).rod = rod;
+  return problem;
+}
+
+TEST(Strings, APendulumReturnsAfterThePeriodOfTheEllipticIntegral) {
+  for (const bool rod : {false, true})
+    for (const double angle : {0.01, 0.7, 1.5, M_PI / 2, 3.0}) {
+      if (!rod && angle > M_PI / 2) continue;
+      Tied problem = pendulum(angle, 1.25, rod);
+      const double length = problem.world.strings[0].length, whole = period(length, angle);
+      problem.options.duration = 10 * whole;
+      const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+      for (int k = 1; k <= 10; ++k) {
+        go_to(*simulator, k * whole);
+        const State& state = simulator->state();
+        EXPECT_LT((state.position[0] - problem.initial.position[0]).norm(), 1e-12 * k) << angle << " " << k;
+        // Velocities are read off between two points of the path.
+        EXPECT_LT(state.velocity[0].norm(), 1e-9) << angle << " " << k;  // measured: 2.4e-10
+      }
+      EXPECT_EQ(simulator->tally().collisions(), 0u);
+      EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-11);
+    }
+}
+
+TEST(Strings, ASlackStringHoldsNothingAndGoesTautAtTheTimeOfTheClosedForm) {
+  // Falls by h, until the string of length L is straight; e = 0: hangs.
+  Tied problem;
+  const Entity bob = problem.ball({0.3, 0, 0.4}, {0, 0, 0}, 2, 0.05);
+  problem.anchored(bob, {0, 0, 0}, 1.3);
+  problem.options.duration = 1;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 1u);
+  const Collision& taut = run.collisions[0];
+  const double drop = std::sqrt(1.3 * 1.3 - 0.25), at = std::sqrt(2 * drop / g_n), v = g_n * at;
+  EXPECT_EQ(taut.kind, CollisionKind::string);
+  EXPECT_NEAR(taut.time, at, 1e-15);
+  EXPECT_NEAR(taut.approach_speed, v * drop / 1.3, 1e-14);
+  EXPECT_EQ(taut.separation_speed, 0);
+  EXPECT_NEAR(taut.impulse, 2 * v * drop / 1.3, 1e-14);
+  EXPECT_NEAR(taut.energy_lost, std::pow(v * drop / 1.3, 2), 1e-13);
+  EXPECT_LT((taut.normal - Vec3(0.3, -drop, 0.4) / 1.3).norm(), 1e-15);
+  EXPECT_NEAR(run.end.position[0].norm(), 1.3, 1e-12);
+  EXPECT_NEAR(residual(problem, run), 0, 1e-11);
+}
+
+TEST(Strings, ABallInASlackSphereOfStringBouncesByItsRestitution) {
+  Tied problem;
+  problem.world.gravity.setZero();
+  const Entity bob = problem.ball({0.6, 0, 0}, {0, 2, 0}, 2, 0.05);
+  problem.anchored(bob, {0, 0, 0}, 1).restitution = 1;
+  problem.options.duration = 0.4 + 10.5 * 0.8;
+  const Outcome run = run_exact(problem);
+  EXPECT_EQ(run.collisions.size(), 11u);
+  EXPECT_NEAR(run.end.velocity[0].norm(), 2, 1e-14);
+  EXPECT_NEAR(run.end.position[0].norm(), 0.6, 1e-13);
+  for (std::size_t k = 0; k < run.collisions.size(); ++k)
+    EXPECT_NEAR(run.collisions[k].time, 0.4 + 0.8 * static_cast<double>(k), 1e-13);
+}
+
+TEST(Strings, AHangingBallSleeps) {
+  Tied problem;
+  const Entity bob = problem.ball({0.1, -1, 0}, {0, 0, 0}, 2, 0.05);
+  problem.anchored(bob, {0.1, 0.5, 0}, 1.5);
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 10);
+  EXPECT_EQ(simulator->state().position[0], problem.initial.position[0]);
+  EXPECT_TRUE(simulator->state().velocity[0].isZero(0));
+  EXPECT_LT(simulator->effort().events, 10u);
+  ASSERT_EQ(simulator->contacts().size(), 1u);
+  EXPECT_NEAR(simulator->contacts()[0].force, 2 * g_n, 1e-14);
+}
+
+TEST(Strings, ALargeSwingGoesSlackAndTautAgainAtTheClosedForms) {
+  // From the lowest point at speed v, with 2 g L < v^2 < 5 g L: the string goes slack at the angle a above the
+  // horizontal with sin a = (v^2 - 2 g L) / (3 g L). The speed is then w with w^2 = g L sin a, and the parabola meets
+  // the circle again after t = 4 w cos a / g.
+  Tied problem;
+  const double length = 0.8, v2 = 3.5 * g_n * length;
+  const Entity bob = problem.ball({0, -length, 0}, {std::sqrt(v2), 0, 0}, 2, 0.05);
+  problem.anchored(bob, {0, 0, 0}, length);
+  problem.options.duration = 2;
+  const double sine = (v2 - 2 * g_n * length) / (3 * g_n * length), cosine = std::sqrt(1 - sine * sine);
+  const double w = std::sqrt(g_n * length * sine), flight = 4 * w * cosine / g_n;
+  const Vec3 slack = length * Vec3(cosine, sine, 0), u = w * Vec3(-sine, cosine, 0);
+  const Vec3 again = slack + flight * u + Vec3(0, -0.5 * g_n * flight * flight, 0);
+  EXPECT_NEAR(again.norm(), length, 1e-15);
+  const Outcome run = run_exact(problem);
+  ASSERT_GE(run.collisions.size(), 1u);
+  const Collision& taut = run.collisions[0];
+  EXPECT_LT((taut.position - again).norm(), 1e-12);
+  const Vec3 speed = u + Vec3(0, -g_n * flight, 0);
+  EXPECT_NEAR(taut.approach_speed, speed.dot(again) / length, 1e-11);
+  EXPECT_NEAR(residual(problem, run), 0, 1e-10);
+  // The time of the swing up to there, by quadrature of the pendulum's equation.
+  const double angle = M_PI / 2 + std::asin(sine);
+  double swing = 0;
+  const int n = 4000;
+  for (int k = 0; k <= n; ++k) {
+    const double a = angle * k / n, speed2 = v2 - 2 * g_n * length * (1 - std::cos(a));
+    swing += (k == 0 || k == n ? 1 : k % 2 == 1 ? 4 : 2) * length / std::sqrt(speed2);
+  }
+  swing *= angle / n / 3;
+  EXPECT_NEAR(taut.time, swing + flight, 1e-12);
+}
+
+TEST(Strings, TheBobOfABallisticPendulumRisesByTheSquareOfItsShareOfTheImpulse) {
+  // A bullet of mass m and horizontal speed u strikes a bob of mass M at rest: its speed is then (1 + e) m u / (m + M),
+  // and a quarter of a period later it hangs still at its greatest angle.
+  for (const double e : {0.25, 1.0}) {
+    Tied problem;
+    const double length = 1.5, m = 0.5, heavy = 3, u = 8, radius = 0.125, before = 0.25;
+    const Entity bob = problem.ball({0, 0, 0}, {0, 0, 0}, heavy, radius, e);
+    problem.anchored(bob, {0, length, 0}, length);
+    const Vec3 meets(-2 * radius, 0, 0), speed(u, 0, 0), g(0, -g_n, 0);
+    problem.ball(meets - before * speed + 0.5 * before * before * g, speed - before * g, m, radius, e);
+    const double v = (1 + e) * m * u / (m + heavy), angle = std::acos(1 - v * v / (2 * g_n * length));
+    problem.options.duration = before + period(length, angle) / 4;
+    const Outcome run = run_exact(problem);
+    ASSERT_EQ(run.collisions.size(), 1u);
+    EXPECT_NEAR(run.collisions[0].time, before, 1e-14);
+    EXPECT_NEAR(run.collisions[0].impulse, heavy * v, 1e-13);
+    EXPECT_NEAR(run.collisions[0].energy_lost, 0.5 * (1 - e * e) * u * u * m * heavy / (m + heavy), 1e-12);
+    const Vec3 top = length * Vec3(std::sin(angle), 1 - std::cos(angle), 0) + Vec3(0, length - length, 0);
+    EXPECT_LT((run.end.position[bob] - top).norm(), 1e-12) << e;
+    EXPECT_NEAR(residual(problem, run), 0, 1e-10);
+  }
+}
+
+TEST(Strings, PendulumsThatMeetWithoutReboundRiseTogetherByTheSquareOfTheMassesRatio) {
+  // m1 falls from the height h1. Both then rise to h1 (m1 / (m1 + m2))^2.
+  Tied problem;
+  const double length = 1, radius = 0.0625, angle = 0.8, m1 = 1, m2 = 3;
+  const Entity first = problem.ball({-std::sin(angle), -std::cos(angle), 0}, {0, 0, 0}, m1, radius, 0);
+  const Entity second = problem.ball({2 * radius, -1, 0}, {0, 0, 0}, m2, radius, 0);
+  problem.anchored(first, {0, 0, 0}, problem.initial.position[0].norm());
+  problem.anchored(second, {2 * radius, 0, 0}, length);
+  const double rise = (1 - std::cos(angle)) / 16, after = std::acos(1 - rise);
+  problem.options.duration = period(length, angle) / 4 + period(length, after) / 4;
+  const Outcome run = run_exact(problem);
+  EXPECT_LT((run.end.position[first] - Vec3(std::sin(after), -std::cos(after), 0)).norm(), 1e-12);
+  EXPECT_LT((run.end.position[second] - Vec3(2 * radius + std::sin(after), -std::cos(after), 0)).norm(), 1e-12);
+  EXPECT_NEAR(run.tally.energy_lost, m1 * g_n * (1 - std::cos(angle)) * m2 / (m1 + m2), 1e-12);
+}
+
+/// A bullet meets a hanging bob from the side at which the normal, from the bullet to the bob, is n.
+Tied bullet_on_bob(const Vec3& n, double e, double before) {
+  Tied problem;
+  const double radius = 0.125;
+  const Entity bob = problem.ball({0, 0, 0}, {0, 0, 0}, 3, radius, e);
+  problem.anchored(bob, {0, 2, 0}, 2);
+  const Vec3 meets = -2 * radius * n, speed = 6 * n + Vec3(0.5, 0, 0.75), g(0, -g_n, 0);
+  problem.ball(meets - before * speed + 0.5 * before * before * g, speed - before * g, 0.5, radius, e);
+  problem.options.duration = before;
+  return problem;
+}
+
+TEST(Strings, ABobThatIsHitFromAboveMovesAcrossItsStringByTheEffectiveMass) {
+  // The string's impulse is simultaneous: 1 / m + sin^2 / M in place of 1 / m + 1 / M.
+  for (const double e : {0.5, 1.0})
+    for (const double angle : {0.1, 0.5, 1.2}) {
+      const Vec3 n(std::sin(angle), -std::cos(angle), 0);
+      Tied problem = bullet_on_bob(n, e, 0.125);
+      problem.options.duration = 0.125 + 0x1p-20;
+      const Outcome run = run_exact(problem);
+      ASSERT_EQ(run.collisions.size(), 1u) << angle;
+      const Collision& hit = run.collisions[0];
+      const double approach = 6 + 0.5 * n.x(), sine = n.x();
+      const double impulse = (1 + e) * approach / (1 / 0.5 + sine * sine / 3);
+      EXPECT_NEAR(hit.approach_speed, approach, 1e-12);
+      EXPECT_NEAR(hit.separation_speed, e * approach, 1e-12);
+      EXPECT_NEAR(hit.impulse, impulse, 1e-12);
+      EXPECT_NEAR(hit.energy_lost, 0.5 * impulse * (1 - e) * approach, 1e-12);
+      const double v = impulse * sine / 3, w = v / 2 * 0x1p-20;
+      EXPECT_LT((run.end.position[0] - Vec3(2 * std::sin(w), 2 - 2 * std::cos(w), 0)).norm(), 1e-15) << angle;
+      EXPECT_NEAR(residual(problem, run), 0, 1e-11) << angle;
+    }
+}
+
+TEST(Strings, ABobThatIsHitFromBelowLeavesItsStringSlack) {
+  for (const double angle : {0.1, 0.5, 1.2}) {
+    const Vec3 n(std::sin(angle), std::cos(angle), 0);
+    Tied problem = bullet_on_bob(n, 0.5, 0.125);
+    problem.options.duration = 0.125 + 0x1p-10;
+    const Outcome run = run_exact(problem);
+    ASSERT_EQ(run.collisions.size(), 1u) << angle;
+    const double impulse = 1.5 * (6 + 0.5 * n.x()) / (1 / 0.5 + 1.0 / 3);
+    EXPECT_NEAR(run.collisions[0].impulse, impulse, 1e-12);
+    EXPECT_LT((run.end.position[0] - (0x1p-10 * impulse / 3 * n + Vec3(0, -0.5 * g_n * 0x1p-20, 0))).norm(), 1e-15);
+  }
+}
+
+TEST(Strings, AnImpulseRunsThroughAChainAtOnce) {
+  // A bullet meets the first of n bobs in a hanging chain from above, at an angle: all hang below it, and none of them
+  // moves along the chain. A horizontal impulse therefore moves the first alone.
+  for (const int count : {2, 5}) {
+    Tied problem = bullet_on_bob(Vec3(0.6, -0.8, 0), 1, 0.125);
+    Entity above = 0;
+    for (int k = 1; k < count; ++k) {
+      const Entity next = problem.ball({0, -1.0 * k, 0}, {0, 0, 0}, 2, 0.125);
+      problem.between(next, above, 1);
+      above = next;
+    }
+    problem.options.duration = 0.125 + 0x1p-20;
+    const Outcome run = run_exact(problem);
+    ASSERT_EQ(run.collisions.size(), 1u);
+    const double impulse = 2 * (6 + 0.5 * 0.6) / (1 / 0.5 + 0.36 / 3);
+    EXPECT_NEAR(run.collisions[0].impulse, impulse, 1e-12);
+    for (Entity i = 2; i < run.end.velocity.size(); ++i) EXPECT_LT(run.end.velocity[i].norm(), 1e-3);
+    EXPECT_NEAR(residual(problem, run), 0, 1e-11);
+  }
+}
+
+TEST(Strings, AWhipOfTwoMassesTurnsAboutItsCenterOfMass) {
+  // The string goes taut with e = 0: an impulse by the reduced mass. The pair then turns uniformly.
+  for (const double heavy : {1.0, 5.0})
+    for (const bool swapped : {false, true}) {
+      Tied problem;
+      problem.world.gravity.setZero();
+      const double length = 1, m = 1;
+      const Entity still = problem.ball({0, 0, 0}, {0, 0, 0}, heavy, 0.05);
+      const Entity flung = problem.ball({0.6, -0.3, 0}, {0, 2, 0}, m, 0.05);
+      swapped ? problem.between(still, flung, length) : problem.between(flung, still, length);
+      const double taut = 1.1 / 2, later = 3;
+      problem.options.duration = taut + later;
+      const Outcome run = run_exact(problem);
+      ASSERT_EQ(run.collisions.size(), 1u);
+      const Collision& c = run.collisions[0];
+      const double reduced = m * heavy / (m + heavy);
+      EXPECT_NEAR(c.time, taut, 1e-15);
+      EXPECT_NEAR(c.approach_speed, 1.6, 1e-14);
+      EXPECT_NEAR(c.impulse, reduced * 1.6, 1e-14);
+      EXPECT_NEAR(c.energy_lost, 0.5 * reduced * 1.6 * 1.6, 1e-13);
+      // Across the string: 2 * 0.6 m/s.
+      const double turn = 1.2 / length * later, start = std::atan2(0.8, 0.6);
+      const Vec3 center = (m * Vec3(0.6, 0.8, 0) / (m + heavy)) + later * (m * Vec3(0, 2, 0) / (m + heavy));
+      const Vec3 along(std::cos(start + turn), std::sin(start + turn), 0);
+      EXPECT_LT((run.end.position[flung] - (center + heavy / (m + heavy) * along)).norm(), 1e-12) << heavy;
+      EXPECT_LT((run.end.position[still] - (center - m / (m + heavy) * along)).norm(), 1e-12) << heavy;
+      EXPECT_NEAR(residual(problem, run), 0, 1e-11);
+    }
+}
+
+/// Seven balls in a row, each on one string or on two in a V. The first is lifted.
+Tied cradle(double angle, bool vee) {
+  Tied problem;
+  const double radius = 0.0625;
+  for (int k = 0; k < 7; ++k) {
+    const double x = 2 * radius * k;
+    const Entity i =
+        problem.ball(k == 0 ? Vec3(-std::sin(angle), -std::cos(angle), 0) : Vec3(x, -1, 0), {0, 0, 0}, 1, radius, 1);
+    for (const double z : {-0.75, 0.75}) {
+      if (!vee && z < 0) continue;
+      const Vec3 anchor(x, 0, vee ? z : 0);
+      problem.anchored(i, anchor, (problem.initial.position[i] - anchor).norm());
+    }
+  }
+  return problem;
+}
+
+TEST(Strings, TheCradleOfSevenSwingsWithThePeriodOfOnePendulum) {
+  for (const bool vee : {false, true}) {
+    const double angle = 0.5, whole = period(1, angle);
+    Tied problem = cradle(angle, vee);
+    problem.options.duration = 10 * whole;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    for (int k = 1; k <= 10; ++k) {
+      go_to(*simulator, (k - 0.5) * whole);
+      Vec3 last = problem.initial.position[6] + Vec3(std::sin(angle), 1 - std::cos(angle), 0);
+      EXPECT_LT((simulator->state().position[6] - last).norm(), 1e-12 * (4 + k)) << vee << k;
+      go_to(*simulator, k * whole);
+      for (Entity i = 0; i < 7; ++i)
+        EXPECT_LT((simulator->state().position[i] - problem.initial.position[i]).norm(), 1e-12 * (4 + k))
+            << vee << " " << k << ": " << i;
+    }
+    EXPECT_EQ(simulator->tally().body_body, 120u);
+    EXPECT_EQ(simulator->tally().collisions(), 120u);
+    EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-9);
+  }
+}
+
+/// A chain in a plane, from (0, 0) down, by its angles: Lagrange's equations, and Runge and Kutta's method in steps so
+/// short that its error is rounding.
+class ChainReference {
+ public:
+  ChainReference(std::vector<double> mass, std::vector<double> length, std::vector<double> angle)
+      : mass_(std::move(mass)), length_(std::move(length)), angle_(std::move(angle)), rate_(angle_.size(), 0) {}
+
+  std::vector<Vec3> after(double time, int steps) {
+    const double h = time / steps;
+    const std::size_t n = angle_.size();
+    for (int k = 0; k < steps; ++k) {
+      std::vector<double> a[4], r[4];
+      const double at[] = {0, 0.5, 0.5, 1};
+      for (int s = 0; s < 4; ++s) {
+        std::vector<double> angle = angle_, rate = rate_;
+        for (std::size_t i = 0; s > 0 && i < n; ++i) {
+          angle[i] += h * at[s] * r[s - 1][i];
+          rate[i] += h * at[s] * a[s - 1][i];
+        }
+        a[s] = accelerations(angle, rate);
+        r[s] = rate;
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        angle_[i] += h / 6 * (r[0][i] + 2 * r[1][i] + 2 * r[2][i] + r[3][i]);
+        rate_[i] += h / 6 * (a[0][i] + 2 * a[1][i] + 2 * a[2][i] + a[3][i]);
+      }
+    }
+    std::vector<Vec3> x;
+    Vec3 end = Vec3::Zero();
+    for (std::size_t i = 0; i < n; ++i)
+      x.push_back(end += length_[i] * Vec3(std::sin(angle_[i]), -std::cos(angle_[i]), 0));
+    return x;
+  }
+
+ private:
+  std::vector<double> accelerations(const std::vector<double>& angle, const std::vector<double>& rate) const {
+    const auto n = static_cast<Eigen::Index>(angle.size());
+    Eigen::MatrixXd inertia(n, n);
+    Eigen::VectorXd torque(n);
+    const auto below = [&](Eigen::Index i) {
+      double sum = 0;
+      for (auto k = static_cast<std::size_t>(i); k < mass_.size(); ++k) sum += mass_[k];
+      return sum;
+    };
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto p = static_cast<std::size_t>(i);
+      torque[i] = -below(i) * g_n * length_[p] * std::sin(angle[p]);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const auto q = static_cast<std::size_t>(j);
+        const double both = below(std::max(i, j)) * length_[p] * length_[q];
+        inertia(i, j) = both * std::cos(angle[p] - angle[q]);
+        torque[i] -= both * std::sin(angle[p] - angle[q]) * rate[q] * rate[q];
+      }
+    }
+    const Eigen::VectorXd a = inertia.ldlt().solve(torque);
+    return {a.data(), a.data() + n};
+  }
+
+  std::vector<double> mass_, length_, angle_, rate_;  // kg, m, rad, rad/s
+};
+
+TEST(Strings, AChainMovesAsLagrangesEquationsOfItsAnglesSay) {
+  for (const bool rod : {false, true})
+    for (const int n : {2, 3, 5, 10}) {
+      Tied problem;
+      std::vector<double> mass, length, angle;
+      Vec3 end = Vec3::Zero();
+      for (int k = 0; k < n; ++k) {
+        mass.push_back(1 + 0.5 * (k % 3));
+        angle.push_back((rod ? 1.2 : 0.4) + 0.05 * (k % 2));
+        const Vec3 next = end + (0.5 + 0.125 * (k % 2)) * Vec3(std::sin(angle.back()), -std::cos(angle.back()), 0);
+        const Entity i = problem.ball(next, {0, 0, 0}, mass.back(), 0.05);
+        length.push_back((next - end).norm());
+        String& s = k == 0 ? problem.anchored(i, {0, 0, 0}, length.back()) : problem.between(i, i - 1, length.back());
+        s.rod = rod;
+        end = next;
+      }
+      problem.options.duration = 0.6;
+      const Outcome run = run_exact(problem);
+      EXPECT_TRUE(run.collisions.empty()) << n;
+      const std::vector<Vec3> x = ChainReference(mass, length, angle).after(0.6, 12000);
+      for (Entity i = 0; i < x.size(); ++i)
+        EXPECT_LT((run.end.position[i] - x[i]).norm(), 1e-11) << rod << " " << n << ": " << i;
+      EXPECT_NEAR(residual(problem, run), 0, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace carom
