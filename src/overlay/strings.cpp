@@ -9,8 +9,8 @@
 namespace carom {
 namespace {
 
-constexpr double string_radius = 0.04, rod_radius = 0.1;  // of the smaller body's radius
-const Color hemp = from_rgb(0xc9b48a);
+constexpr double string_radius = 0.06, rod_radius = 0.1;  // of the smaller body's radius
+const Color hemp = from_rgb(0x8a6d3b);
 
 void add_string(const Moment& moment, const String& string, std::vector<Stroke>& strokes) {
   const bool tied = string.other != no_entity;
