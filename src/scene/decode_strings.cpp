@@ -119,7 +119,24 @@ class Lengths {
                        string.rod
                            ? "the ends of a rod are as far apart as it is long: leave out `length`, or move an end"
                            : "expected a length of at least that distance; without `length` it is the distance");
+      return;
     }
+    if (string.rod && bodies_are_good_) check_rod(string, *a - *b, far, view, name);
+  }
+
+  /// Impulses of time 0 may act along a rod, which passes them on. Velocities along it contradict it.
+  /// `way`: m, from the other end to the body. `far`: m, the largest coordinate.
+  void check_rod(const String& string, const Vec3& way, double far, const View& view, const std::string& name) {
+    const Vec3& of_body = scene_.initial.velocity[string.body];
+    const Vec3 of_other = string.other == no_entity ? Vec3(Vec3::Zero()) : scene_.initial.velocity[string.other];
+    const double parting = (of_body - of_other).dot(way) / string.length;
+    // The direction of the rod has the rounding of places, too.
+    const double rounding = rounding_of_lengths * (1 + far / string.length) * (of_body.norm() + of_other.norm());
+    if (std::fabs(parting) <= rounding) return;
+    diagnostics_.add(view.place("rod"),
+                     fmt::format("the ends of {} {} at {} m/s at time 0", in_backticks(name),
+                                 parting > 0 ? "part" : "approach", shortest(std::fabs(parting))),
+                     "a rod keeps its length: expected velocities across it, such as the same at both ends");
   }
 
   /// At time 0 (m). None: the body has an error.

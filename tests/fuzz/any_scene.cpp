@@ -15,7 +15,7 @@ namespace {
 using stress::Maker;
 
 /// Whether scenes have strings: false until the simulators have them.
-constexpr bool has_strings = false;
+constexpr bool has_strings = true;
 
 struct Units {
   double length, time, mass;
@@ -137,6 +137,12 @@ void strings(Maker& m, const Units& u) {
     string.rod = m.chance(0.2);
     if (!string.rod && m.chance(0.5)) string.length *= m.uniform(1, 2);
     string.restitution = m.chance(0.6) ? 0 : m.restitution();
+    if (string.rod && string.length > 0) {  // it moves across itself
+      std::vector<Vec3>& v = m.scene.initial.velocity;
+      const Vec3 along = (m.scene.initial.position[string.body] - to) / string.length;
+      const Vec3 other_v = string.other == no_entity ? Vec3(Vec3::Zero()) : v[string.other];
+      v[string.body] -= (v[string.body] - other_v).dot(along) * along;
+    }
     if (string.length > 0) world.strings.push_back(string);
   }
 }

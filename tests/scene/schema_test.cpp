@@ -97,6 +97,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"a string has one at each end", "what a name stands for"},
       {"is tied to itself", "two names against one another"},
       {"but its ends are", "a length against where things are"},
+      {"m/s at time 0", "velocities against where things are"},
       {"are at the same point at time 0", "a length against where things are"},
       {"the scale of colours ends at", "two numbers against one another"},
       {"has no meaning for groups", "two keys against one another"},

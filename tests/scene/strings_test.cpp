@@ -147,6 +147,26 @@ TEST(StringErrors, NameThePlaceAndTheRemedy) {
             "size, 0.1 m");
 }
 
+TEST(StringErrors, OfRodsWithVelocitiesAlongThem) {
+  const auto error_of = [](const std::string& velocities, const std::string& more) {
+    return errors_of("scene: 1\nbodies:\n  a: {mass: 1, radius: 0.1, position: [3, 4, 0], " + velocities +
+                     "}\n  b: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [0, 0, 2]}\n"
+                     "strings: {bar: {from: b, to: a" +
+                     more + "}}\n" + simulate);
+  };
+  EXPECT_EQ(error_of("velocity: [5, 0, 2]", ", rod: true"),
+            "scene.yaml:5:36: error: the ends of `bar` part at 3 m/s at time 0\n"
+            "   5 | strings: {bar: {from: b, to: a, rod: true}}\n"
+            "     |                                    ^~~~\n"
+            "     = a rod keeps its length: expected velocities across it, such as the same at both ends\n");
+  EXPECT_NE(error_of("velocity: [-5, 0, 2]", ", rod: true").find("`bar` approach at 3 m/s"), std::string::npos);
+  EXPECT_EQ(error_of("velocity: [4, -3, 2]", ", rod: true"), "");
+  EXPECT_EQ(error_of("velocity: [0, 0, 2]", ", rod: true"), "");
+  EXPECT_EQ(error_of("velocity: ['= sin(53.130102354155978)', '= -sin(36.869897645844021)', 0]", ", rod: true"), "");
+  EXPECT_EQ(error_of("impulse: [5, 0, 0], velocity: [0, 0, 2]", ", rod: true"), "");
+  EXPECT_EQ(error_of("velocity: [5, 0, 2]", ""), "") << "a string goes taut then";
+}
+
 TEST(StringErrors, OfTheEnds) {
   EXPECT_EQ(first_error("{from: red, to: red}"), "scene.yaml:8:22: error: `red` is tied to itself");
   EXPECT_EQ(first_error("{from: rde, to: red}"), "scene.yaml:8:13: error: nothing is named `rde`");

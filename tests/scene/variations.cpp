@@ -130,10 +130,11 @@ output: {regions: true, trajectory: {every: 0.1}}
           R"(
 scene: 1
 defaults: {string: {restitution: 0.5}}
-balls: {text: {mass: 1, radius: 0.1, position: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= 1 + i', 2, 3]}}
+balls: {text: {mass: 1, radius: 0.1, position: [0, 1, 0]}, fast: {mass: 1, radius: 0.1, position: [2, 8, 0], velocity: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= 1 + i', 2, 3]}}
 planes: {group: {point: [0, -9, 0], normal: [0, 1, 0]}}
 strings:
   bar: {from: text, to: row.0, rod: true}
+  moving: {from: [2, 9, 0], to: fast}
   line: {from: [0, 4, 0], to: text, length: 9, restitution: 0.5, visible: false}
   rope: {from: [0, 4, 0], to: text}
   nets: {repeat: 2, from: ['= i', 6, 0], to: 'row.{i}'}
