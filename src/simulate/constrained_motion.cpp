@@ -312,12 +312,11 @@ double ConstrainedMotion::surface_speed(const Vec3& normal, Entity e) const {
 std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
   const World& world = bodies_.world;
   std::vector<std::uint8_t> recorded(step.contacts.pairs.size(), 0);
-  if (step.greatest == 0) return recorded;
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const auto& [i, e, feature] = step.contacts.names[c];
     const double approach = p.normal.dot(met[p.a] - rate(met, e));
-    if (!(p.force > 0 && approach > bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)))) continue;
+    if (!(p.force > 0 && approach > group_.slow_approach(i, e, step.greatest))) continue;
     const CollisionKind kind = world.is_string(e) ? CollisionKind::string
                                : world.is_body(e) ? CollisionKind::body_body
                                                   : CollisionKind::body_fixed;

@@ -72,6 +72,9 @@ class ExactGroup {
   /// Whether members i and e approach each other (m/s) for an impact of their own: one that bounces, or if they are
   /// `apart`. Contact must not take that speed. `greatest`: the greatest acceleration in the group (m/s^2).
   bool strikes(Entity i, Entity e, double approach, double greatest, bool apart = false) const;
+  /// A slower approach of members i and e (m/s) is none of its own. Where nothing presses there is no such speed,
+  /// except for bodies on strings, which keep them in islands: path errors.
+  double slow_approach(Entity i, Entity e, double greatest) const;
 
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
   void part(Entity i);

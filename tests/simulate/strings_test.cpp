@@ -230,25 +230,67 @@ TEST(Strings, ABobThatIsHitFromBelowLeavesItsStringSlack) {
   }
 }
 
-TEST(Strings, AnImpulseRunsThroughAChainAtOnce) {
-  // A bullet meets the first of n bobs in a hanging chain from above, at an angle: all hang below it, and none of them
-  // moves along the chain. A horizontal impulse therefore moves the first alone.
-  for (const int count : {2, 5}) {
-    Tied problem = bullet_on_bob(Vec3(0.6, -0.8, 0), 1, 0.125);
-    Entity above = 0;
-    for (int k = 1; k < count; ++k) {
-      const Entity next = problem.ball({0, -1.0 * k, 0}, {0, 0, 0}, 2, 0.125);
-      problem.between(next, above, 1);
-      above = next;
+/// Three bobs between two anchors, taut and in balance: A hangs from the left, C from the right, B between them.
+Tied hammock() {
+  Tied problem;
+  problem.ball({-0.5, -1, 0}, {0, 0, 0}, 1, 0.0625, 1);
+  problem.ball({0, -1.25, 0}, {0, 0, 0}, 2, 0.0625, 1);
+  problem.ball({0.5, -1, 0}, {0, 0, 0}, 1, 0.0625, 1);
+  // kg, by g: half of B's weight, and from the slope 1/2 of B's strings their horizontal pull; with A's weight.
+  const double half = 1, level = 2 * half, down = half + 1;
+  const Vec3 out = Vec3(-level, down, 0);
+  for (const auto& [from, to] : {std::pair<Entity, Entity>{0, 1}, {1, 2}})
+    problem.between(from, to, (problem.initial.position[from] - problem.initial.position[to]).norm());
+  problem.anchored(0, problem.initial.position[0] + 0.5 * out, (0.5 * out).norm());
+  problem.anchored(2, problem.initial.position[2] + 0.5 * Vec3(level, down, 0), (0.5 * out).norm());
+  return problem;
+}
+
+TEST(Strings, AnImpulseRunsThroughAllTautStringsAtOnce) {
+  Tied problem = hammock();
+  problem.options.duration = 1;
+  const auto still = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*still, 1);
+  for (Entity i = 0; i < 3; ++i)
+    EXPECT_LT((still->state().position[i] - problem.initial.position[i]).norm(), 1e-15) << i;
+  EXPECT_LT(still->effort().events, 40u);
+  // A bullet from above and the left on A.
+  const Vec3 n(0.6, -0.8, 0), g(0, -g_n, 0), speed = 5 * n;
+  const Vec3 meets = problem.initial.position[0] - 0.125 * n;
+  problem.ball(meets - 0.125 * speed + 0.5 * 0.125 * 0.125 * g, speed - 0.125 * g, 0.5, 0.0625, 1);
+  problem.options.duration = 0.125 + 0x1p-20;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 1u);
+  // Unknowns: the changes of A's, B's and C's velocities, the impulses of four strings and that of the bullet, J.
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(14, 14);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(14), solution;
+  for (int i = 0; i < 9; ++i) m(i, i) = problem.world.mass[static_cast<std::size_t>(i / 3)];
+  const auto row = [&](int c, Entity body, const Vec3& along) {
+    for (int k = 0; k < 3; ++k) {
+      m(9 + c, 3 * static_cast<int>(body) + k) += along[k];
+      m(3 * static_cast<int>(body) + k, 9 + c) -= along[k];
     }
-    problem.options.duration = 0.125 + 0x1p-20;
-    const Outcome run = run_exact(problem);
-    ASSERT_EQ(run.collisions.size(), 1u);
-    const double impulse = 2 * (6 + 0.5 * 0.6) / (1 / 0.5 + 0.36 / 3);
-    EXPECT_NEAR(run.collisions[0].impulse, impulse, 1e-12);
-    for (Entity i = 2; i < run.end.velocity.size(); ++i) EXPECT_LT(run.end.velocity[i].norm(), 1e-3);
-    EXPECT_NEAR(residual(problem, run), 0, 1e-11);
+  };
+  for (int c = 0; c < 4; ++c) {
+    const String& s = problem.world.strings[static_cast<std::size_t>(c)];
+    const Vec3 x = problem.initial.position[s.body];
+    const Vec3 along = ((s.other == no_entity ? s.anchor : problem.initial.position[s.other]) - x).normalized();
+    row(c, s.body, along);
+    if (s.other != no_entity) row(c, s.other, -along);
   }
+  row(4, 0, n);
+  m(13, 13) = 1 / 0.5;  // the bullet's own change is -J / m
+  right[13] = 2 * 5;
+  solution = m.fullPivLu().solve(right);
+  for (int c = 0; c < 4; ++c) ASSERT_GT(solution[9 + c], 0) << "string " << c << " has a share";
+  EXPECT_NEAR(run.collisions[0].impulse, solution[13], 1e-12);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_LT((run.end.position[static_cast<std::size_t>(i)] - problem.initial.position[static_cast<std::size_t>(i)] -
+               0x1p-20 * solution.segment<3>(3 * i))
+                  .norm(),
+              1e-10)
+        << i;
+  EXPECT_NEAR(residual(problem, run), 0, 1e-11);
 }
 
 TEST(Strings, AWhipOfTwoMassesTurnsAboutItsCenterOfMass) {
@@ -404,6 +446,256 @@ TEST(Strings, AChainMovesAsLagrangesEquationsOfItsAnglesSay) {
         EXPECT_LT((run.end.position[i] - x[i]).norm(), 1e-11) << rod << " " << n << ": " << i;
       EXPECT_NEAR(residual(problem, run), 0, 1e-9);
     }
+}
+
+TEST(Strings, UnderASpringAStringGoesTautAtTheTimeOfTheClosedForm) {
+  // x = v / w sin w t, until the string of length L is straight; e = 1: there and back.
+  Tied problem;
+  problem.world.gravity.setZero();
+  const double stiffness = 8, mass = 2, w = 2, v = 3, length = 0.75;
+  const Entity bob = problem.ball({0, 0, 0}, {v, 0, 0}, mass, 0.05);
+  problem.world.forces.push_back({Spring{Vec3::Zero(), stiffness, 0, 0}});
+  problem.anchored(bob, {0, 0, 0}, length).restitution = 1;
+  const double taut = std::asin(w * length / v) / w;
+  problem.options.duration = 10 * taut;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_NEAR(run.collisions[k].time, (2.0 * static_cast<double>(k) + 1) * taut, 1e-13);
+  EXPECT_LT(run.end.position[bob].norm(), 1e-12);
+}
+
+TEST(Strings, UnderDragAStringGoesTautAtTheTimeOfTheClosedForm) {
+  // x = v / k (1 - exp(-k t)).
+  for (const double fade : {0.01, 1.0, 3.0}) {
+    Tied problem;
+    problem.world.gravity.setZero();
+    const double mass = 2, v = 3, length = 0.75;
+    const Entity bob = problem.ball({0, 0, 0}, {0, v, 0}, mass, 0.05);
+    problem.world.forces.push_back({Drag{mass * fade, 0, Vec3::Zero()}});
+    problem.anchored(bob, {0, 0, 0}, length);
+    problem.options.duration = 3;
+    const Outcome run = run_exact(problem);
+    ASSERT_EQ(run.collisions.size(), 1u);
+    EXPECT_NEAR(run.collisions[0].time, -std::log1p(-fade * length / v) / fade, 1e-14) << fade;
+    EXPECT_NEAR(run.collisions[0].approach_speed, v - fade * length, 1e-13);
+    EXPECT_LT(run.end.velocity[bob].norm(), 1e-12);
+  }
+}
+
+TEST(Strings, NoMethodOfStepsLetsAStringLengthen) {
+  for (const Integrator integrator : {Integrator::dop853, Integrator::rk4, Integrator::verlet, Integrator::euler}) {
+    Tied problem;
+    const Entity a = problem.ball({0.5, 0, 0}, {1, 2, 0.5}, 2, 0.05);
+    const Entity b = problem.ball({1, 0.5, 0}, {-1, 1, 0}, 1, 0.05);
+    problem.anchored(a, {0, 0, 0}, 0.8).restitution = 0.5;
+    problem.between(b, a, 1);
+    problem.world.forces.push_back({Spring{Vec3(0.3, 0, 0), 20, 0.3, 0.1}});
+    problem.options.integrator = integrator;
+    problem.options.step = 0.01;
+    problem.options.duration = 3;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    for (int k = 1; k <= 300; ++k) {
+      go_to(*simulator, 0.01 * k);
+      const State& state = simulator->state();
+      ASSERT_LT(state.position[a].norm(), 0.8 + 1e-12) << int(integrator) << " " << k;
+      ASSERT_LT((state.position[a] - state.position[b]).norm(), 1 + 1e-12) << int(integrator) << " " << k;
+    }
+    EXPECT_GT(simulator->tally().tautened, 0u);
+  }
+}
+
+TEST(Strings, BouncesOfAStringEndInHanging) {
+  Tied problem;
+  const Entity bob = problem.ball({0, 0, 0}, {0, 0, 0}, 2, 0.05);
+  problem.anchored(bob, {0, 0, 0}, 1).restitution = 0.5;
+  problem.options.duration = 5;
+  const Outcome run = run_exact(problem);
+  EXPECT_GT(run.collisions.size(), 3u);
+  EXPECT_LT((run.end.position[bob] - Vec3(0, -1, 0)).norm(), 1e-12);
+  EXPECT_EQ(run.end.velocity[bob], Vec3(0, 0, 0));
+  EXPECT_NEAR(run.tally.energy_lost, 2 * g_n, 1e-12);
+  EXPECT_NEAR(residual(problem, run), 0, 1e-12);
+}
+
+TEST(Strings, AFallingPairTurnsAboutItsCenterOfMass) {
+  Tied problem;
+  problem.ball({-0.5, 0, 0}, {0, 0, -1.5}, 1, 0.05);
+  problem.ball({0.5, 0, 0}, {0, 0, 1.5}, 1, 0.05);
+  problem.between(0, 1, 1);
+  problem.options.duration = 4;
+  const Outcome run = run_exact(problem);
+  EXPECT_TRUE(run.collisions.empty());
+  const Vec3 center(0, -0.5 * g_n * 16, 0), along(std::cos(12.0), 0, std::sin(12.0));
+  EXPECT_LT((run.end.position[1] - center - 0.5 * along).norm(), 1e-11);
+  EXPECT_LT((run.end.position[0] - center + 0.5 * along).norm(), 1e-11);
+  EXPECT_NEAR(residual(problem, run), 0, 1e-9);
+}
+
+TEST(Strings, ABodyThatIsRemovedIsUntied) {
+  // A pair turns; the region takes the one that enters it. The other flies straight.
+  Tied problem;
+  problem.world.gravity.setZero();
+  problem.ball({-0.5, 0, 0}, {0, 0, -1}, 1, 0.05);
+  problem.ball({0.5, 0, 0}, {0, 0, 1}, 1, 0.05);
+  problem.between(0, 1, 1);
+  WorldRegion region;
+  region.position = Vec3(0, 0, 0.4);
+  region.normal = Vec3(0, 0, 1);
+  region.removes = true;
+  problem.world.regions.push_back(region);
+  problem.options.duration = 2;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.tally.removed.bodies, 1u);
+  const double angle = std::asin(0.8), since = 2 - angle / 2;
+  const Vec3 at(-0.3, 0, -0.4), v(0.8, 0, -0.6);
+  EXPECT_LT((run.end.position[0] - (at + since * v)).norm(), 1e-11);
+}
+
+TEST(Strings, WhatABodyHangsOnFallsWhenItIsRemoved) {
+  Tied problem;
+  const Entity upper = problem.ball({0, -1, 0}, {0, 0, 0}, 1, 0.05);
+  const Entity lower = problem.ball({0, -2, 0}, {0, 0, 0}, 1, 0.05);
+  problem.anchored(upper, {0, 0, 0}, 1);
+  problem.between(lower, upper, 1);
+  // Pushed by a wind from 1 s on until it enters the region.
+  problem.world.forces.push_back({UniformForce{Vec3(0.5, 0, 0)}, 1, never, {upper}});
+  WorldRegion region;
+  region.position = Vec3(0.01, 0, 0);
+  region.normal = Vec3(1, 0, 0);
+  region.removes = true;
+  problem.world.regions.push_back(region);
+  problem.options.duration = 3;
+  const Outcome run = run_exact(problem);
+  ASSERT_GE(run.tally.removed.bodies, 1u);
+  EXPECT_LT(run.end.position[lower].y(), -5);
+}
+
+/// Pendulums that swing among each other, with balls between them and a floor below.
+Tied crowd(bool turned, bool reversed) {
+  Tied problem;
+  const auto seen = [&](const Vec3& x) { return turned ? Vec3(x.z(), x.y(), -x.x()) : x; };
+  for (int order = 0; order < 12; ++order) {
+    const int k = reversed ? 11 - order : order;
+    const double x = 0.3 * (k % 4), z = 0.35 * (k / 4);
+    const Entity i = problem.ball(seen({x + 0.02 * (k % 3), 0.5 + 0.03 * k, z}), seen({0.3 - 0.1 * (k % 5), 0, 0.2}),
+                                  1 + 0.25 * (k % 3), 0.08, 0.75);
+    problem.anchored(i, seen({x, 1.5, z}), 1.0625).restitution = k % 2 == 0 ? 0.5 : 0;
+  }
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.options.duration = 1.5;
+  return problem;
+}
+
+TEST(Strings, NeitherTheOrderOfPendulumsNorTheDirectionFromWhichTheyAreSeenMatters) {
+  const Tied plain = crowd(false, false);
+  const Outcome run = run_exact(plain);
+  EXPECT_GT(run.collisions.size(), 20u);
+  EXPECT_NEAR(residual(plain, run), 0, 1e-9);
+  for (const bool turned : {false, true})
+    for (const bool reversed : {false, true}) {
+      const Outcome other = run_exact(crowd(turned, reversed));
+      EXPECT_EQ(other.collisions.size(), run.collisions.size()) << turned << reversed;
+      for (Entity i = 0; i < 12; ++i) {
+        const Vec3& x = run.end.position[i];
+        const Vec3 as_seen = turned ? Vec3(x.z(), x.y(), -x.x()) : x;
+        EXPECT_LT((other.end.position[reversed ? 11 - i : i] - as_seen).norm(), 1e-7) << turned << reversed << i;
+      }
+    }
+}
+
+TEST(Strings, ATiedBallThatSlidesOnAFloorIsHeldOnACircle) {
+  Tied problem;
+  const Entity bob = problem.ball({1, 0.1, 0}, {0, 0, 2}, 1, 0.1);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.anchored(bob, {0, 0.1, 0}, 1);
+  problem.options.duration = 5;
+  const Outcome run = run_exact(problem);
+  EXPECT_TRUE(run.collisions.empty());
+  EXPECT_LT((run.end.position[bob] - Vec3(std::cos(10.0), 0.1, std::sin(10.0))).norm(), 1e-11);
+  EXPECT_NEAR(residual(problem, run), 0, 1e-10);
+}
+
+TEST(Strings, ATowedBallFollowsItsTow) {
+  // A force on the first of two balls on a floor; the string between them goes taut, and both accelerate.
+  Tied problem;
+  const Entity first = problem.ball({0, 0.1, 0}, {0, 0, 0}, 1, 0.1);
+  const Entity second = problem.ball({-0.5, 0.1, 0}, {0, 0, 0}, 3, 0.1);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.between(second, first, 1);
+  problem.world.forces.push_back({UniformForce{Vec3(4, 0, 0)}, 0, never, {first}});
+  problem.options.duration = 2.5;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 1u);
+  // Taut after 0.5 s at 2 m/s; then both at 0.5 m/s, with 1 m/s^2.
+  EXPECT_NEAR(run.collisions[0].time, 0.5, 1e-15);
+  EXPECT_NEAR(run.collisions[0].energy_lost, 0.5 * 0.75 * 4, 1e-14);
+  EXPECT_NEAR(run.end.position[first].x(), 0.5 + 1 + 2, 1e-13);
+  EXPECT_NEAR(run.end.position[second].x(), -0.5 + 1 + 2, 1e-13);
+}
+
+TEST(Strings, AStringThatIsTooShortAtTheStartIsAnError) {
+  Tied problem;
+  const Entity bob = problem.ball({0, -1, 0}, {0, 0, 0}, 1, 0.1);
+  problem.anchored(bob, {0, 0, 0}, 0.99);
+  EXPECT_NE(error_of(problem).find("the string of body 0 is 0.98999999999999999 m long"), std::string::npos)
+      << error_of(problem);
+  problem.world.strings[0] = {bob, no_entity, Vec3::Zero(), 1.01, 0, true};
+  EXPECT_NE(error_of(problem).find("the rod of body 0"), std::string::npos);
+}
+
+TEST(Strings, BodiesThatMergeHaveNone) {
+  Tied problem = pendulum(0.5, 1);
+  problem.options.merge = true;
+  EXPECT_NE(error_of(problem).find("cannot merge"), std::string::npos);
+}
+
+TEST(Strings, ARodPushes) {
+  // A bob on a rod that stands on end is carried, and falls when it is off balance.
+  Tied problem = pendulum(M_PI, 1, true);
+  problem.initial.position[0] = Vec3(0, 1, 0);
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 10);
+  EXPECT_EQ(simulator->state().position[0], Vec3(0, 1, 0));
+  ASSERT_EQ(simulator->contacts().size(), 1u);
+  EXPECT_NEAR(simulator->contacts()[0].force, -2 * g_n, 1e-14);
+}
+
+TEST(Strings, ADumbbellThatStrikesAWallTurns) {
+  // Two masses on a rod move along x and meet a wall with one of them, e = 1. The rod transmits: the effective mass
+  // along x is that of both masses where they are in line, and of one where the rod is across.
+  for (const bool across : {false, true}) {
+    Tied problem;
+    problem.world.gravity.setZero();
+    problem.ball({0, 0, 0}, {2, 0, 0}, 1, 0.1, 1);
+    problem.ball(across ? Vec3(0, 1, 0) : Vec3(-1, 0, 0), {2, 0, 0}, 3, 0.05, 1);
+    problem.between(0, 1, 1).rod = true;
+    problem.plane({1.1, 0, 0}, {-1, 0, 0});
+    problem.options.duration = 0.5 + 0.015625;
+    const Outcome run = run_exact(problem);
+    ASSERT_EQ(run.collisions.size(), 1u);
+    EXPECT_NEAR(run.collisions[0].time, 0.5, 1e-15);
+    EXPECT_NEAR(run.collisions[0].impulse, across ? 4 : 16, 1e-14);
+    EXPECT_NEAR(run.tally.energy_lost, 0, 1e-14);
+    // Across, their center moves on at 1 m/s, and they turn at 4 rad/s.
+    const Vec3 expected =
+        across ? Vec3(1.015625 + 0.25 * std::sin(0.0625), 0.75 + 0.25 * std::cos(0.0625), 0) : Vec3(-0.03125, 0, 0);
+    EXPECT_LT((run.end.position[1] - expected).norm(), 1e-12) << across;
+    EXPECT_NEAR(residual(problem, run), 0, 1e-11);
+  }
+}
+
+TEST(Strings, ADumbbellThatStrikesAWallWithBothBallsIsThrownBack) {
+  Tied problem;
+  problem.world.gravity.setZero();
+  problem.ball({0, 0, 0}, {2, 0, 0}, 1, 0.1, 1);
+  problem.ball({0, 1, 0}, {2, 0, 0}, 3, 0.1, 0.5);
+  problem.between(0, 1, 1).rod = true;
+  problem.plane({1.1, 0, 0}, {-1, 0, 0});
+  problem.options.duration = 0.75;
+  const Outcome run = run_exact(problem);
+  EXPECT_EQ(run.collisions.size(), 2u);
+  EXPECT_NEAR(run.tally.energy_lost, 0.75 * 0.5 * 3 * 4, 1e-14);
 }
 
 }  // namespace
