@@ -47,19 +47,23 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   ExactEvent best;
   meet_bodies(i, bodies, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
-  if (bodies_.ties.any()) [[unlikely]]
-    offer_strings(i, best);
   if (flat_.of(i).count > 0) offer_flat_contacts(i, best);
+  if (more_) offer_more(i, best);
+  if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
+    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
+  bodies_.body[i].event = best;
+  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+/// Offers what only scenes with strings, forces or things that move have.
+void EventPredictor::offer_more(Entity i, ExactEvent& best) {
+  if (bodies_.ties.any()) offer_strings(i, best);
   if (!bodies_.world.forces.empty())
     offer(i, best,
           {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
   if (bodies_.moving.any())
     offer(i, best,
           {{bodies_.moving.next_switch(bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
-  if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
-    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
-  bodies_.body[i].event = best;
-  queue_.schedule(i, region_exit(bodies_, i));
 }
 
 /// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.

@@ -21,7 +21,12 @@ class FlatContacts;
 class EventPredictor {
  public:
   EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat, const ExactGroup& group)
-      : bodies_(bodies), queue_(queue), flat_(flat), group_(group), times_(bodies) {}
+      : bodies_(bodies),
+        queue_(queue),
+        flat_(flat),
+        group_(group),
+        times_(bodies),
+        more_(bodies.ties.any() || !bodies.world.forces.empty() || bodies.moving.any()) {}
 
   /// Predicts body i's next event among its neighbours. The events of other bodies stay.
   /// The body of a pair that was predicted last holds the pair's collision. Neither holds it while one of them has an
@@ -41,7 +46,8 @@ class EventPredictor {
  private:
   void predict_among(Entity i, std::span<const Entity> bodies);
   void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
-  [[gnu::noinline]] void offer_strings(Entity i, ExactEvent& best);
+  [[gnu::noinline]] void offer_more(Entity i, ExactEvent& best);
+  void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
   void meet_each(Entity i, std::span<const Entity> others, ExactEvent& best);
   void meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best);
@@ -51,6 +57,7 @@ class EventPredictor {
   const FlatContacts& flat_;
   const ExactGroup& group_;
   ExactCollisionTimes times_;
+  const bool more_;  // strings, forces or things that move
   std::vector<Entity> alike_;  // scratch
   std::vector<Meet> meets_;    // scratch
   std::uint64_t pair_tests_ = 0, surface_tests_ = 0;
