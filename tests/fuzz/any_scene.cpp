@@ -14,7 +14,6 @@ namespace {
 
 using stress::Maker;
 
-/// Whether scenes have strings: false until the simulators have them.
 /// Whether scenes have strings.
 constexpr bool has_strings = false;
 
