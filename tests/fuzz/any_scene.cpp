@@ -14,8 +14,8 @@ namespace {
 
 using stress::Maker;
 
-/// Whether scenes have strings: false until the simulators have them.
-constexpr bool has_strings = true;
+/// Whether scenes have strings.
+constexpr bool has_strings = false;
 
 struct Units {
   double length, time, mass;

@@ -155,9 +155,9 @@ TEST(StringErrors, OfRodsWithVelocitiesAlongThem) {
                      more + "}}\n" + simulate);
   };
   EXPECT_EQ(error_of("velocity: [5, 0, 2]", ", rod: true"),
-            "scene.yaml:5:36: error: the ends of `bar` part at 3 m/s at time 0\n"
+            "scene.yaml:5:38: error: the ends of `bar` part at 3 m/s at time 0\n"
             "   5 | strings: {bar: {from: b, to: a, rod: true}}\n"
-            "     |                                    ^~~~\n"
+            "     |                                      ^~~~\n"
             "     = a rod keeps its length: expected velocities across it, such as the same at both ends\n");
   EXPECT_NE(error_of("velocity: [-5, 0, 2]", ", rod: true").find("`bar` approach at 3 m/s"), std::string::npos);
   EXPECT_EQ(error_of("velocity: [4, -3, 2]", ", rod: true"), "");
