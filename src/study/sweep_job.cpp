@@ -131,8 +131,11 @@ LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
 
 }  // namespace
 
-bool may_have_meshes(const Sweep& sweep, const std::string& base_text) {
-  return base_text.find("mesh") != std::string::npos || sweep.resolved("").find("mesh") != std::string::npos;
+bool may_read_files(const Sweep& sweep, const std::string& base_text) {
+  const std::string settings = sweep.resolved("");
+  for (const char* key : {"mesh", "start"})
+    if (base_text.find(key) != std::string::npos || settings.find(key) != std::string::npos) return true;
+  return false;
 }
 
 SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
