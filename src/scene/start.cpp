@@ -71,6 +71,12 @@ void set(Node& map, std::string_view key, Node value) {
   map.items.push_back(std::move(value));
 }
 
+/// The key, or the part that a --set gave.
+Place place_of_start(const Node& root) {
+  const Place part = View(&root, kind_named("scene"), Place{}).place("start");
+  return part.source > 0 ? part : root.find_key("start")->place;
+}
+
 class Starter {
  public:
   Starter(Node& root, FormerState former, MadeFrom& made_from, Diagnostics& diagnostics)
@@ -78,7 +84,7 @@ class Starter {
         former_(std::move(former)),
         made_from_(made_from),
         diagnostics_(diagnostics),
-        place_(View(&root, kind_named("scene"), Place{}).place("start")),
+        place_(place_of_start(root)),
         used_(former_.names.size(), false) {
     numbers_.reserve(former_.names.size());
     for (std::size_t i = 0; i < former_.names.size(); ++i) numbers_.emplace(former_.names[i], i);
