@@ -24,6 +24,7 @@
 #include "run/stored_trajectory.h"
 #include "scene/scene.h"
 #include "simulate/simulator.h"
+#include "simulate/tolerances.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
 
@@ -164,12 +165,20 @@ State state_in_table(const FormerRun& run, double at, const std::vector<std::str
   return TableState(std::move(file), names).at(at);
 }
 
+/// The book's engine applies the impulses of time 0 in its first frame, so that its velocities at time 0 lack them.
+bool lacks_impulses(const Scene& scene, double at) {
+  return scene.simulate.engine == Engine::book && !scene.world.impulse.empty() &&
+         at <= stepped_tolerance::frame_rounding * scene.simulate.step.value_or(0);
+}
+
 /// Throws StartError, and what reading files throws.
 FormerState state_of(const FormerRun& run, std::optional<double> at) {
   const double end = run.end();
   if (at && !(*at >= 0 && *at <= end))
     throw StartError(fmt::format("it ended at {} s, before {} s", shortest(end), shortest(*at)),
                      fmt::format("expected `at` from 0 to {} s", shortest(end)), true);
+  if (lacks_impulses(run.scene, at.value_or(end)))
+    throw StartError("the book's engine had not yet applied the impulses then", "expected a later `at`", true);
   const std::string file(states_file(run));
   if (!run.has(file))
     throw StartError("it has neither flights nor a trajectory",
