@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -195,20 +194,36 @@ FormerState state_of(const FormerRun& run, std::optional<double> at) {
   former.file = file;
   for (const FileRecord& record : run.manifest.files)
     if (record.name == file) former.sha256 = record.sha256;
+  if (!run.manifest.warnings.empty()) former.doubt = run.manifest.warnings.front().text;
   return former;
 }
+
+/// The run and the state that were read last. A scene is often loaded several times.
+struct LastRead {
+  std::string folder;
+  std::optional<FormerRun> run{};
+  std::optional<double> at{};
+  std::optional<FormerState> state{};
+};
 
 }  // namespace
 
 std::function<FormerState(const std::string& folder, std::optional<double> at)> start_reader(
     const LoadOptions& options) {
-  const auto runs = std::make_shared<std::map<std::string, FormerRun>>();
-  return [runs, options](const std::string& folder, std::optional<double> at) {
+  const auto last = std::make_shared<LastRead>();
+  return [last, options](const std::string& folder, std::optional<double> at) {
     const std::string path = without_slash(folder);
     try {
-      auto found = runs->find(path);
-      if (found == runs->end()) found = runs->emplace(path, opened(path, options)).first;
-      return state_of(found->second, at);
+      if (!last->run || last->folder != path) {
+        *last = {path};
+        last->run = opened(path, options);
+      }
+      if (!last->state || last->at != at) {
+        last->state.reset();
+        last->state = state_of(*last->run, at);
+        last->at = at;
+      }
+      return *last->state;
     } catch (const SceneError&) {
       throw StartError("its scene.yaml has errors", fmt::format("carom check {}/scene.yaml shows them", path));
     } catch (const ExportError& error) {

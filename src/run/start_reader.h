@@ -10,8 +10,8 @@
 namespace carom {
 
 /// A reader of runs for LoadOptions::former_state. With flights a run has every state from its start to its end, bit
-/// for bit. Without them it has those of its trajectory.csv. A run is checked by its hashes when it is first read, and
-/// the reader then keeps it open. `options`: for the scenes of the runs; of them mesh_points is used.
+/// for bit. Without them it has those of its trajectory.csv. A run is checked by its hashes when it is read, and the
+/// reader keeps the last one in memory. `options`: for the scenes of the runs; of them mesh_points is used.
 std::function<FormerState(const std::string& folder, std::optional<double> at)> start_reader(
     const LoadOptions& options);
 

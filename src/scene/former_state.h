@@ -18,6 +18,8 @@ struct FormerState {
   State state{};
   /// Whether bodies had merged by then. Joint bodies have other masses and sizes than the run's scene gives.
   bool has_merged = false;
+  /// Why figures of the run may be wrong. Empty: no reason is known.
+  std::string doubt{};
   /// The file of the run with this state, and its hash in hexadecimal digits.
   std::string file{}, sha256{};
 };

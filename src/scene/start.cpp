@@ -237,6 +237,7 @@ class Starter {
                       names_text(kicked_)));
     if (former_.has_merged)
       say("start: bodies of the run had merged by then; masses and sizes are those of this scene");
+    if (!former_.doubt.empty()) say("start: the run is doubtful: " + former_.doubt);
     if (former_.state.time > 0 && has_windows())
       say(fmt::format("start: windows of forces and motions count from the new time 0, which is {} s of the run",
                       time()));

@@ -191,8 +191,10 @@ TEST(Start, IsInTheManifestAndAChangedRunIsNoticed) {
 TEST(Start, OfAnySweptTimeHasItsState) {
   const Workplace here;
   here.write("first.yaml", two_balls("output: {flights: true}\n"));
-  here.write("second.yaml",
-             two_balls("output: {collisions: true}\nstart: {run: first}\nmeasures: {x_m: balls.red.x_m}\n"));
+  here.write(
+      "second.yaml",
+      two_balls(
+          "output: {collisions: true, trajectory: {every: 1}}\nstart: {run: first}\nmeasures: {x_m: balls.red.x_m}\n"));
   expect_run(here, {"run", "first.yaml", "-o", "first", "--set", "simulate.duration=0.4"});
   const Words sweep = {"sweep", "second.yaml", "--grid", "start.at=0,0.125,0.25", "--set", "simulate.duration=0.125",
                        "-o",    "sweep"};
@@ -203,6 +205,11 @@ TEST(Start, OfAnySweptTimeHasItsState) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(rows[i].numbers.back(), -1 + 2 * 0.125 * static_cast<double>(i + 1)) << i;
   EXPECT_NE(here.carom(sweep).out.find("made        0 runs"), std::string::npos);
+  const Finished within =
+      here.carom({"sweep", "second.yaml", "--grid", "start.run=sweep/runs/r0001", "-o", "sweep", "--force"});
+  EXPECT_EQ(within.code, 2);
+  EXPECT_NE(within.err.find("the run `sweep/runs/r0001` lies in the folder of this sweep"), std::string::npos)
+      << within.err;
   expect_run(here, {"run", "first.yaml", "-o", "first", "--set", "balls.red.position.x=-1.5", "--force"});
   EXPECT_NE(here.carom(sweep).err.find("holds something other"), std::string::npos);
 }
