@@ -178,10 +178,13 @@ class Starter {
       set(member, "velocity", vector_node(former_.state.velocity[static_cast<std::size_t>(i)], place_));
     }
     if (members.items.size() < count) return;
-    if (Node* ball = node.find("ball"); ball != nullptr && ball->is(Node::Kind::map)) {
+    // The ball may be that of the defaults.
+    if (const Node* ball = view.given("ball"); ball != nullptr && ball->is(Node::Kind::map)) {
       const View each_ball = member_view(root_, view);
       replaces(each_ball, {"velocity", "impulse"}, key.text);
-      drop_impulse(each_ball, *ball, key.text);
+      Node own = *ball;
+      drop_impulse(each_ball, own, key.text);
+      set(node, "ball", std::move(own));
     }
     for (const std::string_view rule : {"in", "arrange", "speed", "velocity"}) remove(node, rule);
     set(node, "members", std::move(members));

@@ -59,6 +59,18 @@ TEST(Start, OfDefaultImpulsesAppliesNone) {
   EXPECT_EQ(scene.world.impulse, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0)}));
 }
 
+TEST(Start, OfGroupsWithDefaultImpulsesAppliesNone) {
+  for (const char* defaults : {"{group: {ball: {mass: 1, radius: 0.1, impulse: [1, 0, 0]}}}",
+                               "{ball: {mass: 1, radius: 0.1, impulse: [1, 0, 0]}, group: {ball: {}}}"}) {
+    const Scene scene = load_text(start + "start: {run: first}\ndefaults: " + defaults +
+                                      "\ngroups: {gas: {count: 2, in: {min: [0, 0, 0], max: [1, 1, 1]}}}\n",
+                                  with_run({"gas.0", "gas.1"}));
+    EXPECT_TRUE(scene.world.impulse.empty()) << defaults;
+    EXPECT_EQ(scene.initial.position[1].x(), 1.1);
+    EXPECT_EQ(scene.made_from.notes.size(), 1u);
+  }
+}
+
 TEST(Start, OfRepeatedThingsAndGroupsIsByMember) {
   const Scene scene =
       load_text(with_balls("balls: {row: {repeat: 3, position: ['= i', 5, 0]}}\n"
