@@ -235,6 +235,10 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (const std::string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
   if (!planned.scene->world.strings.empty()) block.line("strings", strings_text(planned.scene->world));
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
+  if (const auto& start = planned.scene->made_from.start)
+    block.line("start", fmt::format("the run {} at {}, by its {}", printable(start->run), quantity(start->at, "s"),
+                                    start->file));
+  for (const std::string& note : planned.scene->made_from.notes) block.line("note", note);
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
@@ -303,6 +307,10 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"engine", std::string(name_of(planned.engine.engine))},
                 {"why", planned.engine.why},
                 {"duration_s", scene.simulate.duration}};
+  if (const auto& start = scene.made_from.start) {
+    entry["start"] = {{"run", start->run}, {"at_s", start->at}, {"file", start->file}};
+    entry["notes"] = scene.made_from.notes;
+  }
   entry["volumes"] = volumes_json(scene);
   entry["first_collision"] =
       findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);

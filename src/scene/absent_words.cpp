@@ -36,6 +36,9 @@ constexpr AbsentWord all_words[] = {
      "a step for `simulate.tolerance`. `every` spaces the rows of tables and `fps` the pictures; neither changes the "
      "motion.",
      "simulate.step|simulate.tolerance|engine"},
+    {"restart|resume|continue|continuation|checkpoint|initial state|final state|previous run|warm start",
+     "`start` begins with the bodies of a finished run at one of its times. A run that was interrupted is repeated.",
+     "start|start.at"},
     {"speed|fast|velocity magnitude",
      "A ball or body has a `velocity`, a vector. `speed` belongs to groups, the spread of random velocities, and to "
      "videos.",

@@ -39,6 +39,7 @@ constexpr Field scene_fields[] = {
     {.key = "strings", .type = Type::named, .of = "string", .doc = "Strings and rods without mass, between bodies, or from a point to a body.", .example = "{s1: {from: [-1, 2, 0], to: crate, length: 1.5}}"},
     {.key = "regions", .type = Type::named, .of = "region", .doc = "Regions of space that the centres of bodies enter and leave. They touch nothing, and pictures do not show them.", .example = "{pocket: {radius: 0.3, position: [-6, 0, 0], action: remove}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
+    {.key = "start", .type = Type::part, .of = "start", .doc = "Begins with the bodies of a finished run: each body of this scene that the run has, by name, has its position and velocity there, and no impulse. All else is as this scene gives it, and time starts at 0.", .example = "{run: ../output/first, at: 2}"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}", .drawn = true},
     {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}", .drawn = true},
@@ -119,14 +120,25 @@ constexpr Field cylinder_fields[] = {
 
 constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
 
+constexpr Field placed_fields[] = {
+    {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<PlacedKeys, &PlacedKeys::position>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0. Default: that of the group's ball.", .example = "[2, 0, 0]", .member = fills_if_given<PlacedKeys, &PlacedKeys::velocity>},
+};
+
+constexpr Field start_fields[] = {
+    {.key = "run", .type = Type::text, .needed = true, .doc = "The folder of a finished run, from the scene file's folder.", .example = "../output/first", .title = "Folder of the run", .member = fills<StartKeys, &StartKeys::run>},
+    {.key = "at", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the run. Default: its end. Of a run without flights: a time of its trajectory.csv.", .example = "2", .title = "Time of the run", .member = fills_if_given<StartKeys, &StartKeys::at>},
+};
+
 constexpr Field group_fields[] = {
     {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20", .member = fills<GroupKeys, &GroupKeys::count>},
     {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "A ball of the group, without position.", .example = "{mass: 1, radius: 0.1}"},
-    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls", .member = fills<GroupKeys, &GroupKeys::in>},
-    {.key = "arrange", .type = Type::choice, .of = "random|lattice|hexagonal",
+    {.key = "in", .type = Type::part, .of = "in", .one_of = "in|members", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls", .member = fills<GroupKeys, &GroupKeys::in>},
+    {.key = "arrange", .type = Type::choice, .of = "random|lattice|hexagonal", .one_of = "arrange|members",
      .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal", .member = fills<GroupKeys, &GroupKeys::arrange>},
-    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
-    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
+    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity|members", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity|members", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
+    {.key = "members", .type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity", .doc = "Each ball's position and velocity, as many as `count`.", .example = "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", .title = "Balls one by one"},
     repeat,
 };
 
@@ -311,6 +323,7 @@ constexpr Kind kinds_of_scenes[] = {
     {"group", "a", "Many balls made by rule, without overlap, the same on every machine.", group_fields, nullptr,
      "group"},
     {"in", "", "An axis-aligned box.", in_fields},
+    {"placed", "a", "The position and velocity of one of a group's balls.", placed_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},
@@ -325,6 +338,7 @@ constexpr Kind kinds_of_scenes[] = {
      "linear|quadratic"},
     {"spring", "", "A spring from a fixed point, with a damper in parallel.", spring_fields},
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
+    {"start", "", "The former run from which bodies begin.", start_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
     {"stop", "a", "A condition that ends the run.", stop_fields},
     {"camera", "", "Camera of the pictures.", camera_fields},

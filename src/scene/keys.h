@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "numerics/vec3.h"
 #include "physics/attractor.h"
@@ -55,6 +56,18 @@ struct BoxKeys {
 };
 
 enum class Arrange : std::uint8_t { random, lattice, hexagonal };
+
+/// A ball of a group that lists its balls.
+struct PlacedKeys {
+  std::optional<Vec3> position;  // m
+  std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
+};
+
+/// The former run from which bodies begin.
+struct StartKeys {
+  std::optional<std::string> run;  // a folder
+  std::optional<double> at;        // s of that run; none: its end
+};
 
 struct GroupKeys {
   std::uint64_t count = 0;

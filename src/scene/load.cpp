@@ -14,6 +14,7 @@
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
+#include "scene/start.h"
 #include "yaml/document.h"
 #include "yaml/values.h"
 
@@ -25,8 +26,15 @@ void stop_if_wrong(const Diagnostics& diagnostics, const LoadOptions& options) {
 }
 
 /// The scene of a run must not be longer than a file that is read.
-void check_length(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
-  if (inventory.families.empty() || scene.resolved.size() <= max_source_bytes) return;
+/// `start`: the key of that name; null: there is none.
+void check_length(const Inventory& inventory, const Scene& scene, const Key* start, Diagnostics& diagnostics) {
+  if (scene.resolved.size() <= max_source_bytes) return;
+  if (scene.made_from.start)
+    return diagnostics.add(start->place,
+                           fmt::format("with the places of its bodies the scene has {} bytes; the limit is {}",
+                                       scene.resolved.size(), max_source_bytes),
+                           "expected fewer bodies");
+  if (inventory.families.empty()) return;
   std::optional<Place> where;
   const auto look = [&](const auto& entries) {
     for (std::size_t i = 0; i < entries.size() && !where; ++i)
@@ -87,8 +95,9 @@ struct SceneFile::Impl {
   Scene resolve(Node& tree, Diagnostics& diagnostics) const {
     const std::string folder = folder_of(path);
     Scene scene;
-    scene.expressions = expand(tree, options.budget, diagnostics);
+    scene.made_from.expressions = expand(tree, options.budget, diagnostics);
     check_scene(tree, folder, diagnostics);
+    apply_start(tree, folder, options, scene.made_from, diagnostics);
     scene.file = path;
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
@@ -111,7 +120,7 @@ struct SceneFile::Impl {
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
     scene.resolved = resolved_text(tree, inventory, scene, folder);
-    check_length(inventory, scene, diagnostics);
+    check_length(inventory, scene, tree.find_key("start"), diagnostics);
     stop_if_wrong(diagnostics, options);
     return scene;
   }

@@ -116,10 +116,12 @@ class Resolver {
         entry(body.key->text, flow(each, overrides));
         continue;
       }
+      const bool lists_members = view.find("members") != nullptr;
       // A group's velocity is written once, in the group.
-      overrides["velocity"] = "";
-      Overrides group_overrides{{"ball", flow(each, overrides)}, {"in", flow(view.part("in", "in"))}};
-      if (view.find("speed") == nullptr && view.find("velocity") == nullptr)
+      if (!lists_members) overrides["velocity"] = "";
+      Overrides group_overrides{{"ball", flow(each, overrides)}};
+      if (!lists_members) group_overrides["in"] = flow(view.part("in", "in"));
+      if (!lists_members && view.find("speed") == nullptr && view.find("velocity") == nullptr)
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
     }
@@ -137,7 +139,7 @@ class Resolver {
       if (name == "group") {
         const View each = member_view(root_, view);
         overrides["ball"] = flow(each, whole_paths(each));
-        overrides["in"] = flow(view.part("in", "in"));
+        if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in", "in"));
       }
       entry(map.keys[i].text, flow(view, overrides));
     }

@@ -12,6 +12,7 @@
 #include "physics/state.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/former_state.h"
 #include "scene/output.h"
 #include "scene/overlay.h"
 #include "scene/simulate_settings.h"
@@ -133,6 +134,15 @@ struct Measures {
   std::map<std::string, double> numbers;  // of `let`
 };
 
+/// Where values of the scene come from, if not from its file as numbers.
+struct MadeFrom {
+  /// The texts of expressions in the file, by their paths (expand.h).
+  std::map<std::string, std::string> expressions{};
+  std::optional<StartedFrom> start{};
+  /// Sentences on the start that the author may not expect.
+  std::vector<std::string> notes{};
+};
+
 struct Scene {
   std::string file;  // as given on the command line
   std::string title;
@@ -154,8 +164,7 @@ struct Scene {
   /// In s: where the run is known to end, if that is before its duration. The loader does not know.
   std::optional<double> ends_at{};
   std::vector<MeshFile> meshes;  // each file once
-  /// The texts of expressions in the file, by their paths (expand.h).
-  std::map<std::string, std::string> expressions;
+  MadeFrom made_from;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
   std::string resolved;
 };

@@ -67,6 +67,9 @@ std::string loaded(const std::string& path, const std::string& text) {
   options.mesh_points = [](const std::string&) {
     return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   };
+  options.former_state = [](const std::string&, std::optional<double> at) {
+    return FormerState{{"former"}, {at.value_or(1), {{0, 40, 0}}, {{0, 0, 0}}}};
+  };
   try {
     load_scene(path, options);
     return "";
@@ -102,6 +105,8 @@ const std::vector<Beyond>& beyond_schemas() {
       {"the scale of colours ends at", "two numbers against one another"},
       {"has no meaning for groups", "two keys against one another"},
       {"an MP4 has no transparency", "two keys against one another"},
+      {"the run has none of the bodies of this scene", "what a run holds"},
+      {"entries, and `count` is", "two keys against one another"},
       {"is taken", "names of two kinds of things against one another"},
       {"there is no file", "what files there are"},
       {"at the start", "where things are"},

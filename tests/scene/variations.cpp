@@ -198,6 +198,14 @@ simulate: {duration: 1}
 )",
           R"(
 scene: 1
+balls: {former: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+groups:
+  gas: {count: 2, ball: {mass: 1, radius: 0.1}, members: [{position: [0, 3, 0], velocity: [1, 0, 0]}, {position: [1, 3, 0]}]}
+start: {run: first, at: 2}
+simulate: {duration: 1}
+)",
+          R"(
+scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 forces:
   - {uniform: [1, 0, 0], on: [red], from: 0.5, until: 0.75}
