@@ -17,6 +17,9 @@ namespace {
 /// Share of coordinates and length: places and lengths are rounded, and so are the expressions that they come from.
 /// Ends whose distance differs from the length by less are as far apart as the string is long.
 constexpr double rounding_of_lengths = 0x1p-48;
+/// The same for the state of a former run, which has the errors of its paths. Speeds along rods may be such a state in
+/// any scene: in that of a run which began so.
+constexpr double rounding_of_runs = 1e-9;
 
 constexpr std::string_view good_end = "expected a ball, a body or a member (gas.3)";
 
@@ -94,6 +97,13 @@ class Lengths {
     const std::optional<double> given = view.number("length");
     string.length = given.value_or(0);
     if (!a || !b || (view.given("length") != nullptr && !given)) return;
+    if (!given && scene_.made_from.start) {
+      diagnostics_.add(
+          view.where(),
+          fmt::format("{} has no `length`, and its ends begin where a former run had them", in_backticks(name)),
+          "expected `length`: that of scene.yaml in the folder of the former run");
+      return;
+    }
     const double distance = (*a - *b).norm();
     const double far = std::max(a->cwiseAbs().maxCoeff(), b->cwiseAbs().maxCoeff());
     if (!given && distance == 0) {
@@ -110,8 +120,8 @@ class Lengths {
           "doubles do not resolve it there: bring it nearer, or make it longer");
       return;
     }
-    if (std::fabs(distance - length) <= rounding_of_lengths * (far + length)) {
-      string.length = distance;
+    if (std::fabs(distance - length) <= rounding() * (far + length)) {
+      if (distance > length || string.rod || !scene_.made_from.start) string.length = distance;
     } else if (distance > length || string.rod) {
       diagnostics_.add(view.place("length"),
                        fmt::format("{} is {} m long, but its ends are {} m apart at time 0", in_backticks(name),
@@ -124,6 +134,8 @@ class Lengths {
     if (string.rod && bodies_are_good_) check_rod(string, *a - *b, far, view, name);
   }
 
+  double rounding() const { return scene_.made_from.start ? rounding_of_runs : rounding_of_lengths; }
+
   /// Impulses of time 0 may act along a rod, which passes them on. Velocities along it contradict it.
   /// `way`: m, from the other end to the body. `far`: m, the largest coordinate.
   void check_rod(const String& string, const Vec3& way, double far, const View& view, const std::string& name) {
@@ -131,8 +143,8 @@ class Lengths {
     const Vec3 of_other = string.other == no_entity ? Vec3(Vec3::Zero()) : scene_.initial.velocity[string.other];
     const double parting = (of_body - of_other).dot(way) / string.length;
     // The direction of the rod has the rounding of places, too.
-    const double rounding = rounding_of_lengths * (1 + far / string.length) * (of_body.norm() + of_other.norm());
-    if (std::fabs(parting) <= rounding) return;
+    const double speeds = of_body.norm() + of_other.norm();  // m/s
+    if (std::fabs(parting) <= (rounding_of_runs + rounding_of_lengths * far / string.length) * speeds) return;
     diagnostics_.add(view.place("rod"),
                      fmt::format("the ends of {} {} at {} m/s at time 0", in_backticks(name),
                                  parting > 0 ? "part" : "approach", shortest(std::fabs(parting))),
