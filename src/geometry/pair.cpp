@@ -39,13 +39,13 @@ Volume thin_box(Shape shape, const Wall& wall, Frame& frame) {
 
 PairKind pair_kind(const World& world, Entity a, Entity b) {
   if (world.is_plane(b)) return PairKind::half_space;
-  if (world.is_string(b)) return PairKind::string;
   const Shape shape = world.volume_of(a).shape;
   if (world.is_wall(b)) {
     if (shape == Shape::sphere) return PairKind::sphere_wall;
     if (in_line(shape, world.wall(b))) return PairKind::prism;
     return shape == Shape::box ? PairKind::box_wall : PairKind::cylinder_wall;
   }
+  if (!world.is_body(b) && world.is_string(b)) return PairKind::string;
   return shape == Shape::sphere && world.volume_of(b).shape == Shape::sphere ? PairKind::spheres : PairKind::prism;
 }
 

@@ -115,8 +115,10 @@ struct World {
   const std::vector<MotionLeg>& legs(Entity e) const { return motions[e - body_count()]; }
   /// The point of a plane, the centre of a wall or an obstacle, or the anchor of a string (m), at time 0.
   const Vec3& fixed_position(Entity e) const {
-    if (is_string(e)) return string(e).anchor;
-    return is_plane(e) ? plane(e).point : is_wall(e) ? wall(e).center : obstacle(e).center;
+    return is_plane(e)    ? plane(e).point
+           : is_wall(e)   ? wall(e).center
+           : is_string(e) ? string(e).anchor
+                          : obstacle(e).center;
   }
 
  private:

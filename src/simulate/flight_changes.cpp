@@ -186,9 +186,13 @@ void FlightChanges::correct(Entity i, const Vec3& v) {
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
 }
 
-/// When the count of flights starts anew, old events must not appear fresh.
 void FlightChanges::count(Entity i) {
-  if (++bodies_.body[i].version != 0) return;
+  if (++bodies_.body[i].version == 0) [[unlikely]]
+    count_anew(i);
+}
+
+/// Old events must not appear fresh.
+void FlightChanges::count_anew(Entity i) {
   bodies_.body[i].version = 1;
   for (ExactBody& body : bodies_.body)
     if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;

@@ -5,8 +5,8 @@
 
 namespace carom {
 
-Ties::Ties(const World& world) : world_(world) {
-  if (world.strings.empty()) return;
+Ties::Ties(const World& world) : world_(world), any_(!world.strings.empty()) {
+  if (!any_) return;
   of_.resize(world.body_count());
   for (std::size_t k = 0; k < world.strings.size(); ++k) {
     of_[world.strings[k].body].push_back(world.string_number(k));

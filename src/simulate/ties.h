@@ -13,12 +13,12 @@ class Ties {
   explicit Ties(const World& world);
 
   /// Whether there are any. Where there are none, no other function need be called.
-  bool any() const { return !of_.empty(); }
+  bool any() const { return any_; }
   /// Whether one of them has an anchor.
   bool anchored() const { return anchored_; }
   /// The strings of body i, ascending.
   std::span<const Entity> of(Entity i) const {
-    return of_.empty() ? std::span<const Entity>() : std::span<const Entity>(of_[i]);
+    return any_ ? std::span<const Entity>(of_[i]) : std::span<const Entity>();
   }
   /// The body at the end of a string that body i does not hold; no_entity: the anchor is there.
   Entity other(Entity string, Entity i) const;
@@ -29,6 +29,7 @@ class Ties {
 
  private:
   const World& world_;
+  const bool any_;
   std::vector<std::vector<Entity>> of_;  // by body; empty: there are none
   bool anchored_ = false;
 };
