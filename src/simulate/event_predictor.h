@@ -51,7 +51,7 @@ class EventPredictor {
   const FlatContacts& flat_;
   const ExactGroup& group_;
   ExactCollisionTimes times_;
-  const bool plain_;            // there are neither strings nor forces, and nothing moves
+  const bool plain_;           // there are neither strings nor forces, and nothing moves
   std::vector<Entity> alike_;  // scratch
   std::vector<Meet> meets_;    // scratch
   std::uint64_t pair_tests_ = 0, surface_tests_ = 0;

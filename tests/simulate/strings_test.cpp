@@ -749,8 +749,8 @@ TEST(Strings, NeitherLengthsNorEnergyDriftAmongBallsTiedAtRandom) {
       }
     }
     const Tally& tally = simulator->tally();
-    residue = std::max(residue, std::abs(energy(problem, simulator->state()) - energy(problem, problem.initial) +
-                                         tally.energy_lost));
+    residue = std::max(
+        residue, std::abs(energy(problem, simulator->state()) - energy(problem, problem.initial) + tally.energy_lost));
     EXPECT_EQ(tally.doubtful, 0u) << seed;
     EXPECT_EQ(tally.stepped_contact, 0) << seed;
   }
