@@ -263,6 +263,7 @@ void ConstrainedMotion::find_strings(Step& step, std::size_t k) const {
       continue;
     ContactConstraint pair{static_cast<std::uint32_t>(k), other, there.normal, -there.gap};
     pair.bilateral = s.rod;
+    pair.slack = s.rod ? tol::step_error * bodies_.world.radius[i] : 0;
     step.contacts.add(pair, {i, e, there.feature}, there.gap);
   }
 }
@@ -287,6 +288,7 @@ void ConstrainedMotion::take_approaches(Step& step) {
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     ContactConstraint& p = step.contacts.pairs[c];
     p.target = p.force = 0;
+    p.slack = p.bilateral ? tol::step_error * step.fastest : 0;
     p.surface = surface_speed(p.normal, step.contacts.names[c].e);
   }
   const std::vector<Vec3> met = step.v;
@@ -387,6 +389,7 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
     parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
     kept.push_back({p.a, p.b, p.normal});
     kept.back().bilateral = p.force > 0 || p.bilateral;
+    kept.back().slack = p.slack;
     kept.back().surface = p.surface;
   }
   if (!parts) return false;

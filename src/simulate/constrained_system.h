@@ -97,6 +97,7 @@ class ConstrainedSystem {
   Followed follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double h);
   Followed follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
   double greatest_fade() const;
+  void allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const;
   std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                std::vector<ContactConstraint>& rows, Certificate& certificate) const;
   double opens(const DenseMotion& motion, double t);

@@ -17,6 +17,15 @@
 
 namespace carom {
 
+EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat,
+                               const ExactGroup& group)
+    : bodies_(bodies),
+      queue_(queue),
+      flat_(flat),
+      group_(group),
+      times_(bodies),
+      plain_(!bodies.ties.any() && bodies.world.forces.empty() && !bodies.moving.any()) {}
+
 void EventPredictor::predict(Entity i) {
   if (bodies_.neighbours.bodies(i).size() > 128 && bodies_.neighbours.room(i) > 0.05 * bodies_.world.radius[i])
     bodies_.neighbours.shrink(i, bodies_.position(i));
@@ -48,15 +57,15 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   meet_bodies(i, bodies, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
   if (flat_.of(i).count > 0) offer_flat_contacts(i, best);
-  if (more_) offer_more(i, best);
+  if (!plain_) offer_beside_contacts(i, best);
   if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
     offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
 }
 
-/// Offers what only scenes with strings, forces or things that move have.
-void EventPredictor::offer_more(Entity i, ExactEvent& best) {
+/// Offers what neither a contact nor a region is: strings, and switches of forces and of things that move.
+void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
   if (bodies_.ties.any()) offer_strings(i, best);
   if (!bodies_.world.forces.empty())
     offer(i, best,

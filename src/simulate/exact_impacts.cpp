@@ -178,21 +178,24 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (passed) strings_->begin_beyond(*passed, a, b);
   for (const Entity i : {a, b})
     if (parts_.group.opens(i)) release(i);
-  if (ends) {
-    for (const Entity i : {a, b}) parts_.flights.hold(i);
-    const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
-    if (closing > 0) {
-      const double held = impact_impulse(ma, mb, closing, 0);
-      parts_.flights.push(a, -held / ma * n);
-      parts_.flights.push(b, held / mb * n);
-    }
-    parts_.group.unite(a, b);
-  }
+  if (ends) hold_together(a, b, n);
   parts_.predictor.predict(a);
   parts_.predictor.predict(b);
   if (!ends) return;
   parts_.simultaneous.count_impact(a);
   parts_.simultaneous.count_impact(b);
+}
+
+/// Unites members a and b, which have met along n. What is left of their approach ends in the rest of the step.
+void ExactImpacts::hold_together(Entity a, Entity b, const Vec3& n) {
+  for (const Entity i : {a, b}) parts_.flights.hold(i);
+  const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
+  if (closing > 0) {
+    const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], held = impact_impulse(ma, mb, closing, 0);
+    parts_.flights.push(a, -held / ma * n);
+    parts_.flights.push(b, held / mb * n);
+  }
+  parts_.group.unite(a, b);
 }
 
 /// Lets member i fall, because an impact has thrown it off its support.

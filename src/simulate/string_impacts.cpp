@@ -62,6 +62,7 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
     const String& s = bodies_.world.string(string);
     rows.push_back(row(s.body, s.other, bodies_.string_now(string).normal, 0));
     rows.back().bilateral = s.rod;
+    rows.back().slack = s.rod ? exact_tolerance::step_error * std::abs(strike.change) : 0;
   }
   std::vector<double> inverse_mass;
   for (const Entity i : passed.bodies) inverse_mass.push_back(1 / bodies_.world.mass[i]);

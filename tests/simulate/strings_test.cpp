@@ -8,6 +8,7 @@
 #include "numerics/polynomial.h"
 #include "physics/force_law.h"
 #include "simulate/build.h"
+#include "simulate/random.h"
 
 namespace carom {
 namespace {
@@ -696,6 +697,96 @@ TEST(Strings, ADumbbellThatStrikesAWallWithBothBallsIsThrownBack) {
   const Outcome run = run_exact(problem);
   EXPECT_EQ(run.collisions.size(), 2u);
   EXPECT_NEAR(run.tally.energy_lost, 0.75 * 0.5 * 3 * 4, 1e-14);
+}
+
+/// Balls in a plane or in space, some of them tied to each other or to anchors.
+Tied random_ties(unsigned seed) {
+  Random random(seed);
+  const auto below = [&](int n) { return static_cast<int>(random(0, n)); };
+  Tied problem;
+  if (below(5) == 0) problem.world.gravity.setZero();
+  if (below(2) == 0) problem.plane({0, 0, 0}, {0, 1, 0});
+  const bool flat = below(3) == 0;
+  const auto anywhere = [&](double low, double high) {
+    return Vec3(random(-1, 1), random(low, high), flat ? 0 : random(-1, 1));
+  };
+  const int count = 2 + below(7);
+  while (static_cast<int>(problem.world.body_count()) < count) {
+    const Vec3 x = anywhere(0.2, 2.2);
+    const double radius = random(0.05, 0.15);
+    bool free = true;
+    for (Entity i = 0; i < problem.world.body_count(); ++i)
+      free = free && (problem.initial.position[i] - x).norm() > radius + problem.world.radius[i];
+    if (free) problem.ball(x, 2 * anywhere(-1, 1), random(0.5, 3), radius, 0.5 * below(3));
+  }
+  for (int k = 0; k < count; ++k) {
+    const auto body = static_cast<Entity>(below(count)), other = static_cast<Entity>(below(count));
+    const bool anchored = body == other || below(2) == 0;
+    const Vec3 anchor = anywhere(1, 3);
+    const double apart =
+        (problem.initial.position[body] - (anchored ? anchor : problem.initial.position[other])).norm();
+    String& s = anchored ? problem.anchored(body, anchor, apart) : problem.between(body, other, apart);
+    s.rod = below(4) == 0;
+    if (s.rod) continue;
+    s.length *= below(3) == 0 ? 1 : random(1, 1.5);
+    s.restitution = below(3) == 0 ? random(0, 1) : 0;
+  }
+  problem.options.duration = 0.5;
+  return problem;
+}
+
+TEST(Strings, NeitherLengthsNorEnergyDriftAmongBallsTiedAtRandom) {
+  double farthest = 0, residue = 0;  // m, J
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    const Tied problem = random_ties(seed);
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    for (int k = 1; k <= 16; ++k) {
+      go_to(*simulator, k / 32.0);
+      const std::vector<Vec3>& x = simulator->state().position;
+      for (const String& s : problem.world.strings) {
+        const double over = (x[s.body] - (s.other == no_entity ? s.anchor : x[s.other])).norm() - s.length;
+        farthest = std::max(farthest, s.rod ? std::abs(over) : over);
+      }
+    }
+    const Tally& tally = simulator->tally();
+    residue = std::max(
+        residue, std::abs(energy(problem, simulator->state()) - energy(problem, problem.initial) + tally.energy_lost));
+    EXPECT_EQ(tally.doubtful, 0u) << seed;
+    EXPECT_EQ(tally.stepped_contact, 0) << seed;
+  }
+  EXPECT_LT(farthest, 2e-12);
+  EXPECT_LT(residue, 1e-9);
+}
+
+TEST(Strings, AFrameWithMoreRodsThanItNeedsMovesAsARigidBody) {
+  // A square with both diagonals, in a plane; a tetrahedron with a fifth point.
+  for (const bool flat : {true, false}) {
+    Tied problem;
+    const std::vector<Vec3> at = flat ? std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}
+                                      : std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    const Vec3 turn(0, 0, 2);
+    Vec3 center = Vec3::Zero(), drift = Vec3::Zero();
+    for (const Vec3& x : at) {
+      problem.ball(x, turn.cross(x), 1, 0.05);
+      center += x / static_cast<double>(at.size());
+      drift += turn.cross(x) / static_cast<double>(at.size());
+    }
+    for (Entity i = 0; i < at.size(); ++i)
+      for (Entity j = 0; j < i; ++j) problem.between(i, j, (at[i] - at[j]).norm()).rod = true;
+    problem.options.duration = 2;
+    const Outcome run = run_exact(problem);
+    EXPECT_EQ(run.tally.doubtful, 0u) << flat;
+    for (Entity i = 0; i < at.size(); ++i)
+      for (Entity j = 0; j < i; ++j)
+        EXPECT_NEAR((run.end.position[i] - run.end.position[j]).norm(), (at[i] - at[j]).norm(), 1e-12) << flat;
+    if (!flat) continue;
+    const auto seen = [&](const Vec3& d) {
+      const double c = std::cos(4.0), s = std::sin(4.0);
+      return Vec3(c * d.x() - s * d.y(), s * d.x() + c * d.y(), 0);
+    };
+    const Vec3 now = center + 2 * drift - Vec3(0, 2 * g_n, 0);
+    for (Entity i = 0; i < 4; ++i) EXPECT_LT((run.end.position[i] - now - seen(at[i] - center)).norm(), 1e-11) << i;
+  }
 }
 
 }  // namespace
