@@ -141,7 +141,10 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                     bodies_.load_on(b) > 0;
   // The approach begins by a change of forces.
   const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);
-  const bool ends = (approach > 0 && met == 0) || enters ||
+  // On paths of islands, which follow constraints to rounding, the two move as one.
+  const bool together = bodies_.is_constrained(a) && bodies_.is_constrained(b) &&
+                        approach <= exact_tolerance::drift * (va.norm() + vb.norm());
+  const bool ends = (approach > 0 && met == 0) || enters || together ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
                                    (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));
