@@ -113,7 +113,7 @@ void StringImpacts::tighten(Entity string) {
   const Passed& passed = passed_;
   const double lost = 0.5 * passed.impulse * (approach - separation);
   bodies_.log.lose(lost);
-  if (!ends || approach > bodies_.slow_speed(std::max(press, 0.0), length)) {
+  if (!ends || (e == 0 && approach > bodies_.slow_speed(std::max(press, 0.0), length))) {
     Collision met = make_collision(world, CollisionKind::string, bodies_.now.hi, a, string, there.point, n, approach,
                                    separation, e);
     met.impulse = passed.impulse;
