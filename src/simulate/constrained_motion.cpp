@@ -122,7 +122,7 @@ bool ConstrainedMotion::count_change(Island& island) const {
 bool ConstrainedMotion::advance(Entity i) {
   Island& island = bodies_.islands.of(i);
   const bool undisturbed = island.constrained && bodies_.now == island.planned;
-  if (!undisturbed && !bodies_.ties.any_of(island.members) && !count_change(island)) {
+  if (!undisturbed && !bodies_.any_taut(island.members) && !count_change(island)) {
     for (const Entity k : island.members) settle(k);
     return false;
   }

@@ -137,6 +137,19 @@ bool ExactBodies::holds(Entity string) const {
          exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[s.body].norm() * radius));
 }
 
+bool ExactBodies::any_taut(std::span<const Entity> those) const {
+  if (!ties.any()) return false;
+  const auto taut = [&](Entity string) {
+    const String& s = world.string(string);
+    const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
+    return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), xe);
+  };
+  return std::any_of(those.begin(), those.end(), [&](Entity i) {
+    const std::span<const Entity> strings = ties.of(i);
+    return std::any_of(strings.begin(), strings.end(), taut);
+  });
+}
+
 double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
   return std::max(exact_tolerance::contact_gap * world.radius[i],
                   exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));

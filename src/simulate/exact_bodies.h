@@ -7,6 +7,7 @@
 // bits from either side and at any time of prediction. Neither outputs nor the search for neighbours can therefore
 // change it.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "geometry/touch.h"
@@ -135,6 +136,8 @@ struct ExactBodies {
   /// Whether a string between bodies in lasting contact is taut, and its length does not change but for rounding. A rod
   /// always is.
   bool holds(Entity string) const;
+  /// Whether one of these bodies has a taut string, or a rod.
+  bool any_taut(std::span<const Entity> those) const;
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
 

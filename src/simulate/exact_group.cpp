@@ -65,7 +65,7 @@ void ExactGroup::unite(Entity a, Entity b) {
     for (const Entity i : {a, b}) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
   bodies_.islands.merge(a, b, bodies_.now);
   // Time steps would let strings lengthen.
-  if (Island& island = bodies_.islands.of(a); bodies_.ties.any_of(island.members)) island.end = bodies_.now;
+  if (Island& island = bodies_.islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
 }
 
 void ExactGroup::wake(Entity i) {

@@ -330,13 +330,13 @@ bool ExactSimulator::all_rest() {
   return true;
 }
 
-/// Takes the next step of body i's island. Islands with strings always move by constrained motion.
+/// Takes the next step of body i's island. Islands with taut strings move by constrained motion.
 void ExactSimulator::step_island(Entity i) {
   bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
-  if (bodies_.ties.any_of(bodies_.islands.of(i).members)) bodies_.islands.of(i).busy = false;
+  if (bodies_.any_taut(bodies_.islands.of(i).members)) bodies_.islands.of(i).busy = false;
   if (!bodies_.islands.of(i).busy && constrained_.advance(i)) return;
-  // It has united with an island that has strings.
+  // It has united with an island that has taut strings.
   if (!stepping_.advance(i)) step_island(i);
 }
 

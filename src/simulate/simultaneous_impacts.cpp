@@ -18,7 +18,7 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 void SimultaneousImpacts::count_impact(Entity i) {
-  if (!bodies_.is_stepped(i) || bodies_.ties.any_of(bodies_.islands.of(i).members) ||
+  if (!bodies_.is_stepped(i) || bodies_.any_taut(bodies_.islands.of(i).members) ||
       ++group_.impacts.write(i) <= tol::few_impacts)
     return;
   const Struck set = strike(i);

@@ -85,6 +85,12 @@ void StringImpacts::tighten(Entity string) {
   const String& s = world.string(string);
   const Entity a = s.body, b = s.other;
   const bool anchored = b == no_entity;
+  // The rest of a time step is not to come: a step with the string follows at once.
+  for (const Entity i : {a, b}) {
+    if (i == no_entity || !bodies_.is_stepped(i)) continue;
+    parts_.flights.release(i);
+    parts_.group.let_go(i);
+  }
   const Vec3 xa = bodies_.position(a), xb = anchored ? s.anchor : bodies_.position(b);
   const Vec3 va = bodies_.velocity(a), vb = anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(b);
   const Touch there = touch(world, a, xa, string, xb);
@@ -113,7 +119,7 @@ void StringImpacts::tighten(Entity string) {
   const Passed& passed = passed_;
   const double lost = 0.5 * passed.impulse * (approach - separation);
   bodies_.log.lose(lost);
-  if (!ends || approach > bodies_.slow_speed(std::max(press, 0.0), length)) {
+  if (!ends || (e == 0 && approach > bodies_.slow_speed(std::max(press, 0.0), length))) {
     Collision met = make_collision(world, CollisionKind::string, bodies_.now.hi, a, string, there.point, n, approach,
                                    separation, e);
     met.impulse = passed.impulse;
@@ -129,6 +135,7 @@ void StringImpacts::tighten(Entity string) {
       parts_.flights.begin(i, bodies_.position(i), parts_.flat.keep_at(i, passed.v[k]), {string, 0});
   begin_beyond(passed, a, b);
   if (ends && !anchored) parts_.group.unite(a, b);
+  if (ends) bodies_.islands.of(a).end = bodies_.now;
   for (const Entity i : {a, b})
     if (i != no_entity) parts_.predictor.predict(i);
 }

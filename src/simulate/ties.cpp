@@ -20,10 +20,6 @@ Entity Ties::other(Entity string, Entity i) const {
   return s.body == i ? s.other : s.body;
 }
 
-bool Ties::any_of(std::span<const Entity> bodies) const {
-  return any() && std::any_of(bodies.begin(), bodies.end(), [&](Entity i) { return !of_[i].empty(); });
-}
-
 void Ties::untie(Entity i) {
   for (const Entity string : of(i))
     if (const Entity k = other(string, i); k != no_entity) std::erase(of_[k], string);

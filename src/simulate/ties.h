@@ -22,8 +22,6 @@ class Ties {
   }
   /// The body at the end of a string that body i does not hold; no_entity: the anchor is there.
   Entity other(Entity string, Entity i) const;
-  /// Whether any of these bodies has a string.
-  bool any_of(std::span<const Entity> bodies) const;
   /// Removes the strings of body i.
   void untie(Entity i);
 

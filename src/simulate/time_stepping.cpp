@@ -35,7 +35,7 @@ bool TimeStepping::advance(Entity i) {
   Step step = begin_step(i);
   while (!solve_step(step)) {
     for (const Entity e : step.near) group_.unite(i, e);
-    if (bodies_.ties.any_of(bodies_.islands.of(i).members)) {
+    if (bodies_.any_taut(bodies_.islands.of(i).members)) {
       for (const Entity k : step.members) group_.index.write(k) = ContactConstraint::fixed;
       return false;
     }

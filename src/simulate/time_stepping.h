@@ -33,7 +33,7 @@ class TimeStepping {
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
   /// Takes the next step of member i's island. Islands that it may press on before the step ends are united with it.
-  /// False: one of them has strings, and no step is taken. Steps would let these lengthen.
+  /// False: one of them has taut strings, and no step is taken. It would let these lengthen.
   bool advance(Entity i);
 
  private:

@@ -789,5 +789,39 @@ TEST(Strings, AFrameWithMoreRodsThanItNeedsMovesAsARigidBody) {
   }
 }
 
+TEST(Strings, RecordedPiecesOfPathsGiveTheStateOfASwing) {
+  Tied problem = pendulum(1.2, 1);
+  const Entity free = problem.ball({2, 0, 0}, {0, 0, 0}, 1, 0.1);
+  problem.anchored(free, {2, 1, 0}, 1.5);
+  problem.options.duration = 1;
+  problem.options.record_paths = true;
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  std::vector<PathPiece> last(2);
+  for (const PathPiece& piece : simulator->paths()) last[piece.body] = piece;
+  for (int k = 1; k <= 50; ++k) {
+    const double time = 0.02 * k;
+    do {
+      simulator->advance_to(time);
+      for (const PathPiece& piece : simulator->paths()) last[piece.body] = piece;
+    } while (simulator->time() < time);
+    for (const PathPiece& piece : last) {
+      const double t = (time - piece.start.hi) - piece.start.lo;
+      EXPECT_EQ(simulator->state().position[piece.body], Vec3(piece.x + t * (piece.v + (0.5 * t) * piece.a))) << time;
+    }
+  }
+}
+
+TEST(Strings, ARunThatStopsAtRestEndsWhereTheLastBallHangs) {
+  Tied problem;
+  const Entity bob = problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.1);
+  problem.anchored(bob, {0, 0, 0}, 1).restitution = 0.5;
+  problem.options.stop_at_rest = true;
+  problem.options.duration = 100;
+  const Outcome run = run_exact(problem);
+  ASSERT_TRUE(run.tally.end.has_value());
+  // The fall takes f, the hops after it f each, by half as much speed: f (1 + 2 (1/2 + 1/4 + ...)).
+  EXPECT_NEAR(run.tally.end->time, 3 * std::sqrt(2 / g_n), 0.05);
+}
+
 }  // namespace
 }  // namespace carom
