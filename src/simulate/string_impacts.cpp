@@ -88,6 +88,7 @@ void StringImpacts::tighten(Entity string) {
   // The rest of a time step is not to come: a step with the string follows at once.
   for (const Entity i : {a, b}) {
     if (i == no_entity || !bodies_.is_stepped(i)) continue;
+    parts_.flights.begin(i, bodies_.position(i), bodies_.velocity(i), {});
     parts_.flights.release(i);
     parts_.group.let_go(i);
   }
