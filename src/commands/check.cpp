@@ -69,6 +69,17 @@ std::string forces_text(const World& world) {
   return counted(world.forces.size(), "force", "forces") + " in addition to gravity";
 }
 
+std::string regions_text(const Scene& scene) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.world.regions.size(); ++i) {
+    const WorldRegion& region = scene.world.regions[i];
+    names.push_back(scene.roster.regions[i] + (region.removes ? " (remove)" : region.stops ? " (stop)" : ""));
+  }
+  const std::size_t most = 4, count = names.size();
+  if (count > most) names.resize(most);
+  return fmt::format("{}: {}{}", counted(count, "region", "regions"), joined(names, ", "), count > most ? ", ..." : "");
+}
+
 std::string engine_text(const PlannedScene& planned) {
   const Simulate& simulate = planned.scene->simulate;
   std::string text(name_of(planned.engine.engine));
@@ -235,6 +246,7 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (const std::string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
   if (!planned.scene->world.strings.empty()) block.line("strings", strings_text(planned.scene->world));
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
+  if (!planned.scene->world.regions.empty()) block.line("regions", regions_text(*planned.scene));
   if (const auto& start = planned.scene->made_from.start)
     block.line("start", fmt::format("the run {} at {}, by its {}", printable(start->run), quantity(start->at, "s"),
                                     start->file));
@@ -303,6 +315,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"walls", scene.world.walls.size()},
                 {"obstacles", scene.world.obstacles.size()},
                 {"strings", scene.world.strings.size()},
+                {"regions", scene.roster.regions},
                 {"forces", scene.world.forces.size()},
                 {"engine", std::string(name_of(planned.engine.engine))},
                 {"why", planned.engine.why},
