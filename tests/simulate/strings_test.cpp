@@ -55,7 +55,9 @@ TEST(Strings, APendulumReturnsAfterThePeriodOfTheEllipticIntegral) {
       for (int k = 1; k <= 10; ++k) {
         go_to(*simulator, k * whole);
         const State& state = simulator->state();
-        EXPECT_LT((state.position[0] - problem.initial.position[0]).norm(), 1e-12 * k) << angle << " " << k;
+        // Measured: 3.3e-13. Near the top errors grow.
+        const double error = angle < 2 ? 1e-12 : 1e-12 * k;
+        EXPECT_LT((state.position[0] - problem.initial.position[0]).norm(), error) << angle << " " << k;
         // Velocities are read off between two points of the path.
         EXPECT_LT(state.velocity[0].norm(), 1e-9) << angle << " " << k;  // measured: 2.4e-10
       }
@@ -162,7 +164,7 @@ TEST(Strings, TheBobOfABallisticPendulumRisesByTheSquareOfItsShareOfTheImpulse) 
     EXPECT_NEAR(run.collisions[0].time, before, 1e-14);
     EXPECT_NEAR(run.collisions[0].impulse, heavy * v, 1e-13);
     EXPECT_NEAR(run.collisions[0].energy_lost, 0.5 * (1 - e * e) * u * u * m * heavy / (m + heavy), 1e-12);
-    const Vec3 top = length * Vec3(std::sin(angle), 1 - std::cos(angle), 0) + Vec3(0, length - length, 0);
+    const Vec3 top = length * Vec3(std::sin(angle), 1 - std::cos(angle), 0);
     EXPECT_LT((run.end.position[bob] - top).norm(), 1e-12) << e;
     EXPECT_NEAR(residual(problem, run), 0, 1e-10);
   }
@@ -349,16 +351,16 @@ TEST(Strings, TheCradleOfSevenSwingsWithThePeriodOfOnePendulum) {
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     for (int k = 1; k <= 10; ++k) {
       go_to(*simulator, (k - 0.5) * whole);
-      Vec3 last = problem.initial.position[6] + Vec3(std::sin(angle), 1 - std::cos(angle), 0);
-      EXPECT_LT((simulator->state().position[6] - last).norm(), 1e-12 * (4 + k)) << vee << k;
+      const Vec3 last = problem.initial.position[6] + Vec3(std::sin(angle), 1 - std::cos(angle), 0);
+      EXPECT_LT((simulator->state().position[6] - last).norm(), 1e-12) << vee << k;  // measured: 1.8e-13
       go_to(*simulator, k * whole);
       for (Entity i = 0; i < 7; ++i)
-        EXPECT_LT((simulator->state().position[i] - problem.initial.position[i]).norm(), 1e-12 * (4 + k))
+        EXPECT_LT((simulator->state().position[i] - problem.initial.position[i]).norm(), 1e-12)
             << vee << " " << k << ": " << i;
     }
     EXPECT_EQ(simulator->tally().body_body, 120u);
     EXPECT_EQ(simulator->tally().collisions(), 120u);
-    EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-9);
+    EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-11);
   }
 }
 
