@@ -106,6 +106,13 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   return f.curve != nullptr ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
 }
 
+/// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
+/// rounding.
+bool ExactImpacts::move_as_one(Entity a, Entity b, double approach) const {
+  return bodies_.is_constrained(a) && bodies_.is_constrained(b) &&
+         approach <= exact_tolerance::drift * (bodies_.velocity(a).norm() + bodies_.velocity(b).norm());
+}
+
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const World& world = bodies_.world;
   const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
@@ -141,10 +148,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                     bodies_.load_on(b) > 0;
   // The approach begins by a change of forces.
   const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);
-  // On paths of islands, which follow constraints to rounding, the two move as one.
-  const bool together = bodies_.is_constrained(a) && bodies_.is_constrained(b) &&
-                        approach <= exact_tolerance::drift * (va.norm() + vb.norm());
-  const bool ends = (approach > 0 && met == 0) || enters || together ||
+  const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
                                    (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));

@@ -139,6 +139,22 @@ TEST(StartErrors, OfGroupsOfAnotherSize) {
             "     = expected `count`: 2, or another name, which the run does not have\n");
 }
 
+TEST(StartErrors, OfStringsWithoutALength) {
+  EXPECT_EQ(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\nstrings: {s: {from: [0, 9, 0], to: red}}\n"),
+                      with_run({"red"})),
+            "scene.yaml:6:11: error: `s` has no `length`, and its ends begin where a former run had them\n"
+            "   6 | strings: {s: {from: [0, 9, 0], to: red}}\n"
+            "     |           ^\n"
+            "     = expected `length`: that of scene.yaml in the folder of the former run\n");
+}
+
+TEST(Start, OfTautStringsAllowsTheErrorsOfTheirPaths) {
+  const std::string string = "balls: {red: {position: [0, 5, 0]}}\nstrings: {s: {from: [0.1, 0, 0], to: red, length: ";
+  const Scene scene = load_text(with_balls(string + "0.899999999999}}\n"), with_run({"red"}));
+  EXPECT_EQ(scene.world.strings[0].length, 0.3 * 3);
+  EXPECT_NE(errors_of(with_balls(string + "0.8999}}\n"), with_run({"red"})), "");
+}
+
 TEST(StartErrors, OfOverlapsAreAtTheStart) {
   EXPECT_EQ(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\nobstacles:\n"
                                  "  post: {radius: 0.5, position: [0.1, 1, 0]}\n"),

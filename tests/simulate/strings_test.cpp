@@ -326,14 +326,14 @@ TEST(Strings, AWhipOfTwoMassesTurnsAboutItsCenterOfMass) {
     }
 }
 
-/// Seven balls in a row, each on one string or on two in a V. The first is lifted.
-Tied cradle(double angle, bool vee) {
+/// Seven balls in a row, each on one string or on two in a V. The first ones are lifted.
+Tied cradle(double angle, bool vee, int lifted = 1) {
   Tied problem;
   const double radius = 0.0625;
   for (int k = 0; k < 7; ++k) {
     const double x = 2 * radius * k;
-    const Entity i =
-        problem.ball(k == 0 ? Vec3(-std::sin(angle), -std::cos(angle), 0) : Vec3(x, -1, 0), {0, 0, 0}, 1, radius, 1);
+    const Vec3 off = k < lifted ? Vec3(-std::sin(angle), -std::cos(angle), 0) : Vec3(0, -1, 0);
+    const Entity i = problem.ball(Vec3(x, 0, 0) + off, {0, 0, 0}, 1, radius, 1);
     for (const double z : {-0.75, 0.75}) {
       if (!vee && z < 0) continue;
       const Vec3 anchor(x, 0, vee ? z : 0);
@@ -361,6 +361,26 @@ TEST(Strings, TheCradleOfSevenSwingsWithThePeriodOfOnePendulum) {
     EXPECT_EQ(simulator->tally().body_body, 120u);
     EXPECT_EQ(simulator->tally().collisions(), 120u);
     EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-11);
+  }
+}
+
+TEST(Strings, AsManyBallsOfACradleRiseAsAreLifted) {
+  for (int lifted = 2; lifted <= 6; ++lifted) {
+    const double angle = 0.5, whole = period(1, angle);
+    Tied problem = cradle(angle, false, lifted);
+    problem.options.duration = 10 * whole;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    for (int k = 1; k <= 10; ++k) {
+      go_to(*simulator, (k - 0.5) * whole);
+      for (Entity i = 0; i < 7; ++i) {
+        const bool rises = static_cast<int>(i) >= 7 - lifted;
+        const Vec3 at =
+            Vec3(0.125 * i, -1, 0) + (rises ? Vec3(std::sin(angle), 1 - std::cos(angle), 0) : Vec3(0, 0, 0));
+        EXPECT_LT((simulator->state().position[i] - at).norm(), 1e-11) << lifted << " " << k << ": " << i;
+      }
+      go_to(*simulator, k * whole);
+    }
+    EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-10);
   }
 }
 
