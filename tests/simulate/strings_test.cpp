@@ -114,6 +114,28 @@ TEST(Strings, AHangingBallSleeps) {
   EXPECT_NEAR(simulator->contacts()[0].force, 2 * g_n, 1e-14);
 }
 
+TEST(Strings, AnImpulseAlongATautStringAtTheStartIsAnImpactOfIt) {
+  for (const bool rod : {false, true}) {
+    Tied problem;
+    const Entity bob = problem.ball({0, -1, 0}, {0, 0, 0}, 2, 0.05);
+    problem.anchored(bob, {0, 0, 0}, 1).rod = rod;
+    problem.world.impulse = {Vec3(0.6, -4, 0)};
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    simulator->advance_to(0.1);
+    ASSERT_EQ(simulator->tally().collisions(), 1u);
+    ASSERT_EQ(simulator->collisions().size(), 1u);
+    const Collision& impact = simulator->collisions()[0];
+    EXPECT_EQ(impact.kind, CollisionKind::string);
+    EXPECT_EQ(impact.time, 0);
+    EXPECT_NEAR(impact.approach_speed, 2, 1e-15);
+    EXPECT_NEAR(impact.impulse, 4, 1e-14);
+    EXPECT_NEAR(impact.energy_lost, 4, 1e-14);
+    EXPECT_NEAR(simulator->tally().energy_lost, 4, 1e-14);
+    const double v = simulator->state().velocity[0].norm(), y = simulator->state().position[0].y();
+    EXPECT_NEAR(v * v, 0.09 - 2 * g_n * (y + 1), 1e-10);
+  }
+}
+
 TEST(Strings, ALargeSwingGoesSlackAndTautAgainAtTheClosedForms) {
   // From the lowest point at speed v, with 2 g L < v^2 < 5 g L: the string goes slack at the angle a above the
   // horizontal with sin a = (v^2 - 2 g L) / (3 g L). The speed is then w with w^2 = g L sin a, and the parabola meets
