@@ -54,7 +54,8 @@ class Matching {
  private:
   static std::pair<Entity, Entity> key(const Impact& i) { return {i.a, i.b}; }
 
-  /// In s: the time in which a and b pass through each other at this collision's speed.
+  /// In s: the time in which a and b pass through each other at this collision's speed; of a string, that in which its
+  /// body moves by its radius.
   double passage(const Impact& i) const {
     const double size = world_.radius[i.a] + (world_.is_body(i.b)       ? world_.radius[i.b]
                                               : world_.is_obstacle(i.b) ? world_.obstacle(i.b).volume.reach()
@@ -70,7 +71,8 @@ class Matching {
       const auto [from, to] = std::minmax(reference[i].time, run[j].time);
       if (to - from <= passage(reference[i])) {
         between_[reference[i].a].push_back({from, to});
-        if (world_.is_body(reference[i].b)) between_[reference[i].b].push_back({from, to});
+        const Entity second = world_.second_body(reference[i].b);
+        if (second != no_entity) between_[second].push_back({from, to});
         ++i, ++j;
       } else if (reference[i].time < run[j].time) {
         count(reference[i++], missed_);

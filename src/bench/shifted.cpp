@@ -1,5 +1,5 @@
-// Moves bodies, fixed things, anchors of springs and centres of attractors by an irrational share of the extent.
-// All digits of their positions then change.
+// Moves bodies, fixed things, anchors of springs and strings, and centres of attractors by an irrational share of the
+// extent. All digits of their positions then change.
 #include "bench/shifted.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@ World shifted(const World& world, const Vec3& by) {
   for (Plane& plane : moved.planes) plane.point += by;
   for (Wall& wall : moved.walls) wall.center += by;
   for (Obstacle& obstacle : moved.obstacles) obstacle.center += by;
+  for (String& string : moved.strings) string.anchor += by;
   for (Force& force : moved.forces) {
     if (auto* spring = std::get_if<Spring>(&force.law)) spring->anchor += by;
     if (auto* attractor = std::get_if<Attractor>(&force.law)) attractor->center += by;

@@ -16,7 +16,7 @@ Statistics statistics_of(const World& world, const RecordedRun& run, double dura
   double on_fixed = 0;       // N s
   for (const Impact& impact : run.impacts) {
     if (impact.approach_speed < run.least_speed()) continue;
-    const bool bodies = world.is_body(impact.b);
+    const bool bodies = world.second_body(impact.b) != no_entity;
     struck += bodies ? 2 : 1;
     if (!bodies) on_fixed += impact.impulse;
   }

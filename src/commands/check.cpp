@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "commands/accuracy_report.h"
@@ -55,8 +56,28 @@ std::string fixed_text(const World& world) {
   return text + ", " + counted(world.obstacles.size(), "obstacle", "obstacles");
 }
 
+std::string strings_text(const World& world) {
+  const auto rods = static_cast<std::size_t>(
+      std::count_if(world.strings.begin(), world.strings.end(), [](const String& string) { return string.rod; }));
+  const std::size_t strings = world.strings.size() - rods;
+  if (rods == 0) return counted(strings, "string", "strings");
+  return strings == 0 ? counted(rods, "rod", "rods")
+                      : fmt::format("{}, {}", counted(strings, "string", "strings"), counted(rods, "rod", "rods"));
+}
+
 std::string forces_text(const World& world) {
   return counted(world.forces.size(), "force", "forces") + " in addition to gravity";
+}
+
+std::string regions_text(const Scene& scene) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.world.regions.size(); ++i) {
+    const WorldRegion& region = scene.world.regions[i];
+    names.push_back(scene.roster.regions[i] + (region.removes ? " (remove)" : region.stops ? " (stop)" : ""));
+  }
+  const std::size_t most = 4, count = names.size();
+  if (count > most) names.resize(most);
+  return fmt::format("{}: {}{}", counted(count, "region", "regions"), joined(names, ", "), count > most ? ", ..." : "");
 }
 
 std::string engine_text(const PlannedScene& planned) {
@@ -75,9 +96,11 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
   // Smaller coordinates are rounding errors.
   const double nothing = 1e-9 * planned.scene->world.radius[c.a];
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
-  std::string text = fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, closing at {}", roster.name(c.a),
-                                 roster.name(c.b), quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()),
-                                 shown(c.position.z()), quantity(c.approach_speed, "m/s"));
+  const bool tautens = c.kind == CollisionKind::string;
+  std::string text =
+      fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, {} at {}", roster.name(c.a), roster.name(c.b),
+                  quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()), shown(c.position.z()),
+                  tautens ? "which goes taut" : "closing", quantity(c.approach_speed, "m/s"));
   if (planned.engine.engine == Engine::book) text += " (exact; the book engine detects it in a later frame)";
   return text;
 }
@@ -221,7 +244,13 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   block.line("bodies", bodies_text(*planned.scene));
   block.line("fixed", fixed_text(planned.scene->world));
   if (const std::string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
+  if (!planned.scene->world.strings.empty()) block.line("strings", strings_text(planned.scene->world));
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
+  if (!planned.scene->world.regions.empty()) block.line("regions", regions_text(*planned.scene));
+  if (const auto& start = planned.scene->made_from.start)
+    block.line("start", fmt::format("the run {} at {}, by its {}", printable(start->run), quantity(start->at, "s"),
+                                    start->file));
+  for (const std::string& note : planned.scene->made_from.notes) block.line("note", note);
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
@@ -285,10 +314,16 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"planes", scene.world.planes.size()},
                 {"walls", scene.world.walls.size()},
                 {"obstacles", scene.world.obstacles.size()},
+                {"strings", scene.world.strings.size()},
+                {"regions", scene.roster.regions},
                 {"forces", scene.world.forces.size()},
                 {"engine", std::string(name_of(planned.engine.engine))},
                 {"why", planned.engine.why},
                 {"duration_s", scene.simulate.duration}};
+  if (const auto& start = scene.made_from.start) {
+    entry["start"] = {{"run", start->run}, {"at_s", start->at}, {"file", start->file}};
+    entry["notes"] = scene.made_from.notes;
+  }
   entry["volumes"] = volumes_json(scene);
   entry["first_collision"] =
       findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);

@@ -130,8 +130,8 @@ class GatherSession {
   /// Flags of the sweep's runs that are whole in a folder.
   std::vector<bool> whole_runs(Sweep sweep, const std::string& folder, const std::string& base) const {
     std::vector<bool> whole(sweep.size());
-    // Meshes lie where the sweep ran: a run that cannot be checked against its scene is taken as it is.
-    if (may_have_meshes(sweep, base)) {
+    // Meshes and former runs lie where the sweep ran: a run that cannot be checked against its scene is taken as it is.
+    if (may_read_files(sweep, base)) {
       for (std::size_t number = 0; number < sweep.size(); ++number)
         whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
       return whole;

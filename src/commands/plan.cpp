@@ -23,6 +23,7 @@
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "run/measure.h"
+#include "run/start_reader.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -92,6 +93,8 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
     scene.output = written(scene.output);
     return scene;
   });
+  const MadeFrom& made_from = planned.scene->made_from;
+  planned.notes.insert(planned.notes.begin(), made_from.notes.begin(), made_from.notes.end());
   check_flights(*planned.scene);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);
@@ -100,6 +103,11 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only requests");
   if (what_stands(planned.folder) == Standing::other)
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+  if (made_from.start && is_same_folder(made_from.start->folder, planned.folder))
+    throw ExportError(
+        fmt::format("{} holds the run that this one begins with, and would be replaced\n  write elsewhere "
+                    "with -o",
+                    printable(planned.folder)));
   settle_folder(planned.folder);
   if (purpose == Purpose::bench) {
     planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench);
@@ -142,6 +150,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.chooses_outputs = lifted;
   load.measure_fault = measure_fault;
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  load.former_state = start_reader(load);
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;
 }

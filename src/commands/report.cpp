@@ -56,7 +56,9 @@ std::string collisions_text(const Summary& summary) {
   if (summary.collisions == 0) return "none";
   std::string text = fmt::format("{} ({} body-body, {} body-fixed", grouped(summary.collisions),
                                  grouped(summary.body_body), grouped(summary.body_fixed));
-  text += summary.contact.merges > 0 ? fmt::format(", {})", counted(summary.contact.merges, "merge", "merges")) : ")";
+  if (summary.contact.merges > 0) text += fmt::format(", {}", counted(summary.contact.merges, "merge", "merges"));
+  if (summary.contact.tautened > 0) text += fmt::format(", {} by strings", grouped(summary.contact.tautened));
+  text += ")";
   if (summary.collisions == 1) return text + fmt::format(", at {}", quantity(summary.first_collision, "s"));
   return text + fmt::format(", first at {}, last at {}", quantity(summary.first_collision, "s"),
                             quantity(summary.last_collision, "s"));

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/manifest.h"
 #include "files/output_file.h"
 #include "files/stored_file.h"
 #include "scene/check.h"
@@ -110,11 +111,16 @@ std::set<std::string> files_of_scene(const PlannedScene& planned) {
   std::set<std::string> files = {planned.file};
   if (planned.scene)
     for (const MeshFile& mesh : planned.scene->meshes) add_mesh(mesh.file, files);
+  if (planned.scene && planned.scene->made_from.start)
+    files.insert((fs::path(planned.scene->made_from.start->folder) / manifest_name).string());
   if (planned.scene) return files;
   try {
     const std::string folder = fs::path(planned.file).parent_path().string();
     for (const SceneValue& value : scene_values(planned.file, text_of(planned.file)))
-      if (value.path.ends_with(".mesh")) add_mesh(beneath(folder, cell_text(value.text)), files);
+      if (value.path.ends_with(".mesh"))
+        add_mesh(beneath(folder, cell_text(value.text)), files);
+      else if (value.path == "start.run")
+        files.insert((fs::path(beneath(folder, cell_text(value.text))) / manifest_name).string());
   } catch (const std::exception&) {
     // The text is no YAML. The file itself is watched.
   }

@@ -7,7 +7,8 @@
 
 namespace carom {
 
-/// The scene file, its meshes, and the materials and textures that these name, whether they exist or not.
+/// The scene file, its meshes, the materials and textures that these name, and the manifest of the run that it begins
+/// with, whether they exist or not.
 /// Of a scene with errors, as far as its text shows.
 std::set<std::string> files_of_scene(const PlannedScene& planned);
 

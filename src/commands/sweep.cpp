@@ -64,7 +64,7 @@ class SweepSession {
                                 printable(folder_)));
     }
     if (content == SweepContent::this_sweep && !options_.force && !options_.sweep.plan &&
-        !may_have_meshes(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
+        !may_read_files(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
       SweepOutcome outcome{"up to date", 0, job.sweep().size(), {}, 0};
       outcome.skipped = stored_skips(folder_);
       outcome.runs -= outcome.skipped.size();
@@ -79,6 +79,7 @@ class SweepSession {
           fmt::format("the folder {} holds something other than this run", printable(job.run_folder(*other))));
     for (const std::string& path : job.idle_paths())
       complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
+    for (const std::string& note : notes_on_start(job)) remark(options_, note);
     if (options_.sweep.plan) {
       show_plan(options_, job);
       return 0;

@@ -18,6 +18,7 @@
 #include "compare/comparison.h"
 #include "files/processors.h"
 #include "render/mesh.h"
+#include "run/start_reader.h"
 #include "scene/grid_text.h"
 #include "scene/output_kinds.h"
 #include "scene/resolve.h"
@@ -130,6 +131,7 @@ SweepSettings sweep_settings(const Options& options) {
     const auto found = known->find(path);
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
   };
+  settings.load.former_state = start_reader(settings.load);
   settings.jobs = options.jobs.value_or(processors());
   settings.shard = shard_of(options);
   settings.force = options.force;
@@ -197,6 +199,12 @@ void check_comparison(SweepJob& job) {
     });
   }
   if (!records.empty()) throw SceneError(errors, records.size(), records);
+}
+
+std::vector<std::string> notes_on_start(SweepJob& job) {
+  if (!may_read_files(job.sweep(), job.base_text())) return {};
+  const std::optional<Scene> first = first_valid(job);
+  return first ? first->made_from.notes : std::vector<std::string>();
 }
 
 Shard shard_of(const Options& options) {

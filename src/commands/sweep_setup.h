@@ -2,6 +2,7 @@
 // Setup of a sweep from the command line, for sweep, gather and submit.
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands/command_line.h"
 #include "scene/sweep.h"
@@ -27,6 +28,9 @@ SweepSettings sweep_settings(const Options& options);
 /// Checks measures and charts against the first valid scenario; plan() reports errors of the scenario itself. Throws
 /// SceneError.
 void check_comparison(SweepJob& job);
+
+/// What authors may not expect of scenarios that begin with a former run, by the first valid one. Empty: nothing.
+std::vector<std::string> notes_on_start(SweepJob& job);
 
 /// The part of a job array's task, by SLURM_ARRAY_TASK_ID, _MIN, _STEP and _COUNT; without these everything. Throws
 /// UsageError.

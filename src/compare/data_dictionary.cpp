@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::array<ColumnText, 15> collision_texts = {
     {{"time_s", "time of the collision"},
-     {"kind", "body-body, body-fixed, rest (end of the bounces) or merge (two become one)"},
+     {"kind", "body-body, body-fixed, rest (end of the bounces), merge (two become one) or string (it goes taut)"},
      {"a", "the body; the first of two"},
-     {"b", "the other body, or the fixed thing"},
-     {"x_m", "x coordinate of the point of contact"},
+     {"b", "the other body, the fixed thing or the string"},
+     {"x_m", "x coordinate of the point of contact; of a string the centre of a"},
      {"y_m", "y coordinate of the point of contact"},
      {"z_m", "z coordinate of the point of contact"},
-     {"nx", "x component of the normal, which points from a to b"},
+     {"nx", "x component of the normal, which points from a to b; of a string away from its other end"},
      {"ny", "y component of the normal"},
      {"nz", "z component of the normal"},
      {"approach_speed_m_per_s", "relative speed along the normal before the collision; above 0: approaching"},

@@ -166,6 +166,14 @@ double StoredMeasures::evaluated(const Measure& measure, const std::vector<std::
   return formula_value(measure, values);
 }
 
+std::string StoredMeasures::second_body(std::string_view string) {
+  const std::vector<std::string>& names = scene().roster.strings;
+  const auto found = std::find(names.begin(), names.end(), string);
+  if (found == names.end()) return {};
+  const Entity other = scene().world.strings[static_cast<std::size_t>(found - names.begin())].other;
+  return other == no_entity ? std::string() : scene().roster.name(other);
+}
+
 StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   StoredTable table(open_stored(folder_, "collisions.csv"));
   const auto time = table.find("time_s"), kind = table.find("kind"), a = table.find("a"), b = table.find("b");
@@ -173,8 +181,11 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   if (!time || !kind || !a || !b) return found;
   while (const std::vector<std::string_view>* row = table.next()) {
     if (row->size() <= std::max({*time, *kind, *a, *b}) || (*row)[*kind] == "rest") continue;
+    // A string that goes taut pulls at both of its bodies.
+    const std::string other = (*row)[*kind] == "string" ? second_body((*row)[*b]) : std::string();
     const auto has = [&](std::size_t name, bool first) {
-      return is_named((*row)[first ? *a : *b], measure.things[name]);
+      return is_named((*row)[first ? *a : *b], measure.things[name]) ||
+             (first && is_named(other, measure.things[name]));
     };
     if (!meet(measure.things.size(), has)) continue;
     if (found.count == 0) found.first = number_in((*row)[*time]).value_or(undefined);

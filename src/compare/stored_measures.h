@@ -47,6 +47,8 @@ class StoredMeasures {
   double counted(const Measure& measure, const std::vector<std::string>& summary);
   double evaluated(const Measure& measure, const std::vector<std::string>& summary);
   Meetings meetings(const Measure& measure);
+  /// The name of the second body of a string. Empty: it is tied to a point, or not known.
+  std::string second_body(std::string_view string);
   Visits visits(const Measure& measure);
 
   const int folder_;

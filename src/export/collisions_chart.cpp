@@ -10,10 +10,11 @@
 
 namespace carom {
 
-const std::array<CollisionsChart::Row, 3> CollisionsChart::rows = {
+const std::array<CollisionsChart::Row, 4> CollisionsChart::rows = {
     {{CollisionKind::body_body, "body-body", chart_color::blue},
      {CollisionKind::body_fixed, "body-fixed", chart_color::orange},
-     {CollisionKind::merge, "merge", chart_color::purple}}};
+     {CollisionKind::merge, "merge", chart_color::purple},
+     {CollisionKind::string, "string", chart_color::sky}}};
 
 void CollisionsChart::add(double time, CollisionKind kind) {
   for (std::size_t k = 0; k < rows.size(); ++k)

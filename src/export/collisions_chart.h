@@ -29,12 +29,12 @@ class CollisionsChart {
     std::string_view name;
     std::size_t style;
   };
-  static const std::array<Row, 3> rows;
+  static const std::array<Row, 4> rows;
   std::uint64_t total() const;
   int joined() const;
 
   const Scene& scene_;
-  std::array<Counts, 3> counts_{};  // by row
+  std::array<Counts, 4> counts_{};  // by row
 };
 
 }  // namespace carom

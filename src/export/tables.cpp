@@ -41,14 +41,16 @@ char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
   return to;
 }
 
-/// Writes a comma and the name of a body or fixed thing. The cell of no_entity is empty.
+/// Writes a comma and the name of a body, fixed thing or string. The cell of no_entity is empty.
 void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity entity) {
   file.write(",");
   if (entity < bodies) {
     const BodyRange& range = roster.range_of(entity);
     file.written(put_member(file.room(range.name.size() + member_size), range, entity));
   } else if (entity != no_entity) {
-    file.write(roster.fixed[entity - bodies].name);
+    const std::size_t after_bodies = entity - bodies;
+    file.write(after_bodies < roster.fixed.size() ? roster.fixed[after_bodies].name
+                                                  : roster.strings[after_bodies - roster.fixed.size()]);
   }
 }
 

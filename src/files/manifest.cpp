@@ -95,7 +95,10 @@ Json scene_json(const Scene& scene, const SceneOrigin& origin) {
   if (!origin.settings.empty()) json["settings"] = origin.settings;
   json["title"] = scene.title;
   json["sha256"] = sha256(scene.resolved);
-  if (!scene.expressions.empty()) json["expressions"] = scene.expressions;
+  if (!scene.made_from.expressions.empty()) json["expressions"] = scene.made_from.expressions;
+  if (const auto& start = scene.made_from.start)
+    json["start"] = {
+        {"run", valid_utf8(start->run)}, {"at", start->at}, {"file", start->file}, {"sha256", start->sha256}};
   return {{"scene", std::move(json)}};
 }
 

@@ -28,7 +28,7 @@ struct Manifest {
   std::string meshes;   // meshes_text()
   std::vector<FileRecord> files;
   std::string scene_file{};  // the file name, without a folder
-  /// As in Scene.
+  /// As in MadeFrom.
   std::map<std::string, std::string> expressions{};
   SceneOrigin origin{};
   /// Files of the outputs that were given up.

@@ -40,6 +40,7 @@ struct Warning {
 /// Counts for the report only, not columns.
 struct ContactCounts {
   std::uint64_t merges = 0;
+  std::uint64_t tautened = 0;   // strings that went taut
   std::uint64_t removed = 0;    // bodies
   std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;

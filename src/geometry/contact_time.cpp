@@ -44,18 +44,21 @@ double straight_contact_time(const RelativeMotion& m, double s, double horizon) 
 
 }  // namespace
 
-Polynomial squared_gap_polynomial(const RelativeMotion& m, double s) {
-  const double c = m.just_separated ? 0 : squared_gap(m.d, s);
+Polynomial squared_gap_polynomial(const RelativeMotion& m, double s, Side side) {
+  const double sign = side == Side::outside ? 1 : -1;
+  const double c = m.just_separated ? 0 : sign * squared_gap(m.d, s);
   double b = m.d.dot(m.w);
   if (c <= 0 && std::abs(b) <= velocity_noise * m.speeds * s) b = 0;
-  return {{c, 2 * b, m.w.squaredNorm() + m.d.dot(m.a), m.w.dot(m.a), 0.25 * m.a.squaredNorm()}, 4};
+  return {{c, sign * (2 * b), sign * (m.w.squaredNorm() + m.d.dot(m.a)), sign * m.w.dot(m.a),
+           sign * (0.25 * m.a.squaredNorm())},
+          4};
 }
 
 namespace {
 
 /// The roots of this polynomial are the contacts. Where t = 0 is one by definition, a cubic is left.
-Polynomial contact_polynomial(const RelativeMotion& m, double s) {
-  const Polynomial f = squared_gap_polynomial(m, s);
+Polynomial contact_polynomial(const RelativeMotion& m, double s, Side side) {
+  const Polynomial f = squared_gap_polynomial(m, s, side);
   return m.just_separated ? Polynomial{{f.c[1], f.c[2], f.c[3], f.c[4]}, 3} : f;
 }
 
@@ -70,10 +73,11 @@ Polynomial lowered(Polynomial f, const RelativeMotion& m, double s) {
 
 }  // namespace
 
-CurvedContacts::CurvedContacts(const RelativeMotion& motion, double s, double horizon)
+CurvedContacts::CurvedContacts(const RelativeMotion& motion, double s, double horizon, Side side)
     : m_(motion),
       s_(s),
-      f_(contact_polynomial(motion, s)),
+      side_(side),
+      f_(contact_polynomial(motion, s, side)),
       again_(motion.just_separated && f_.c[0] < 0),
       pieces_(lowered(f_, motion, s), horizon) {}
 
@@ -89,11 +93,11 @@ double CurvedContacts::next() {
   return never;
 }
 
-/// |d + w t + a t^2/2|^2 - s^2 as the exact value rounds. Just separated, it has |d|^2 for s^2.
+/// |d + w t + a t^2/2|^2 - s^2 as the exact value rounds, or its negative. Just separated, it has |d|^2 for s^2.
 double CurvedContacts::exact_gap(double t) const {
   DoubleDouble square = m_.just_separated ? DoubleDouble{0, 0} - dot_compensated(m_.d, m_.d) : -two_product(s_, s_);
   for (const DoubleDouble& x : exact_position(m_, t)) square = square + x * x;
-  return square.value();
+  return side_ == Side::outside ? square.value() : -square.value();
 }
 
 /// The contact between two times where rounding allows one, most likely close to the first.
@@ -108,7 +112,8 @@ double CurvedContacts::within(double from, double to) const {
     (gap > 0 ? l : r) = t;
     deep = deep || gap < 0;
     const Vec3 p = m_.d + t * (m_.w + 0.5 * t * m_.a), v = m_.w + t * m_.a;
-    const double slope = 2 * p.dot(v), curvature = 2 * (v.squaredNorm() + std::abs(p.dot(m_.a)));
+    const double slope = side_ == Side::outside ? 2 * p.dot(v) : -2 * p.dot(v);
+    const double curvature = 2 * (v.squaredNorm() + std::abs(p.dot(m_.a)));
     const double step = -gap / slope;
     if (t + step == t) return t;
     double next = t + step;
@@ -130,6 +135,28 @@ double CurvedContacts::within(double from, double to) const {
 double sphere_contact_time(const RelativeMotion& m, double s, double horizon) {
   if (m.a.isZero(0)) return straight_contact_time(m, s, horizon);
   return CurvedContacts(m, s, horizon).next();
+}
+
+namespace {
+
+/// The same on a straight path: t = c / (b + sqrt(b^2 + c w^2)), with c = s^2 - |d|^2 and b = d . w.
+double straight_taut_time(const RelativeMotion& m, double s, double horizon) {
+  const double speed2 = m.w.squaredNorm();
+  if (speed2 == 0) return never;
+  double c = m.just_separated ? 0 : -squared_gap(m.d, s), b = m.d.dot(m.w);
+  if (c <= gap_noise * s * s && std::abs(b) <= velocity_noise * m.speeds * s) b = c = 0;
+  c = std::max(c, 0.0);
+  if (c == 0 && b >= 0) return 0;
+  const double root = std::sqrt(b * b + c * speed2);
+  const double t = b > 0 ? c / (b + root) : (root - b) / speed2;
+  return t <= horizon ? t : never;
+}
+
+}  // namespace
+
+double taut_time(const RelativeMotion& m, double s, double horizon) {
+  if (m.a.isZero(0)) return straight_taut_time(m, s, horizon);
+  return CurvedContacts(m, s, horizon, Side::inside).next();
 }
 
 double plane_contact_time(double gap, double speed, double acceleration, double noise, bool just_separated,

@@ -28,16 +28,24 @@ struct RelativeMotion {
 /// A grazing or nearly touching pair is then as exact as its data. For the quartic, see CurvedContacts.
 double sphere_contact_time(const RelativeMotion& motion, double s, double horizon);
 
-/// |d + w t + a t^2/2|^2 - s^2, m^2. With just_separated the constant term is zero.
-Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s);
+/// First t in [0, horizon] at which the distance of two points reaches s (m) from below: a string of that length goes
+/// taut. just_separated: it has just been taut, and its gap is zero by definition.
+double taut_time(const RelativeMotion& motion, double s, double horizon);
 
-/// The contacts of spheres of unequal accelerations, one after the other, because a curved path may enter twice.
+/// The side from which a distance approaches s.
+enum class Side : std::uint8_t { outside, inside };
+
+/// |d + w t + a t^2/2|^2 - s^2, m^2, or from inside its negative. With just_separated the constant term is zero.
+Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s, Side side = Side::outside);
+
+/// The contacts of spheres of unequal accelerations, one after the other, because a curved path may enter twice. From
+/// inside: the times at which a string goes taut.
 /// The quartic's coefficients lose the digits to which the square of a long path is rounded.
 /// So the quartic only gives the pieces of the path on which contact is possible, by its least value within rounding.
 /// On these pieces the gap is evaluated in double-double.
 class CurvedContacts {
  public:
-  CurvedContacts(const RelativeMotion& motion, double s, double horizon);
+  CurvedContacts(const RelativeMotion& motion, double s, double horizon, Side side = Side::outside);
   /// The next contact (s); never: there is no other.
   double next();
 
@@ -47,6 +55,7 @@ class CurvedContacts {
 
   RelativeMotion m_;
   double s_;  // m
+  Side side_;
   Polynomial f_;
   // They have just separated and approach again, because another impact has changed their velocities since.
   bool again_;

@@ -14,6 +14,7 @@ enum class PairKind : std::uint8_t {
   prism,          // volumes, and walls along the same axes
   box_wall,       // a wall at an angle: slabs
   cylinder_wall,  // a wall at an angle: slabs and oblique cylinders
+  string          // the inside of a sphere about the other end
 };
 
 PairKind pair_kind(const World& world, Entity a, Entity b);

@@ -4,12 +4,15 @@
 #include "geometry/path_time_of_impact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
 #include "geometry/relative_way.h"
+#include "numerics/bernstein.h"
+#include "numerics/compensated.h"
 #include "numerics/cube_root.h"
 #include "physics/world.h"
 
@@ -82,6 +85,8 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
       const TiltedSum sum = tilted_sum(world, a, b);
       return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
     }
+    case PairKind::string:
+      break;
   }
   return {never, no_feature};
 }
@@ -97,6 +102,30 @@ FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity 
                            const PolynomialPath::Terms& displacement, double length, double speeds, std::uint8_t left,
                            double horizon) {
   return time_of_impact_along(PolynomialWay(displacement, length), world, a, xa, b, xb, speeds, left, horizon);
+}
+
+double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, double length, double s, double speeds,
+                 bool just_separated, double horizon) {
+  // s^2 - |d + displacement|^2, by t / length.
+  std::array<double, 2 * PolynomialPath::terms + 1> gap{};
+  gap[0] = just_separated ? 0 : -squared_gap(d, s);
+  for (std::size_t k = 0; k < PolynomialPath::terms; ++k) {
+    gap[k + 1] -= 2 * d.dot(displacement[k]);
+    for (std::size_t j = 0; j < PolynomialPath::terms; ++j) gap[k + j + 2] -= displacement[k].dot(displacement[j]);
+  }
+  const bool closed = gap[0] <= 0x1p-51 * s * s;
+  if (closed && std::abs(gap[1]) <= 0x1p-48 * length * speeds * s) gap[1] = 0;
+  if (closed) gap[0] = 0;
+  const auto first = std::find_if(gap.begin(), gap.end(), [](double c) { return c != 0; });
+  if (first == gap.end()) return never;
+  if (*first < 0) return 0;
+  // Without the root at t = 0.
+  for (const double at : roots_in_unit({first, gap.end()})) {
+    const Vec3 there = d + PolynomialPath::value(displacement, at);
+    if (there.dot(PolynomialPath::slope(displacement, at)) <= 0) continue;
+    return length * at <= horizon ? length * at : never;
+  }
+  return never;
 }
 
 FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,

@@ -59,6 +59,11 @@ FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const
       const TiltedSum sum = tilted_sum(world, a, b);
       return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion), horizon).run(left);
     }
+    case PairKind::string: {
+      RelativeMotion m = motion;
+      m.just_separated = left != no_feature;
+      return {taut_time(m, world.string(b).length, horizon), 0};
+    }
   }
   return {never, no_feature};
 }
@@ -68,6 +73,7 @@ FeatureTime leave_feature(const World& world, Entity a, Entity b, std::uint8_t f
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres:
     case PairKind::half_space:
+    case PairKind::string:
       return {never, no_feature};
     case PairKind::sphere_wall: {
       if (feature < wall_edges) {

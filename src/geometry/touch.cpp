@@ -34,6 +34,11 @@ Touch touch_spheres(const Vec3& xa, double ra, const Vec3& xb, double rb) {
   return {gap, n, xa + ra * n, 0};
 }
 
+Touch touch_string(const Vec3& xa, const Vec3& xb, double length) {
+  const Touch points = touch_spheres(xa, 0, xb, length);
+  return {-points.gap, -points.normal, xa, 0};
+}
+
 Vec3 sign_of(const Vec3& n) {
   return {double(n.x() > 0) - double(n.x() < 0), double(n.y() > 0) - double(n.y() < 0),
           double(n.z() > 0) - double(n.z() < 0)};
@@ -183,6 +188,8 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
       return touch_at_an_angle(slab_sum(world, a, b), world.volume_of(a), world.wall(b), xa, xb, feature);
     case PairKind::cylinder_wall:
       return touch_at_an_angle(tilted_sum(world, a, b), world.volume_of(a), world.wall(b), xa, xb, feature);
+    case PairKind::string:
+      return touch_string(xa, xb, world.string(b).length);
   }
   return {never, Vec3::UnitX(), xa, no_feature};
 }
@@ -207,6 +214,8 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
     }
     case PairKind::cylinder_wall:
       return tilted_sum(world, a, b).bending(d, touch.feature, w);
+    case PairKind::string:
+      return -w.cross(touch.normal).squaredNorm() / d.norm();
   }
   return 0;
 }
@@ -224,6 +233,8 @@ bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature) {
       return pair_prism(world, a, b).sum.flat(feature);
     case PairKind::cylinder_wall:
       return feature < TiltedSum::patches;
+    case PairKind::string:
+      return false;
   }
   return false;
 }

@@ -7,6 +7,8 @@
 // - sphere and cylinder: a cylinder with a rim rounded as a torus
 // - box and cylinder: a rounded prism
 // - two boxes: a box
+// A string is the inside of a sphere about its other end. Its position is that of the other end: of a body, or the
+// anchor. Its gap is its length less the distance, and its normal points from the other end to the body.
 #include <cstdint>
 
 #include "geometry/contact_time.h"
@@ -21,7 +23,7 @@ struct Touch {
   Vec3 normal;
   // m, the closest point on a's surface, or the middle of an area of them.
   Vec3 point;
-  // The nearest face, edge, corner or rim of the Minkowski sum. It is 0 for two spheres and for planes, and a
+  // The nearest face, edge, corner or rim of the Minkowski sum. It is 0 for two spheres, planes and strings, and a
   // WallFeature for a sphere and a wall. Other pairs number features as in round_prism.h, slab_sum.h or tilted_sum.h
   // (walls at an angle).
   std::uint8_t feature;
@@ -34,7 +36,7 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
 
 /// Second derivative of the gap (m/s^2) under the constant relative velocity w = v_b - v_a (m/s).
 /// It is what the curvature of the nearest feature adds to normal . (a_b - a_a): zero on flat features, |w x n|^2 /
-/// distance between spheres.
+/// distance between spheres, and the negative of that for a string.
 double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& touch,
                const Vec3& w);
 

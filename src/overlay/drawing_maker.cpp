@@ -6,6 +6,7 @@
 
 #include "overlay/moment.h"
 #include "overlay/springs.h"
+#include "overlay/strings.h"
 #include "overlay/trails.h"
 #include "physics/world.h"
 #include "scene/scene.h"
@@ -18,6 +19,10 @@ bool has_springs(const World& world) {
                      [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
 }
 
+bool has_strings(const Scene& scene) {
+  return scene.world.strings.size() > scene.overlay.hidden_strings.size();
+}
+
 }  // namespace
 
 DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size, double speed)
@@ -27,7 +32,7 @@ DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size
       flash_(flash_length * speed),
       colors_(scene),
       arrows_(arrow_scales(scene)),
-      strokes_(scene.overlay.trails || !arrows_.empty() || has_springs(scene.world)) {}
+      strokes_(scene.overlay.trails || !arrows_.empty() || has_springs(scene.world) || has_strings(scene)) {}
 
 Drawing DrawingMaker::at(const State& state, const Camera& camera) const {
   Drawing drawing;
@@ -38,6 +43,7 @@ Drawing DrawingMaker::at(const State& state, const Camera& camera) const {
   const Moment moment{scene_, state, history_, colors_, Eye(drawing.camera, size_)};
   add_trails(moment, drawing.strokes);
   add_springs(moment, drawing.strokes);
+  add_strings(moment, drawing.strokes);
   add_arrows(moment, arrows_, drawing.strokes);
   return drawing;
 }

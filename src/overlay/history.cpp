@@ -64,7 +64,7 @@ void History::record(std::span<const Collision> collisions) {
   for (const Collision& collision : collisions) {
     if (collision.kind == CollisionKind::rest) continue;
     count(collision.a, collision.time);
-    count(collision.b, collision.time);
+    count(scene_.world.second_body(collision.b), collision.time);
   }
   if (sampler_) sampler_->record(collisions);
 }

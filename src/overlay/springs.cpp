@@ -7,19 +7,18 @@
 #include <numbers>
 #include <variant>
 
+#include "overlay/wire.h"
 #include "physics/force.h"
 
 namespace carom {
 namespace {
 
-constexpr double coil_radius = 0.4;   // of the body's radius
-constexpr double wire_radius = 0.15;  // of the coil's
-constexpr double lead = 0.08;         // of a spring's length, straight at the anchor and at the body
-constexpr double pitch = 1.5;         // of the coil's radius, at rest
+constexpr double coil_radius = 0.4;  // of the body's radius
+constexpr double thickness = 0.15;   // of the coil's radius
+constexpr double lead = 0.08;        // of a spring's length, straight at the anchor and at the body
+constexpr double pitch = 1.5;        // of the coil's radius, at rest
 constexpr double fewest_turns = 4, most_turns = 24;
-constexpr double most_chords = 48;    // of a turn
-constexpr double chord_error = 0.25;  // pixels
-const Color steel = from_rgb(0xa7adb5);
+constexpr double most_chords = 48;  // of a turn
 
 /// A frame whose third axis is `along`. It turns smoothly with `along`, except where this is opposite to a direction
 /// that no spring of a scene is likely to have.
@@ -33,35 +32,13 @@ double turns_of(const Spring& spring, double coil, double start_length) {
   return std::clamp(std::round(length / (pitch * coil)), fewest_turns, most_turns);
 }
 
-/// Appends strokes through points.
-class Wire {
- public:
-  Wire(double radius, const Vec3& start, std::vector<Stroke>& strokes)
-      : radius_(radius), at_(start), strokes_(strokes) {}
-
-  void go_to(const Vec3& point) {
-    Stroke stroke;
-    stroke.from = at_;
-    stroke.to = point;
-    stroke.from_radius = stroke.to_radius = radius_;
-    stroke.color = steel;
-    strokes_.push_back(stroke);
-    at_ = point;
-  }
-
- private:
-  double radius_;
-  Vec3 at_;
-  std::vector<Stroke>& strokes_;
-};
-
 void add_spring(const Moment& moment, const Spring& spring, Entity body, std::vector<Stroke>& strokes) {
   const Vec3 end = moment.state.position[body], whole = end - spring.anchor;
   const double length = whole.norm(), reach = moment.radius_of(body);
   if (!(length > 0)) return;
   const Vec3 along = whole / length;
   const double coil = coil_radius * reach, from = lead * length, until = length - reach - lead * length;
-  Wire wire(wire_radius * coil, spring.anchor, strokes);
+  Wire wire(thickness * coil, spring.anchor, wire_steel, strokes);
   const double error = chord_error * std::min(moment.pixel_at(spring.anchor), moment.pixel_at(end));
   if (until > from && coil > 2 * error) {
     const double turns = turns_of(spring, coil, (moment.scene.initial.position[body] - spring.anchor).norm());

@@ -39,7 +39,7 @@ TrackSampler::TrackSampler(const World& world, Tracks& tracks, double seconds)
 
 void TrackSampler::record(std::span<const Collision> collisions) {
   for (const Collision& collision : collisions) {
-    for (const Entity e : {collision.a, collision.b})
+    for (const Entity e : {collision.a, world_.second_body(collision.b)})
       if (world_.is_body(e) && tracks_.has(e)) known_[e].impacts.push_back(collision.time);
   }
 }

@@ -12,7 +12,9 @@ enum class CollisionKind : std::uint8_t {
   body_fixed,  // a body struck a fixed surface
   rest,        // a body's bounces on a surface ended; from here on it rests or slides
   merge,       // two bodies became one
-  string       // a string went taut; a: its body, b: the string
+  // A string went taut; a: its body, b: the string. The point is the centre of a, and the normal points from the other
+  // end of the string to a.
+  string
 };
 
 struct Collision {

@@ -39,9 +39,11 @@ double pair_restitution(const World& world, Entity a, Entity b) {
   const double ea = world.restitution[a];
   const double ma = world.mass[a];
   if (world.is_body(b)) return combine_restitution(world.combine, ea, ma, world.restitution[b], world.mass[b]);
-  const std::optional<double>& own = world.is_plane(b)  ? world.plane(b).restitution
-                                     : world.is_wall(b) ? world.wall(b).restitution
-                                                        : world.obstacle(b).restitution;
+  const bool plane = world.is_plane(b), wall = !plane && world.is_wall(b);
+  if (!plane && !wall && world.is_string(b)) return world.string(b).restitution;
+  const std::optional<double>& own = plane  ? world.plane(b).restitution
+                                     : wall ? world.wall(b).restitution
+                                            : world.obstacle(b).restitution;
   const double eb = own.value_or(ea);
   if (world.combine == Combine::mass_weighted)
     return eb;  // the limit of (m1 e1 + m2 e2)/(m1 + m2) for m2 without bound

@@ -10,7 +10,8 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
 
 /// e between body a and b, a body or a fixed surface. The pair's own value takes precedence over the world's rule. A
 /// surface without a coefficient takes the body's. The rule then combines the two, so that `average` gives the body's
-/// coefficient. In mass_weighted a surface has unlimited weight, so that its own coefficient is the pair's.
+/// coefficient. A string has its own. In mass_weighted a surface has unlimited weight, so that its own coefficient is
+/// the pair's.
 double pair_restitution(const World& world, Entity a, Entity b);
 
 }  // namespace carom

@@ -42,6 +42,7 @@ struct Tally {
   std::uint64_t body_body = 0;   // collisions
   std::uint64_t body_fixed = 0;  // collisions
   std::uint64_t merges = 0;
+  std::uint64_t tautened = 0;  // strings that went taut
   // Inelastic collapses: clusters of bodies with ever more frequent impacts, taken into lasting contact.
   std::uint64_t collapses = 0;
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
@@ -69,11 +70,14 @@ struct Tally {
   /// Counts a record. The end of bounces is not a collision.
   void count(CollisionKind kind, double time) {
     if (kind == CollisionKind::rest) return;
-    ++(kind == CollisionKind::body_body ? body_body : kind == CollisionKind::body_fixed ? body_fixed : merges);
+    ++(kind == CollisionKind::body_body    ? body_body
+       : kind == CollisionKind::body_fixed ? body_fixed
+       : kind == CollisionKind::string     ? tautened
+                                           : merges);
     if (std::isnan(first_collision)) first_collision = time;
     last_collision = time;
   }
-  std::uint64_t collisions() const { return body_body + body_fixed + merges; }
+  std::uint64_t collisions() const { return body_body + body_fixed + merges + tautened; }
 };
 
 }  // namespace carom

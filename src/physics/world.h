@@ -89,6 +89,8 @@ struct World {
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
   bool is_body(Entity e) const { return e < body_count(); }
+  /// Whether it is a plane, a wall or an obstacle.
+  bool is_fixed(Entity e) const { return e >= body_count() && e < strings_from(); }
   bool is_plane(Entity e) const { return e >= body_count() && e - body_count() < planes.size(); }
   bool is_wall(Entity e) const { return e >= walls_from() && e < obstacles_from(); }
   bool is_obstacle(Entity e) const { return e >= obstacles_from() && e < strings_from(); }
@@ -97,6 +99,10 @@ struct World {
   const Wall& wall(Entity e) const { return walls[e - walls_from()]; }
   const Obstacle& obstacle(Entity e) const { return obstacles[e - obstacles_from()]; }
   const String& string(Entity e) const { return strings[e - strings_from()]; }
+  Entity string_number(std::size_t k) const { return static_cast<Entity>(strings_from() + k); }
+  /// The second body of a contact that is named by a body and e: e itself, or the other end of a string. no_entity: the
+  /// second thing does not move by forces.
+  Entity second_body(Entity e) const { return is_body(e) ? e : is_string(e) ? string(e).other : no_entity; }
 
   /// The volume of a body or an obstacle.
   Volume volume_of(Entity e) const {
@@ -105,11 +111,14 @@ struct World {
   }
   bool moves() const { return !motions.empty(); }
   /// Whether a fixed thing moves at some time, and how.
-  bool moves(Entity e) const { return !motions.empty() && !is_body(e) && !motions[e - body_count()].empty(); }
+  bool moves(Entity e) const { return !motions.empty() && is_fixed(e) && !motions[e - body_count()].empty(); }
   const std::vector<MotionLeg>& legs(Entity e) const { return motions[e - body_count()]; }
-  /// The point of a plane, or the centre of a wall or an obstacle (m), at time 0.
+  /// The point of a plane, the centre of a wall or an obstacle, or the anchor of a string (m), at time 0.
   const Vec3& fixed_position(Entity e) const {
-    return is_plane(e) ? plane(e).point : is_wall(e) ? wall(e).center : obstacle(e).center;
+    return is_plane(e)    ? plane(e).point
+           : is_wall(e)   ? wall(e).center
+           : is_string(e) ? string(e).anchor
+                          : obstacle(e).center;
   }
 
  private:

@@ -155,6 +155,12 @@ void MotionView::add_surroundings(Content& content) const {
     if (!meet(box, content.near)) continue;
     for (const Vec3& center : places) add(content, center, obstacle.volume);
   }
+  const std::vector<std::size_t>& hidden = scene_.overlay.hidden_strings;
+  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+    const String& string = world.strings[k];
+    if (string.other == no_entity && !std::binary_search(hidden.begin(), hidden.end(), k))
+      add(content, string.anchor, {});
+  }
   content.bodies = bodies;
 }
 

@@ -19,7 +19,7 @@ namespace carom {
 ///
 /// Walls and obstacles that bodies meet or pass, unless they are larger than the motion. Of larger ones, and of planes,
 /// the part at the bodies. Of a floor below, the point under the motion's middle, unless that is farther away than
-/// three times the size of the motion.
+/// three times the size of the motion. The points that visible strings hang from.
 class MotionView {
  public:
   struct Content {

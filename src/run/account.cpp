@@ -102,7 +102,7 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.max_speed = tally.max_speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
-  summary.contact = {tally.merges, tally.removed.bodies, tally.collapses, tally.taken_up};
+  summary.contact = {tally.merges, tally.tautened, tally.removed.bodies, tally.collapses, tally.taken_up};
   summary.energy.of_forces = work_of_forces(scene, end, tally);
   return summary;
 }

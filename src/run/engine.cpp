@@ -43,7 +43,8 @@ ExactOptions exact_options(const SimulatorRequest& request) {
 std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   ExactOptions options = exact_options(request);
   options.merge = request.simulate.merge;
-  options.record_paths = request.recording.paths && varying_force(request.world) == nullptr;
+  const bool parabolas = varying_force(request.world) == nullptr && request.world.strings.empty();
+  options.record_paths = request.recording.paths && parabolas;
   return make_exact_simulator(request.world, request.initial, options);
 }
 
@@ -104,8 +105,10 @@ EngineChoice choose_engine(const Scene& scene) {
   EngineChoice choice{engine_of(scene.world, scene.simulate)};
   if (scene.simulate.engine == Engine::automatic) {
     const Force* open = force_without_closed_form(scene.world);
-    choice.why = open == nullptr ? "auto: every path of this scene has a closed form"
-                                 : fmt::format("auto: under {} paths have no closed form", open_force_text(*open));
+    const bool tied = !scene.world.strings.empty();
+    choice.why = open != nullptr ? fmt::format("auto: under {} paths have no closed form", open_force_text(*open))
+                 : tied          ? "auto: every path without a taut string has a closed form"
+                                 : "auto: every path of this scene has a closed form";
   }
   if (choice.engine != Engine::stepped || scene.simulate.tolerance) return choice;
   if (chooses_steps(scene.simulate)) {

@@ -87,6 +87,10 @@ std::vector<EntityRange> things_named(std::string_view name, const Measure& meas
     names.push_back(fixed);
     if (is_named(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
   }
+  for (std::size_t k = 0; k < scene.roster.strings.size(); ++k) {
+    names.push_back(scene.roster.strings[k]);
+    if (is_named(scene.roster.strings[k], name)) things.push_back({scene.world.string_number(k), 1});
+  }
   if (!things.empty()) return things;
   const std::size_t dot = name.rfind('.');
   if (dot != std::string_view::npos)

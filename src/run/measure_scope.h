@@ -1,5 +1,5 @@
 #pragma once
-// The names in measures to the bodies and fixed things of a scene.
+// The names in measures to the bodies, fixed things and strings of a scene.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +25,7 @@ bool is_named(std::string_view thing, std::string_view name);
 /// The bodies of a measure of a quantity: one, the members of a group, or all. Throws MeasureError.
 EntityRange bodies_of(const Measure& measure, const Scene& scene);
 
-/// What a measure's name stands for: bodies, members of a group, fixed things, the room or one of its sides.
+/// What a measure's name stands for: bodies, members of a group, fixed things, the room or one of its sides, strings.
 /// Throws MeasureError.
 std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene);
 

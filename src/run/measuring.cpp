@@ -79,7 +79,10 @@ void Measuring::record(std::span<const Collision> collisions, std::span<const Re
     for (const Collision& c : collisions) {
       if (c.kind == CollisionKind::rest) continue;
       const auto has = [&](std::size_t name, bool first) {
-        return any_has(name == 0 ? meeting.a : meeting.b, first ? c.a : c.b);
+        const std::vector<EntityRange>& named = name == 0 ? meeting.a : meeting.b;
+        // A string that goes taut pulls at both of its bodies.
+        const bool is_other = first && c.kind == CollisionKind::string && any_has(named, scene_.world.second_body(c.b));
+        return is_other || any_has(named, first ? c.a : c.b);
       };
       if (!meet(meeting.things.size(), has)) continue;
       if (meeting.count == 0) meeting.first = c.time;

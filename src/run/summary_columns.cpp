@@ -26,7 +26,7 @@ constexpr std::array<SummaryColumn, 24> columns = {{
      "done; doubtful: figures may be wrong, see the warnings in manifest.json; failed: only the parameters are known"},
     {"duration_s", "simulated time", number_of<&Summary::duration>},
     {"bodies", "movable bodies", number_of<&Summary::bodies>},
-    {"collisions", "all collisions", number_of<&Summary::collisions>},
+    {"collisions", "all collisions, strings that go taut included", number_of<&Summary::collisions>},
     {"body_body", "collisions between two bodies", number_of<&Summary::body_body>},
     {"body_fixed", "collisions with planes, walls and obstacles", number_of<&Summary::body_fixed>},
     {"first_collision_s", "time of the first collision", number_of<&Summary::first_collision>},

@@ -22,20 +22,23 @@ constexpr AbsentWord all_words[] = {
     {"spin|angular velocity|torque|moment of inertia|inertia|angular momentum",
      "Bodies do not turn, so they have no spin, torque or moment of inertia.", "velocity|impulse"},
     {"joint|constraint|ball joint|slider|weld|motor|ragdoll|linkage",
-     "There are no joints. A stiff spring ties a body to a point, and `simulate.contact: merge` merges bodies that "
-     "meet.",
-     "spring|contact"},
-    {"hinge|pivot|pendulum|axle", "There are no hinges. A stiff spring with a rest length holds a body near a circle.",
-     "spring"},
-    {"rope|string|tether|cable|chain|rod|link|thread",
-     "There are no ropes or rods. A stiff spring with a rest length keeps a body at a distance from a point; it pushes "
-     "as well as it pulls.",
-     "spring"},
+     "Joints are `strings` between bodies, or from a point to a body, and rods, which are strings with `rod: true`. "
+     "`simulate.contact: merge` merges bodies that meet.",
+     "strings|string.rod|contact"},
+    {"hinge|pivot|pendulum|axle",
+     "A body on a string is a pendulum; with `rod: true` it may stand above its pivot, too.", "strings|string.rod"},
+    {"rope|tether|cable|chain|link|thread|leash|wire|strut|bar|stick constraint|distance constraint",
+     "`strings` do not stretch and have no mass. A chain is bodies with strings between neighbours; `rod: true` keeps "
+     "them apart, too.",
+     "strings|string|string.rod"},
     {"timestep|time step|dt|delta time|substeps|step size|tick|iterations",
      "Engine exact needs none: it goes from collision to collision. Engine stepped takes `simulate.step`, or finds "
      "a step for `simulate.tolerance`. `every` spaces the rows of tables and `fps` the pictures; neither changes the "
      "motion.",
      "simulate.step|simulate.tolerance|engine"},
+    {"restart|resume|continue|continuation|checkpoint|initial state|final state|previous run|warm start",
+     "`start` begins with the bodies of a finished run at one of its times. A run that was interrupted is repeated.",
+     "start|start.at"},
     {"speed|fast|velocity magnitude",
      "A ball or body has a `velocity`, a vector. `speed` belongs to groups, the spread of random velocities, and to "
      "videos.",

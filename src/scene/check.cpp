@@ -272,6 +272,9 @@ class Checker : ValueChecker {
       case Type::name:
         if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
         return;
+      case Type::point_or_name:
+        if (!value.is(Node::Kind::scalar)) numbers(value, field, name, 3);
+        return;
       case Type::color_or_none:
         return color(value, name, ColorWords::colors_and_none);
       case Type::color_or_part:

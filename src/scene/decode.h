@@ -38,17 +38,32 @@ struct FixedEntry {
   Entity count = 1;  // six for a room
 };
 
+/// Share of the coordinates: a smaller region, or a shorter string, is lost in the rounding of positions.
+inline constexpr double smallest_share = 0x1p-40;
+
+/// One string, in the order of the file.
+struct StringEntry {
+  const Key* key;
+  const Node* node;
+};
+
 /// The named things of a file, in its order, and their numbers.
 struct Inventory {
   std::vector<BodyEntry> bodies;
   std::vector<FixedEntry> fixed;
+  std::vector<StringEntry> strings;
   Entity body_count = 0;
+  Entity fixed_count = 0;
   // False: over the budget, so nothing may be allocated for bodies.
   bool fits = true;
 
   struct Range {
     Entity first, count;
   };
+  /// Whether it is one of the strings, which are numbered after the fixed things.
+  bool is_string(const Range& range) const { return range.first >= body_count + fixed_count && range.count > 0; }
+  /// "a fixed thing" or "a string", of what is no body.
+  std::string_view word_for(const Range& range) const { return is_string(range) ? "a string" : "a fixed thing"; }
   // Looked up only, never iterated.
   std::unordered_map<std::string, Range> names;
   /// Repeated things, whose members have names in `names` too.
@@ -64,6 +79,10 @@ void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Sc
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
 /// Decodes gravity, combine, pairs and forces.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// Decodes the strings, all but their lengths. Bodies need not be decoded before.
+void decode_strings(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// Decodes the lengths of strings, and checks them against the distances of their ends. Bodies must be decoded before.
+void decode_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the regions, and those of `simulate.stop`. Bodies need not be decoded before.
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.
@@ -89,12 +108,12 @@ void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics
 
 /// What a name may stand for. The message about a name that does not exist lists these things alone.
 enum class Sought : std::uint8_t { bodies, anything };
-/// The numbers of a named thing: a body, group, member, fixed thing, the room or one of its sides.
-/// A fixed thing is found even where bodies are sought. None: an error was reported, here or before.
+/// The numbers of a named thing: a body, group, member, fixed thing, string, the room or one of its sides.
+/// A fixed thing or a string is found even where bodies are sought. None: an error was reported, here or before.
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
                                            Diagnostics& diagnostics);
 /// The bodies in a list of names, in order. An empty list: all bodies. None: no body at all, or an error was reported.
-/// `use`: what a fixed thing cannot have, such as "no force acts on it".
+/// `use`: what a fixed thing or a string cannot have, such as "no force acts on it".
 std::optional<std::vector<Entity>> find_bodies(const Node* names, const Inventory& inventory, std::string_view use,
                                                Diagnostics& diagnostics);
 
@@ -107,9 +126,10 @@ Vec3 unit(const Vec3& v);
 /// A key of the scene as a View. The view is empty if the key is absent.
 View scene_part(const Node& root, std::string_view key);
 
-/// A ball, a body or a group as a View, with the scene's defaults beneath. The same holds for the two below.
+/// A ball, a body or a group as a View, with the scene's defaults beneath. The same holds for the three below.
 View body_view(const Node& root, const BodyEntry& entry);
 View member_view(const Node& root, const View& group);
 View fixed_view(const Node& root, const FixedEntry& entry);
+View view_of_string(const Node& root, const StringEntry& entry);
 
 }  // namespace carom

@@ -62,7 +62,10 @@ class Bodies {
       if (!mass) continue;
       common(keys, *mass, form->volume, body);
       if (!body.group) single(body.first, keys, view.place("position"));
-      if (body.group && body.count > 0) groups_.push_back(&body);
+      if (body.group && view.given("members") != nullptr)
+        members(body, view, keys.velocity);
+      else if (body.group && body.count > 0)
+        groups_.push_back(&body);
     }
     if (diagnostics_.empty()) {
       check_reach(root_, inventory_, scene_, diagnostics_);
@@ -108,6 +111,28 @@ class Bodies {
     scene_.initial.position[body] = *keys.position;
     scene_.initial.velocity[body] = *keys.velocity;
     singles_.push_back({body, place});
+  }
+
+  /// Places the balls of a group that lists them. `velocity`: of balls without one, in m/s.
+  void members(const BodyEntry& body, const View& view, const std::optional<Vec3>& velocity) {
+    const Node& list = *view.given("members");
+    if (!list.is(Node::Kind::sequence)) return;
+    if (list.items.size() != body.count) {
+      diagnostics_.add(view.place("members"),
+                       fmt::format("`members` of {} has {} entries, and `count` is {}", in_backticks(body.key->text),
+                                   list.items.size(), body.count),
+                       "expected an entry for each ball");
+      return;
+    }
+    const Kind& kind = kind_named("placed");
+    for (Entity i = 0; i < body.count; ++i) {
+      const View entry(&list.items[i], kind, list.items[i].place);
+      BodyKeys keys;
+      const auto placed = filled<PlacedKeys>(entry);
+      keys.position = placed.position;
+      keys.velocity = entry.given("velocity") == nullptr ? velocity : placed.velocity;
+      single(body.first + i, keys, entry.place("position"));
+    }
   }
 
   /// Groups with large members first, which makes the grid's searches cheap.

@@ -88,10 +88,11 @@ class CameraDecoder {
     const auto range = find_range(name, inventory_, Sought::bodies, diagnostics_);
     if (!range || !inventory_.fits) return;
     if (range->first >= inventory_.body_count || range->count == 0) {
-      diagnostics_.add(name.place,
-                       fmt::format("{} {}: there is nothing to follow", in_backticks(name.text),
-                                   range->count == 0 ? "has no balls" : "is a fixed thing"),
-                       "expected a ball, body, group or member (gas.3)");
+      diagnostics_.add(
+          name.place,
+          fmt::format("{} {}: there is nothing to follow", in_backticks(name.text),
+                      range->count == 0 ? "has no balls" : fmt::format("is {}", inventory_.word_for(*range))),
+          "expected a ball, body, group or member (gas.3)");
       return;
     }
     const bool has_eye = view_.given("eye") != nullptr;

@@ -19,6 +19,12 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
   const auto a = find_range(between->items[0], inventory, Sought::anything, diagnostics);
   const auto b = find_range(between->items[1], inventory, Sought::anything, diagnostics);
   if (!a || !b || !value) return;
+  for (const auto& [range, name] : {std::pair(*a, between->items.front()), std::pair(*b, between->items.back())}) {
+    if (!inventory.is_string(range)) continue;
+    diagnostics.add(name.place, fmt::format("{} is a string: it meets no other thing", in_backticks(name.text)),
+                    "its coefficient is its own `restitution`");
+    return;
+  }
   if (a->first >= inventory.body_count && b->first >= inventory.body_count && a->count > 0 && b->count > 0) {
     diagnostics.add(between->place,
                     fmt::format("{} and {} are fixed things, which never meet", in_backticks(between->items[0].text),

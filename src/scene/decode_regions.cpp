@@ -14,9 +14,6 @@
 namespace carom {
 namespace {
 
-/// Share of the coordinates: a region with a smaller size is lost in the rounding of positions.
-constexpr double smallest_share = 0x1p-40;
-
 std::optional<Volume> volume_of(const RegionKeys& region) {
   if (region.radius) return Volume::sphere(*region.radius);
   if (region.box) return Volume::box(*region.box);
@@ -58,7 +55,7 @@ class Regions {
       const Key& key = regions->keys[i];
       if (inventory_.names.contains(key.text))
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
-                         "names of bodies, groups, fixed things, the room and regions are unique in a scene");
+                         "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene");
       const View view(&regions->items[i], kind_named("region"), key.place);
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
       scene_.roster.regions.push_back(key.text);

@@ -23,6 +23,9 @@ void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
         {"engine",
          fmt::format("under {} paths have no closed form, which `engine: exact` follows", open_force_text(*open)),
          "expected `engine: stepped`, or `auto`"});
+  if (simulate.merge && !world.strings.empty())
+    lacks.push_back({"contact", "`contact: merge` is for parabolas and linear drag, not for `strings`",
+                     "expected `contact: bounce`"});
   if (const Force* bending = bending_force(world); bending != nullptr && simulate.merge)
     lacks.push_back(
         {"contact",
@@ -50,6 +53,7 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (simulate.tolerance) lack("tolerance", "`tolerance`", "`step`");
   if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
+  if (!world.strings.empty()) lack("strings", "strings", "`engine: exact`");
   if (world.moves()) lack("engine", "fixed things that move", "`engine: exact`");
   if (std::any_of(world.regions.begin(), world.regions.end(), [](const WorldRegion& region) { return region.removes; }))
     lack("regions", "regions with `action: remove`", "`engine: exact`");
@@ -74,7 +78,7 @@ Engine engine_of(const World& world, const Simulate& simulate) {
 }
 
 bool goes_along_parabolas(const World& world, const Simulate& simulate) {
-  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr;
+  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr && world.strings.empty();
 }
 
 std::string open_force_text(const Force& force) {

@@ -67,7 +67,9 @@ bool is_text(const Field& field) {
 /// The last step of the path of a number in a list of them.
 std::string step_of(const Field& field, std::size_t i) {
   constexpr std::string_view axes[] = {"x", "y", "z"}, sides[] = {"width", "height"};
-  if ((field.type == Type::vector || field.type == Type::direction) && i < 3) return std::string(axes[i]);
+  const bool is_point =
+      field.type == Type::vector || field.type == Type::direction || field.type == Type::point_or_name;
+  if (is_point && i < 3) return std::string(axes[i]);
   if ((field.type == Type::extent || field.type == Type::pixels) && i < 2) return std::string(sides[i]);
   return std::to_string(i);
 }

@@ -147,7 +147,8 @@ std::vector<FieldPlaces> find_steps(Steps given) {
 
 /// Whether `step` is a component of a list of numbers.
 bool is_component(std::string_view step, Type type) {
-  if (type == Type::vector || type == Type::direction) return step == "x" || step == "y" || step == "z";
+  if (type == Type::vector || type == Type::direction || type == Type::point_or_name)
+    return step == "x" || step == "y" || step == "z";
   return (type == Type::extent || type == Type::pixels) && (step == "width" || step == "height");
 }
 

@@ -215,6 +215,8 @@ std::string expected(const Field& field) {
       return "the path of a file, relative to the folder of the scene";
     case Type::name:
       return "a name";
+    case Type::point_or_name:
+      return fmt::format("[x, y, z], three numbers{}{}, or a name", limits, unit);
     case Type::two_names:
       return "[name, name]";
     case Type::names:

@@ -36,8 +36,10 @@ constexpr Field scene_fields[] = {
     {.key = "walls", .type = Type::named, .of = "wall", .doc = "Two-sided fixed rectangles.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
     {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that face inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
     {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that no impact moves.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
+    {.key = "strings", .type = Type::named, .of = "string", .doc = "Strings and rods without mass, between bodies, or from a point to a body.", .example = "{s1: {from: [-1, 2, 0], to: crate, length: 1.5}}"},
     {.key = "regions", .type = Type::named, .of = "region", .doc = "Regions of space that the centres of bodies enter and leave. They touch nothing, and pictures do not show them.", .example = "{pocket: {radius: 0.3, position: [-6, 0, 0], action: remove}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
+    {.key = "start", .type = Type::part, .of = "start", .doc = "Begins with the bodies of a finished run: each body of this scene that the run has, by name, has its position and velocity there, and no impulse. All else is as this scene gives it, and time starts at 0.", .example = "{run: ../output/first, at: 2}"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}", .drawn = true},
     {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}", .drawn = true},
@@ -74,6 +76,7 @@ constexpr Field defaults_fields[] = {
     {.key = "wall", .type = Type::part, .of = "wall", .doc = "For every wall.", .example = "{size: [2, 1]}"},
     {.key = "obstacle", .type = Type::part, .of = "obstacle", .doc = "For every obstacle.", .example = "{radius: 0.1}"},
     {.key = "group", .type = Type::part, .of = "group", .doc = "For every group.", .example = "{speed: 1}"},
+    {.key = "string", .type = Type::part, .of = "string", .doc = "For every string.", .example = "{restitution: 0.2}"},
 };
 
 constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .member = fills<BodyKeys, &BodyKeys::mass>};
@@ -117,14 +120,25 @@ constexpr Field cylinder_fields[] = {
 
 constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
 
+constexpr Field placed_fields[] = {
+    {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<PlacedKeys, &PlacedKeys::position>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0. Default: that of the group's ball.", .example = "[2, 0, 0]", .member = fills_if_given<PlacedKeys, &PlacedKeys::velocity>},
+};
+
+constexpr Field start_fields[] = {
+    {.key = "run", .type = Type::text, .needed = true, .doc = "The folder of a finished run, from the scene file's folder.", .example = "../output/first", .title = "Folder of the run", .member = fills<StartKeys, &StartKeys::run>},
+    {.key = "at", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the run. Default: its end. Of a run without flights: a time of its trajectory.csv.", .example = "2", .title = "Time of the run", .member = fills_if_given<StartKeys, &StartKeys::at>},
+};
+
 constexpr Field group_fields[] = {
     {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20", .member = fills<GroupKeys, &GroupKeys::count>},
     {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "A ball of the group, without position.", .example = "{mass: 1, radius: 0.1}"},
-    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls", .member = fills<GroupKeys, &GroupKeys::in>},
-    {.key = "arrange", .type = Type::choice, .of = "random|lattice|hexagonal",
+    {.key = "in", .type = Type::part, .of = "in", .one_of = "in|members", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls", .member = fills<GroupKeys, &GroupKeys::in>},
+    {.key = "arrange", .type = Type::choice, .of = "random|lattice|hexagonal", .one_of = "arrange|members",
      .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal", .member = fills<GroupKeys, &GroupKeys::arrange>},
-    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
-    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
+    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity|members", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity|members", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
+    {.key = "members", .type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity", .doc = "Each ball's position and velocity, as many as `count`.", .example = "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", .title = "Balls one by one"},
     repeat,
 };
 
@@ -170,6 +184,15 @@ constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
     motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
+};
+
+constexpr Field string_fields[] = {
+    {.key = "from", .type = Type::point_or_name, .unit = "m", .needed = true, .doc = "One end: a fixed point, or the centre of a ball, body or member (gas.3).", .example = "[-1, 2, 0]", .title = "One end", .pattern = reference, .member = fills<StringKeys, &StringKeys::from>},
+    {.key = "to", .type = Type::name, .needed = true, .doc = "The other end: the centre of a ball, body or member (gas.3).", .example = "crate", .title = "The other end", .pattern = reference, .member = fills<StringKeys, &StringKeys::to>},
+    {.key = "length", .type = Type::number, .unit = "m", .range = above_0, .doc = "Greatest distance of its ends; of a rod the distance. Default: the distance at time 0.", .example = "1.5", .member = fills<StringKeys, &StringKeys::length>},
+    {.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution where the string goes taut.", .example = "0.2", .member = fills<StringKeys, &StringKeys::restitution>},
+    {.key = "rod", .type = Type::flag, .doc = "Whether it keeps its ends apart, too.", .example = "true", .title = "Rod", .member = fills<StringKeys, &StringKeys::rod>},
+    visible<StringKeys>, repeat,
 };
 
 constexpr std::string_view region_shapes = "radius|cylinder|box|plane";
@@ -251,7 +274,7 @@ constexpr Field camera_fields[] = {
     {.key = "fov_axis", .type = Type::choice, .of = "vertical|horizontal", .doc = "Axis along which fov is measured.", .example = "horizontal", .title = "Axis of the field of view", .member = fills<CameraKeys, &CameraKeys::fov_horizontal>},
     {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .one_of = "near|fit", .spared_by = "path", .doc = "Nothing nearer is drawn.", .example = "1", .title = "Near limit", .with = "eye", .member = fills<CameraKeys, &CameraKeys::near>},
     {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .one_of = "far|fit", .spared_by = "path", .doc = "Nothing farther is drawn.", .example = "100", .title = "Far limit", .with = "eye", .member = fills<CameraKeys, &CameraKeys::far>},
-    {.key = "fit", .type = Type::choice, .of = "motion", .one_of = "fit|follow|path|eye|target|near|far", .doc = "Frames where the bodies go during the time shown, with the walls and obstacles that they meet.", .example = "motion", .title = "Framing", .member = fills<CameraKeys, &CameraKeys::fit>},
+    {.key = "fit", .type = Type::choice, .of = "motion", .one_of = "fit|follow|path|eye|target|near|far", .doc = "Frames where the bodies go during the time shown, with the walls and obstacles that they meet, and the points that strings hang from.", .example = "motion", .title = "Framing", .member = fills<CameraKeys, &CameraKeys::fit>},
     {.key = "follow", .type = Type::name, .one_of = "follow|fit|path", .doc = "A ball, body, group or member (gas.3): eye and target go with its centre of mass. Default of target: that centre; of eye: a view from the front, slightly from above.", .example = "red", .title = "Followed bodies", .pattern = reference, .member = fills<CameraKeys, &CameraKeys::follow>},
     {.key = "path", .type = Type::list, .of = "keyframe", .one_of = "path|fit|follow|eye|target", .doc = "Views at times in order; the camera moves smoothly from one to the next.", .example = "[{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 2, eye: [5, 3, 0], target: [0, 0, 0]}]", .needs_entries = true},
 };
@@ -300,11 +323,14 @@ constexpr Kind kinds_of_scenes[] = {
     {"group", "a", "Many balls made by rule, without overlap, the same on every machine.", group_fields, nullptr,
      "group"},
     {"in", "", "An axis-aligned box.", in_fields},
+    {"placed", "a", "The position and velocity of one of a group's balls.", placed_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},
     {"obstacle", "an", "A body that no impact moves.", obstacle_fields, nullptr, "obstacle"},
     {"motion", "a", "A window of time in which a fixed thing moves.", motion_fields},
+    {"string", "a", "A string without mass that does not stretch: slack while its ends are nearer than its length.",
+     string_fields, nullptr, "string"},
     {"region", "a", "A region of space that the centres of bodies enter and leave.", region_fields},
     {"side", "", "One side of a plane.", side_fields},
     {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},
@@ -312,6 +338,7 @@ constexpr Kind kinds_of_scenes[] = {
      "linear|quadratic"},
     {"spring", "", "A spring from a fixed point, with a damper in parallel.", spring_fields},
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
+    {"start", "", "The former run from which bodies begin.", start_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
     {"stop", "a", "A condition that ends the run.", stop_fields},
     {"camera", "", "Camera of the pictures.", camera_fields},

@@ -29,6 +29,7 @@ enum class Type : std::uint8_t {
   color_or_part,  // a colour, or a map of kind Field::of
   file,           // path, from the scene file's folder
   name,           // of a body or a fixed thing
+  point_or_name,  // [x, y, z], numbers in range, or the name of a body
   two_names,      // [name, name] of bodies or fixed things
   /// A list of names, at least one. If Field::of is given, they are from it, separated by |.
   names,

@@ -84,7 +84,7 @@ std::optional<std::vector<Entity>> find_bodies(const Node* on, const Inventory& 
     good = good && range;
     if (!range) continue;
     if (range->first >= inventory.body_count && range->count > 0) {
-      diagnostics.add(item.place, fmt::format("{} is a fixed thing: {}", in_backticks(item.text), use),
+      diagnostics.add(item.place, fmt::format("{} is {}: {}", in_backticks(item.text), inventory.word_for(*range), use),
                       "expected balls, bodies, groups or members (gas.3)");
       good = false;
       continue;

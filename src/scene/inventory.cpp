@@ -12,7 +12,7 @@ namespace carom {
 namespace {
 
 constexpr std::uint64_t most_bodies =
-    // An Entity has 32 bits, and fixed things are numbered after the bodies.
+    // An Entity has 32 bits, and fixed things and strings are numbered after the bodies.
     4'000'000'000;
 
 class Census {
@@ -32,6 +32,8 @@ class Census {
     if (const Node* walls = root_.find("walls")) fixed(*walls, kind_named("wall"));
     if (const Node* obstacles = root_.find("obstacles")) fixed(*obstacles, kind_named("obstacle"));
 
+    if (const Node* strings = root_.find("strings")) add_strings(*strings);
+
     std::uint64_t total = 0;
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
@@ -49,7 +51,7 @@ class Census {
   void claim(const Key& key) {
     if (inventory_.names.emplace(key.text, Inventory::Range{0, 0}).second) return;
     diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
-                     "names of bodies, groups, fixed things and the room are unique in a scene");
+                     "names of bodies, groups, fixed things, strings and the room are unique in a scene");
   }
 
   /// Claims a thing's name, and that of the repeated thing with its first member. False: it is repeated no time.
@@ -85,6 +87,16 @@ class Census {
     fixed_count_ += count;
   }
 
+  void add_strings(const Node& node) {
+    if (!node.is(Node::Kind::map)) return;
+    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+      if (claim_thing(node.keys[i], node.items[i]))
+        inventory_.strings.push_back({&node.keys[i], &node.items[i]});
+      else
+        empty_.push_back({&node.keys[i], fixed_count_ + inventory_.strings.size(), false});
+    }
+  }
+
   void check(std::uint64_t total, const BodyEntry* most, const Budget& budget) {
     const std::uint64_t limit = budget.enforced ? std::min(budget.bodies, most_bodies) : most_bodies;
     if (total <= limit) return;
@@ -100,7 +112,8 @@ class Census {
 
   void number(std::uint64_t total) {
     inventory_.body_count = static_cast<Entity>(total);
-    inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size());
+    inventory_.fixed_count = fixed_count_;
+    inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size() + inventory_.strings.size());
     for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
@@ -110,6 +123,8 @@ class Census {
         inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
       }
     }
+    for (std::size_t i = 0; i < inventory_.strings.size(); ++i)
+      add(inventory_.strings[i].key->text, {inventory_.body_count + fixed_count_ + static_cast<Entity>(i), 1});
     for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
     for (const Empty& none : empty_) {
       const bool last = none.before == inventory_.bodies.size();
@@ -132,7 +147,7 @@ class Census {
   /// A thing that is repeated no time.
   struct Empty {
     const Key* key;
-    std::size_t before;  // entries, or fixed things, before it
+    std::size_t before;  // entries, or fixed things and strings, before it
     bool is_body;
   };
 
@@ -162,6 +177,11 @@ View body_view(const Node& root, const BodyEntry& entry) {
 View member_view(const Node& root, const View& group) {
   const Kind& kind = kind_named("member");
   return View(group.given("ball"), kind, group.place("ball"), defaults_for(root, kind));
+}
+
+View view_of_string(const Node& root, const StringEntry& entry) {
+  const Kind& kind = kind_named("string");
+  return View(entry.node, kind, entry.key->place, defaults_for(root, kind));
 }
 
 View fixed_view(const Node& root, const FixedEntry& entry) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "numerics/vec3.h"
 #include "physics/attractor.h"
@@ -56,6 +57,18 @@ struct BoxKeys {
 
 enum class Arrange : std::uint8_t { random, lattice, hexagonal };
 
+/// A ball of a group that lists its balls.
+struct PlacedKeys {
+  std::optional<Vec3> position;  // m
+  std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
+};
+
+/// The former run from which bodies begin.
+struct StartKeys {
+  std::optional<std::string> run;  // a folder
+  std::optional<double> at;        // s of that run; none: its end
+};
+
 struct GroupKeys {
   std::uint64_t count = 0;
   BoxKeys in;
@@ -100,6 +113,15 @@ struct WallKeys : FixedKeys<0x9aa3ad> {
 
 struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
   Vec3 position = Vec3(0, 0, 0);  // m
+};
+
+struct StringKeys {
+  const Node* from = nullptr;    // a point (m) or a name
+  const Node* to = nullptr;      // a name
+  std::optional<double> length;  // m; none: the distance of its ends at time 0
+  double restitution = 0;        // of the impact where it goes taut
+  bool rod = false;
+  bool visible = true;
 };
 
 struct RestitutionKeys {

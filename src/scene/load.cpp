@@ -14,6 +14,7 @@
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
+#include "scene/start.h"
 #include "yaml/document.h"
 #include "yaml/values.h"
 
@@ -25,12 +26,25 @@ void stop_if_wrong(const Diagnostics& diagnostics, const LoadOptions& options) {
 }
 
 /// The scene of a run must not be longer than a file that is read.
-void check_length(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
-  if (inventory.families.empty() || scene.resolved.size() <= max_source_bytes) return;
-  const auto member = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
-                                   [](const BodyEntry& body) { return !family_of(body.key->text).empty(); });
+/// `start`: the key of that name; null: there is none.
+void check_length(const Inventory& inventory, const Scene& scene, const Key* start, Diagnostics& diagnostics) {
+  if (scene.resolved.size() <= max_source_bytes) return;
+  if (scene.made_from.start)
+    return diagnostics.add(start->place,
+                           fmt::format("with the places of its bodies the scene has {} bytes; the limit is {}",
+                                       scene.resolved.size(), max_source_bytes),
+                           "expected fewer bodies");
+  if (inventory.families.empty()) return;
+  std::optional<Place> where;
+  const auto look = [&](const auto& entries) {
+    for (std::size_t i = 0; i < entries.size() && !where; ++i)
+      if (!family_of(entries[i].key->text).empty()) where = entries[i].key->place;
+  };
+  look(inventory.bodies);
+  look(inventory.fixed);
+  look(inventory.strings);
   diagnostics.add(
-      member == inventory.bodies.end() ? inventory.fixed.front().key->place : member->key->place,
+      where.value_or(Place{}),
       fmt::format("with its members the scene has {} bytes; the limit is {}", scene.resolved.size(), max_source_bytes),
       "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
 }
@@ -81,8 +95,9 @@ struct SceneFile::Impl {
   Scene resolve(Node& tree, Diagnostics& diagnostics) const {
     const std::string folder = folder_of(path);
     Scene scene;
-    scene.expressions = expand(tree, options.budget, diagnostics);
+    scene.made_from.expressions = expand(tree, options.budget, diagnostics);
     check_scene(tree, folder, diagnostics);
+    apply_start(tree, folder, options, scene.made_from, diagnostics);
     scene.file = path;
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
@@ -91,9 +106,11 @@ struct SceneFile::Impl {
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
+    if (inventory.fits) decode_strings(tree, inventory, scene, diagnostics);
     decode_requests(tree, inventory, options, scene, diagnostics);
     if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
+    if (inventory.fits) decode_lengths(tree, inventory, scene, diagnostics);
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);
@@ -103,7 +120,7 @@ struct SceneFile::Impl {
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
     scene.resolved = resolved_text(tree, inventory, scene, folder);
-    check_length(inventory, scene, diagnostics);
+    check_length(inventory, scene, tree.find_key("start"), diagnostics);
     stop_if_wrong(diagnostics, options);
     return scene;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/budget.h"
+#include "scene/former_state.h"
 #include "scene/scene.h"
 #include "yaml/diagnostics.h"
 
@@ -25,6 +26,9 @@ struct LoadOptions {
   /// Reads the vertices of a mesh file, in the file's own units.
   /// Throws std::runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
   std::function<std::vector<Vec3>(const std::string& path)> mesh_points;
+  /// Reads the state of a run's bodies. `folder`: relative to the working folder. `at`: s of the run; none: its end.
+  /// Throws StartError. Unset: scenes with `start` are refused.
+  std::function<FormerState(const std::string& folder, std::optional<double> at)> former_state;
   /// The fault of a measure that the scene defines; empty: none. Unset: measures are not checked.
   std::function<std::string(const Scene& scene, const OwnMeasure& measure)> measure_fault;
 };

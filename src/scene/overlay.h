@@ -43,6 +43,8 @@ struct Overlay {
   double shutter = 0;
   /// Numbers of forces in World::forces. Their springs are not drawn.
   std::vector<std::size_t> hidden_springs;
+  /// Numbers of strings in World::strings that are not drawn, ascending.
+  std::vector<std::size_t> hidden_strings;
 };
 
 }  // namespace carom

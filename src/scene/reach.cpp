@@ -29,9 +29,14 @@ class Reach {
       check_places(fixed_view(root_, entry), entry.key->text);
       if (entry.count == 1) check_motion(entry);
     }
+    for (const StringEntry& string : inventory_.strings) check_places(view_of_string(root_, string), string.key->text);
     for (const BodyEntry& body : inventory_.bodies) {
       if (body.count == 0) continue;
       const View view = body_view(root_, body);
+      if (body.group && view.given("members") != nullptr) {
+        check_members(body, view);
+        continue;
+      }
       check_places(body.group ? view.part("in", "in") : view, body.key->text);
       check_speed(body, view);
     }
@@ -39,15 +44,29 @@ class Reach {
   }
 
  private:
-  /// `view`: a body, a fixed thing or a group's box.
+  /// Checks a group that lists its balls.
+  void check_members(const BodyEntry& body, const View& view) {
+    const View each = member_view(root_, view);
+    const Node& list = *view.given("members");
+    for (std::size_t i = 0; i < list.items.size(); ++i) {
+      const View entry(&list.items[i], kind_named("placed"), list.items[i].place);
+      const std::string name = fmt::format("{}.{}", body.key->text, i);
+      check_places(entry, name);
+      const View& giver = entry.given("velocity") == nullptr ? each : entry;
+      check_speed(name, giver.vector("velocity").value_or(Vec3::Zero()).norm() + kick_of(body).norm(),
+                  giver.place("velocity"));
+    }
+  }
+
+  /// `view`: a body, a fixed thing, a string, a group's box or one of its balls.
   void check_places(const View& view, const std::string& name) {
-    for (const std::string_view key : {"position", "point", "center", "min", "max"}) {
+    for (const std::string_view key : {"position", "point", "center", "min", "max", "from"}) {
       if (find_field(view.kind(), key) == nullptr) continue;
       const std::optional<Vec3> at = view.vector(key);
       if (at)
         check_length(at->cwiseAbs().maxCoeff(), view.place(key), "{} is {} m from the origin", name, "bring it nearer");
     }
-    for (const std::string_view key : {"radius", "cylinder", "box", "size"}) {
+    for (const std::string_view key : {"radius", "cylinder", "box", "size", "length"}) {
       if (find_field(view.kind(), key) == nullptr || view.find(key) == nullptr) continue;
       check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m in size", name, "make it smaller");
     }
@@ -80,18 +99,26 @@ class Reach {
         fmt::format("doubles do not resolve contact there: {}, or make the smallest thing larger", change));
   }
 
+  /// The velocity (m/s) that an impulse gives to a body.
+  Vec3 kick_of(const BodyEntry& body) const {
+    return world_.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world_.impulse[body.first] / world_.mass[body.first]);
+  }
+
   void check_speed(const BodyEntry& body, const View& view) {
-    const double mass = world_.mass[body.first];
-    const Vec3 kick = world_.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world_.impulse[body.first] / mass);
     const View each = body.group ? member_view(root_, view) : view;
     const std::optional<double> deviation = body.group ? view.number("speed") : std::nullopt;
     const bool common = body.group && view.given("velocity") != nullptr;
     const Vec3 velocity = (common ? view : each).vector("velocity").value_or(Vec3::Zero());
-    const double speed = deviation.value_or(velocity.norm()) + kick.norm();
+    const Vec3 kick = kick_of(body);
     const std::string_view key = !kick.isZero(0) ? "impulse" : deviation ? "speed" : "velocity";
     const Place place = (key == "speed" || (common && key == "velocity") ? view : each).place(key);
+    check_speed(body.key->text, deviation.value_or(velocity.norm()) + kick.norm(), place);
+  }
+
+  /// `speed`: at time 0, in m/s. `place`: of the value that gives it.
+  void check_speed(const std::string& name, double speed, Place place) {
     if (!(speed <= largest_speed)) {
-      diagnostics_.add(place, fmt::format("{} starts at {} m/s", in_backticks(body.key->text), shortest(speed)),
+      diagnostics_.add(place, fmt::format("{} starts at {} m/s", in_backticks(name), shortest(speed)),
                        fmt::format("expected at most {:g} m/s", largest_speed));
       return;
     }
@@ -99,7 +126,7 @@ class Reach {
     if (way <= farthest_) return;
     diagnostics_.add(place,
                      fmt::format("{} travels {} m in the duration, more than {:g} times the smallest size, {} m",
-                                 in_backticks(body.key->text), shortest(way), farthest_by_size, shortest(smallest_)),
+                                 in_backticks(name), shortest(way), farthest_by_size, shortest(smallest_)),
                      "doubles do not resolve its position then: expected a shorter duration, a lower speed, or larger "
                      "things");
   }

@@ -62,6 +62,7 @@ class Resolver {
       if (key.text == "walls") fixed("walls", "wall");
       if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
+    strings();
     regions();
     forces();
     simulate();
@@ -115,10 +116,12 @@ class Resolver {
         entry(body.key->text, flow(each, overrides));
         continue;
       }
+      const bool lists_members = view.find("members") != nullptr;
       // A group's velocity is written once, in the group.
-      overrides["velocity"] = "";
-      Overrides group_overrides{{"ball", flow(each, overrides)}, {"in", flow(view.part("in", "in"))}};
-      if (view.find("speed") == nullptr && view.find("velocity") == nullptr)
+      if (!lists_members) overrides["velocity"] = "";
+      Overrides group_overrides{{"ball", flow(each, overrides)}};
+      if (!lists_members) group_overrides["in"] = flow(view.part("in", "in"));
+      if (!lists_members && view.find("speed") == nullptr && view.find("velocity") == nullptr)
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
     }
@@ -136,7 +139,7 @@ class Resolver {
       if (name == "group") {
         const View each = member_view(root_, view);
         overrides["ball"] = flow(each, whole_paths(each));
-        overrides["in"] = flow(view.part("in", "in"));
+        if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in", "in"));
       }
       entry(map.keys[i].text, flow(view, overrides));
     }
@@ -170,6 +173,18 @@ class Resolver {
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(known.mesh, overrides);
     return flow(view, overrides);
+  }
+
+  void strings() {
+    if (root_.find("strings") == nullptr) return;
+    heading("strings", root_.find("strings")->items.empty());
+    for (std::size_t i = 0; i < inventory_.strings.size(); ++i) {
+      const View view = view_of_string(root_, inventory_.strings[i]);
+      Overrides overrides;
+      if (view.find("length") == nullptr) overrides["length"] = shortest(scene_.world.strings[i].length);
+      entry(inventory_.strings[i].key->text, flow(view, overrides));
+    }
+    without_members("strings", "string");
   }
 
   void regions() {

@@ -30,7 +30,8 @@ std::string Roster::name(Entity e) const {
     return range.group ? range.name + "." + std::to_string(e - range.first) : range.name;
   }
   const Entity body_count = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
-  return fixed.at(e - body_count).name;
+  const std::size_t after_bodies = e - body_count;
+  return after_bodies < fixed.size() ? fixed[after_bodies].name : strings.at(after_bodies - fixed.size());
 }
 
 bool may_stop(const Scene& scene) {

@@ -12,6 +12,7 @@
 #include "physics/state.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/former_state.h"
 #include "scene/output.h"
 #include "scene/overlay.h"
 #include "scene/simulate_settings.h"
@@ -61,13 +62,14 @@ struct FixedName {
   std::optional<MeshUse> mesh = std::nullopt;  // only of an obstacle
 };
 
-/// The names of bodies and fixed things, in the order of the file. Every output has this order.
+/// The names of bodies, fixed things and strings, in the order of the file. Every output has this order.
 struct Roster {
   std::vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
   std::vector<FixedName> fixed;
+  std::vector<std::string> strings;              // by number in World::strings
   std::vector<std::string> regions;              // by number in World::regions
-  std::string name(Entity e) const;              // "red", "gas.17", "lane"
+  std::string name(Entity e) const;              // "red", "gas.17", "lane", "s1"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
 
@@ -132,6 +134,15 @@ struct Measures {
   std::map<std::string, double> numbers;  // of `let`
 };
 
+/// Where values of the scene come from, if not from its file as numbers.
+struct MadeFrom {
+  /// The texts of expressions in the file, by their paths (expand.h).
+  std::map<std::string, std::string> expressions{};
+  std::optional<StartedFrom> start{};
+  /// Sentences on the start that the author may not expect.
+  std::vector<std::string> notes{};
+};
+
 struct Scene {
   std::string file;  // as given on the command line
   std::string title;
@@ -153,8 +164,7 @@ struct Scene {
   /// In s: where the run is known to end, if that is before its duration. The loader does not know.
   std::optional<double> ends_at{};
   std::vector<MeshFile> meshes;  // each file once
-  /// The texts of expressions in the file, by their paths (expand.h).
-  std::map<std::string, std::string> expressions;
+  MadeFrom made_from;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
   std::string resolved;
 };

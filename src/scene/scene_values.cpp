@@ -57,6 +57,7 @@ class Flattener {
         return;
       case Type::vector:
       case Type::direction:
+      case Type::point_or_name:
         return numbers(path, node, field, std::array<std::string_view, 3>{"x", "y", "z"});
       case Type::extent:
       case Type::pixels:

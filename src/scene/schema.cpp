@@ -188,6 +188,8 @@ Json value_schema(const Field& field) {
       return {{"anyOf", Json::array({reference("color"), {{"const", "none"}}})}};
     case Type::color_or_part:
       return {{"anyOf", Json::array({reference("color"), reference(field.of)})}};
+    case Type::point_or_name:
+      return {{"anyOf", Json::array({array_schema(number_schema(limited_range(field)), 3), text_schema(field)})}};
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:

@@ -183,6 +183,7 @@ class Walk {
       }
       case Type::vector:
       case Type::direction:
+      case Type::point_or_name:
         return into_numbers(step, {"x", "y", "z"});
       case Type::extent:
       case Type::pixels:

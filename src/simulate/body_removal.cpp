@@ -24,6 +24,7 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
   std::vector<Entity> left = release(i);
   bodies_.log.remove(0.5 * mass * v.squaredNorm() + bodies_.merged.potential(i, x), mass * v);
   bodies_.merged.remove(i);
+  bodies_.ties.untie(i);
   bodies_.neighbours.remove(i);
   flights_.take_out(i, x);
   bodies_.body[i].event = {};
@@ -43,6 +44,11 @@ std::vector<Entity> BodyRemoval::release(Entity i) {
     if (!bodies_.world.is_body(e) || bodies_.body[e].state != ContactState::asleep) continue;
     const double gap = touch(bodies_.world, i, x, e, bodies_.position(e)).gap;
     if (gap > exact_tolerance::waking_gap * bodies_.world.radius[i]) continue;
+    group_.wake(e);
+    left.push_back(e);
+  }
+  for (const Entity e : group_.asleep_on_strings(i)) {
+    if (bodies_.body[e].state != ContactState::asleep) continue;
     group_.wake(e);
     left.push_back(e);
   }

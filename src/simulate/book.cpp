@@ -85,6 +85,8 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       log_(options.max_collisions, options.record_collisions),
       inside_(world.regions.size() * world.body_count()),
       extremes_(options.watch.size()) {
+  if (!world.strings.empty())
+    throw SimulationError("the engine `book` has no strings: use `engine: exact`, or remove `strings`");
   for (const Vec3& v : v_) log_.note_speed(v.norm());
   take_extremes();
 }

@@ -47,15 +47,18 @@ ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, Fla
       following_(bodies.body.size()) {}
 
 Vec3 ConstrainedMotion::at(const std::vector<Vec3>& x, Entity e) const {
-  return bodies_.world.is_body(e) ? x[group_.index[e]] : bodies_.fixed_position(e);
+  const Entity b = bodies_.world.second_body(e);
+  return b != no_entity ? x[group_.index[b]] : bodies_.fixed_position(e);
 }
 
 Vec3 ConstrainedMotion::rate(const std::vector<Vec3>& v, Entity e) const {
-  return bodies_.world.is_body(e) ? v[group_.index[e]] : bodies_.fixed_velocity(e);
+  const Entity b = bodies_.world.second_body(e);
+  return b != no_entity ? v[group_.index[b]] : bodies_.fixed_velocity(e);
 }
 
 Vec3 ConstrainedMotion::acceleration(const std::vector<Vec3>& a, Entity e) const {
-  return bodies_.world.is_body(e) ? a[group_.index[e]] : Vec3(Vec3::Zero());
+  const Entity b = bodies_.world.second_body(e);
+  return b != no_entity ? a[group_.index[b]] : Vec3(Vec3::Zero());
 }
 
 void ConstrainedMotion::clear_index(const std::vector<Entity>& members) const {
@@ -119,7 +122,7 @@ bool ConstrainedMotion::count_change(Island& island) const {
 bool ConstrainedMotion::advance(Entity i) {
   Island& island = bodies_.islands.of(i);
   const bool undisturbed = island.constrained && bodies_.now == island.planned;
-  if (!undisturbed && !count_change(island)) {
+  if (!undisturbed && !bodies_.any_taut(island.members) && !count_change(island)) {
     for (const Entity k : island.members) settle(k);
     return false;
   }
@@ -154,7 +157,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
       if (!world.is_body(e) || bodies_.body[e].state != ContactState::free) continue;
       const Vec3 xe = bodies_.position(e), ve = bodies_.velocity(e);
       const Touch there = touch(world, k, x, e, xe);
-      if (there.gap > contact_gap(k, x, xe)) continue;
+      if (there.gap > bodies_.contact_gap(k, x, xe)) continue;
       if (std::abs(there.normal.dot(ve - v)) > tol::drift * (v.norm() + ve.norm())) continue;
       group_.join(e);
       group_.unite(i, e);
@@ -218,12 +221,6 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
   return step;
 }
 
-/// The largest gap between body i, at x, and a thing at xe that counts as contact (m).
-double ConstrainedMotion::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
-  return std::max(tol::contact_gap * bodies_.world.radius[i],
-                  tol::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
-}
-
 /// Finds the pairs in contact, except those that are about to strike.
 void ConstrainedMotion::find_contacts(Step& step) const {
   const World& world = bodies_.world;
@@ -237,7 +234,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       const bool struck = bodies_.flights[i].start == bodies_.now && bodies_.body[i].origin_partner == e;
       const Vec3 xe = at(step.x, e);
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
-      if (there.gap > contact_gap(i, step.x[k], xe)) continue;
+      if (there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
       const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
       const bool apart = there.gap > tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
       if (group_.strikes(i, e, approach, step.greatest, apart)) continue;
@@ -246,14 +243,38 @@ void ConstrainedMotion::find_contacts(Step& step) const {
                         there.gap);
     }
     step.contacts.drop_hidden(bodies_, step.x[k], first);
+    find_strings(step, k);
+  }
+}
+
+/// The same for the strings of member k. Each belongs to one of its two bodies. A rod is always in contact.
+void ConstrainedMotion::find_strings(Step& step, std::size_t k) const {
+  const Entity i = step.members[k];
+  for (const Entity e : bodies_.ties.of(i)) {
+    const String& s = bodies_.world.string(e);
+    const std::uint32_t other = s.other == no_entity ? ContactConstraint::fixed : group_.index[s.other];
+    if (s.body != i || (s.other != no_entity && other == ContactConstraint::fixed)) continue;
+    const Vec3 xe = at(step.x, e);
+    const Touch there = touch(bodies_.world, i, step.x[k], e, xe);
+    const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
+    const bool apart = there.gap > tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
+    if (!s.rod &&
+        (there.gap > bodies_.contact_gap(i, step.x[k], xe) || group_.strikes(i, e, approach, step.greatest, apart)))
+      continue;
+    ContactConstraint pair{static_cast<std::uint32_t>(k), other, there.normal, -there.gap};
+    pair.bilateral = s.rod;
+    pair.slack = s.rod ? tol::step_error * bodies_.world.radius[i] : 0;
+    step.contacts.add(pair, {i, e, there.feature}, there.gap);
   }
 }
 
 void ConstrainedMotion::close_overlaps(Step& step) const {
   bool overlap = false;
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
-    overlap =
-        overlap || step.contacts.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.contacts.names[c].i];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
+    const double closes = p.bilateral ? std::abs(p.target) : p.target;
+    overlap = overlap || closes > tol::least_overlap * bodies_.world.radius[step.contacts.names[c].i];
+  }
   if (!overlap) return;
   std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
   bodies_.log.note(solve({step.inverse_mass, displacement, step.contacts.pairs}));
@@ -267,6 +288,7 @@ void ConstrainedMotion::take_approaches(Step& step) {
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     ContactConstraint& p = step.contacts.pairs[c];
     p.target = p.force = 0;
+    p.slack = p.bilateral ? tol::step_error * step.fastest : 0;
     p.surface = surface_speed(p.normal, step.contacts.names[c].e);
   }
   const std::vector<Vec3> met = step.v;
@@ -292,13 +314,14 @@ double ConstrainedMotion::surface_speed(const Vec3& normal, Entity e) const {
 std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
   const World& world = bodies_.world;
   std::vector<std::uint8_t> recorded(step.contacts.pairs.size(), 0);
-  if (step.greatest == 0) return recorded;
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const auto& [i, e, feature] = step.contacts.names[c];
     const double approach = p.normal.dot(met[p.a] - rate(met, e));
-    if (!(p.force > 0 && approach > bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)))) continue;
-    const CollisionKind kind = world.is_body(e) ? CollisionKind::body_body : CollisionKind::body_fixed;
+    if (!(p.force > 0 && approach > group_.slow_approach(i, e, step.greatest))) continue;
+    const CollisionKind kind = world.is_string(e) ? CollisionKind::string
+                               : world.is_body(e) ? CollisionKind::body_body
+                                                  : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, at(step.x, e), feature);
     Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, p.normal, approach, 0,
                                      pair_restitution(world, i, e));
@@ -313,11 +336,15 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
 
 /// Pairs that separate by more than path errors are not contacts. If they return, they meet.
 void ConstrainedMotion::drop_parting(Step& step) const {
+  const World& world = bodies_.world;
   const double parting =
       std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
   step.contacts.drop_if(0, [&](std::size_t c) {
+    if (step.contacts.pairs[c].bilateral) return false;
     const Vec3 w = rate(step.v, step.contacts.names[c].e) - step.v[step.contacts.pairs[c].a];
-    return step.contacts.pairs[c].normal.dot(w) > parting;
+    // Strings hold by their curvature where nothing else pulls on them.
+    const double drift = world.is_string(step.contacts.names[c].e) ? tol::drift * step.fastest : 0;
+    return step.contacts.pairs[c].normal.dot(w) > parting + drift;
   });
 }
 
@@ -330,8 +357,7 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const Entity e = step.contacts.names[c].e;
     if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
-    system.add(step.contacts.names[c], step.contacts.pairs[c].a, step.contacts.pairs[c].b,
-               step.contacts.pairs[c].normal);
+    system.add(step.contacts.names[c], step.contacts.pairs[c]);
   }
   step.a = system.accelerate(step.x, step.v);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
@@ -343,7 +369,7 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<std::uint8_t> opens(step.contacts.pairs.size(), 0);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
-    if (p.force > 0) continue;
+    if (p.force > 0 || p.bilateral) continue;
     const double parting = p.normal.dot(rate(step.v, step.contacts.names[c].e) - step.v[p.a]);
     opens[c] = parting > tol::drift * scales.speed || system.gap_acceleration(c, step.a) > scales.opening;
   }
@@ -362,7 +388,8 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
     const double speed = p.normal.dot(rate(step.v, step.contacts.names[c].e) - step.v[p.a]);
     parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
     kept.push_back({p.a, p.b, p.normal});
-    kept.back().bilateral = p.force > 0;
+    kept.back().bilateral = p.force > 0 || p.bilateral;
+    kept.back().slack = p.slack;
     kept.back().surface = p.surface;
   }
   if (!parts) return false;
@@ -461,7 +488,7 @@ double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double le
 /// The time (s) at which a separating pair, or one about to separate, is so far apart that it may meet again.
 double ConstrainedMotion::away_time(const Step& step, std::size_t pair) const {
   const ContactConstraint& p = step.contacts.pairs[pair];
-  if (p.force > 0) return never;
+  if (p.force > 0 || p.bilateral) return never;
   const Entity e = step.contacts.names[pair].e;
   const double u = p.normal.dot(rate(step.v, e) - step.v[p.a]), w = p.normal.dot(acceleration(step.a, e) - step.a[p.a]);
   const double far =
@@ -482,7 +509,7 @@ void ConstrainedMotion::find_unbound(Step& step) const {
   step.down.assign(n, Vec3::Zero());
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
-    if (!(p.force > 0)) continue;
+    if (!(p.force > 0 || p.bilateral)) continue;
     const auto& [i, e, feature] = step.contacts.names[c];
     step.held[p.a] = 1;
     FlatContactList& flats = step.flats[p.a];
@@ -515,7 +542,10 @@ void ConstrainedMotion::note_contacts(const Step& step) {
     const auto& [i, e, feature] = step.contacts.names[c];
     group_.partners.write(i).push_back(e);
     if (bodies_.world.is_body(e)) group_.partners.write(e).push_back(i);
-    if (!(step.contacts.pairs[c].force > 0)) continue;
+    if (bodies_.world.is_string(e))
+      if (const Entity other = bodies_.world.string(e).other; other != no_entity)
+        group_.partners.write(other).push_back(e);
+    if (!(step.contacts.pairs[c].force > 0 || step.contacts.pairs[c].bilateral)) continue;
     const ContactConstraint& p = step.contacts.pairs[c];
     group_.pressing.write(i).push_back({e, p.force, p.surface});
     if (!bodies_.world.is_body(e) && is_flat(bodies_.world, i, e, feature))
@@ -637,19 +667,24 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
   std::vector<std::pair<Entity, Entity>> names;
   for (const Entity i : island.members) {
     for (const Entity e : group_.partners[i]) {
-      const bool body = world.is_body(e);
-      if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
-      const std::uint32_t k = group_.index[i], other = body ? group_.index[e] : ContactConstraint::fixed;
+      // Each contact once, from its first body.
+      const bool string = world.is_string(e);
+      const Entity second = world.second_body(e);
+      if (string ? world.string(e).body != i : second != no_entity && e < i) continue;
+      if (second != no_entity && group_.index[second] == ContactConstraint::fixed) continue;
+      const std::uint32_t k = group_.index[i],
+                          other = second != no_entity ? group_.index[second] : ContactConstraint::fixed;
       const Vec3 xe = at(x, e);
       const Touch there = touch(world, i, x[k], e, xe);
       const double bend = bending(world, i, x[k], e, xe, there, rate(v, e) - v[k]);
       pairs.push_back({k, other, there.normal, -bend});
+      pairs.back().bilateral = string && world.string(e).rod;
       names.emplace_back(i, e);
     }
   }
   solve({inverse_mass, a, pairs});
   for (std::size_t c = 0; c < pairs.size(); ++c)
-    if (pairs[c].force > 0) forces.push_back({names[c].first, names[c].second, pairs[c].force});
+    if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});
   clear_index(island.members);
 }
 

@@ -84,11 +84,11 @@ class ConstrainedMotion {
   Vec3 velocity(Entity i, const Instant& at) const;
   bool count_change(Island& island) const;
   void take_in_touching(Entity i);
-  double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;
   Step begin_step(std::vector<Entity> members) const;
   std::vector<std::uint32_t> parts_of(const Step& step) const;
   void advance_whole(Step& step);
   void find_contacts(Step& step) const;
+  void find_strings(Step& step, std::size_t k) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
   double surface_speed(const Vec3& normal, Entity e) const;

@@ -36,6 +36,7 @@ constexpr int samples = 6;
 /// The least radius of curvature of the Minkowski sum of two volumes where it is round (m).
 /// A cylinder's rim is sharp. A sphere makes it as round as the sphere.
 double bend_radius(const World& world, Entity i, Entity e) {
+  if (world.is_string(e)) return world.string(e).length;
   const auto round = [&](Shape shape) {
     double sum = 0;
     for (const Entity k : {i, e}) {
@@ -51,7 +52,12 @@ double bend_radius(const World& world, Entity i, Entity e) {
 }
 
 double smaller_radius(const World& world, const Contact& c) {
-  return world.is_body(c.e) ? std::min(world.radius[c.i], world.radius[c.e]) : world.radius[c.i];
+  const Entity second = world.second_body(c.e);
+  return second != no_entity ? std::min(world.radius[c.i], world.radius[second]) : world.radius[c.i];
+}
+
+bool is_rod(const World& world, Entity e) {
+  return world.is_string(e) && world.string(e).rod;
 }
 
 Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
@@ -105,9 +111,10 @@ std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members,
   return of_members;
 }
 
-void ConstrainedSystem::add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal) {
+void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pair) {
   closed_.push_back(contact);
-  rows_.push_back({a, b, normal});
+  rows_.push_back({pair.a, pair.b, pair.normal});
+  rows_.back().bilateral = pair.bilateral;
 }
 
 void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
@@ -175,9 +182,18 @@ Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const std::vector<Vec3>
   return (carrier == nullptr ? Vec3(Vec3::Zero()) : Vec3(x[place_of_carrier(*carrier)] - carrier->x)) - of_a;
 }
 
+/// Allows rods path errors of the accelerations, where other rods hold their ends already.
+void ConstrainedSystem::allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const {
+  double greatest = greatest_norm(a);
+  for (const ContactConstraint& row : rows) greatest = std::max(greatest, std::abs(row.target));
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    if (is_rod(world_, closed_[c].e)) rows[c].slack = tol::step_error * greatest;
+}
+
 std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                 std::vector<ContactConstraint>& rows, Certificate& certificate) const {
   std::vector<Vec3> a = forces_at(x, v);
+  bool rods = false;
   for (std::size_t c = 0; c < rows.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
@@ -186,8 +202,10 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
     // Also beyond its rim.
     const Touch there = touch(world_, i, x[row.a], e, xe, feature);
     row.normal = there.normal;
+    if (is_rod(world_, e)) rods = true;
     row.target = -bending(world_, i, x[row.a], e, xe, there, relative_velocity(v, row, e));
   }
+  if (rods) allow_contradictions(a, rows);
   certificate.merge(solve({inverse_mass_, a, rows}));
   return a;
 }
@@ -251,7 +269,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
   // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
   // opening too.
   held_ = rows_;
-  for (ContactConstraint& row : held_) row.bilateral = row.force > 0;
+  for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.force > 0;
   const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
@@ -386,7 +404,8 @@ double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   motion.at(t, x, v);
   const std::vector<Vec3> a = accelerate(x, v);
   double greatest = 0;
-  for (std::size_t c = 0; c < rows_.size(); ++c) greatest = std::max(greatest, gap_acceleration(c, a));
+  for (std::size_t c = 0; c < rows_.size(); ++c)
+    if (!rows_[c].bilateral) greatest = std::max(greatest, gap_acceleration(c, a));
   return greatest / scales_.opening;
 }
 

@@ -27,8 +27,9 @@ class ConstrainedSystem {
   /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object.
   ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied);
 
-  /// Adds a contact of members number a and b, or of a and a fixed thing. normal: from a to b.
-  void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
+  /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never
+  /// opens.
+  void add(const Contact& contact, const ContactConstraint& pair);
   /// Registers a fixed thing that moves, at its position (m) and velocity (m/s) at the start, before contacts with it
   /// are added.
   void carry(Entity e, const Vec3& x, const Vec3& v);
@@ -96,6 +97,7 @@ class ConstrainedSystem {
   Followed follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double h);
   Followed follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
   double greatest_fade() const;
+  void allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const;
   std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                std::vector<ContactConstraint>& rows, Certificate& certificate) const;
   double opens(const DenseMotion& motion, double t);

@@ -44,7 +44,7 @@ void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>&
 
 void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::size_t first, double beside) {
   const World& world = bodies.world;
-  const auto fixed = [&](std::size_t c) { return !world.is_body(names[c].e); };
+  const auto fixed = [&](std::size_t c) { return world.is_fixed(names[c].e); };
   const auto flat = [&](std::size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
   const auto hides = [&](std::size_t floor, std::size_t c) {
     const Vec3& n = pairs[floor].normal;

@@ -13,7 +13,7 @@ struct ExactBodies;
 
 /// Two things in contact.
 struct Contact {
-  Entity i, e;           // i a body; in steps i < e
+  Entity i, e;           // i a body; in steps i < e. A string between two bodies is the e of one of them.
   std::uint8_t feature;  // as in Touch
 };
 

@@ -48,9 +48,9 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
   double of_recorded = 0, work = 0;  // J
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
-    if (!(p.force > 0)) continue;
+    if (!(p.force > 0 || (p.bilateral && p.force < 0))) continue;
     work += p.work();
-    const double speed = approach(before, p);
+    const double speed = p.bilateral ? std::abs(approach(before, p)) : approach(before, p);
     if (!recorded.empty() && recorded[c]) {
       of_recorded += 0.5 * p.force * speed;
       any_recorded = true;

@@ -17,6 +17,15 @@
 
 namespace carom {
 
+EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat,
+                               const ExactGroup& group)
+    : bodies_(bodies),
+      queue_(queue),
+      flat_(flat),
+      group_(group),
+      times_(bodies),
+      plain_(!bodies.ties.any() && bodies.world.forces.empty() && !bodies.moving.any()) {}
+
 void EventPredictor::predict(Entity i) {
   if (bodies_.neighbours.bodies(i).size() > 128 && bodies_.neighbours.room(i) > 0.05 * bodies_.world.radius[i])
     bodies_.neighbours.shrink(i, bodies_.position(i));
@@ -48,16 +57,34 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   meet_bodies(i, bodies, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
   if (flat_.of(i).count > 0) offer_flat_contacts(i, best);
+  if (!plain_) offer_beside_contacts(i, best);
+  if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
+    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
+  bodies_.body[i].event = best;
+  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+/// Offers what neither a contact nor a region is: strings, and switches of forces and of things that move.
+void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
+  if (bodies_.ties.any()) offer_strings(i, best);
   if (!bodies_.world.forces.empty())
     offer(i, best,
           {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
   if (bodies_.moving.any())
     offer(i, best,
           {{bodies_.moving.next_switch(bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
-  if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
-    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
-  bodies_.body[i].event = best;
-  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+/// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.
+void EventPredictor::offer_strings(Entity i, ExactEvent& best) {
+  const bool constrained = bodies_.is_constrained(i);
+  for (const Entity string : bodies_.ties.of(i)) {
+    if (bodies_.world.string(string).rod || (constrained && group_.are_partners(i, string))) continue;
+    ++surface_tests_;
+    const Entity other = bodies_.ties.other(string, i);
+    const std::uint16_t version = other == no_entity ? std::uint16_t{0} : bodies_.body[other].version;
+    offer(i, best, {times_.of_string(string), string, version, ExactEvent::Kind::string, 0});
+  }
 }
 
 /// Offers the end of bounces on flat surfaces, and the instant at which body i slides off them.
@@ -146,7 +173,11 @@ void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) con
   if (candidate.time == best.time) {
     if (best.kind < candidate.kind) return;
     if (best.kind == candidate.kind) {
-      const auto key = [i](const ExactEvent& e) { return std::pair(std::min(i, e.partner), std::max(i, e.partner)); };
+      // A string has one event for both of its bodies.
+      const auto key = [i](const ExactEvent& e) {
+        const Entity body = e.kind == ExactEvent::Kind::string ? e.partner : i;
+        return std::pair(std::min(body, e.partner), std::max(body, e.partner));
+      };
       if (key(best) < key(candidate)) return;
     }
   }

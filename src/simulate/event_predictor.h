@@ -1,6 +1,7 @@
 #pragma once
 // The next event of a body, the first of these:
 // - a collision with a neighbour or a fixed thing
+// - a string that goes taut
 // - the end of its bounces
 // - a rim that it slides over
 // - a force that starts or ends
@@ -19,8 +20,7 @@ class FlatContacts;
 
 class EventPredictor {
  public:
-  EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat, const ExactGroup& group)
-      : bodies_(bodies), queue_(queue), flat_(flat), group_(group), times_(bodies) {}
+  EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat, const ExactGroup& group);
 
   /// Predicts body i's next event among its neighbours. The events of other bodies stay.
   /// The body of a pair that was predicted last holds the pair's collision. Neither holds it while one of them has an
@@ -40,6 +40,8 @@ class EventPredictor {
  private:
   void predict_among(Entity i, std::span<const Entity> bodies);
   void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
+  [[gnu::noinline]] void offer_beside_contacts(Entity i, ExactEvent& best);
+  void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
   void meet_each(Entity i, std::span<const Entity> others, ExactEvent& best);
   void meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best);
@@ -49,6 +51,7 @@ class EventPredictor {
   const FlatContacts& flat_;
   const ExactGroup& group_;
   ExactCollisionTimes times_;
+  const bool plain_;           // there are neither strings nor forces, and nothing moves
   std::vector<Entity> alike_;  // scratch
   std::vector<Meet> meets_;    // scratch
   std::uint64_t pair_tests_ = 0, surface_tests_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// The bodies' next events in their total order: time, kind, the lower and the higher number of the bodies concerned.
+// The bodies' next events in their total order: time, kind, the lower and the higher number of the bodies concerned, or
+// the number of the string.
 // At one instant, bodies that leave their regions come first, because that is not a physical event. Time alone would
 // leave ties to chance, and a run's bits would depend on the queue's structure.
 #include <algorithm>
@@ -54,6 +55,8 @@ inline bool EventQueue::before(Entity i, Entity j) const {
   if (p.time < q.time) return true;
   if (q.time < p.time) return false;
   if (p.kind != q.kind) return p.kind < q.kind;
+  // A string has one event for both of its bodies. They come in the order of strings.
+  if (p.kind == ExactEvent::Kind::string && p.partner != q.partner) return p.partner < q.partner;
   const Entity pa = std::min(i, p.partner), qa = std::min(j, q.partner);
   if (pa != qa) return pa < qa;
   return std::max(i, p.partner) < std::max(j, q.partner);

@@ -20,6 +20,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       merged(given, options.merge),
       world(merged.world()),
       moving(given),
+      ties(given),
       bounds(bounds_of(given)),
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
@@ -118,8 +119,44 @@ Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, 
   return touch(world, a, xa, b, xb, feature);
 }
 
+Touch ExactBodies::string_now(Entity string) const {
+  const String& s = world.string(string);
+  return touch(world, s.body, position(s.body), string, s.other == no_entity ? s.anchor : position(s.other));
+}
+
+bool ExactBodies::holds(Entity string) const {
+  const String& s = world.string(string);
+  if (!in_lasting_contact(s.body) || (s.other != no_entity && !in_lasting_contact(s.other))) return false;
+  if (s.rod) return true;
+  const Vec3 x = position(s.body), xe = s.other == no_entity ? s.anchor : position(s.other);
+  const Vec3 v = velocity(s.body), ve = s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other);
+  const Touch there = touch(world, s.body, x, string, xe);
+  const double radius = world.radius[s.body];
+  if (there.gap > contact_gap(s.body, x, xe)) return false;
+  return std::abs(there.normal.dot(ve - v)) <=
+         exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[s.body].norm() * radius));
+}
+
+bool ExactBodies::any_taut(std::span<const Entity> those) const {
+  if (!ties.any()) return false;
+  const auto taut = [&](Entity string) {
+    const String& s = world.string(string);
+    const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
+    return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), xe);
+  };
+  return std::any_of(those.begin(), those.end(), [&](Entity i) {
+    const std::span<const Entity> strings = ties.of(i);
+    return std::any_of(strings.begin(), strings.end(), taut);
+  });
+}
+
+double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
+  return std::max(exact_tolerance::contact_gap * world.radius[i],
+                  exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
+}
+
 double ExactBodies::load_on(Entity i) const {
-  if (world.fixed_count() == 0 && world.forces.empty()) return 0;
+  if (world.fixed_count() == 0 && world.forces.empty() && !ties.anchored()) return 0;
   return fade[i] == 0 ? applied[i].norm() : force_at(i, position(i), velocity(i)).norm();
 }
 

@@ -7,6 +7,7 @@
 // bits from either side and at any time of prediction. Neither outputs nor the search for neighbours can therefore
 // change it.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "geometry/touch.h"
@@ -22,6 +23,7 @@
 #include "simulate/merged_bodies.h"
 #include "simulate/moving_things.h"
 #include "simulate/neighbours.h"
+#include "simulate/ties.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -34,6 +36,7 @@ struct ExactBodies {
   MergedBodies merged;
   const World& world;  // with the joint bodies' masses and volumes
   const MovingThings moving;
+  Ties ties;
   const Bounds bounds;
   const bool same_radius;  // all bodies have one radius throughout the run
   const bool varying;      // some force bends paths (force.h)
@@ -128,11 +131,22 @@ struct ExactBodies {
 
   /// Bodies and fixed things near body i, ascending. Sums in this order do not depend on the order of the lists.
   std::vector<Entity> neighbours_of(Entity i) const;
+  /// The contact of a string's body with it, at present.
+  Touch string_now(Entity string) const;
+  /// Whether a string between bodies in lasting contact is taut, and its length does not change but for rounding. A rod
+  /// always is.
+  bool holds(Entity string) const;
+  /// Whether one of these bodies has a taut string, or a rod.
+  bool any_taut(std::span<const Entity> those) const;
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
 
+  /// The largest gap between body i, at x, and a thing at xe that counts as contact (m).
+  double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;
+
   /// The acceleration (m/s^2) with which body i may press on others.
-  /// It is zero in common free fall, without fixed things and other forces, because gravity moves all bodies alike.
+  /// It is zero in common free fall, without fixed things, anchors and other forces, because gravity moves all bodies
+  /// alike.
   double load_on(Entity i) const;
   /// The speed (m/s) below which impacts in lasting contact do not count one by one. It is rest_speed.
   /// By default it is a share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).

@@ -98,20 +98,58 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
 /// in it (time in s from its start).
 FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq,
                                           double length, double speeds, std::uint8_t left) const {
+  const PolynomialPath::Terms displacement = relative_displacement(p, tp, q, tq, length);
+  double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
+  for (const Vec3& term : displacement) reach += term.norm();
+  const Vec3 xa = p.position(tp), xb = q.position(tq);
+  if ((xb - xa).squaredNorm() > reach * reach) return {never, no_feature};
+  return time_of_impact(bodies_.world, a, xa, b, xb, displacement, length, speeds, left, length);
+}
+
+/// The displacement of flight q less that of p (m), tp and tq (s) after their starts, by t / length (s).
+PolynomialPath::Terms ExactCollisionTimes::relative_displacement(const Flight& p, double tp, const Flight& q, double tq,
+                                                                 double length) {
   PolynomialPath::Terms displacement = q.displacement_from(tq, length);
   const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
-  double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
-  // The remainder of an acceleration that both bodies have in common is rounding, and counts as zero.
+  // The remainder of an acceleration that both have in common is rounding, and counts as zero.
   const double noise =
       exact_tolerance::curve_rounding * length * length * (p.greatest_acceleration() + q.greatest_acceleration());  // m
   for (std::size_t k = 0; k < displacement.size(); ++k) {
     displacement[k] -= of_p[k];
     if (k > 0 && displacement[k].norm() <= noise) displacement[k].setZero();
-    reach += displacement[k].norm();
   }
-  const Vec3 xa = p.position(tp), xb = q.position(tq);
-  if ((xb - xa).squaredNorm() > reach * reach) return {never, no_feature};
-  return time_of_impact(bodies_.world, a, xa, b, xb, displacement, length, speeds, left, length);
+  return displacement;
+}
+
+Instant ExactCollisionTimes::of_string(Entity string) const {
+  const String& s = bodies_.world.string(string);
+  const bool anchored = s.other == no_entity;
+  const Flight p = bodies_.flights[s.body];
+  const Flight q = anchored ? Flight{p.start, s.anchor, Vec3::Zero(), Vec3::Zero()} : bodies_.flights[s.other];
+  const Instant base = std::max(p.start, q.start);
+  const double tp = base - p.start, tq = base - q.start;
+  const double horizon = std::min(end_of(s.body), anchored ? Instant{never, 0} : end_of(s.other)) - base;
+  if (!(horizon > 0)) return {never, 0};
+  RelativeMotion m{q.position(tq) - p.position(tp), q.velocity(tq) - p.velocity(tp),
+                   q.acceleration(tq) - p.acceleration(tp),
+                   sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a),
+                   p.start == q.start && bodies_.body[s.body].origin_partner == string &&
+                       (anchored || bodies_.body[s.other].origin_partner == string)};
+  m.speeds += noise_in_contact(s.body) + (anchored ? 0 : noise_in_contact(s.other));
+  if (p.is_parabola() && q.is_parabola()) {
+    const double t = taut_time(m, s.length, horizon);
+    return t == never ? Instant{never, 0} : base + t;
+  }
+  for (double t = 0; t < horizon;) {
+    const double length = std::min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
+    const double first =
+        taut_time(q.position(tq + t) - p.position(tp + t), relative_displacement(p, tp + t, q, tq + t, length), length,
+                  s.length, m.speeds, m.just_separated && t == 0, length);
+    if (first < never) return base + (t + first);
+    if (!(t + length > t)) break;
+    t += length;
+  }
+  return {never, 0};
 }
 
 /// The rounding of body i's speed by steps in contact (m/s).

@@ -13,11 +13,15 @@ class ExactCollisionTimes {
   Instant of_pair(Entity i, Entity j, std::uint8_t& feature) const;
   /// The time at which body i strikes a fixed thing, computed from its flight's start.
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
+  /// The time at which a string goes taut, computed as that of a pair.
+  [[gnu::noinline]] Instant of_string(Entity string) const;
 
  private:
   [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, std::uint8_t& feature) const;
   Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                     std::uint8_t& feature) const;
+  static PolynomialPath::Terms relative_displacement(const Flight& p, double tp, const Flight& q, double tq,
+                                                     double length);
   FeatureTime of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq, double length,
                        double speeds, std::uint8_t left) const;
   /// The latest end of body i's flight.

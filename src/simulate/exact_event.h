@@ -18,6 +18,7 @@ struct ExactEvent {
     step,
     body_fixed,
     body_body,
+    string,  // a string goes taut; the partner is the string
     none
   };
 

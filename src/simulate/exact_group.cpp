@@ -4,6 +4,8 @@
 // physical.
 #include "simulate/exact_group.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -62,6 +64,8 @@ void ExactGroup::unite(Entity a, Entity b) {
   if (bodies_.moving.any() && !bodies_.islands.same(a, b))
     for (const Entity i : {a, b}) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
   bodies_.islands.merge(a, b, bodies_.now);
+  // Time steps would let strings lengthen.
+  if (Island& island = bodies_.islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
 }
 
 void ExactGroup::wake(Entity i) {
@@ -81,7 +85,22 @@ void ExactGroup::wake(Entity i) {
       bodies_.body[e].state = ContactState::free;
       todo.push_back(e);
     }
+    for (const Entity e : asleep_on_strings(k)) {
+      bodies_.body[e].state = ContactState::free;
+      todo.push_back(e);
+    }
   }
+}
+
+std::vector<Entity> ExactGroup::asleep_on_strings(Entity i) const {
+  std::vector<Entity> asleep;
+  for (const Entity string : bodies_.ties.of(i)) {
+    const Entity other = bodies_.ties.other(string, i);
+    if (other == no_entity || bodies_.body[other].state != ContactState::asleep) continue;
+    const bool taut = bodies_.string_now(string).gap <= exact_tolerance::waking_gap * bodies_.world.radius[i];
+    if (taut || bodies_.world.string(string).rod) asleep.push_back(other);
+  }
+  return asleep;
 }
 
 void ExactGroup::join_at_rest(Entity i) {
@@ -119,6 +138,35 @@ void ExactGroup::join_initial(Entity first) {
       }
       if (body) unite(i, e);
     }
+  }
+}
+
+void ExactGroup::join_by_strings(Entity first) {
+  const World& world = bodies_.world;
+  for (const Entity string : bodies_.ties.of(first)) {
+    const String& s = world.string(string);
+    if (s.body != first) continue;
+    const Flight f = bodies_.flights[first];
+    const Flight other =
+        s.other == no_entity ? Flight{{}, s.anchor, Vec3::Zero(), Vec3::Zero()} : bodies_.flights[s.other];
+    const Touch there = touch(world, first, f.x, string, other.x);
+    const double rounding =
+        exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + other.x.cwiseAbs().sum() + s.length);
+    if (there.gap < -rounding || (s.rod && there.gap > rounding))
+      throw SimulationError(fmt::format("at t = 0 s the {} of ", s.rod ? "rod" : "string"), first,
+                            fmt::format(" is {:.17g} m long, and its ends are {:.17g} m apart: change `length`, or "
+                                        "place its ends accordingly",
+                                        s.length, s.length - there.gap));
+    if (!s.rod) {
+      const Vec3 w = other.v - f.v;
+      const double speeds = f.v.norm() + other.v.norm();
+      if (there.gap > rounding || std::abs(there.normal.dot(w)) > exact_tolerance::velocity_rounding * speeds) continue;
+      if (!(there.normal.dot(other.a - f.a) + bending(world, first, f.x, string, other.x, there, w) < 0)) continue;
+    }
+    join_at_rest(first);
+    if (s.other == no_entity) continue;
+    join_at_rest(s.other);
+    unite(first, s.other);
   }
 }
 
@@ -164,13 +212,24 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest, b
   const World& world = bodies_.world;
   const bool body = world.is_body(e);
   const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
-  return greatest > 0 && approach >= bodies_.slow_speed(greatest, bodies_.smaller_length(i, e)) &&
-         (pair_restitution(world, i, e) > 0 ? !collapse : apart);
+  return approach >= slow_approach(i, e, greatest) && (pair_restitution(world, i, e) > 0 ? !collapse : apart);
+}
+
+double ExactGroup::slow_approach(Entity i, Entity e, double greatest) const {
+  if (greatest > 0) return bodies_.slow_speed(greatest, bodies_.smaller_length(i, e));
+  const Entity second = bodies_.world.second_body(e);
+  if (bodies_.ties.of(i).empty() && (second == no_entity || bodies_.ties.of(second).empty())) return never;
+  const double speeds =
+      bodies_.velocity(i).norm() + (second == no_entity ? bodies_.fixed_velocity(e) : bodies_.velocity(second)).norm();
+  return std::max(exact_tolerance::drift * speeds, std::numeric_limits<double>::min());
 }
 
 void ExactGroup::part(Entity i) {
   for (const Entity e : partners[i])
     if (bodies_.world.is_body(e)) std::erase(partners.write(e), i);
+  for (const Entity string : bodies_.ties.of(i))
+    if (const Entity other = bodies_.ties.other(string, i); other != no_entity)
+      if (!partners[other].empty()) std::erase(partners.write(other), string);
   partners.write(i).clear();
 }
 
@@ -181,6 +240,9 @@ void ExactGroup::leave(Entity i) {
   for (const Entity e : bodies_.neighbours_of(i))
     if (bodies_.world.is_body(e) && !pressing[e].empty())
       std::erase_if(pressing.write(e), [i](const PressingContact& contact) { return contact.partner == i; });
+  for (const Entity string : bodies_.ties.of(i))
+    if (const Entity other = bodies_.ties.other(string, i); other != no_entity && !pressing[other].empty())
+      std::erase_if(pressing.write(other), [&](const PressingContact& contact) { return contact.partner == string; });
   bodies_.islands.bend.write(i) = {};
 }
 

@@ -54,6 +54,11 @@ class ExactGroup {
   /// At the start, a body may touch others or a curved surface, without speed along the normal, and be pressed on.
   /// Such a body joins the group, and so does all that it touches.
   void join_initial(Entity first);
+  /// The same for strings that body i holds by their first end, where they are taut, and for rods. Throws
+  /// SimulationError where a string is too short.
+  void join_by_strings(Entity i);
+  /// The sleeping bodies at the other ends of body i's taut strings and of its rods.
+  std::vector<Entity> asleep_on_strings(Entity i) const;
   /// Sets whether body i, a member or asleep, rests on a thing. The tally counts such bodies.
   void set_carried(Entity i, bool carried);
   /// Widens the margin of member i after an impact at this speed (m/s).
@@ -67,6 +72,9 @@ class ExactGroup {
   /// Whether members i and e approach each other (m/s) for an impact of their own: one that bounces, or if they are
   /// `apart`. Contact must not take that speed. `greatest`: the greatest acceleration in the group (m/s^2).
   bool strikes(Entity i, Entity e, double approach, double greatest, bool apart = false) const;
+  /// A slower approach of members i and e (m/s) is none of its own. Where nothing presses there is no such speed,
+  /// except for bodies on strings, which keep them in islands: path errors.
+  double slow_approach(Entity i, Entity e, double greatest) const;
 
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
   void part(Entity i);

@@ -19,15 +19,25 @@
 #include "simulate/flight_changes.h"
 #include "simulate/simultaneous_impacts.h"
 #include "simulate/stall_guard.h"
+#include "simulate/string_impacts.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
+
+ExactImpacts::ExactImpacts(ExactBodies& bodies, const ImpactParts& parts)
+    : bodies_(bodies), parts_(parts), strings_(std::make_unique<StringImpacts>(bodies, parts)) {}
+
+ExactImpacts::~ExactImpacts() = default;
+
+void ExactImpacts::tighten(Entity string) {
+  strings_->tighten(string);
+}
 
 /// Whether the striker lies on flat surfaces and strikes a sleeping body that forces hold on all sides, too slowly
 /// (m/s) to lift it noticeably.
 bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
   const World& world = bodies_.world;
-  if (parts_.flat.of(striker).count == 0) return false;
+  if (parts_.flat.of(striker).count == 0 || !bodies_.ties.of(struck).empty()) return false;
   if (!(speed * speed < 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck]))
     return false;
   // At least three forces that are not in one plane.
@@ -96,6 +106,13 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   return f.curve != nullptr ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
 }
 
+/// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
+/// rounding.
+bool ExactImpacts::move_as_one(Entity a, Entity b, double approach) const {
+  return bodies_.is_constrained(a) && bodies_.is_constrained(b) &&
+         approach <= exact_tolerance::drift * (bodies_.velocity(a).norm() + bodies_.velocity(b).norm());
+}
+
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const World& world = bodies_.world;
   const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
@@ -131,17 +148,27 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                     bodies_.load_on(b) > 0;
   // The approach begins by a change of forces.
   const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);
-  const bool ends = (approach > 0 && met == 0) || enters ||
+  const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
                                    (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));
   const double separation = ends ? 0 : e * met;
-  const double impulse = impact_impulse(ma, mb, met, separation);
-  const double lost = impact_loss(ma, mb, met, separation);
+  const StringImpacts::Passed* const passed =
+      bodies_.ties.any() ? strings_->pass_on({a, b, n, approach, met + separation, 0}) : nullptr;
+  const double impulse = passed ? passed->impulse : impact_impulse(ma, mb, met, separation);
+  // J, by an impulse that changes the approach from one speed to the separation at another one.
+  const auto loss = [&](double from, double to) {
+    return passed ? 0.5 * impulse * (from - to) : impact_loss(ma, mb, from, to);
+  };
+  const double lost = loss(met, separation);
   bodies_.log.lose(lost);
-  if (met != approach) bodies_.log.deviate(impact_loss(ma, mb, approach, met + separation - approach) - lost);
-  const Collision collision =
+  if (met != approach) bodies_.log.deviate(loss(approach, met + separation - approach) - lost);
+  Collision collision =
       make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e);
+  if (passed) {
+    collision.impulse = impulse;
+    collision.energy_lost = lost;
+  }
   if (!ends || is_plastic(collision, press, length))
     bodies_.log.record(collision);
   else if (met > 0)
@@ -151,25 +178,31 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     parts_.group.widen_margin(i, approach);
   }
   if (ends) parts_.group.unite_fresh(a, b);
-  parts_.flights.begin(a, xa, parts_.flat.keep_at(a, va - (impulse / ma) * n), {b, feature});
-  parts_.flights.begin(b, xb, parts_.flat.keep_at(b, vb + (impulse / mb) * n), {a, feature});
+  const Vec3 after_a = passed ? passed->v[0] : Vec3(va - (impulse / ma) * n);
+  const Vec3 after_b = passed ? passed->v[1] : Vec3(vb + (impulse / mb) * n);
+  parts_.flights.begin(a, xa, parts_.flat.keep_at(a, after_a), {b, feature});
+  parts_.flights.begin(b, xb, parts_.flat.keep_at(b, after_b), {a, feature});
+  if (passed) strings_->begin_beyond(*passed, a, b);
   for (const Entity i : {a, b})
     if (parts_.group.opens(i)) release(i);
-  if (ends) {
-    for (const Entity i : {a, b}) parts_.flights.hold(i);
-    const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
-    if (closing > 0) {
-      const double held = impact_impulse(ma, mb, closing, 0);
-      parts_.flights.push(a, -held / ma * n);
-      parts_.flights.push(b, held / mb * n);
-    }
-    parts_.group.unite(a, b);
-  }
+  if (ends) hold_together(a, b, n);
   parts_.predictor.predict(a);
   parts_.predictor.predict(b);
   if (!ends) return;
   parts_.simultaneous.count_impact(a);
   parts_.simultaneous.count_impact(b);
+}
+
+/// Unites members a and b, which have met along n. What is left of their approach ends in the rest of the step.
+void ExactImpacts::hold_together(Entity a, Entity b, const Vec3& n) {
+  for (const Entity i : {a, b}) parts_.flights.hold(i);
+  const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
+  if (closing > 0) {
+    const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], held = impact_impulse(ma, mb, closing, 0);
+    parts_.flights.push(a, -held / ma * n);
+    parts_.flights.push(b, held / mb * n);
+  }
+  parts_.group.unite(a, b);
 }
 
 /// Lets member i fall, because an impact has thrown it off its support.
@@ -298,14 +331,25 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   const double separation = leaves_nothing ? 0 : impact.e * met;
   if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
+  const StringImpacts::Passed* const passed =
+      bodies_.ties.any() && !rests ? strings_->pass_on({i, no_entity, n, approach, met + separation, n.dot(impact.u)})
+                                   : nullptr;
   if (approach > 0 || separation > 0) {
-    if (bodies_.moving.any()) bodies_.log.add_work(-mass * (rests ? approach : met + separation) * n.dot(impact.u));
-    const double lost = impact_loss(mass, ExactBodies::immovable, met, separation);
+    const double impulse = passed ? passed->impulse : mass * (rests ? approach : met + separation);
+    if (bodies_.moving.any()) bodies_.log.add_work(-impulse * n.dot(impact.u));
+    const auto loss = [&](double from, double to) {
+      return passed ? 0.5 * impulse * (from - to) : impact_loss(mass, ExactBodies::immovable, from, to);
+    };
+    const double lost = loss(met, separation);
     bodies_.log.lose(lost);
     if (const double left = taken_over ? 0 : met + separation - approach; met != approach)
-      bodies_.log.deviate(impact_loss(mass, ExactBodies::immovable, approach, left) - lost);
-    const Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
-                                               impact.there.point, n, met, separation, impact.e);
+      bodies_.log.deviate(loss(approach, left) - lost);
+    Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
+                                         impact.there.point, n, met, separation, impact.e);
+    if (passed) {
+      collision.impulse = impulse;
+      collision.energy_lost = lost;
+    }
     if (!leaves_nothing || (ends && is_plastic(collision, impact.press, world.radius[i])))
       bodies_.log.record(collision);
     else if (met > 0)
@@ -316,7 +360,9 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     parts_.flat.add(i, contact);
     parts_.flights.begin(i, x + impact.there.gap * n, parts_.flat.keep_at(i, v - approach * n), {surface, feature});
   } else {
-    parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - (met + separation) * n), {surface, feature});
+    const Vec3 after = passed ? passed->v[0] : Vec3(v - (met + separation) * n);
+    parts_.flights.begin(i, x, parts_.flat.keep_at(i, after), {surface, feature});
+    if (passed) strings_->begin_beyond(*passed, i, no_entity);
   }
   if (parts_.group.opens(i)) release(i);
   if (ends) {

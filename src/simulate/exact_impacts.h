@@ -2,6 +2,8 @@
 // The effect of impacts on velocities: of two bodies, and of a body and a fixed thing. Pairs are resolved one at a
 // time.
 
+#include <memory>
+
 #include "geometry/touch.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
@@ -21,6 +23,8 @@ class FlightChanges;
 class SimultaneousImpacts;
 class StallGuard;
 
+class StringImpacts;
+
 /// The parts of the simulator that an impact changes.
 struct ImpactParts {
   CollapseDetector& collapses;
@@ -35,12 +39,15 @@ struct ImpactParts {
 
 class ExactImpacts {
  public:
-  ExactImpacts(ExactBodies& bodies, const ImpactParts& parts) : bodies_(bodies), parts_(parts) {}
+  ExactImpacts(ExactBodies& bodies, const ImpactParts& parts);
+  ~ExactImpacts();
 
   /// Bodies a < b meet at the present instant, at this feature.
   void collide_pair(Entity a, Entity b, std::uint8_t feature);
   /// Body i meets a fixed thing at the present instant.
   void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
+  /// A string goes taut at the present instant.
+  void tighten(Entity string);
 
  private:
   /// A body and a fixed thing at the instant of their impact.
@@ -61,6 +68,8 @@ class ExactImpacts {
   double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   Vec3 pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there, const Vec3& w) const;
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
+  [[gnu::noinline]] bool move_as_one(Entity a, Entity b, double approach) const;
+  void hold_together(Entity a, Entity b, const Vec3& n);
   void release(Entity i);
   bool is_plastic(const Collision& met, double press, double length) const;
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
@@ -72,6 +81,7 @@ class ExactImpacts {
 
   ExactBodies& bodies_;
   const ImpactParts parts_;
+  const std::unique_ptr<StringImpacts> strings_;
 };
 
 }  // namespace carom

@@ -49,6 +49,8 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
 
 void ExactSimulator::start(const State& initial) {
   const World& world = bodies_.world;
+  if (bodies_.options.merge && bodies_.ties.any())
+    throw SimulationError("bodies with strings cannot merge: remove `strings`, or `merge`");
   const Entity n = world.body_count();
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
@@ -65,6 +67,7 @@ void ExactSimulator::start(const State& initial) {
     // Where no force acts, nothing presses.
     if (!(world.gravity.isZero(0) && world.forces.empty()))
       for (Entity i = 0; i < n; ++i) group_.join_initial(i);
+    for (Entity i = 0; bodies_.ties.any() && i < n; ++i) group_.join_by_strings(i);
   }
   for (Entity i = 0; i < n; ++i)
     if (bodies_.flies_in_steps(i) && !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0) flights_.let_fall(i);
@@ -134,8 +137,9 @@ void ExactSimulator::process(Entity i) {
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
   if (bodies_.now < event.time) bodies_.now = event.time;
   if (bodies_.islands.any() && event.kind != Kind::step) {
-    constrained_.settle(i);
-    if (event.kind == Kind::body_body) constrained_.settle(event.partner);
+    settle(i);
+    if (event.kind == Kind::body_body) settle(event.partner);
+    if (event.kind == Kind::string) settle(bodies_.ties.other(event.partner, i));
   }
   switch (event.kind) {
     case Kind::body_body:
@@ -150,6 +154,9 @@ void ExactSimulator::process(Entity i) {
     case Kind::body_fixed:
       flights_.end_step(i);
       impacts_.collide_fixed(i, event.partner, event.feature);
+      break;
+    case Kind::string:
+      go_taut(i, event);
       break;
     case Kind::force:
       take_switch(i);
@@ -172,8 +179,25 @@ void ExactSimulator::process(Entity i) {
     case Kind::none:
       break;
   }
-  const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed;
+  const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
+}
+
+/// Gives body i the velocity of its path, and the same to bodies of its island that strings may pull.
+void ExactSimulator::settle(Entity i) {
+  if (i == no_entity) return;
+  constrained_.settle(i);
+  if (!bodies_.ties.any() || !bodies_.in_group(i)) return;
+  for (const Entity k : bodies_.islands.of(i).members) constrained_.settle(k);
+}
+
+/// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.
+void ExactSimulator::go_taut(Entity i, const ExactEvent& event) {
+  const Entity other = bodies_.ties.other(event.partner, i);
+  if (other != no_entity && bodies_.body[other].version != event.partner_version) return predictor_.predict(i);
+  for (const Entity k : {i, other})
+    if (k != no_entity) flights_.end_step(k);
+  impacts_.tighten(event.partner);
 }
 
 /// Applies a switch at the present instant to body i: of a force on it, or of the velocity of things that carry it.
@@ -306,11 +330,14 @@ bool ExactSimulator::all_rest() {
   return true;
 }
 
-/// Takes the next step of body i's island.
+/// Takes the next step of body i's island. Islands with taut strings move by constrained motion.
 void ExactSimulator::step_island(Entity i) {
   bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
-  if (bodies_.islands.of(i).busy || !constrained_.advance(i)) stepping_.advance(i);
+  if (bodies_.any_taut(bodies_.islands.of(i).members)) bodies_.islands.of(i).busy = false;
+  if (!bodies_.islands.of(i).busy && constrained_.advance(i)) return;
+  // It has united with an island that has taut strings.
+  if (!stepping_.advance(i)) step_island(i);
 }
 
 Effort ExactSimulator::effort() const {

@@ -49,6 +49,8 @@ class ExactSimulator final : public Simulator {
   void start(const State& initial);
   void take_event(Entity i);
   void process(Entity i);
+  void settle(Entity i);
+  void go_taut(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);

@@ -38,7 +38,9 @@ struct Flight {
   Vec3 displacement(double t) const {
     return curve != nullptr ? curve->displacement_at(t) : Vec3(t * (v + displaced(fade, t) * a));
   }
-  Vec3 velocity(double t) const { return is_straight() ? Vec3(v + t * a) : bent_velocity(t); }
+  [[gnu::always_inline]] Vec3 velocity(double t) const {
+    return is_straight() ? Vec3(v.x() + t * a.x(), v.y() + t * a.y(), v.z() + t * a.z()) : bent_velocity(t);
+  }
   Vec3 acceleration(double t) const {
     return is_straight() ? a : curve == nullptr ? path().acceleration(t) : curve->acceleration(t);
   }

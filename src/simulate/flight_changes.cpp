@@ -186,12 +186,20 @@ void FlightChanges::correct(Entity i, const Vec3& v) {
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
 }
 
-/// When the count of flights starts anew, old events must not appear fresh.
 void FlightChanges::count(Entity i) {
-  if (++bodies_.body[i].version != 0) return;
+  if (++bodies_.body[i].version == 0) [[unlikely]]
+    count_anew(i);
+}
+
+/// Old events must not appear fresh.
+void FlightChanges::count_anew(Entity i) {
   bodies_.body[i].version = 1;
   for (ExactBody& body : bodies_.body)
     if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
+  for (const Entity string : bodies_.ties.of(i))
+    if (const Entity other = bodies_.ties.other(string, i); other != no_entity)
+      if (ExactEvent& event = bodies_.body[other].event; event.kind == ExactEvent::Kind::string)
+        event.partner_version = 0;
 }
 
 void FlightChanges::book_stepped(Entity i, const Instant& end) {

@@ -77,6 +77,7 @@ class FlightChanges {
   void count(Entity i);
 
  private:
+  [[gnu::noinline]] void count_anew(Entity i);
   void end_verlets(Entity i);
   void end_closed(Entity i);
   void change(Entity i, const Vec3& dv);

@@ -18,7 +18,9 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 void SimultaneousImpacts::count_impact(Entity i) {
-  if (!bodies_.is_stepped(i) || ++group_.impacts.write(i) <= tol::few_impacts) return;
+  if (!bodies_.is_stepped(i) || bodies_.any_taut(bodies_.islands.of(i).members) ||
+      ++group_.impacts.write(i) <= tol::few_impacts)
+    return;
   const Struck set = strike(i);
   std::vector<Entity> changed = begin_flights(set);
   // These impacts have cost as much as a time step. The next one is due, because this one was too long.

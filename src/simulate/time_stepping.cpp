@@ -31,15 +31,20 @@ bool approaching(const std::vector<Vec3>& v, const std::vector<ContactConstraint
 
 }  // namespace
 
-void TimeStepping::advance(Entity i) {
+bool TimeStepping::advance(Entity i) {
   Step step = begin_step(i);
   while (!solve_step(step)) {
     for (const Entity e : step.near) group_.unite(i, e);
+    if (bodies_.any_taut(bodies_.islands.of(i).members)) {
+      for (const Entity k : step.members) group_.index.write(k) = ContactConstraint::fixed;
+      return false;
+    }
     step = begin_step(i);
   }
   find_parts(step);
   put_to_rest(step);
   begin_flights(step);
+  return true;
 }
 
 /// Solves the step, with the length that speeds allow. False: bodies of other islands are near.

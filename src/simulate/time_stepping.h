@@ -33,7 +33,8 @@ class TimeStepping {
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
   /// Takes the next step of member i's island. Islands that it may press on before the step ends are united with it.
-  void advance(Entity i);
+  /// False: one of them has taut strings, and no step is taken. It would let these lengthen.
+  bool advance(Entity i);
 
  private:
   /// A step, in numbers of its own.

@@ -22,6 +22,12 @@ constexpr double pulling = 8 * 0x1p-53;
 constexpr double refined_change = 4 * 0x1p-53;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// Whether a bilateral row that is not active, which the active ones therefore determine, is off by no more than it may
+/// be. w: by how much its scaled value exceeds its target.
+bool contradicts_little(const ContactIsland::Row& r, double w) {
+  return r.bilateral && std::abs(w) <= r.scale * r.slack;
+}
+
 }  // namespace
 
 /// Stores Q^T of row c in row_.
@@ -178,7 +184,7 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
       if (place_[c] != none || aside_[c]) continue;
       const ContactIsland::Row& r = island.rows[c];
       const double w = r.dot(y_.data()) - r.scale * r.target;
-      if (!(w < least)) continue;
+      if (!(w < least) || contradicts_little(r, w)) continue;
       const double noise = island.noise_scale(r) + r.scale * (load[r.a] + (r.moves_b() ? load[r.b] : 0));
       if (w >= -accepted_change * noise) continue;
       least = w;
@@ -270,7 +276,7 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
     // Surely satisfied.
     if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;
     const double w = r.scale * excess(r, solution.motion);
-    if (w >= -shortfall || w >= -refined_change * island.noise_scale(r)) continue;
+    if (w >= -shortfall || w >= -refined_change * island.noise_scale(r) || contradicts_little(r, w)) continue;
     shortfall = -w;
     worst = c;
   }

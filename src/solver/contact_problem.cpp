@@ -203,7 +203,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.bilateral = from.bilateral;
     row.normal = from.normal;
     row.target = from.target - from.surface;
-    row.slack = problem.accuracy == ContactAccuracy::rounding ? 0 : from.slack;
+    row.slack = problem.accuracy == ContactAccuracy::rounding && !from.bilateral ? 0 : from.slack;
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }
   for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;

@@ -27,9 +27,10 @@ struct ContactConstraint {
   std::uint32_t a, b;
   Vec3 normal;        // from a to b; unit up to rounding
   double target = 0;  // lower bound of normal . (u_b - u_a); in the unit of u
-  double slack = 0;   // allowed shortfall from the target; in the unit of u
+  double slack = 0;   // allowed shortfall from the target; in the unit of u; see `bilateral`
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral
-  // normal . (u_b - u_a) must equal the target, and the force may pull too.
+  // normal . (u_b - u_a) must equal the target, and the force may pull too. Where others determine it already, it may
+  // contradict them by its slack, in every accuracy: lengths of a frame with more rods than it needs.
   bool bilateral = false;
   // normal . u_b of a fixed thing that moves; in the unit of u. Otherwise 0.
   double surface = 0;

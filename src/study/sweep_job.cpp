@@ -20,6 +20,7 @@
 #include "files/failed_run.h"
 #include "files/hash.h"
 #include "files/mesh_copies.h"
+#include "files/open_folder.h"
 #include "files/publication.h"
 #include "run/engine.h"
 #include "run/run_scene.h"
@@ -28,6 +29,7 @@
 #include "scene/path_field.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"
+#include "yaml/diagnostics.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -123,6 +125,21 @@ std::array<char, 16> digest(std::string_view text) {
   return out;
 }
 
+/// The run that a scenario begins with, as its manifest names it. `folder`: the sweep's, in which it must not lie.
+/// Throws SceneError.
+std::string start_text(const Scene& scene, const std::string& folder) {
+  const auto& start = scene.made_from.start;
+  if (!start) return {};
+  if ((canonical(start->folder) + "/").starts_with(canonical(folder) + "/")) {
+    const std::string fault = fmt::format("the run {} lies in the folder of this sweep, which replaces what is there",
+                                          in_backticks(start->run));
+    const std::string remedy = "expected a run elsewhere, or another folder for the sweep: -o";
+    throw SceneError(fmt::format("{}: error: {}\n   = {}\n", scene.file, fault, remedy), 1,
+                     {{scene.file, 0, 0, fault, remedy, ""}});
+  }
+  return fmt::format("{} {} {}", start->run, start->at, start->sha256);
+}
+
 LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
   const auto is_film = [](const SweepValue& output) { return output.text == "video"; };
   load.chooses_outputs = !sweep.only.empty() && std::none_of(sweep.only.begin(), sweep.only.end(), is_film);
@@ -131,8 +148,11 @@ LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
 
 }  // namespace
 
-bool may_have_meshes(const Sweep& sweep, const std::string& base_text) {
-  return base_text.find("mesh") != std::string::npos || sweep.resolved("").find("mesh") != std::string::npos;
+bool may_read_files(const Sweep& sweep, const std::string& base_text) {
+  const std::string settings = sweep.resolved("");
+  for (const char* key : {"mesh", "start"})
+    if (base_text.find(key) != std::string::npos || settings.find(key) != std::string::npos) return true;
+  return false;
 }
 
 SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
@@ -178,7 +198,7 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       const Scene its = scene(number);
       // The text contains only the names of meshes. Pictures with the run's name are not those of another run.
       const bool named = its.output.pictures() && has_name(its.overlay.caption, "run");
-      run.scene = digest(its.resolved + meshes_text(its) + (named ? sweep_.id(number) : ""));
+      run.scene = digest(its.resolved + meshes_text(its) + start_text(its, folder_) + (named ? sweep_.id(number) : ""));
       run.motion = digest(motion_text(its));
       const std::string folder = run_folder(number);
       settle_folder(folder);

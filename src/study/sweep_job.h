@@ -27,9 +27,9 @@ struct SweepSettings {
   std::function<void()> stop_check;
 };
 
-/// Whether a scenario may have a mesh, which is a file that can change independently of the sweep.
+/// Whether a scenario may have a mesh or begin with a former run: files that can change independently of the sweep.
 /// `base_text`: the text of the base scene.
-bool may_have_meshes(const Sweep& sweep, const std::string& base_text);
+bool may_read_files(const Sweep& sweep, const std::string& base_text);
 
 enum class RunStatus : std::uint8_t {
   missing,

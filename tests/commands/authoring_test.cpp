@@ -164,7 +164,7 @@ TEST(Explain, PrintsEveryPlaceOfABareKey) {
                            "groups.NAME.ball.restitution", "planes.NAME.restitution", "room.restitution"})
     EXPECT_TRUE(paths.contains(path)) << path;
   // One entry for equal rows.
-  EXPECT_EQ(fields.size(), 3u);
+  EXPECT_EQ(fields.size(), 4u);
 }
 
 TEST(Explain, ReadsPathsAsSetDoes) {
@@ -205,8 +205,8 @@ TEST(Explain, NamesWhatReplacesAnAbsentWord) {
   const Workplace here;
   EXPECT_EQ(here.carom({"explain", "hinge"}).out,
             "hinge: no key of the format\n"
-            "  instead     There are no hinges. A stiff spring with a rest length holds a body near a circle.\n"
-            "  see         carom explain spring\n");
+            "  instead     A body on a string is a pendulum; with `rod: true` it may stand above its pivot, too.\n"
+            "  see         carom explain strings, carom explain string.rod\n");
   EXPECT_EQ(here.carom({"explain", "slow", "motion"}).out, here.carom({"explain", "Slow-Motion"}).out);
   for (const char* word : {"friction", "rotation", "spin", "joint", "rope", "hinge", "timestep", "speed", "slow motion",
                            "bounce", "elasticity", "camera path", "loop", "variable"}) {

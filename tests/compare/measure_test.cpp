@@ -115,6 +115,30 @@ TEST(MeasureValues, AreTheSameFromTheRunAndFromItsTables) {
   EXPECT_GT(of_run[6].value, 0);
 }
 
+TEST(MeasureValues, OfAStringCountForBothOfItsBodies) {
+  const Place place;
+  const std::vector<std::string> names = {"first(red, line)", "first(line, blue)", "hits(red, line)",
+                                          "hits(blue, line)", "hits(line)",        "hits(blue)",
+                                          "first(red, blue)"};
+  // 3 m apart after 2 s, they exchange their velocities, and again where they meet.
+  const std::string yaml =
+      "scene: 1\ngravity: [0, 0, 0]\n"
+      "balls:\n"
+      "  red: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [-1, 0, 0]}\n"
+      "  blue: {mass: 1, radius: 0.1, position: [1, 0, 0]}\n"
+      "strings: {line: {from: red, to: blue, length: 3, restitution: 1}}\n"
+      "simulate: {duration: 6}\noutput: {collisions: true}\n";
+  const double expected[] = {2, 2, 1, 1, 1, 2, 4.8};
+  const std::vector<Measured> of_run = measured(place, yaml, names);
+  place.write("run/manifest.json", std::regex_replace(place.read("run/manifest.json"),
+                                                      std::regex("\"measures\": \\{[^}]*\\}"), "\"measures\": {}"));
+  const RunRecord stored = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    EXPECT_NEAR(of_run[k].value, expected[k], 1e-14) << names[k];
+    EXPECT_EQ(stored.measures[k], of_run[k].value) << names[k];
+  }
+}
+
 TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
   const Place place;
   const auto values = measured(

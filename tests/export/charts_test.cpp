@@ -112,14 +112,16 @@ TEST(CollisionsChart, RatesTimesTheirIntervalsSumToTheCollisions) {
       chart.add(scene.simulate.duration * i / count, i % 3 == 0 ? CollisionKind::body_fixed : CollisionKind::body_body);
     // The end of the run belongs to the last interval, and the end of bounces is no collision.
     chart.add(scene.simulate.duration, CollisionKind::merge);
+    chart.add(0.2, CollisionKind::string);
     chart.add(0.1, CollisionKind::rest);
     double collisions = 0;
     for (const PlotSeries& series : chart.plot().series)
       for (std::size_t i = 1; i < series.points.size(); i += 2)
         collisions += (series.points[i].high - series.points[i].low) * (series.points[i].x - series.points[i - 1].x);
-    EXPECT_NEAR(collisions, count + 1, 1e-12 * (count + 1));
+    EXPECT_NEAR(collisions, count + 2, 1e-12 * (count + 2));
     EXPECT_EQ(chart.histogram(CollisionKind::body_fixed).total(), static_cast<std::uint64_t>((count + 2) / 3));
     EXPECT_EQ(chart.histogram(CollisionKind::merge).total(), 1u);
+    EXPECT_EQ(chart.histogram(CollisionKind::string).total(), 1u);
   }
 }
 

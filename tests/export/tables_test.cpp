@@ -114,6 +114,23 @@ TEST(Tables, CollisionsNameBothBodies) {
             "0.2,merge,red,blue,0,0,0,0,0,1,1,0,0,1,1\n");
 }
 
+TEST(Tables, CollisionsNameStrings) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.output.collisions = true;
+  scene.world.strings = {{0, no_entity, Vec3(0, 2, 0), 1, 0, false}};
+  scene.roster.strings = {"line"};
+  {
+    Exports exports(scene, temp / "run");
+    const Collision taut{0.1, CollisionKind::string, 0, 5, Vec3(0, 1, 0), Vec3(0, 1, 0), 2, 0, 0, 3, 4};
+    exports.record({&taut, 1});
+    play(scene, exports);
+    exports.finish(some_summary(scene), {});
+  }
+  const std::string text = read(temp / "run/collisions.csv");
+  EXPECT_EQ(text.substr(text.find('\n') + 1), "0.1,string,red,line,0,1,0,0,1,0,2,0,0,3,4\n");
+}
+
 TEST(Tables, BodiesThatHaveBecomePartOfAnotherHaveNoRows) {
   TempFolder temp;
   Scene scene = small_scene();

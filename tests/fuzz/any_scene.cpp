@@ -100,6 +100,50 @@ void forces(Maker& m, const Units& u) {
   }
 }
 
+void regions(Maker& m, const Units& u) {
+  for (int k = m.whole(-2, 2); k > 0; --k) {
+    WorldRegion region;
+    region.position = m.somewhere(3 * u.length);
+    if (m.chance(0.3))
+      region.normal = m.direction();
+    else
+      region.volume = any_volume(m, 3 * u.length);
+    for (Entity i = 0; i < m.scene.world.body_count(); ++i)
+      if (m.chance(0.4)) region.on.push_back(i);
+    region.removes = m.chance(0.5);
+    m.scene.world.regions.push_back(std::move(region));
+  }
+}
+
+/// Strings and rods, many of them taut at time 0.
+void strings(Maker& m, const Units& u) {
+  World& world = m.scene.world;
+  const auto n = static_cast<int>(world.body_count());
+  for (int k = n == 0 ? 0 : m.whole(-3, 4); k > 0; --k) {
+    String string;
+    string.body = static_cast<Entity>(m.whole(0, n - 1));
+    const auto other = static_cast<Entity>(m.whole(0, n - 1));
+    if (m.chance(0.5) && other != string.body) {
+      string.other = std::max(string.body, other);
+      string.body = std::min(string.body, other);
+    } else {
+      string.anchor = m.scene.initial.position[string.body] + m.any({0.01, 1, 1, 10}) * u.length * m.somewhere(1);
+    }
+    const Vec3 to = string.other == no_entity ? string.anchor : m.scene.initial.position[string.other];
+    string.length = (m.scene.initial.position[string.body] - to).norm();
+    string.rod = m.chance(0.2);
+    if (!string.rod && m.chance(0.5)) string.length *= m.uniform(1, 2);
+    string.restitution = m.chance(0.6) ? 0 : m.restitution();
+    if (string.rod && string.length > 0) {  // it moves across itself
+      std::vector<Vec3>& v = m.scene.initial.velocity;
+      const Vec3 along = (m.scene.initial.position[string.body] - to) / string.length;
+      const Vec3 other_v = string.other == no_entity ? Vec3(Vec3::Zero()) : v[string.other];
+      v[string.body] -= (v[string.body] - other_v).dot(along) * along;
+    }
+    if (string.length > 0) world.strings.push_back(string);
+  }
+}
+
 /// Keys of `simulate`.
 void choose(Maker& m, AnyScene& made) {
   const double duration = made.scene.options.duration;
@@ -114,7 +158,8 @@ void choose(Maker& m, AnyScene& made) {
   if (made.engine == "book" && m.chance(0.3)) made.simulate += ", as_printed: true";
 }
 
-void everything(Maker& m) {
+/// `tied`: with strings.
+void everything(Maker& m, bool tied) {
   Units u{1, 1, 1};
   if (m.chance(0.4)) u = {m.spread(smallest_length, largest_length), m.spread(shortest_time, longest_time), 1};
   m.scene.options.duration = u.time * (m.chance(0.1) ? m.spread(1e-3, 8) : m.uniform(0.1, 5));
@@ -129,6 +174,9 @@ void everything(Maker& m) {
   m.rules();
   m.scene.options.merge = m.chance(0.05);
   if (m.chance(0.1)) m.scene.options.rest_speed = u.speed() * m.spread(1e-6, 1e-1);
+  if (m.chance(0.2)) m.motions(m.scene.world, m.scene.options.duration, u.speed());
+  regions(m, u);
+  if (tied) strings(m, u);
   World& world = m.scene.world;
   const bool spheres =
       std::all_of(world.volume.begin(), world.volume.end(), [](const Volume& v) { return v.shape == Shape::sphere; });
@@ -141,6 +189,8 @@ AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes) {
   const std::size_t families = stress::family_names().size();
   const std::size_t kind =
       bytes.empty() ? seed % (3 * families) : static_cast<unsigned char>(bytes[0]) % (3 * families);
+  // Many swings take longer than a fuzzer of bytes waits.
+  const bool tied = bytes.empty();
   bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
   AnyScene made;
   if (kind < families) {
@@ -153,7 +203,7 @@ AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes) {
   }
   made.scene.family = "everything";
   Maker maker(seed, made.scene, bytes);
-  everything(maker);
+  everything(maker, tied);
   choose(maker, made);
   return made;
 }

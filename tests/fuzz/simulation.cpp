@@ -7,6 +7,7 @@
 #include <ctime>
 #include <memory>
 
+#include "physics/body_now.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "run/engine.h"
@@ -113,6 +114,7 @@ class Run {
     long double sum = 0;
     double all = 0;
     for (Entity i = 0; i < world_.body_count(); ++i) {
+      if (is_gone(state, i)) continue;
       const long double m = world_.mass[i];
       const long double kinetic = 0.5L * m * state.velocity[i].cast<long double>().squaredNorm();
       sum += kinetic + potential(world_, i, state.position[i]);
@@ -138,8 +140,9 @@ class Run {
     if (scene_.simulate.merge) return;
     const double relative =
         relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
-    const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work);
-    if (!(std::abs(gain + tally.energy_lost + tally.method_error - tally.work) <= relative * size))
+    const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.removed.energy);
+    if (!(std::abs(gain + tally.energy_lost + tally.method_error + tally.removed.energy - tally.work) <=
+          relative * size))
       fail(fmt::format("energy books: gains {} J, lost {} J, work {} J, of {} J", gain, tally.energy_lost, tally.work,
                        size));
   }

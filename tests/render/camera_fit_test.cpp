@@ -143,6 +143,20 @@ TEST(CameraFit, AnInvisibleWallIsNotFramed) {
   EXPECT_EQ(without, camera_for(one_ball(), 3, marble));
 }
 
+TEST(CameraFit, ThePointOfAStringIsInView) {
+  Scene scene = one_ball();
+  const Camera alone = camera_for(scene, 3, marble);
+  scene.world.strings.push_back({0, no_entity, Vec3(2, 9, 0), 12, 0, false});
+  const Camera with = camera_for(scene, 3, marble);
+  Filled filled(with), before(alone);
+  filled.add(Vec3(2, 9, 0), 0);
+  before.add(Vec3(2, 9, 0), 0);
+  EXPECT_LT(filled.most(), 0.9 + 1e-9);
+  EXPECT_GT(before.most(), 1);
+  scene.overlay.hidden_strings = {0};
+  EXPECT_EQ(camera_for(scene, 3, marble), alone);
+}
+
 TEST(CameraFit, AFloorOfAnySizeLeavesTheCameraWithTheBodies) {
   Scene scene = one_ball();
   const Camera alone = camera_for(scene, 3, marble);

@@ -211,8 +211,8 @@ TEST(Expressions, FollowSettingsOfLet) {
 TEST(Expressions, KeepTheTextsOfWhatFollowsFromLet) {
   const Scene scene = load_text(with_expressions);
   const auto text = [&](const std::string& path) {
-    const auto found = scene.expressions.find(path);
-    return found == scene.expressions.end() ? "" : found->second;
+    const auto found = scene.made_from.expressions.find(path);
+    return found == scene.made_from.expressions.end() ? "" : found->second;
   };
   EXPECT_EQ(text("let.gap"), "= r / 10");
   EXPECT_EQ(text("balls.red.position.y"), "= 2 * r + gap");

@@ -134,7 +134,7 @@ TEST(RegionErrors, OfNamesAndActions) {
             "scene.yaml:6:11: error: the name `red` is taken\n"
             "   6 | regions: {red: {radius: 1, position: [0, 0, 0]}}\n"
             "     |           ^~~\n"
-            "     = names of bodies, groups, fixed things, the room and regions are unique in a scene\n");
+            "     = names of bodies, groups, fixed things, strings, the room and regions are unique in a scene\n");
 }
 
 TEST(StopErrors, NameWhatIsWrong) {

@@ -67,6 +67,9 @@ std::string loaded(const std::string& path, const std::string& text) {
   options.mesh_points = [](const std::string&) {
     return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   };
+  options.former_state = [](const std::string&, std::optional<double> at) {
+    return FormerState{{"former"}, {at.value_or(1), {{0, 40, 0}}, {{0, 0, 0}}}};
+  };
   try {
     load_scene(path, options);
     return "";
@@ -93,9 +96,18 @@ const std::vector<Beyond>& beyond_schemas() {
       {"is a fixed thing: it has no trail", "what a name stands for"},
       {"is a fixed thing: it enters no region", "what a name stands for"},
       {"no region is named", "which names there are"},
+      {"no string is tied to it", "what a name stands for"},
+      {"a string has one at each end", "what a name stands for"},
+      {"is tied to itself", "two names against one another"},
+      {"but its ends are", "a length against where things are"},
+      {"m/s at time 0", "velocities against where things are"},
+      {"are at the same point at time 0", "a length against where things are"},
       {"the scale of colours ends at", "two numbers against one another"},
       {"has no meaning for groups", "two keys against one another"},
       {"an MP4 has no transparency", "two keys against one another"},
+      {"the run has none of the bodies of this scene", "what a run holds"},
+      {"begin where a former run had them", "a default that a former run cannot give"},
+      {"entries, and `count` is", "two keys against one another"},
       {"is taken", "names of two kinds of things against one another"},
       {"there is no file", "what files there are"},
       {"at the start", "where things are"},
@@ -113,6 +125,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"but `from` is", "two numbers against one another"},
       {"times the smallest size", "how far and how fast things are against how small they are"},
       {"the limit is", "how much a run may write, which --force lifts"},
+      {"not for `strings`", "what an engine can do depends on forces, volumes and strings together"},
       {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
       {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
       {"a contact sheet of", "how many pictures a size holds"},

@@ -129,6 +129,19 @@ output: {regions: true, trajectory: {every: 0.1}}
 )",
           R"(
 scene: 1
+defaults: {string: {restitution: 0.5}}
+balls: {text: {mass: 1, radius: 0.1, position: [0, 1, 0]}, fast: {mass: 1, radius: 0.1, position: [2, 8, 0], velocity: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= 1 + i', 2, 3]}}
+planes: {group: {point: [0, -9, 0], normal: [0, 1, 0]}}
+strings:
+  bar: {from: text, to: row.0, rod: true}
+  moving: {from: [2, 9, 0], to: fast}
+  line: {from: [0, 4, 0], to: text, length: 9, restitution: 0.5, visible: false}
+  rope: {from: [0, 4, 0], to: text}
+  nets: {repeat: 2, from: ['= i', 6, 0], to: 'row.{i}'}
+simulate: {duration: 1}
+)",
+          R"(
+scene: 1
 title: Balls
 seed: 3
 gravity: [0, -1, 0]
@@ -181,6 +194,14 @@ planes: {floor: {point: [0, 0, 0], restitution: 1, color: tan, visible: true}}
 walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], restitution: 1, color: tan, visible: true}}
 obstacles: {post: {color: tan}}
 room: {min: [-9, -9, -9], max: [30, 30, 30], restitution: 1, color: tan, visible: false}
+simulate: {duration: 1}
+)",
+          R"(
+scene: 1
+balls: {former: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+groups:
+  gas: {count: 2, ball: {mass: 1, radius: 0.1}, members: [{position: [0, 3, 0], velocity: [1, 0, 0]}, {position: [1, 3, 0]}]}
+start: {run: first, at: 2}
 simulate: {duration: 1}
 )",
           R"(

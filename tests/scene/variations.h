@@ -14,7 +14,8 @@ struct Variation {
   std::string text;  // JSON, which is YAML
 };
 
-/// Valid scenes that together have every key of the table. They need the file box.stl beside them.
+/// Valid scenes that together have every key of the table. They need the file box.stl beside them, and of any
+/// run a body `former`.
 std::vector<std::string> right_scenes();
 
 /// Every scene that is one change away: every key that it has or could have, by every change. `visited` gets

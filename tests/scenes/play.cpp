@@ -54,7 +54,8 @@ double stated(const std::string& name, const std::string& words) {
 }
 
 Entity Played::number(const std::string& name) const {
-  for (Entity e = 0; e < scene.world.body_count() + scene.world.fixed_count(); ++e) {
+  const std::size_t strings_from = scene.world.body_count() + scene.world.fixed_count();
+  for (Entity e = 0; e < strings_from + scene.world.strings.size(); ++e) {
     if (scene.roster.name(e) == name) return e;
   }
   throw std::runtime_error("no " + name);

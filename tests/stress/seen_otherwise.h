@@ -29,6 +29,7 @@ inline Motion mirrored(Motion m, int axis) {
   for (Plane& p : world.planes) flip(p.point), flip(p.normal);
   for (Obstacle& o : world.obstacles) flip(o.center);
   for (WorldRegion& r : world.regions) flip(r.position), flip(r.normal);
+  for (String& s : world.strings) flip(s.anchor);
   for (Wall& w : world.walls) {
     for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
     w.right = -w.right;  // right x up = normal
@@ -63,6 +64,7 @@ inline Motion scaled(Motion m, const Units& units) {
   for (Plane& p : world.planes) p.point *= l;
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
   for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
+  for (String& s : world.strings) s.anchor *= l, s.length *= l;
   for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
   for (std::vector<MotionLeg>& legs : world.motions)
     for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
@@ -130,6 +132,7 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   for (Vec3& x : other.initial.position) x += away;
   for (Obstacle& o : other.world.obstacles) o.center += away;
   for (Wall& w : other.world.walls) w.center += away;
+  for (String& s : other.world.strings) s.anchor += away;
   const Motion &one = first ? motion : other, &two = first ? other : motion;
   Motion both = motion;
   World& world = both.world;
@@ -144,6 +147,12 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   join(both.initial.velocity, one.initial.velocity, two.initial.velocity);
   join(world.obstacles, one.world.obstacles, two.world.obstacles);
   join(world.walls, one.world.walls, two.world.walls);
+  join(world.strings, one.world.strings, two.world.strings);
+  for (std::size_t k = one.world.strings.size(); k < world.strings.size(); ++k) {
+    String& s = world.strings[k];
+    s.body += one.world.body_count();
+    if (s.other != no_entity) s.other += one.world.body_count();
+  }
   const bool shapes = !one.world.volume.empty() || !two.world.volume.empty();
   const bool impulses = !one.world.impulse.empty() || !two.world.impulse.empty();
   world.volume.clear();

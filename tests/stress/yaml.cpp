@@ -45,13 +45,14 @@ std::string text(const Attractor& law) {
          ", softening: " + text(law.softening) + "}";
 }
 
-/// b0, b1, …, then p, w, o for planes, walls, obstacles.
+/// b0, b1, …, then p, w, o, s for planes, walls, obstacles, strings.
 std::string name(const World& world, Entity e) {
   if (world.is_body(e)) return "b" + std::to_string(e);
   const auto k = e - world.body_count();
   if (world.is_plane(e)) return "p" + std::to_string(k);
   if (world.is_wall(e)) return "w" + std::to_string(k - world.planes.size());
-  return "o" + std::to_string(k - world.planes.size() - world.walls.size());
+  if (world.is_obstacle(e)) return "o" + std::to_string(k - world.planes.size() - world.walls.size());
+  return "s" + std::to_string(k - world.fixed_count());
 }
 
 std::string bodies(const RandomScene& scene) {
@@ -105,15 +106,46 @@ std::string fixed(const World& world) {
   return out;
 }
 
+std::string strings(const World& world) {
+  std::string out = world.strings.empty() ? "" : "strings:\n";
+  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+    const String& s = world.strings[k];
+    out += "  " + name(world, world.string_number(k)) +
+           ": {from: " + (s.other == no_entity ? text(s.anchor) : name(world, s.other)) +
+           ", to: " + name(world, s.body) + ", length: " + text(s.length) + ", restitution: " + text(s.restitution) +
+           (s.rod ? ", rod: true}\n" : "}\n");
+  }
+  return out;
+}
+
+std::string on_text(const World& world, const std::vector<Entity>& bodies) {
+  std::string on;
+  for (Entity i : bodies) on += (on.empty() ? "" : ", ") + name(world, i);
+  return on.empty() ? "" : ", on: [" + on + "]";
+}
+
+std::string regions(const World& world) {
+  std::string out = world.regions.empty() ? "" : "regions:\n";
+  for (std::size_t k = 0; k < world.regions.size(); ++k) {
+    const WorldRegion& r = world.regions[k];
+    out += "  r" + std::to_string(k) + ": {" +
+           (r.is_side() ? "plane: {point: " + text(r.position) + ", normal: " + text(r.normal) + "}"
+                        : text(r.volume) + ", position: " + text(r.position)) +
+           on_text(world, r.on) + ", action: " +
+           (r.removes ? "remove"
+            : r.stops ? "stop"
+                      : "none") +
+           "}\n";
+  }
+  return out;
+}
+
 std::string forces(const World& world) {
   std::string out = world.forces.empty() ? "" : "forces:\n";
   for (const Force& f : world.forces) {
     out += "  - {" + std::visit([](const auto& law) { return text(law); }, f.law) + ", from: " + text(f.from);
     if (std::isfinite(f.until)) out += ", until: " + text(f.until);
-    std::string on;
-    for (Entity i : f.on) on += (on.empty() ? "" : ", ") + name(world, i);
-    if (!f.on.empty()) out += ", on: [" + on + "]";
-    out += "}\n";
+    out += on_text(world, f.on) + "}\n";
   }
   return out;
 }
@@ -139,7 +171,7 @@ std::string as_yaml(const RandomScene& scene, const std::string& more) {
   if (o.max_collisions > 0) simulate += ", max_collisions: " + std::to_string(o.max_collisions);
   return "# seed " + std::to_string(scene.seed) + ", family " + scene.family +
          "\nscene: 1\ngravity: " + text(scene.world.gravity) + "\n" + restitution(scene.world) + bodies(scene) +
-         fixed(scene.world) + forces(scene.world) + simulate +
+         fixed(scene.world) + strings(scene.world) + regions(scene.world) + forces(scene.world) + simulate +
          "}\noutput: {trajectory: {every: " + text(o.duration / 100) +
          "}, collisions: true, energy: {every: " + text(o.duration / 100) + "}}\n";
 }

@@ -1,0 +1,235 @@
+// Flights are replayed up to the time. A table is read row by row up to the time, whose cell must be that very number:
+// a state between two rows would be a guess.
+#include "run/start_reader.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "export/flights_file.h"
+#include "files/failed_run.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
+#include "files/stored_table.h"
+#include "physics/world.h"
+#include "run/former_run.h"
+#include "run/stored_trajectory.h"
+#include "scene/scene.h"
+#include "simulate/simulator.h"
+#include "simulate/tolerances.h"
+#include "yaml/joined.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+constexpr const char* table_name = "trajectory.csv";
+
+std::string_view states_file(const FormerRun& run) {
+  return run.has_flights() ? flights_name : table_name;
+}
+
+/// A former run that stands ready to be read.
+FormerRun opened(const std::string& folder, const LoadOptions& options) {
+  if (const std::string failure = stored_failure(folder); !failure.empty())
+    throw StartError("it has failed: " + failure.substr(0, failure.find('\n')),
+                     "name the folder of a run that is done");
+  settle_folder(folder);
+  LoadOptions load;
+  load.budget = load.budget.without_outputs();
+  load.budget.enforced = false;
+  load.chooses_outputs = true;
+  load.mesh_points = options.mesh_points;
+  SceneFile file(former_scene_file(folder), load);
+  return read_former_run(folder, file, [](const FormerRun& run, std::string_view name) {
+    return name != states_file(run) && name != "summary.csv";
+  });
+}
+
+std::string without_slash(std::string path) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+/// What of an error's text is the fault, and what the remedy: its first line, and the others.
+StartError in_parts(const std::string& text) {
+  const std::size_t line = std::min(text.find('\n'), text.size());
+  std::string remedy = text.substr(std::min(line + 1, text.size()));
+  remedy.erase(0, std::min(remedy.find_first_not_of(' '), remedy.size()));
+  return {text.substr(0, line), remedy};
+}
+
+/// Times of a table on both sides of one, in s.
+struct Nearest {
+  std::optional<double> before, after;
+};
+
+[[noreturn]] void refuse_time(double at, const Nearest& near) {
+  std::vector<std::string> times;
+  for (const std::optional<double>& time : {near.before, near.after})
+    if (time) times.push_back(shortest(*time));
+  throw StartError(
+      fmt::format("it has no flights, and its {} has no rows at {} s", table_name, shortest(at)),
+      fmt::format("the nearest rows are at {} s\nor run it with `output.flights: true`, which has every time "
+                  "of motion along parabolas",
+                  joined(times, " and ")),
+      true);
+}
+
+/// The rows of a trajectory at one time, in either layout.
+class TableState {
+ public:
+  TableState(Descriptor file, const std::vector<std::string>& names)
+      : table_(std::move(file)), names_(names), wide_(!table_.find("body")) {
+    state_.position.assign(names.size(), Vec3::Zero());
+    state_.velocity.assign(names.size(), Vec3::Zero());
+    state_.part_of.assign(names.size(), no_entity);
+  }
+
+  State at(double time) {
+    Nearest near;
+    for (row_ = table_.next(); row_ != nullptr; row_ = table_.next()) {
+      const std::optional<double> now = number_in(row_->front());
+      if (!now) refuse_row();
+      if (*now == time) {
+        take();
+        return std::move(state_);
+      }
+      if (*now > time) {
+        near.after = now;
+        break;
+      }
+      near.before = now;
+    }
+    refuse_time(time, near);
+  }
+
+ private:
+  [[noreturn]] static void refuse_row() {
+    throw StartError(fmt::format("{} has a row that is not one of its scene's", table_name), "run it again");
+  }
+
+  void take() {
+    constexpr std::size_t cells = 6;  // of a motion
+    state_.time = *number_in(row_->front());
+    if (wide_) {
+      if (row_->size() != 1 + cells * names_.size()) refuse_row();
+      for (std::size_t body = 0; body < names_.size(); ++body) take_body(body, 1 + cells * body);
+    } else {
+      // Rows are in the order of the bodies. Those that are gone have none.
+      const std::string instant(row_->front());
+      for (std::size_t body = 0; row_ != nullptr && row_->front() == instant; row_ = table_.next(), ++body) {
+        if (row_->size() != 2 + cells) refuse_row();
+        while (body < names_.size() && names_[body] != (*row_)[1]) ++body;
+        if (body == names_.size()) refuse_row();
+        take_body(body, 2);
+      }
+    }
+    bool gone = false;
+    for (const Entity part : state_.part_of) gone = gone || part == no_entity;
+    if (!gone) state_.part_of.clear();
+  }
+
+  void take_body(std::size_t body, std::size_t first) {
+    if (read_motion(*row_, first, state_.position[body], state_.velocity[body]))
+      state_.part_of[body] = static_cast<Entity>(body);
+    else if (!(*row_)[first].empty())
+      refuse_row();
+  }
+
+  StoredTable table_;
+  const std::vector<std::string>& names_;
+  bool wide_;  // a row for each instant, and none for each body
+  const std::vector<std::string_view>* row_ = nullptr;
+  State state_;
+};
+
+State state_in_flights(const FormerRun& run, double at) {
+  const std::unique_ptr<Simulator> replay = run.motion(run.scene);
+  while (replay->time() < at) replay->advance_to(at);
+  return replay->state();
+}
+
+State state_in_table(const FormerRun& run, double at, const std::vector<std::string>& names) {
+  const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+  Descriptor file = folder ? open_stored(folder.get(), table_name) : Descriptor();
+  if (!file) throw StartError(fmt::format("{} is missing", table_name), "run it again");
+  return TableState(std::move(file), names).at(at);
+}
+
+/// The book's engine applies the impulses of time 0 in its first frame, so that its velocities at time 0 lack them.
+bool lacks_impulses(const Scene& scene, double at) {
+  return scene.simulate.engine == Engine::book && !scene.world.impulse.empty() &&
+         at <= stepped_tolerance::frame_rounding * scene.simulate.step.value_or(0);
+}
+
+/// Throws StartError, and what reading files throws.
+FormerState state_of(const FormerRun& run, std::optional<double> at) {
+  const double end = run.end();
+  if (at && !(*at >= 0 && *at <= end))
+    throw StartError(fmt::format("it ended at {} s, before {} s", shortest(end), shortest(*at)),
+                     fmt::format("expected `at` from 0 to {} s", shortest(end)), true);
+  if (lacks_impulses(run.scene, at.value_or(end)))
+    throw StartError("the book's engine had not yet applied the impulses then", "expected a later `at`", true);
+  const std::string file(states_file(run));
+  if (!run.has(file))
+    throw StartError("it has neither flights nor a trajectory",
+                     "run it with `output.flights: true`, or with `output.trajectory`");
+  FormerState former;
+  for (Entity body = 0; body < run.scene.world.body_count(); ++body)
+    former.names.push_back(run.scene.roster.name(body));
+  former.state =
+      run.has_flights() ? state_in_flights(run, at.value_or(end)) : state_in_table(run, at.value_or(end), former.names);
+  const std::vector<Entity>& part_of = former.state.part_of;
+  bool gone = false;
+  for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
+  former.has_merged = gone && run.scene.simulate.merge;
+  former.file = file;
+  for (const FileRecord& record : run.manifest.files)
+    if (record.name == file) former.sha256 = record.sha256;
+  if (!run.manifest.warnings.empty()) former.doubt = run.manifest.warnings.front().text;
+  return former;
+}
+
+/// The run and the state that were read last. A scene is often loaded several times.
+struct LastRead {
+  std::string folder;
+  std::optional<FormerRun> run{};
+  std::optional<double> at{};
+  std::optional<FormerState> state{};
+};
+
+}  // namespace
+
+std::function<FormerState(const std::string& folder, std::optional<double> at)> start_reader(
+    const LoadOptions& options) {
+  const auto last = std::make_shared<LastRead>();
+  return [last, options](const std::string& folder, std::optional<double> at) {
+    const std::string path = without_slash(folder);
+    try {
+      if (!last->run || last->folder != path) {
+        *last = {path};
+        last->run = opened(path, options);
+      }
+      if (!last->state || last->at != at) {
+        last->state.reset();
+        last->state = state_of(*last->run, at);
+        last->at = at;
+      }
+      return *last->state;
+    } catch (const SceneError&) {
+      throw StartError("its scene.yaml has errors", fmt::format("carom check {}/scene.yaml shows them", path));
+    } catch (const ExportError& error) {
+      throw in_parts(error.what());
+    }
+  };
+}
+
+}  // namespace carom

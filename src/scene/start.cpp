@@ -1,0 +1,307 @@
+// Changes the tree and not the decoded scene. All that follows, from the check of overlaps to the resolved scene, then
+// knows bodies with numbers alone.
+#include "scene/start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "scene/check.h"
+#include "scene/decode.h"
+#include "scene/expand.h"
+#include "scene/former_state.h"
+#include "scene/keys.h"
+#include "scene/member.h"
+#include "scene/scene.h"
+#include "yaml/joined.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t names_shown = 5;
+
+/// "`red`, `blue` and 7 more"
+std::string names_text(const std::vector<std::string>& names) {
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < std::min(names.size(), names_shown); ++i) shown.push_back(in_backticks(names[i]));
+  if (names.size() > names_shown) return fmt::format("{} and {} more", joined(shown, ", "), names.size() - names_shown);
+  if (shown.size() == 1) return shown.front();
+  const std::string last = shown.back();
+  shown.pop_back();
+  return fmt::format("{} and {}", joined(shown, ", "), last);
+}
+
+Node number_node(double value, Place place) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.place = place;
+  node.text = shortest(value);
+  return node;
+}
+
+Node vector_node(const Vec3& value, Place place) {
+  Node node;
+  node.kind = Node::Kind::sequence;
+  node.place = place;
+  for (int k = 0; k < 3; ++k) node.items.push_back(number_node(value[k], place));
+  return node;
+}
+
+void remove(Node& map, std::string_view key) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    if (map.keys[i].text != key) continue;
+    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
+    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+    return;
+  }
+}
+
+void set(Node& map, std::string_view key, Node value) {
+  if (Node* node = map.find(key)) {
+    *node = std::move(value);
+    return;
+  }
+  map.keys.push_back({std::string(key), value.place});
+  map.items.push_back(std::move(value));
+}
+
+/// The key, or the part that a --set gave.
+Place place_of_start(const Node& root) {
+  const Place part = View(&root, kind_named("scene"), Place{}).place("start");
+  return part.source > 0 ? part : root.find_key("start")->place;
+}
+
+class Starter {
+ public:
+  Starter(Node& root, FormerState former, MadeFrom& made_from, Diagnostics& diagnostics)
+      : root_(root),
+        former_(std::move(former)),
+        made_from_(made_from),
+        diagnostics_(diagnostics),
+        place_(place_of_start(root)),
+        used_(former_.names.size(), false) {
+    numbers_.reserve(former_.names.size());
+    for (std::size_t i = 0; i < former_.names.size(); ++i) numbers_.emplace(former_.names[i], i);
+  }
+
+  void run() {
+    if (Node* start = root_.find("start")) set(*start, "at", number_node(former_.state.time, place_));
+    each("balls", [&](const Key& key, Node& node) { body("balls", kind_named("ball"), key, node); });
+    each("bodies", [&](const Key& key, Node& node) { body("bodies", kind_named("body"), key, node); });
+    each("groups", [&](const Key& key, Node& node) { group(key, node); });
+    if (!gone_.empty())
+      diagnostics_.add(place_,
+                       fmt::format("at {} s of the run {} {} gone: merged into another body, or removed by a region",
+                                   time(), names_text(gone_), gone_.size() == 1 ? "is" : "are"),
+                       "expected a scene without bodies that are gone, or an earlier `at`");
+    else if (std::find(used_.begin(), used_.end(), true) == used_.end())
+      diagnostics_.add(place_, "the run has none of the bodies of this scene",
+                       former_.names.empty() ? "expected a run with bodies"
+                                             : "bodies match by their names; the run has " + names_text(former_.names));
+    note();
+  }
+
+ private:
+  template <typename Work>
+  void each(std::string_view name, const Work& work) {
+    Node* map = root_.find(name);
+    if (map == nullptr || !map->is(Node::Kind::map)) return;
+    for (std::size_t i = 0; i < map->keys.size(); ++i)
+      if (map->items[i].is(Node::Kind::map) && map->items[i].find_key("repeat") == nullptr)
+        work(map->keys[i], map->items[i]);
+  }
+
+  std::string time() const { return shortest(former_.state.time); }
+
+  bool is_gone(std::size_t i) const { return !former_.state.part_of.empty() && former_.state.part_of[i] != i; }
+
+  /// The body of this name in the run; it counts as used. -1: there is none, or it is gone, which is kept in gone_.
+  std::ptrdiff_t take(const std::string& name) {
+    const auto found = numbers_.find(name);
+    if (found == numbers_.end()) {
+      own_.push_back(name);
+      return -1;
+    }
+    if (is_gone(found->second)) {
+      gone_.push_back(name);
+      return -1;
+    }
+    used_[found->second] = true;
+    return static_cast<std::ptrdiff_t>(found->second);
+  }
+
+  void body(const std::string& map, const Kind& kind, const Key& key, Node& node) {
+    const std::ptrdiff_t i = take(key.text);
+    if (i < 0) return;
+    const View view(&node, kind, key.place, defaults_for(root_, kind));
+    replaces(view, {"position", "velocity", "impulse"}, key.text);
+    drop_impulse(view, node, key.text);
+    set(node, "position", vector_node(former_.state.position[static_cast<std::size_t>(i)], place_));
+    set(node, "velocity", vector_node(former_.state.velocity[static_cast<std::size_t>(i)], place_));
+    forget(map + "." + key.text, {"position", "velocity", "impulse"});
+  }
+
+  void group(const Key& key, Node& node) {
+    const Kind& kind = kind_named("group");
+    const View view(&node, kind, key.place, defaults_for(root_, kind));
+    const auto name = [&](std::uint64_t k) { return fmt::format("{}.{}", key.text, k); };
+    const std::uint64_t count = filled<GroupKeys>(view).count;
+    std::uint64_t there = 0;
+    while (numbers_.contains(name(there))) ++there;
+    if (count == 0) return;
+    if (there == 0) return own_.push_back(key.text);
+    if (there != count) {
+      diagnostics_.add(view.place("count"),
+                       fmt::format("{} has {}, and the run has {}", in_backticks(key.text), balls(count), there),
+                       fmt::format("expected `count`: {}, or another name, which the run does not have", there));
+      for (std::uint64_t k = 0; k < there; ++k) used_[numbers_.at(name(k))] = true;
+      return;
+    }
+    replaces(view, {"in", "arrange", "speed", "velocity", "members"}, key.text);
+    Node members;
+    members.kind = Node::Kind::sequence;
+    members.place = place_;
+    members.items.reserve(count);
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const std::ptrdiff_t i = take(name(k));
+      if (i < 0) continue;
+      Node& member = members.items.emplace_back();
+      member.kind = Node::Kind::map;
+      member.place = place_;
+      set(member, "position", vector_node(former_.state.position[static_cast<std::size_t>(i)], place_));
+      set(member, "velocity", vector_node(former_.state.velocity[static_cast<std::size_t>(i)], place_));
+    }
+    if (members.items.size() < count) return;
+    // The ball may be that of the defaults.
+    if (const Node* ball = view.given("ball"); ball != nullptr && ball->is(Node::Kind::map)) {
+      const View each_ball = member_view(root_, view);
+      replaces(each_ball, {"velocity", "impulse"}, key.text);
+      Node own = *ball;
+      drop_impulse(each_ball, own, key.text);
+      set(node, "ball", std::move(own));
+    }
+    for (const std::string_view rule : {"in", "arrange", "speed", "velocity"}) remove(node, rule);
+    set(node, "members", std::move(members));
+    forget("groups." + key.text, {"in", "arrange", "speed", "velocity", "members", "ball.velocity", "ball.impulse"});
+  }
+
+  /// A value that a --set or a sweep gives would have no effect without a word.
+  void replaces(const View& view, std::initializer_list<std::string_view> keys, const std::string& name) {
+    for (const std::string_view key : keys) {
+      const Node* node = find_field(view.kind(), key) == nullptr ? nullptr : view.given(key);
+      if (node == nullptr || place_of(*node).source == 0) continue;
+      diagnostics_.add(
+          place_of(*node),
+          fmt::format("{} of {} has no effect: `start` takes its place", in_backticks(key), in_backticks(name)),
+          "expected no such setting of a body that begins as the former run had it");
+    }
+  }
+
+  /// The run has applied the impulse, so that the velocity there contains it.
+  void drop_impulse(const View& view, Node& node, const std::string& name) {
+    const std::optional<Vec3> impulse = view.vector("impulse");
+    if (!impulse || impulse->isZero(0)) return;
+    kicked_.push_back(name);
+    set(node, "impulse", vector_node(Vec3(0, 0, 0), place_));
+  }
+
+  /// No expression of the file made these values.
+  void forget(const std::string& thing, std::initializer_list<std::string_view> keys) {
+    if (made_from_.expressions.empty()) return;
+    const std::size_t dot = thing.find('.');
+    const std::string_view family = family_of(std::string_view(thing).substr(dot + 1));
+    const std::string whole = family.empty() ? thing : thing.substr(0, dot + 1) + std::string(family);
+    ExpressionTexts& texts = made_from_.expressions;
+    for (const std::string_view key : keys) {
+      const std::string path = fmt::format("{}.{}", whole, key);
+      texts.erase(path);
+      for (auto text = texts.lower_bound(path + "."); text != texts.end() && text->first.starts_with(path + ".");)
+        text = texts.erase(text);
+    }
+  }
+
+  void note() {
+    std::vector<std::string> left;
+    for (std::size_t i = 0; i < used_.size(); ++i)
+      if (!used_[i] && !is_gone(i)) left.push_back(former_.names[i]);
+    const auto say = [&](std::string text) { made_from_.notes.push_back(std::move(text)); };
+    if (!own_.empty())
+      say(fmt::format("start: the run has no {}, which {} where this scene places {}", names_text(own_),
+                      own_.size() == 1 ? "begins" : "begin", own_.size() == 1 ? "it" : "them"));
+    if (!left.empty()) say(fmt::format("start: this scene has no {}, which the run has", names_text(left)));
+    if (!kicked_.empty())
+      say(fmt::format("start: the impulse of {} is not applied again: the velocities of the run contain it",
+                      names_text(kicked_)));
+    if (former_.has_merged)
+      say("start: bodies of the run had merged by then; masses and sizes are those of this scene");
+    if (!former_.doubt.empty()) say("start: the run is doubtful: " + former_.doubt);
+    if (former_.state.time > 0 && has_windows())
+      say(fmt::format("start: windows of forces and motions count from the new time 0, which is {} s of the run",
+                      time()));
+  }
+
+  bool has_windows() const {
+    const auto has = [](const Node& node, std::initializer_list<std::string_view> keys) {
+      return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return node.find_key(key) != nullptr; });
+    };
+    if (const Node* forces = root_.find("forces"))
+      for (const Node& force : forces->items)
+        if (has(force, {"from", "until"})) return true;
+    for (const std::string_view kind : {"planes", "walls", "obstacles"})
+      if (const Node* things = root_.find(kind))
+        for (const Node& thing : things->items)
+          if (has(thing, {"motion"})) return true;
+    return false;
+  }
+
+  static std::string balls(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "ball" : "balls"); }
+
+  Node& root_;
+  const FormerState former_;
+  MadeFrom& made_from_;
+  Diagnostics& diagnostics_;
+  const Place place_;
+  std::vector<bool> used_;  // by body of the run
+  std::unordered_map<std::string, std::size_t> numbers_;
+  // Names of this scene: those that the run lacks, those that are gone there, those with an impulse.
+  std::vector<std::string> own_, gone_, kicked_;
+};
+
+}  // namespace
+
+void apply_start(Node& root, const std::string& folder, const LoadOptions& options, MadeFrom& made_from,
+                 Diagnostics& diagnostics) {
+  const Node* node = root.find("start");
+  if (node == nullptr || node->bad || !node->is(Node::Kind::map)) return;
+  const View view = scene_part(root, "start");
+  const auto keys = filled<StartKeys>(view);
+  if (!keys.run || (view.given("at") != nullptr && !keys.at)) return;
+  const auto refuse = [&](const StartError& error) {
+    const std::string_view key = error.of_time && keys.at ? "at" : "run";
+    diagnostics.add(view.place(key),
+                    fmt::format("the run {} cannot be used: {}", in_backticks(*keys.run), error.what()), error.remedy);
+  };
+  StartedFrom from;
+  from.run = *keys.run;
+  from.folder = beneath(folder, *keys.run);
+  if (!options.former_state) return refuse({"there is no reader of runs here", "expected a scene without `start`"});
+  std::optional<FormerState> former;
+  try {
+    former = options.former_state(from.folder, keys.at);
+  } catch (const StartError& error) {
+    return refuse(error);
+  }
+  from.at = former->state.time;
+  from.file = former->file;
+  from.sha256 = former->sha256;
+  made_from.start = std::move(from);
+  Starter(root, std::move(*former), made_from, diagnostics).run();
+}
+
+}  // namespace carom

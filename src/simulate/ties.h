@@ -1,0 +1,35 @@
+#pragma once
+// The strings and rods of each body. A string has one name for both of its ends: its own number.
+#include <span>
+#include <vector>
+
+#include "physics/world.h"
+
+namespace carom {
+
+class Ties {
+ public:
+  /// `world` must outlive this object.
+  explicit Ties(const World& world);
+
+  /// Whether there are any. Where there are none, no other function need be called.
+  bool any() const { return any_; }
+  /// Whether one of them has an anchor.
+  bool anchored() const { return anchored_; }
+  /// The strings of body i, ascending.
+  std::span<const Entity> of(Entity i) const {
+    return any_ ? std::span<const Entity>(of_[i]) : std::span<const Entity>();
+  }
+  /// The body at the end of a string that body i does not hold; no_entity: the anchor is there.
+  Entity other(Entity string, Entity i) const;
+  /// Removes the strings of body i.
+  void untie(Entity i);
+
+ private:
+  const World& world_;
+  const bool any_;
+  std::vector<std::vector<Entity>> of_;  // by body; empty: there are none
+  bool anchored_ = false;
+};
+
+}  // namespace carom
