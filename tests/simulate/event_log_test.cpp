@@ -46,10 +46,11 @@ TEST(EventLog, CountsWhatItDoesNotBuffer) {
 
 TEST(EventLog, KeepsCollisionsUntilTheNextAdvance) {
   EventLog log(0, true);
+  log.record(strike(0));
+  log.begin_advance();
   log.record(strike(1));
-  log.record(strike(2));
   ASSERT_EQ(log.collisions().size(), 2u);
-  EXPECT_EQ(log.collisions()[1].time, 2);
+  EXPECT_EQ(log.collisions()[1].time, 1);
   log.begin_advance();
   EXPECT_TRUE(log.collisions().empty());
   EXPECT_EQ(log.tally().body_body, 2u);
