@@ -133,7 +133,7 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
       "differs() { n=0; until [ -s \"$1\" ] && ! cmp -s \"$1\" \"$2\"; do n=$((n + 1)); [ $n -lt 500 ] || exit 9; "
       "sleep 0.02; done; }\n"
       "await err waiting; cp -r output/a before\n"
-      "echo 'newmtl a\nKd 0 1 0' > m/pin.mtl\n"
+      "echo 'newmtl a\nKd 0 1 0' > m/new; mv m/new m/pin.mtl\n"
       "differs output/a/manifest.json before/manifest.json; cp -r output/a green\n"
       "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
       "differs output/a/manifest.json green/manifest.json");
