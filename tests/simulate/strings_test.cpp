@@ -390,9 +390,9 @@ TEST(Strings, AsManyBallsOfACradleRiseAsAreLifted) {
   for (int lifted = 2; lifted <= 6; ++lifted) {
     const double angle = 0.5, whole = period(1, angle);
     Tied problem = cradle(angle, false, lifted);
-    problem.options.duration = 10 * whole;
+    problem.options.duration = 4 * whole;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-    for (int k = 1; k <= 10; ++k) {
+    for (int k = 1; k <= 4; ++k) {
       go_to(*simulator, (k - 0.5) * whole);
       for (Entity i = 0; i < 7; ++i) {
         const bool rises = static_cast<int>(i) >= 7 - lifted;
