@@ -43,8 +43,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
 std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   ExactOptions options = exact_options(request);
   options.merge = request.simulate.merge;
-  const bool parabolas = varying_force(request.world) == nullptr && request.world.strings.empty();
-  options.record_paths = request.recording.paths && parabolas;
+  options.record_paths = request.recording.paths && goes_along_parabolas(request.world, request.simulate);
   return make_exact_simulator(request.world, request.initial, options);
 }
 
