@@ -13,8 +13,15 @@ struct Verdict {
   bool stopped = false;  // at a limit, as it may
 };
 
+/// s of CPU time for a run, by default. Sanitizers, and code without optimisation, take up to 30 times as long.
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+inline constexpr double usual_patience = 10;
+#else
+inline constexpr double usual_patience = 300;
+#endif
+
 /// `patience`: s of CPU time, for a run.
-Verdict check(const RandomScene& scene, double patience = 10);
+Verdict check(const RandomScene& scene, double patience = usual_patience);
 
 /// Of a run in steps of time, by a method and with a step that the seed chooses.
 Verdict check_stepped(const RandomScene& scene);
