@@ -25,20 +25,20 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
-constexpr std::uint32_t version = 4, byte_order = 0x01020304, last_entry = 0xffffffff;
+constexpr std::uint32_t version = 5, byte_order = 0x01020304, last_entry = 0xffffffff;
 enum Has : std::uint32_t {
   has_acceleration = 1,
   has_from = 2,
   has_kick = 4,
   has_whole = 8,
   has_joint = 16,
-  has_bend = 32,
+  has_curve = 32,
   has_left = 64,
   has_all = 127
 };
 
 constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8, end_size = 8 * 8;
-constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 6) * 8;
+constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 1 + 3 * PolynomialPath::terms) * 8;
 
 /// The default of `from` where an entry has none.
 double first_double(const DoubleDouble& start) {
@@ -97,7 +97,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
     if (piece.kicked) has |= has_kick;
     if (piece.part_of != no_entity) has |= has_whole;
     if (piece.joint) has |= has_joint;
-    if (!piece.bend.none()) has |= has_bend;
+    if (piece.curve) has |= has_curve;
     if (piece.removed) has |= has_left;
     char* const begin = file_->room(largest_entry);
     InPlace writer(begin);
@@ -118,9 +118,9 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
       writer.put(piece.radius);
       writer.put(piece.half);
     }
-    if (has & has_bend) {
-      writer.put(piece.bend.linear);
-      writer.put(piece.bend.quadratic);
+    if (has & has_curve) {
+      writer.put(piece.curve->length);
+      for (const Vec3& term : piece.curve->displacement) writer.put(term);
     }
     file_->written(writer.end());
     ++entries_;
@@ -259,16 +259,13 @@ bool FlightsReader::next(PathPiece& piece) {
     piece.radius = take<double>();
     piece.half = take_vector();
   }
-  if (has & has_bend) {
-    piece.bend.linear = take_vector();
-    piece.bend.quadratic = take_vector();
-  }
+  if (has & has_curve) piece.curve = take_curve();
   piece.removed = (has & has_left) != 0;
   const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (!(piece.from >= last_) || !std::isfinite(piece.from) || !finite(piece.start) || !finite(piece.until))
     refuse("it is damaged");
-  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick, &piece.bend.linear, &piece.bend.quadratic})
+  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick})
     if (!v->allFinite()) refuse("it is damaged");
   if (piece.joint &&
       !(positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0))
@@ -306,6 +303,15 @@ Vec3 FlightsReader::take_vector() {
   Vec3 v;
   for (int k = 0; k < 3; ++k) v[k] = take<double>();
   return v;
+}
+
+std::shared_ptr<const PolynomialPath> FlightsReader::take_curve() {
+  PolynomialPath curve;
+  curve.length = take<double>();
+  if (!(curve.length > 0 && std::isfinite(curve.length))) refuse("it is damaged");
+  for (Vec3& term : curve.displacement)
+    if (term = take_vector(); !term.allFinite()) refuse("it is damaged");
+  return std::make_shared<PolynomialPath>(curve);
 }
 
 void FlightsReader::refuse(const std::string& reason) const {

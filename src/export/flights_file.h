@@ -26,6 +26,7 @@
 //   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region, u64 removed bodies,
 //   f64 their energy (J), and x, y, z of their momentum (kg m/s), f64 0
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -73,6 +74,7 @@ class FlightsReader {
   template <typename T>
   T take();
   Vec3 take_vector();
+  std::shared_ptr<const PolynomialPath> take_curve();
 
   std::string path_;  // of the folder, for messages
   Descriptor file_;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
 
 namespace carom {
@@ -16,6 +17,8 @@ class DenseMotion {
   /// Point k's displacement from the start (m) and its velocity (m/s), t (s) after the start, 0 <= t <= length().
   virtual Vec3 displacement(std::size_t k, double t) const = 0;
   virtual Vec3 velocity(std::size_t k, double t) const = 0;
+  /// Its path: the integral of that velocity.
+  virtual PolynomialPath path(std::size_t k) const = 0;
 
   /// Positions (m) and velocities (m/s) of all points at t (s).
   void at(double t, std::vector<Vec3>& x, std::vector<Vec3>& v) const {

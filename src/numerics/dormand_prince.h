@@ -29,8 +29,7 @@ class DormandPrince final : public DenseMotion {
   void interpolate(const Acceleration& acceleration);
   Vec3 displacement(std::size_t k, double t) const override;
   Vec3 velocity(std::size_t k, double t) const override;
-  /// The path of point k through the step.
-  PolynomialPath path(std::size_t k) const;
+  PolynomialPath path(std::size_t k) const override;
 
  private:
   static constexpr std::size_t stages = 16, terms = 7;

@@ -1,4 +1,4 @@
-// Collocation of order 17 at nine Radau points (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed.
+// Collocation of order 13 at seven Radau points (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed.
 // 1996, IV.5), for forces with stiff drag. The stages are solved by spectral deferred correction (Dutt, Greengard &
 // Rokhlin, BIT 40 (2000) 241), with the triangular factor of Weiser, BIT 55 (2015) 1219. Newton's method on all stages
 // at once would couple them. A sweep treats one stage at a time, and `hold` can apply the constraints there.
@@ -16,7 +16,7 @@ namespace carom {
 
 namespace {
 
-constexpr int nodes = 9;
+constexpr int nodes = 7;
 constexpr int most_sweeps = 40;
 // An error of so many times the tolerance: the step is rejected.
 constexpr double hopeless = 1e4;
@@ -154,7 +154,7 @@ double RadauCollocation::interpolate() {
       d[n + 1] += share;
       d[n - 1] -= share;
     }
-    // (P_8 - P_9) / 2 is 1 at the start and 0 at the stages.
+    // (P_6 - P_7) / 2 is 1 at the start and 0 at the stages.
     v[nodes - 1] += 0.5 * missed;
     v[nodes] = -0.5 * missed;
   }
@@ -174,6 +174,28 @@ Vec3 RadauCollocation::displacement(std::size_t k, double t) const {
 
 Vec3 RadauCollocation::velocity(std::size_t k, double t) const {
   return sum(of_velocity_, k, t / length_);
+}
+
+PolynomialPath RadauCollocation::path(std::size_t k) const {
+  // Coefficients of Legendre's polynomials in powers of s: (n + 1) P_(n+1) = (2n + 1) (2s - 1) P_n - n P_(n-1).
+  std::array<double, terms> before{}, p{1};
+  std::array<Vec3, terms> velocity;
+  velocity.fill(Vec3::Zero());
+  for (std::size_t n = 0; n < terms; ++n) {
+    for (std::size_t power = 0; power <= n; ++power) velocity[power] += p[power] * of_velocity_[terms * k + n];
+    std::array<double, terms> after{};
+    const auto order = static_cast<double>(n);
+    for (std::size_t power = 0; power < terms; ++power) {
+      const double below = power > 0 ? p[power - 1] : 0;
+      after[power] = ((2 * order + 1) * (2 * below - p[power]) - order * before[power]) / (order + 1);
+    }
+    before = std::exchange(p, after);
+  }
+  PolynomialPath path;
+  path.length = length_;
+  for (std::size_t power = 0; power < terms; ++power)
+    path.displacement[power] = length_ / static_cast<double>(power + 1) * velocity[power];
+  return path;
 }
 
 }  // namespace carom

@@ -1,7 +1,7 @@
 #pragma once
 // x'' = pull - fade x' with points held on surfaces, by collocation at Radau's points.
 // It serves where fade is so great that an explicit method would take steps of 1 / fade.
-// Radau IIA with nine stages has order 17 at a step's end and 9 within it.
+// Radau IIA with seven stages has order 13 at a step's end and 7 within it.
 // Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.5.
 // Sweeps of implicit Euler's method from point to point compute the stages. Each sweep raises the order by one.
 // (Spectral deferred correction: Dutt, Greengard & Rokhlin, BIT 40 (2000) 241.)
@@ -35,13 +35,14 @@ class RadauCollocation final : public DenseMotion {
 
   Vec3 displacement(std::size_t k, double t) const override;
   Vec3 velocity(std::size_t k, double t) const override;
+  PolynomialPath path(std::size_t k) const override;
 
  private:
   double sweep(std::span<const Forces> forces, const Hold& hold);
   double interpolate();
   static Vec3 sum(const std::vector<Vec3>& coefficients, std::size_t k, double s);
 
-  static constexpr std::size_t terms = 10;
+  static constexpr std::size_t terms = 8;
   std::vector<std::vector<Vec3>> at_, speed_, rate_;  // m, m/s, m/s^2: by stage, then by point
   std::vector<Vec3> of_displacement_, of_velocity_;   // coefficients of Legendre's polynomials, `terms` for each point
 };

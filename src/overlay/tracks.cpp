@@ -20,7 +20,8 @@ void Tracks::add(std::span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
     if (!has(piece.body)) continue;
     if (piece.part_of == no_entity && !piece.removed)
-      add(piece.body, {.from = piece.from, .start = piece.start, .x = piece.x, .v = piece.v, .a = piece.a});
+      add(piece.body,
+          {.from = piece.from, .start = piece.start, .x = piece.x, .v = piece.v, .a = piece.a, .curve = piece.curve});
     else
       end(piece.body, piece.from);
   }

@@ -2,6 +2,7 @@
 // The recent paths of bodies, as pieces of polynomials.
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,7 +12,8 @@
 
 namespace carom {
 
-/// x + v s + a s^2/2 + j s^3/6, with s the time since `start`, from `from` until `until`.
+/// x + v s + a s^2/2 + j s^3/6, with s the time since `start`, from `from` until `until`. Or x and a polynomial's
+/// displacement.
 struct TrackPiece {
   double from = 0;  // s
   double until = std::numeric_limits<double>::infinity();
@@ -20,17 +22,20 @@ struct TrackPiece {
   Vec3 v = Vec3::Zero();     // m/s, at start
   Vec3 a = Vec3::Zero();     // m/s^2, at start
   Vec3 jerk = Vec3::Zero();  // m/s^3
+  std::shared_ptr<const PolynomialPath> curve{};
 
   double since(double time) const { return (time - start.hi) - start.lo; }  // s
   Vec3 position(double time) const {
     const double s = since(time);
-    return x + s * (v + s * (a / 2 + s / 6 * jerk));
+    return curve ? Vec3(x + curve->displacement_at(s)) : Vec3(x + s * (v + s * (a / 2 + s / 6 * jerk)));
   }
   Vec3 velocity(double time) const {
     const double s = since(time);
-    return v + s * (a + s / 2 * jerk);
+    return curve ? Vec3(v + curve->change_at(s)) : Vec3(v + s * (a + s / 2 * jerk));
   }
-  Vec3 acceleration(double time) const { return a + since(time) * jerk; }
+  Vec3 acceleration(double time) const {
+    return curve ? curve->acceleration(since(time)) : Vec3(a + since(time) * jerk);
+  }
 };
 
 class Tracks {

@@ -35,10 +35,11 @@ class TrailMaker {
  private:
   /// The number of chords of a piece.
   double chords(const TrackPiece& piece, double from, double until) const {
-    const double bend = std::max(piece.acceleration(from).norm(), piece.acceleration(until).norm());
-    double pixel = moment_.pixel_at(piece.position(from));
-    for (const double time : {(from + until) / 2, until})
+    double bend = piece.acceleration(from).norm(), pixel = moment_.pixel_at(piece.position(from));
+    for (const double time : {(from + until) / 2, until}) {
+      bend = std::max(bend, piece.acceleration(time).norm());
       pixel = std::min(pixel, moment_.pixel_at(piece.position(time)));
+    }
     return std::clamp(std::ceil((until - from) * std::sqrt(bend / (8 * error * pixel))), 1.0, most_points);
   }
 

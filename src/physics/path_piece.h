@@ -1,23 +1,18 @@
 #pragma once
 // A piece of a body's path, as it is recorded. The pieces of all bodies reproduce the state at any instant, bit for
 // bit, without simulation.
+#include <memory>
+
 #include "numerics/compensated.h"
+#include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 
 namespace carom {
 
-/// The difference of a velocity from that of a parabola, t after the start: t (linear + t quadratic).
-struct PathBend {
-  Vec3 linear = Vec3::Zero();     // m/s^2
-  Vec3 quadratic = Vec3::Zero();  // m/s^3
-  bool none() const { return linear.isZero(0) && quadratic.isZero(0); }
-  Vec3 at(double t) const { return t * (linear + t * quadratic); }  // m/s
-};
-
 /// A piece holds from `from` until the body's next piece. With t the time since `start`, the position is x + t (v + t a
-/// / 2) and the velocity v + t a. A kicked piece has (until - time) kick less velocity. A piece bent by contact has t
-/// (linear + t quadratic) more.
+/// / 2) and the velocity v + t a. A kicked piece has (until - time) kick less velocity. Contact with curved surfaces
+/// and with strings bends a piece to a polynomial.
 struct PathPiece {
   Entity body = no_entity;
   double from = 0;           // s, the first double at which it holds
@@ -29,7 +24,8 @@ struct PathPiece {
   bool kicked = false;
   DoubleDouble until{0, 0};  // s, the end of that step
   Vec3 kick = Vec3::Zero();  // m/s^2
-  PathBend bend{};           // in contact with a curved surface
+  // The displacement since start, until the next piece. None: a parabola.
+  std::shared_ptr<const PolynomialPath> curve{};
   // The body that it has become part of. The pieces of that body give its motion.
   Entity part_of = no_entity;
   bool removed = false;  // it has left the world

@@ -79,12 +79,12 @@ const State& Replay::state() {
   const Instant at{state_.time, 0};
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const PathPiece& piece = now_[i];
-    const Flight flight{instant(piece.start), piece.x, piece.v, piece.a};
+    const Flight flight{instant(piece.start), piece.x, piece.v, piece.a, piece.curve ? Flight::curved : 0,
+                        piece.curve.get()};
     const double t = at - flight.start;
     state_.position[i] = flight.position(t);
     state_.velocity[i] = flight.velocity(t);
     if (piece.kicked) state_.velocity[i] = without_kick(state_.velocity[i], at, instant(piece.until), piece.kick);
-    state_.velocity[i] += piece.bend.at(t);
   }
   if (!part_of_.empty()) {
     state_.mass = mass_;

@@ -98,9 +98,9 @@ class Requests {
     const bool parabolas = goes_along_parabolas(scene_.world, scene_.simulate);
     scene_.output.flights = parabolas && said.value_or(scene_.output.pictures());
     if (parabolas || !said.value_or(false)) return;
-    diagnostics_.add(
-        view.place("flights"), "`flights` need parabolas from impact to impact, and this scene has other paths",
-        "expected `flights: false`, or `engine: exact` under forces that are the same everywhere, without strings");
+    diagnostics_.add(view.place("flights"),
+                     "`flights` need parabolas from impact to impact, and this scene has other paths",
+                     "expected `flights: false`, or `engine: exact` under forces that are the same everywhere");
   }
 
   void check_video(const View& part, VideoOutput& video) {

@@ -78,7 +78,7 @@ Engine engine_of(const World& world, const Simulate& simulate) {
 }
 
 bool goes_along_parabolas(const World& world, const Simulate& simulate) {
-  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr && world.strings.empty();
+  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr;
 }
 
 std::string open_force_text(const Force& force) {

@@ -1,8 +1,7 @@
 // Constrained motion of an island by event-driven integration (Acary & Brogliato, Numerical Methods for Nonsmooth
 // Dynamical Systems, 2008, ch. 8). A step closes overlaps, takes away approaches, computes forces and picks a motion:
-// parabolas where they are exact, otherwise a method of order 8. It ends at the first change of contact. Bodies fly
-// along parabolas between two points of the path, so that the event queue treats them as any others. An island with too
-// many changes in the time of a time step is left to time stepping.
+// parabolas where they are exact, otherwise a method of order 8, whose dense output is the bodies' flight. It ends at
+// the first change of contact. An island with too many changes in the time of a time step is left to time stepping.
 #include "simulate/constrained_motion.h"
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 #include <utility>
 
 #include "geometry/path_time_of_impact.h"
-#include "numerics/cube_root.h"
 #include "numerics/disjoint_sets.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
@@ -71,32 +69,6 @@ bool ConstrainedMotion::follows(Entity i) const {
   return following.path && following.version == bodies_.body[i].version;
 }
 
-/// The velocity of its path (m/s) at an instant of its flight.
-Vec3 ConstrainedMotion::velocity(Entity i, const Instant& at) const {
-  const Following& following = following_[i];
-  const double t = std::clamp(at - following.path->start, 0.0, following.path->motion->length());
-  return following.path->motion->velocity(following.place, t);
-}
-
-void ConstrainedMotion::settle(Entity i) {
-  if (!follows(i)) return;
-  flights_.correct(i, velocity(i, bodies_.now));
-  const Instant start = bodies_.flights[i].start;
-  bend(i, std::min(bodies_.islands.piece_end[i] - start, following_[i].path->end() - start));
-}
-
-/// Sets the bend: the velocity of body i's path less that of its parabola. Both start alike and meet `length` (s) after
-/// the flight's start. Up to the fourth power of that, the bend is a multiple of 3 t^2 - 2 t length, the slope of a
-/// cubic.
-void ConstrainedMotion::bend(Entity i, double length) {
-  PathBend& bend = bodies_.islands.bend.write(i);
-  bend = {};
-  if (!(length * length > 0)) return;
-  const Flight f = bodies_.flights[i];
-  const Vec3 off = velocity(i, f.start + length) - f.velocity(length);
-  bend = {-2 / length * off, 3 / (length * length) * off};
-}
-
 /// Counts a change of an island's contacts. Returns whether the changes in the time of a time step are not too many.
 bool ConstrainedMotion::count_change(Island& island) const {
   // m/s^2 and m.
@@ -122,10 +94,7 @@ bool ConstrainedMotion::count_change(Island& island) const {
 bool ConstrainedMotion::advance(Entity i) {
   Island& island = bodies_.islands.of(i);
   const bool undisturbed = island.constrained && bodies_.now == island.planned;
-  if (!undisturbed && !bodies_.any_taut(island.members) && !count_change(island)) {
-    for (const Entity k : island.members) settle(k);
-    return false;
-  }
+  if (!undisturbed && !bodies_.any_taut(island.members) && !count_change(island)) return false;
   if (!undisturbed) take_in_touching(i);
   std::vector<Entity>& all = bodies_.islands.of(i).members;
   std::sort(all.begin(), all.end());
@@ -461,7 +430,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.length = followed.motion->length();
   island.next_length = followed.next;
   if (followed.changes) count_change(island);
-  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
+  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion)});
   if (system.works()) step.forces = std::make_shared<ConstrainedSystem>(std::move(system));
 }
 
@@ -601,53 +570,12 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;
   flights_.go_on(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
-  bodies_.islands.piece_end.write(i) = {never, 0};
-  following_.write(i).path = step.path;
-  if (step.path) {
-    following_.write(i).place = static_cast<std::uint32_t>(k);
-    begin_piece(i);
-  } else {
+  following_.write(i) = {step.path, static_cast<std::uint32_t>(k), bodies_.body[i].version};
+  if (step.path)
+    flights_.follow(i, step.path->motion->path(k));
+  else
     bodies_.flights.accelerate(i, step.a[k], step.fade);
-  }
   return true;
-}
-
-/// From this instant on body i flies along the parabola through two points of its path, with the path's velocity at the
-/// first. Between them the error is at most 4/27 of the term of third order in its length.
-void ConstrainedMotion::begin_piece(Entity i) {
-  Following& following = following_.write(i);
-  const DenseMotion& motion = *following.path->motion;
-  const std::uint32_t k = following.place;
-  const double from = bodies_.now - following.path->start, rest = motion.length() - from;
-  const double room = following.path->room;
-  const Vec3 start = motion.displacement(k, from), v = motion.velocity(k, from);
-  // The last piece is not short.
-  const auto at_most = [rest](double h) { return h >= rest ? rest : std::min(h, 0.5 * rest); };
-  double h = at_most(following.piece > 0 ? 2 * following.piece : tol::moment * motion.length());
-  Vec3 a;
-  for (;;) {
-    a = 2 / (h * h) * (motion.displacement(k, from + h) - start - h * v);
-    const double t = 2 * h / 3;
-    const double off = (motion.displacement(k, from + t) - start - t * (v + (0.5 * t) * a)).norm();
-    if (off <= room || h <= tol::moment * motion.length()) break;
-    h = at_most(h * std::clamp(0.9 * cube_root(room / off), 0.1, 0.9));
-  }
-  following.version = bodies_.body[i].version;
-  following.piece = h;
-  bodies_.flights.accelerate(i, a);
-  bodies_.islands.piece_end.write(i) = h < rest ? bodies_.now + h : Instant{never, 0};
-  bend(i, h);
-}
-
-void ConstrainedMotion::go_on(Entity i) {
-  const Path& path = *following_[i].path;
-  const std::uint32_t k = following_[i].place;
-  const Vec3 x = path.motion->start(k) + path.motion->displacement(k, bodies_.now - path.start);
-  const Vec3 v = velocity(i, bodies_.now), before = bodies_.velocity(i);
-  bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
-  flights_.go_on(i, x, v, {});
-  begin_piece(i);
-  predictor_.predict(i);
 }
 
 void ConstrainedMotion::report(const Island& island, double time, std::vector<ContactForce>& forces) const {
@@ -659,7 +587,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     const double t = now - bodies_.flights[i].start;
     group_.index.write(i) = static_cast<std::uint32_t>(x.size());
     x.push_back(bodies_.flights[i].position(t));
-    v.push_back(follows(i) ? velocity(i, now) : bodies_.flights[i].velocity(t));
+    v.push_back(bodies_.flights[i].velocity(t));
     a.push_back(bodies_.force_at(i, x.back(), v.back()));
     inverse_mass.push_back(1 / world.mass[i]);
   }

@@ -2,9 +2,9 @@
 // Constrained motion of an island: bodies that press on each other stay on each other's surfaces. Where all contacts
 // are flat, or nothing slides, paths are parabolas, and a step lasts until a contact reaches its rim. Where surfaces
 // are curved, a method of order 8 follows the motion step by step (constrained_system.h). Within a step a body flies
-// along parabolas that differ from its path by less than a step's error. All bodies take part in impacts as elsewhere,
-// except the pairs in contact. After a change the first step is a moment. It is too short for anything but impacts at
-// the same place, so that many of these cost one step.
+// along a polynomial of degree 8. All bodies take part in impacts as elsewhere, except the pairs in contact. After a
+// change the first step is a moment. It is too short for anything but impacts at the same place, so that many of these
+// cost one step.
 #include <memory>
 #include <vector>
 
@@ -32,11 +32,6 @@ class ConstrainedMotion {
   /// often, and nothing else has changed.
   bool advance(Entity i);
 
-  /// Starts the next parabola of body i's path at the present instant.
-  void go_on(Entity i);
-  /// Gives body i the velocity of its path from this instant on. Its events stay as they are.
-  void settle(Entity i);
-
   /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
@@ -45,15 +40,12 @@ class ConstrainedMotion {
   struct Path {
     Instant start;
     std::unique_ptr<DenseMotion> motion;
-    double room;  // m, allowed difference of the parabolas from it
-    Instant end() const { return start + motion->length(); }
   };
   /// The path that a body follows, if it is still on this flight.
   struct Following {
     std::shared_ptr<const Path> path;
     std::uint32_t place = 0;    // number in the path
     std::uint16_t version = 0;  // of the flight
-    double piece = 0;           // s, the last parabola's length
   };
 
   /// A step, in numbers of its own.
@@ -81,7 +73,6 @@ class ConstrainedMotion {
   };
 
   bool follows(Entity i) const;
-  Vec3 velocity(Entity i, const Instant& at) const;
   bool count_change(Island& island) const;
   void take_in_touching(Entity i);
   Step begin_step(std::vector<Entity> members) const;
@@ -106,8 +97,6 @@ class ConstrainedMotion {
   void note_contacts(const Step& step);
   void begin_flights(const Step& step);
   bool begin_flight(const Step& step, std::size_t k, Entity i);
-  void begin_piece(Entity i);
-  void bend(Entity i, double length);
   void clear_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;            // m, of a member or a fixed thing

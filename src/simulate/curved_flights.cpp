@@ -271,6 +271,12 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   return path;
 }
 
+double CurvedFlights::squared_speed(const Flight& flight, double length) {
+  double sum = 0;
+  for (const GaussPoint& node : gauss) sum += node.weight * flight.velocity(node.at * length).squaredNorm();
+  return length * sum;
+}
+
 double CurvedFlights::book_work(Entity i, const Flight& flight, double length) {
   const World& world = bodies_.world;
   double all = 0;

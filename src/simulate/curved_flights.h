@@ -26,6 +26,8 @@ class CurvedFlights {
 
   /// Books the work (J) of forces without a potential on body i in `length` (s) of its flight. Returns their sum.
   double book_work(Entity i, const Flight& flight, double length);
+  /// The integral of the squared speed over `length` (s) of a flight on a curve (m^2/s).
+  static double squared_speed(const Flight& flight, double length);
 
   /// The end of a step of a motion in closed form.
   struct Reached {
@@ -37,7 +39,7 @@ class CurvedFlights {
   }
   /// Whether body i's present flight is a step of a motion in closed form, which may have ended.
   bool follows_closed_form(Entity i) const {
-    if (closed_.empty()) [[likely]]
+    if (closed_.empty() || bodies_.in_group(i)) [[likely]]
       return false;
     const PolynomialPath* const curve = bodies_.flights.curve(i);
     return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next;

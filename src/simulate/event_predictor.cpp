@@ -125,13 +125,13 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 
 /// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.any_fades())
+  if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.fade(i) != 0)
     return meet_each(i, others, best);
   const Vec3& a = bodies_.flights.acceleration(i);
-  if (bodies_.islands.any() || !bodies_.flights.alike()) {
+  if (bodies_.islands.any() || !bodies_.flights.alike() || bodies_.flights.any_fades()) {
     alike_.clear();
     for (const Entity& e : others)
-      if (bodies_.in_group(e) || bodies_.flights.acceleration(e) != a)
+      if (bodies_.in_group(e) || bodies_.flights.acceleration(e) != a || bodies_.flights.fade(e) != 0)
         meet_each(i, {&e, 1}, best);
       else
         alike_.push_back(e);

@@ -40,8 +40,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
   const Vec3 v = flights[i].velocity(t);
-  if (!in_group(i)) return v;
-  if (is_constrained(i)) return v + islands.bend[i].at(t);
+  if (!is_stepped(i)) return v;
   return without_kick(v, at, islands.kicked_until[i], islands.kick[i]);
 }
 

@@ -70,8 +70,7 @@ struct ExactBodies {
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present
   /// The present velocity in its flight (m/s), with the kick of time stepping.
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
-  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step. It includes the
-  /// effect of curved surfaces so far.
+  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
   /// The acceleration of body i by forces at x (m) and v (m/s), in m/s^2.
   Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {
@@ -85,6 +84,8 @@ struct ExactBodies {
   void apply_forces(Entity i, const Vec3& x, const Vec3& v);
   /// Whether body i's flights, when free, are steps of a method.
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
+  /// Whether its present flight is one. A path of constrained motion is not.
+  bool flies_on_curve(Entity i) const { return flights.curve(i) != nullptr && !is_constrained(i); }
   /// Evaluates them again, if they vary with x (m) and v (m/s).
   void refresh(Entity i, const Vec3& x, const Vec3& v) {
     if (bent[i]) [[unlikely]]
@@ -93,7 +94,7 @@ struct ExactBodies {
   /// The latest end of body i's flight: the end of a step of its own or of its island.
   [[gnu::always_inline]] Instant flight_end(Entity i) const {
     Instant end{never, 0};
-    if (in_group(i)) end = islands.due(i);
+    if (in_group(i)) end = islands.of(i).end;
     if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
     return end;
   }

@@ -49,7 +49,6 @@ void ExactGroup::join(Entity i) {
   Islands& islands = bodies_.islands;
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
-  islands.bend.write(i) = {};
   margin.write(i) = 0;
   impacts.write(i) = 0;
   flat_.clear(i);
@@ -243,7 +242,6 @@ void ExactGroup::leave(Entity i) {
   for (const Entity string : bodies_.ties.of(i))
     if (const Entity other = bodies_.ties.other(string, i); other != no_entity && !pressing[other].empty())
       std::erase_if(pressing.write(other), [&](const PressingContact& contact) { return contact.partner == string; });
-  bodies_.islands.bend.write(i) = {};
 }
 
 bool ExactGroup::are_partners(Entity i, Entity e) const {

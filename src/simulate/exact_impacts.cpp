@@ -103,7 +103,7 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   const double mi = bodies_.world.mass[i], mo = bodies_.world.mass[other], share = mo / (mi + mo);
   const Vec3 towards = there.normal.dot(w) * there.normal;  // m/s
   const Vec3 v = f.velocity(bodies_.now - f.start) + (i < other ? share : -share) * towards;
-  return f.curve != nullptr ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
+  return bodies_.flies_on_curve(i) ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
 }
 
 /// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
@@ -147,7 +147,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || bodies_.load_on(a) > 0 ||
                     bodies_.load_on(b) > 0;
   // The approach begins by a change of forces.
-  const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);
+  const bool enters = met == 0 && w.dot(n) <= 0 && (bodies_.flies_on_curve(a) || bodies_.flies_on_curve(b));
   const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
@@ -281,7 +281,7 @@ bool ExactImpacts::over_at_once(const FixedImpact& impact, double left) const {
 
 bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
-  if (unkicked == 0 && (approach > 0 || bodies_.flights.curve(i) != nullptr)) return true;
+  if (unkicked == 0 && (approach > 0 || bodies_.flies_on_curve(i))) return true;
   const bool alone = flat && !parts_.collapses.among_bodies(i);
   if (parts_.collapses.count_impact(i, surface, e, unkicked, press, bodies_.world.radius[i], alone)) return true;
   const double separation = e * unkicked;

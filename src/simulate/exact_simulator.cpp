@@ -136,11 +136,6 @@ void ExactSimulator::process(Entity i) {
   bodies_.neighbours.prefetch_list(i);
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
   if (bodies_.now < event.time) bodies_.now = event.time;
-  if (bodies_.islands.any() && event.kind != Kind::step) {
-    settle(i);
-    if (event.kind == Kind::body_body) settle(event.partner);
-    if (event.kind == Kind::string) settle(bodies_.ties.other(event.partner, i));
-  }
   switch (event.kind) {
     case Kind::body_body:
       if (bodies_.body[event.partner].version == event.partner_version) {
@@ -171,8 +166,6 @@ void ExactSimulator::process(Entity i) {
     case Kind::step:
       if (bodies_.in_group(i) && event.time == bodies_.islands.of(i).end)
         step_island(i);
-      else if (bodies_.is_constrained(i) && event.time == bodies_.islands.piece_end[i])
-        constrained_.go_on(i);
       else
         end_flight(i);
       break;
@@ -181,14 +174,6 @@ void ExactSimulator::process(Entity i) {
   }
   const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
-}
-
-/// Gives body i the velocity of its path, and the same to bodies of its island that strings may pull.
-void ExactSimulator::settle(Entity i) {
-  if (i == no_entity) return;
-  constrained_.settle(i);
-  if (!bodies_.ties.any() || !bodies_.in_group(i)) return;
-  for (const Entity k : bodies_.islands.of(i).members) constrained_.settle(k);
 }
 
 /// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.

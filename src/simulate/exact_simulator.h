@@ -49,7 +49,6 @@ class ExactSimulator final : public Simulator {
   void start(const State& initial);
   void take_event(Entity i);
   void process(Entity i);
-  void settle(Entity i);
   void go_taut(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);

@@ -26,8 +26,7 @@ PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
 }
 
 void Flights::set(Entity i, const Flight& flight, const PolynomialPath& curve) {
-  if (curves_.empty()) curves_.resize(core_.size());
-  Curves& of = curves_[i];
+  Curves& of = curves_.write(i);
   of.present ^= 1u;
   of.of[of.present] = curve;
   set(i, {flight.start, flight.x, flight.v, flight.a, Flight::curved});

@@ -80,13 +80,13 @@ class Flights {
   static_assert(sizeof(Core) == 8 * sizeof(double));
 
   /// `common`: the acceleration of all bodies (m/s^2) until `set` or `accelerate` changes it.
-  Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common), fade_(bodies) {}
+  Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common), fade_(bodies), curves_(bodies) {}
 
   [[gnu::always_inline]] Flight operator[](Entity i) const {
     return {core_[i].start, core_[i].x, core_[i].v, acceleration(i), fade(i), curve(i)};
   }
   double fade(Entity i) const { return fade_[i]; }  // 1/s
-  const PolynomialPath* curve(Entity i) const { return curves_.empty() ? nullptr : curve_of(i); }
+  const PolynomialPath* curve(Entity i) const { return fade_.empty() ? nullptr : curve_of(i); }
   const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }  // at start
   const Core* cores() const { return core_.data(); }
   /// Whether all bodies have the same acceleration.
@@ -128,7 +128,7 @@ class Flights {
   Vec3 common_;
   LargeVector<Vec3> acceleration_;  // empty: all have the common one
   LazyArray<double> fade_;          // 1/s
-  std::vector<Curves> curves_;      // empty: no path is curved
+  SparseArray<Curves> curves_;
 };
 
 }  // namespace carom

@@ -26,10 +26,11 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
   bodies_.log.note_speed(speed);
   book(i, x, bodies_.now);
-  if (bodies_.in_group(i)) bodies_.islands.bend.write(i) = {};
-  const bool stepped = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh;
-  if (stepped != (stepped_[i] != 0)) {
-    stepped_.write(i) = stepped;
+  const Contact contact = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh ? Contact::stepped : Contact::none;
+  if (contact != in_contact_[i]) {
+    // The next step of its own does not continue one of contact.
+    if (in_contact_[i] == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
+    in_contact_.write(i) = contact;
     take(i, 0);
   }
   // The body falls through a time step.
@@ -177,13 +178,11 @@ void FlightChanges::change(Entity i, const Vec3& dv) {
   bodies_.flights.set(i, {f.start, f.x, f.v, f.a, f.fade});
 }
 
-void FlightChanges::correct(Entity i, const Vec3& v) {
-  const Vec3 x = bodies_.position(i), before = bodies_.velocity(i);
-  if (v == before) return;
-  paths_.note_change(i);
-  bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
-  book(i, x, bodies_.now);
-  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
+void FlightChanges::follow(Entity i, const PolynomialPath& path) {
+  Flight f = bodies_.flights[i];
+  f.a = path.acceleration(0);
+  bodies_.flights.set(i, f, path);
+  in_contact_.write(i) = Contact::followed;
 }
 
 void FlightChanges::count(Entity i) {
@@ -202,9 +201,15 @@ void FlightChanges::count_anew(Entity i) {
         event.partner_version = 0;
 }
 
-void FlightChanges::book_stepped(Entity i, const Instant& end) {
+/// Books what contact does to body i besides its forces. Returns whether these are booked too.
+bool FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
+  if (in_contact_[i] == Contact::followed) {
+    book_followed(i, x, end);
+    return true;
+  }
   bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
   book_taking(i, end);
+  return false;
 }
 
 void FlightChanges::book_taking(Entity i, const Instant& end) {
@@ -264,17 +269,39 @@ double greatest_speed(const Flight& f, double length) {
 /// contact.
 void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
-  const double length = end - f.start, mass = bodies_.world.mass[i];
+  const double length = end - f.start;
   if (!(length > 0)) return;
   const double work = curved_.book_work(i, f, length);
   if (f.curve != nullptr) return bodies_.log.note_speed(greatest_speed(f, length));
+  bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
+                      work);
+}
+
+/// Contact does no work along a path of constrained motion: what forces and the kinetic energy leave is its error.
+void FlightChanges::book_followed(Entity i, const Vec3& x, const Instant& end) {
+  const Flight f = bodies_.flights[i];
+  const double length = end - f.start, mass = bodies_.world.mass[i];
+  if (!(length > 0)) return;
+  bodies_.log.note_speed(greatest_speed(f, length));
+  if (bodies_.bent[i]) {
+    const double work = curved_.book_work(i, f, length);
+    return bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) -
+                               potential(bodies_.world, i, x) + work);
+  }
+  const Vec3 displacement = x - f.x;
+  const double fade = bodies_.fade[i], squared = fade == 0 ? 0 : CurvedFlights::squared_speed(f, length);
+  bodies_.log.deviate(kinetic_loss(i, f, length) + mass * (bodies_.applied[i].dot(displacement) - fade * squared));
+  if (!bodies_.world.forces.empty()) book_work(i, f.start.hi, displacement, squared);
+}
+
+/// The kinetic energy that body i loses in `length` (s) of its flight (J).
+double FlightChanges::kinetic_loss(Entity i, const Flight& f, double length) const {
   const Vec3 v = f.velocity(length);
-  bodies_.log.deviate(0.5 * mass * (f.v - v).dot(f.v + v) + potential(bodies_.world, i, f.x) -
-                      potential(bodies_.world, i, x) + work);
+  return 0.5 * bodies_.world.mass[i] * (f.v - v).dot(f.v + v);
 }
 
 void FlightChanges::take_out(Entity i, const Vec3& x) {
-  if (stepped_[i]) stepped_.write(i) = false;
+  if (in_contact_[i] != Contact::none) in_contact_.write(i) = Contact::none;
   take(i, 0);
   bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
   bodies_.body[i].set_origin({});

@@ -15,7 +15,7 @@ class FlightChanges {
         flat_(flat),
         paths_(paths),
         curved_(bodies),
-        stepped_(bodies.body.size()),
+        in_contact_(bodies.body.size()),
         taking_(bodies.body.size()) {}
 
   /// Begins a new flight of body i at the present instant, at x (m) with velocity v (m/s). A step of constrained motion
@@ -54,13 +54,14 @@ class FlightChanges {
   void take(Entity i, double power) {
     if (power != taking_[i]) taking_.write(i) = power;
   }
-  /// Continues body i's flight with the corrected velocity v (m/s). Its events stay.
-  void correct(Entity i, const Vec3& v);
+  /// Lets the flight of member i, which has just begun, follow this path of constrained motion.
+  void follow(Entity i, const PolynomialPath& path);
   /// Books the effect of forces on body i for the flight that ends at x (m) and `end`.
   /// These are the World's forces, and contact forces against them.
   [[gnu::always_inline]] void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
-    if (stepped_[i]) book_stepped(i, end);
+    if (in_contact_[i] != Contact::none && book_contact(i, x, end)) [[unlikely]]
+      return;
     if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
@@ -84,19 +85,23 @@ class FlightChanges {
   void curve(Entity i, Flight from, bool free);
   [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
   [[gnu::noinline]] void note_power(Entity i);
-  void book_stepped(Entity i, const Instant& end);
+  bool book_contact(Entity i, const Vec3& x, const Instant& end);
+  void book_followed(Entity i, const Vec3& x, const Instant& end);
   void book_taking(Entity i, const Instant& end);
   void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);
+  double kinetic_loss(Entity i, const Flight& f, double length) const;
 
   ExactBodies& bodies_;
   FlatContacts& flat_;
   PathLog& paths_;
   CurvedFlights curved_;
-  LazyArray<std::uint8_t> stepped_;  // by body: whether this flight is one of time stepping
-  LazyArray<double> taking_;         // W, by body: power taken by impacts within its time step
-  bool ended_ = false;               // the last flights are booked
+  // What moves a body in its flight: parabolas or free motion, time stepping, or a path of constrained motion.
+  enum class Contact : std::uint8_t { none, stepped, followed };
+  LazyArray<Contact> in_contact_;  // by body
+  LazyArray<double> taking_;       // W, by body: power taken by impacts within its time step
+  bool ended_ = false;             // the last flights are booked
 };
 
 }  // namespace carom

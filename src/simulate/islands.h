@@ -11,7 +11,6 @@
 #include "geometry/contact_time.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
-#include "physics/path_piece.h"
 #include "simulate/instant.h"
 #include "simulate/lazy_array.h"
 
@@ -44,28 +43,15 @@ struct Island {
 
 class Islands {
  public:
-  explicit Islands(Entity bodies)
-      : kicked_until(bodies),
-        kick(bodies, Vec3::Zero()),
-        piece_end(bodies, Instant{never, 0}),
-        bend(bodies),
-        island_(bodies, none) {}
+  explicit Islands(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()), island_(bodies, none) {}
 
   // By member, in time stepping: its velocity contains forces up to this instant.
   LazyArray<Instant> kicked_until;
   LazyArray<Vec3> kick;  // m/s^2: the average of these forces, from the start of the flight
-  // By member, in constrained motion: the end of its present parabola along its path.
-  LazyArray<Instant> piece_end;
-  LazyArray<PathBend> bend;  // the velocity of its path less that of its flight until then
 
   /// The island of a member. References stay valid until it is merged with another one.
   Island& of(Entity i) { return islands_[island_[i]]; }
   const Island& of(Entity i) const { return islands_[island_[i]]; }
-  /// The end of a member's flight: that of its island's step, or of its parabola along a path.
-  Instant due(Entity i) const {
-    const Island& island = of(i);
-    return island.constrained ? std::min(island.end, piece_end[i]) : island.end;
-  }
   bool same(Entity a, Entity b) const { return island_[a] == island_[b]; }
   bool any() const { return count_ > 0; }
 

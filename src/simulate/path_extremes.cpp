@@ -114,9 +114,6 @@ void PathExtremes::take(Entity i, const Instant& until, std::vector<Extremes>& f
   if (bodies_.is_stepped(i) && !bodies_.islands.kick[i].isZero(0)) {
     part.more[0] = -(bodies_.islands.kicked_until[i] - f.start) * bodies_.islands.kick[i];
     part.more[1] = bodies_.islands.kick[i];
-  } else if (bodies_.is_constrained(i)) {
-    part.more[1] = bodies_.islands.bend[i].linear;
-    part.more[2] = bodies_.islands.bend[i].quadratic;
   } else if (f.curve != nullptr) {
     part.more[0] = -f.curve->ahead;
   }

@@ -71,7 +71,7 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
     piece.until = {until.hi, until.lo};
     piece.kick = bodies_.islands.kick[i];
   }
-  if (bodies_.is_constrained(i)) piece.bend = bodies_.islands.bend[i];
+  if (f.curve != nullptr) piece.curve = std::make_shared<PolynomialPath>(*f.curve);
   if (bodies_.merged.any()) {
     const Entity whole = bodies_.merged.whole_of()[i];
     piece.removed = whole == no_entity;

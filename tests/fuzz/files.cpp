@@ -81,7 +81,10 @@ std::string flights() {
   step.kicked = true;
   step.until = {0.175, 1e-19};
   step.kick = Vec3(0, -1, 0);
-  step.bend = {Vec3(0.25, 0, -3), Vec3(0, 2, 0)};
+  PolynomialPath curve = PolynomialPath::parabola(0.5, Vec3(1, 1, 1), Vec3(0, -10, 0));
+  curve.displacement.back() = Vec3(0, 1, -2);
+  PathPiece curved{2, 0.17, {0.17, 0}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3(0, -10, 0)};
+  curved.curve = std::make_shared<PolynomialPath>(curve);
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -89,7 +92,7 @@ std::string flights() {
   joint.mass = 3;
   joint.radius = 0.125;
   joint.half = Vec3::Constant(0.125);
-  for (const PathPiece& piece : {step, part, joint}) pieces.push_back(piece);
+  for (const PathPiece& piece : {step, curved, part, joint}) pieces.push_back(piece);
   FlightsFile file({folder().descriptor(), folder().path()}, small_scene());
   file.record_paths(pieces);
   file.end(Tally{});
@@ -191,9 +194,11 @@ void read_flights_bytes(std::string_view bytes) {
       if (piece.part_of != no_entity && piece.part_of >= scene.world.body_count()) throw Finding("part of no body");
       if (!(piece.from >= last)) throw Finding("paths that go back in time");
       if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.kick.allFinite() ||
-          !piece.bend.linear.allFinite() || !piece.bend.quadratic.allFinite() ||
           !std::isfinite(piece.start.hi + piece.start.lo) || !std::isfinite(piece.until.hi + piece.until.lo))
         throw Finding("a path that is not finite");
+      if (piece.curve)
+        for (const Vec3& term : piece.curve->displacement)
+          if (!term.allFinite() || !(piece.curve->length > 0)) throw Finding("a curve that is not finite");
       if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&
                            std::isfinite(piece.radius)))
         throw Finding("a joint body without mass or size");

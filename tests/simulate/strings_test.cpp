@@ -850,7 +850,8 @@ TEST(Strings, RecordedPiecesOfPathsGiveTheStateOfASwing) {
     } while (simulator->time() < time);
     for (const PathPiece& piece : last) {
       const double t = (time - piece.start.hi) - piece.start.lo;
-      EXPECT_EQ(simulator->state().position[piece.body], Vec3(piece.x + t * (piece.v + (0.5 * t) * piece.a))) << time;
+      const Vec3 moved = piece.curve ? piece.curve->displacement_at(t) : Vec3(t * (piece.v + (0.5 * t) * piece.a));
+      EXPECT_EQ(simulator->state().position[piece.body], Vec3(piece.x + moved)) << time;
     }
   }
 }
