@@ -2,7 +2,7 @@
 // flights.bin: the paths of a run's bodies, from which the state at any instant can be computed, bit for bit.
 //
 // The format is little-endian, with doubles as in IEEE 754. A header of 32 bytes comes first:
-//   8 bytes "caromfly", u32 version (4), u32 0x01020304, u64 number of bodies, f64 duration (s)
+//   8 bytes "caromfly", u32 version (5), u32 0x01020304, u64 number of bodies, f64 duration (s)
 // Then come entries, sorted by the time from which they hold.
 // Each is u32 body (in the order of the scene file), u32 flags, and for each flag set, in this order:
 //   always   start: f64 hi, f64 lo (s, their sum); x, y, z (m) and vx, vy, vz (m/s) at start
@@ -11,10 +11,11 @@
 //   4        until: f64 hi, f64 lo (s); hx, hy, hz (m/s^2)
 //   8        the body has merged into another: u64 which; the other one's entries are its own from here on
 //   16       others have merged into it; its new f64 mass (kg), f64 radius (m), 3 f64 half extents (m)
-//   32       bx, by, bz (m/s^2), cx, cy, cz (m/s^3)
+//   32       f64 length L (s), then c1 to c8: x, y, z (m) of each
 //   64       the body has left the world
 // At a time T let s = (T - hi) - lo. The position is x + s (v + (s/2) a), and the velocity is v + s a.
-// Flag 4 subtracts (until - T) h from the velocity. Flag 32 adds s (b + s c) to it.
+// With flag 32 the position is x + c1 u + ... + c8 u^8, where u = s / L, and the velocity is v + (2 c2 u + ... + 8 c8 u^7)
+// / L, both by Horner's scheme. Flag 4 subtracts (until - T) h from the velocity.
 // The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
 //   u64: entries, body-body collisions, body-fixed collisions, merges, clusters that became lasting contacts,
 //        bodies at rest at the end, impacts that contact took up

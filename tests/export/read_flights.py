@@ -8,7 +8,7 @@ import sys
 
 data, time, at = open(sys.argv[1], "rb").read(), float(sys.argv[2]), 32
 magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
-assert (magic, version, order) == (b"caromfly", 4, 0x01020304)
+assert (magic, version, order) == (b"caromfly", 5, 0x01020304)
 path, whole, a = [None] * bodies, list(range(bodies)), [None] * bodies
 while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
     (body, has), at = entry, at + 8
@@ -26,17 +26,24 @@ while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
         break
     whole[body] = take(1, "Q")[0] if has & 8 else whole[body]
     joint = take(5) if has & 16 else None  # mass, radius, half extents
-    bend = (take(3), take(3)) if has & 32 else None
-    path[body] = hi, lo, x, v, a[body], until, kick, bend
+    curve = (take(1)[0], [take(3) for _ in range(8)]) if has & 32 else None
+    path[body] = hi, lo, x, v, a[body], until, kick, curve
 for body in range(bodies):
     while whole[body] != body:
         body = whole[body]
-    hi, lo, x, v, acceleration, until, kick, bend = path[body]
+    hi, lo, x, v, acceleration, until, kick, curve = path[body]
     s = (time - hi) + (0 - lo)
-    x = [p + s * (u + (0.5 * s) * g) for p, u, g in zip(x, v, acceleration)]
-    v = [u + s * g for u, g in zip(v, acceleration)]
+    if curve:
+        length, terms = curve
+        way, change = [0.0] * 3, [0.0] * 3
+        for k in range(8, 0, -1):
+            way = [w * (s / length) + c for w, c in zip(way, terms[k - 1])]
+            change = [w * (s / length) + k * c for w, c in zip(change, terms[k - 1])] if k > 1 else change
+        x = [p + w * (s / length) for p, w in zip(x, way)]
+        v = [u + w * (s / length) / length for u, w in zip(v, change)]
+    else:
+        x = [p + s * (u + (0.5 * s) * g) for p, u, g in zip(x, v, acceleration)]
+        v = [u + s * g for u, g in zip(v, acceleration)]
     if kick:
         v = [u - ((until[0] - time) + until[1]) * k for u, k in zip(v, kick)]
-    if bend:
-        v = [u + s * (b + s * c) for u, b, c in zip(v, *bend)]
     print(*(number.hex() for number in x + v))
