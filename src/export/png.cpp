@@ -75,6 +75,8 @@ std::size_t PngEncoder::compress() {
   work_.resize(ISAL_DEF_LVL1_DEFAULT);
   isal_zstream stream;
   isal_deflate_stateless_init(&stream);
+  // The largest window. ISA-L 2.30 initialises all but this.
+  stream.hist_bits = 0;
   stream.level = 1;
   stream.level_buf = work_.data();
   stream.level_buf_size = static_cast<std::uint32_t>(work_.size());

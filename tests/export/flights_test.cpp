@@ -127,8 +127,9 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {
   const TempFolder folder;
   store(folder, small_scene());
-  const std::uintmax_t ends = 32 + 136, first = 4 * 96, bounce = 96, late = 80, step = 184, part = 104, joint = 136;
-  EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + part + joint);
+  const std::uintmax_t ends = 32 + 136, first = 4 * 96, bounce = 96, late = 80, step = 136, curve = 72 + 8 + 8 * 24,
+                       part = 104, joint = 136;
+  EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + curve + part + joint);
 }
 
 TEST(Flights, CutOffAnywhereAreRefused) {

@@ -98,6 +98,21 @@ TEST(Png, HasTheSameBytesOnEveryProcessorWithSse42) {
             "e3d0c88a47de7c76e70a79f95f8f961475ec961fee8be5e10002f4792cc65589");
 }
 
+/// Leaves such numbers where the next calls have their variables.
+[[gnu::noinline]] void fill_stack(std::uint32_t number) {
+  volatile std::uint32_t numbers[65536];
+  for (volatile std::uint32_t& place : numbers) place = number;
+}
+
+TEST(Png, HasTheSameBytesWhateverMemoryHeld) {
+  const Image image = picture({48, 32}, 3);
+  const std::string bytes = encode_png(image);
+  for (std::uint32_t bits = 1; bits < 15; ++bits) {
+    fill_stack(bits << 16 | bits);
+    EXPECT_EQ(encode_png(image), bytes) << bits;
+  }
+}
+
 TEST(Png, AnImageThatIsNoneIsRefused) {
   EXPECT_THROW(encode_png({0, 0, {}}), ExportError);
   EXPECT_THROW(encode_png({2, 2, std::vector<std::uint8_t>(11)}), ExportError);
