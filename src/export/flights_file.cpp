@@ -37,7 +37,7 @@ enum Has : std::uint32_t {
   has_all = 127
 };
 
-constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8, end_size = 8 * 8;
+constexpr std::size_t header_size = 32, tail_size = 8 + 17 * 8, end_size = 8 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 1 + 3 * PolynomialPath::terms) * 8;
 
 /// The default of `from` where an entry has none.
@@ -145,8 +145,8 @@ void FlightsFile::end(const Tally& tally) {
   }
   writer.put(last_entry);
   writer.put(std::uint32_t{has_end});
-  for (const std::uint64_t count : {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses,
-                                    tally.resting, tally.taken_up.impacts})
+  for (const std::uint64_t count : {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.tautened,
+                                    tally.collapses, tally.resting, tally.taken_up.impacts})
     writer.put(count);
   for (const double value :
        {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed,
@@ -183,8 +183,8 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   const auto has_end = take<std::uint32_t>();
   if (has_end > 1 || (has_end == 1 && size < header_size + end_size + tail_size)) refuse("it is truncated");
   entries_ = take<std::uint64_t>();
-  for (std::uint64_t* count : {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses,
-                               &tally_.resting, &tally_.taken_up.impacts})
+  for (std::uint64_t* count : {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.tautened,
+                               &tally_.collapses, &tally_.resting, &tally_.taken_up.impacts})
     *count = take<std::uint64_t>();
   for (double* value :
        {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work, &tally_.max_overlap,

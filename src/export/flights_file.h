@@ -17,8 +17,8 @@
 // With flag 32 the position is x + c1 u + ... + c8 u^8, where u = s / L, and the velocity is v + (2 c2 u + ... + 8 c8 u^7)
 // / L, both by Horner's scheme. Flag 4 subtracts (until - T) h from the velocity.
 // The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
-//   u64: entries, body-body collisions, body-fixed collisions, merges, clusters that became lasting contacts,
-//        bodies at rest at the end, impacts that contact took up
+//   u64: entries, body-body collisions, body-fixed collisions, merges, strings that went taut, clusters that became
+//        lasting contacts, bodies at rest at the end, impacts that contact took up
 //   f64: first and last collision (s, NaN: none), energy lost (J), work (J), deepest overlap (m), greatest speed (m/s),
 //        lasting contact computed by time stepping (s, summed over bodies), and of the impacts that contact took up
 //        the fastest (m/s) and their energy (J)

@@ -62,7 +62,7 @@ TEST_P(Rendered, WithoutAChangeHasTheBytesOfTheRun) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Rendered,
                          ::testing::Values("bouncing_ball", "clay", "rolling_off", "wall_fly_over", "ten_pins", "gust",
-                                           "pyramid", "two_bowling_balls_e11", "gas_in_a_room"),
+                                           "pyramid", "two_bowling_balls_e11", "gas_in_a_room", "slack_pendulum"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {

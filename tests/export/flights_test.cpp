@@ -49,6 +49,7 @@ Tally some_tally() {
   Tally tally;
   tally.body_body = 7;
   tally.merges = 1;
+  tally.tautened = 2;
   tally.last_collision = 0.1875;
   tally.max_speed = 12;
   tally.stepped_contact = 0.5;
@@ -115,6 +116,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_FALSE(reader.next(got));
   EXPECT_EQ(reader.tally().body_body, 7u);
   EXPECT_EQ(reader.tally().merges, 1u);
+  EXPECT_EQ(reader.tally().tautened, 2u);
   EXPECT_TRUE(std::isnan(reader.tally().first_collision));
   EXPECT_EQ(reader.tally().last_collision, 0.1875);
   EXPECT_EQ(reader.tally().max_speed, 12);
@@ -127,7 +129,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {
   const TempFolder folder;
   store(folder, small_scene());
-  const std::uintmax_t ends = 32 + 136, first = 4 * 96, bounce = 96, late = 80, step = 136, curve = 72 + 8 + 8 * 24,
+  const std::uintmax_t ends = 32 + 144, first = 4 * 96, bounce = 96, late = 80, step = 136, curve = 72 + 8 + 8 * 24,
                        part = 104, joint = 136;
   EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + curve + part + joint);
 }
@@ -172,9 +174,11 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   const Scene scene = small_scene();
   store(folder, scene);
   const std::string whole = read(folder / "flights.bin");
-  // Of the first entry: start, its lower part, x, vy, az; of the last one, of a joint body: mass, radius, half.
-  const std::size_t first = 32 + 8, end = whole.size() - 136;
-  for (const std::size_t at : {first, first + 8, first + 16, first + 48, first + 80, end - 40, end - 32, end - 8}) {
+  // Of the first entry: start, its lower part, x, vy, az; of a curve: length, a term; of the last
+  // one, of a joint body: mass, radius, half.
+  const std::size_t first = 32 + 8, end = whole.size() - 144, curve = end - 136 - 104 - 200;
+  for (const std::size_t at :
+       {first, first + 8, first + 16, first + 48, first + 80, curve, curve + 56, end - 40, end - 32, end - 8}) {
     std::string damaged = whole;
     damaged.replace(at, 8, std::string("\0\0\0\0\0\0\xF0\x7F", 8));  // infinity
     write(folder / "flights.bin", damaged);
