@@ -237,10 +237,9 @@ constexpr OutputKind all_kinds[] = {
      .draws = true},
     {.name = "flights",
      .doc =
-         "flights.bin: the paths of the bodies, from which carom render draws other pictures. Only for paths that are "
-         "parabolas. Default: true with pictures. With --only they are written only if it names them, as with `only` "
-         "of a "
-         "sweep.",
+         "flights.bin: the paths of the bodies, from which carom render draws other pictures. Only where free flight "
+         "is along parabolas. Default: true with pictures. With --only they are written only if it names them, as with "
+         "`only` of a sweep.",
      .example = "true",
      .member = flag<&Output::flights, fills_if_given<Output, &Output::flights>>,
      .files = "flights.bin"},
