@@ -204,7 +204,7 @@ void FlightChanges::count_anew(Entity i) {
 /// Books what contact does to body i besides its forces. Returns whether these are booked too.
 bool FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
   if (in_contact_[i] == Contact::followed) {
-    book_followed(i, x, end);
+    bodies_.bent[i] ? book_varying(i, x, end) : book_followed(i, x, end);
     return true;
   }
   bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
@@ -266,28 +266,24 @@ double greatest_speed(const Flight& f, double length) {
 }  // namespace
 
 /// The effect of forces on a free flight is in the potential and in their work. For other flights the rest is due to
-/// contact.
+/// contact, which does no work: it is the method's error.
 void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
   const double length = end - f.start;
   if (!(length > 0)) return;
   const double work = curved_.book_work(i, f, length);
-  if (f.curve != nullptr) return bodies_.log.note_speed(greatest_speed(f, length));
+  if (f.curve != nullptr) bodies_.log.note_speed(greatest_speed(f, length));
+  if (f.curve != nullptr && in_contact_[i] != Contact::followed) return;
   bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
                       work);
 }
 
-/// Contact does no work along a path of constrained motion: what forces and the kinetic energy leave is its error.
+/// The same for a path of constrained motion under forces that are constant except for linear drag.
 void FlightChanges::book_followed(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
   const double length = end - f.start, mass = bodies_.world.mass[i];
   if (!(length > 0)) return;
   bodies_.log.note_speed(greatest_speed(f, length));
-  if (bodies_.bent[i]) {
-    const double work = curved_.book_work(i, f, length);
-    return bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) -
-                               potential(bodies_.world, i, x) + work);
-  }
   const Vec3 displacement = x - f.x;
   const double fade = bodies_.fade[i], squared = fade == 0 ? 0 : CurvedFlights::squared_speed(f, length);
   bodies_.log.deviate(kinetic_loss(i, f, length) + mass * (bodies_.applied[i].dot(displacement) - fade * squared));
