@@ -172,12 +172,23 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   struct stat info {};
   if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is not a file");
   const auto size = static_cast<std::uint64_t>(info.st_size);
+  // The header tells whether the rest is what is expected.
+  left_ = size;
+  fill(header_size);
+  if (end_ < header_size) refuse("it is truncated");
+  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
+  at_ = magic.size();
+  if (take<std::uint32_t>() != version) refuse("another version of carom wrote it");
+  if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
   if (size < header_size + tail_size) refuse("it is truncated");
+  if (take<std::uint64_t>() != scene.world.body_count() || take<double>() != scene.simulate.duration)
+    refuse("it belongs to another scene");
 
   char tail[tail_size];
   if (pread(file_.get(), tail, tail_size, static_cast<off_t>(size - tail_size)) != static_cast<ssize_t>(tail_size))
     refuse("it cannot be read");
   std::memcpy(buffer_.data(), tail, tail_size);
+  at_ = 0;
   end_ = tail_size;
   if (take<std::uint32_t>() != last_entry) refuse("it is truncated");
   const auto has_end = take<std::uint32_t>();
@@ -192,15 +203,9 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
     *value = take<double>();
 
   at_ = end_ = 0;
-  left_ = size - tail_size;
-  if (has_end == 1) take_end(left_ -= end_size, scene);
-  fill(header_size);
-  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
-  at_ += magic.size();
-  if (take<std::uint32_t>() != version) refuse("another version of carom wrote it");
-  if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
-  if (take<std::uint64_t>() != scene.world.body_count() || take<double>() != scene.simulate.duration)
-    refuse("it belongs to another scene");
+  left_ = size - tail_size - header_size;
+  if (has_end == 1) take_end(header_size + (left_ -= end_size), scene);
+  if (lseek(file_.get(), header_size, SEEK_SET) != header_size) refuse("it cannot be read");
 }
 
 /// Reads what has ended the run, at `offset` in the file, and what it has lost.

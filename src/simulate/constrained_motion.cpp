@@ -602,9 +602,10 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
       if (second != no_entity && group_.index[second] == ContactConstraint::fixed) continue;
       const std::uint32_t k = group_.index[i],
                           other = second != no_entity ? group_.index[second] : ContactConstraint::fixed;
-      const Vec3 xe = at(x, e);
+      const Vec3 xe = second != no_entity ? x[other] : bodies_.fixed_position(e, now);
+      const Vec3 ve = second != no_entity ? v[other] : bodies_.fixed_velocity(e, now);
       const Touch there = touch(world, i, x[k], e, xe);
-      const double bend = bending(world, i, x[k], e, xe, there, rate(v, e) - v[k]);
+      const double bend = bending(world, i, x[k], e, xe, there, ve - v[k]);
       pairs.push_back({k, other, there.normal, -bend});
       pairs.back().bilateral = string && world.string(e).rod;
       names.emplace_back(i, e);

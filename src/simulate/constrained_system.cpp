@@ -241,6 +241,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
 /// the parabola by less than the method's error.
 double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const {
   double h = never;
+  const double fade = std::max(common_fade(), 0.0);
   const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& [i, e, feature] = contacts[c];
@@ -250,6 +251,8 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
       const double w = relative_velocity(v, rows[c], e).norm(), bent = relative(a, rows[c]).norm() + w * w / bend;
       if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
       if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
+      // On a path that drag bends the acceleration decays, and that across the surface does not.
+      if (fade * w > 0) h = std::min(h, std::max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
     }
   };
   keep(closed_, rows_);

@@ -100,9 +100,15 @@ struct ExactBodies {
   }
   /// The present position of a body or a fixed thing (m).
   Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : fixed_position(e); }
-  /// The present position (m) and velocity (m/s) of a fixed thing.
-  Vec3 fixed_position(Entity e) const { return moving.any() ? moving.position(e, now) : world.fixed_position(e); }
-  Vec3 fixed_velocity(Entity e) const { return moving.any() ? moving.velocity(e, now) : Vec3(Vec3::Zero()); }
+  /// The position (m) and velocity (m/s) of a fixed thing, at present or at an instant.
+  Vec3 fixed_position(Entity e) const { return fixed_position(e, now); }
+  Vec3 fixed_velocity(Entity e) const { return fixed_velocity(e, now); }
+  Vec3 fixed_position(Entity e, const Instant& at) const {
+    return moving.any() ? moving.position(e, at) : world.fixed_position(e);
+  }
+  Vec3 fixed_velocity(Entity e, const Instant& at) const {
+    return moving.any() ? moving.velocity(e, at) : Vec3(Vec3::Zero());
+  }
   /// Whether body i cannot strike a fixed thing, because it lies behind a flat surface of normal n, towards the body,
   /// that moves at this velocity (m/s) and carries the body. A thing that comes out of the surface is not hidden.
   bool hidden(Entity i, const Vec3& x, Entity fixed, const Vec3& n, const Vec3& velocity) const {

@@ -17,6 +17,8 @@ namespace {
 // Collisions that one event causes, as a rule at most.
 constexpr std::size_t collisions_of_event = 8;
 constexpr std::uint32_t events_at_a_time = 65536;
+// A step of an island takes as long as so many impacts for each of its bodies.
+constexpr std::uint32_t events_of_a_step = 64;
 // Number of bodies with data that fit into a processor's cache.
 constexpr Entity cached_bodies = 24576;
 
@@ -98,9 +100,9 @@ void ExactSimulator::advance_to(double time) {
                            false))
           continue;
       }
-      take_event(i);
+      events += take_event(i);
       // After many events without a result, the caller may need to check the clock.
-      if (++events % events_at_a_time == 0 && before_now() > time_) {
+      if (events >= events_at_a_time && before_now() > time_) {
         time_ = before_now();
         return crossings_.sort();
       }
@@ -119,8 +121,8 @@ void ExactSimulator::advance_to(double time) {
   flights_.book_last(time_);
 }
 
-/// Takes body i's next event, or its exit from its region.
-void ExactSimulator::take_event(Entity i) {
+/// Takes body i's next event, or its exit from its region. Returns how many events take as long.
+std::uint32_t ExactSimulator::take_event(Entity i) {
   ++effort_.events;
   if (!queue_.leaves_first(i)) return process(i);
   if (bodies_.now.hi < queue_.first_time()) bodies_.now = {queue_.first_time(), 0};
@@ -128,11 +130,13 @@ void ExactSimulator::take_event(Entity i) {
   predictor_.renew_region(i);
   bodies_.neighbours.tidy();
   guard_.count(StallGuard::Happened::region_left, bodies_.now.hi);
+  return 1;
 }
 
-void ExactSimulator::process(Entity i) {
+std::uint32_t ExactSimulator::process(Entity i) {
   using Kind = ExactEvent::Kind;
   const ExactEvent event = bodies_.body[i].event;
+  std::uint32_t weight = 1;
   bodies_.neighbours.prefetch_list(i);
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
   if (bodies_.now < event.time) bodies_.now = event.time;
@@ -164,16 +168,19 @@ void ExactSimulator::process(Entity i) {
       release(i, event.partner, event.feature);
       break;
     case Kind::step:
-      if (bodies_.in_group(i) && event.time == bodies_.islands.of(i).end)
+      if (bodies_.in_group(i) && event.time == bodies_.islands.of(i).end) {
+        weight = events_of_a_step * static_cast<std::uint32_t>(bodies_.islands.of(i).members.size());
         step_island(i);
-      else
+      } else {
         end_flight(i);
+      }
       break;
     case Kind::none:
       break;
   }
   const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
+  return weight;
 }
 
 /// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.

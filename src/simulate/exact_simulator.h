@@ -33,7 +33,9 @@ class ExactSimulator final : public Simulator {
   std::span<const PathPiece> paths() const override { return paths_.pieces(); }
   std::span<const RegionCrossing> crossings() const override { return crossings_.recorded(); }
   const Tally& tally() const override { return bodies_.log.tally(); }
-  std::vector<Extremes> extremes() const override { return paths_.extremes().up_to(time_); }
+  std::vector<Extremes> extremes() const override {
+    return paths_.extremes().up_to(tally().end ? std::min(time_, tally().end->time) : time_);
+  }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
 
@@ -47,8 +49,8 @@ class ExactSimulator final : public Simulator {
   };
 
   void start(const State& initial);
-  void take_event(Entity i);
-  void process(Entity i);
+  std::uint32_t take_event(Entity i);
+  std::uint32_t process(Entity i);
   void go_taut(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);

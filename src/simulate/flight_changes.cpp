@@ -25,6 +25,7 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   const double speed = v.norm();
   bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
   bodies_.log.note_speed(speed);
+  if (bodies_.is_constrained(i)) bodies_.log.note_speed(bodies_.velocity(i).norm());
   book(i, x, bodies_.now);
   const Contact contact = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh ? Contact::stepped : Contact::none;
   if (contact != in_contact_[i]) {
@@ -248,14 +249,13 @@ void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, d
 
 namespace {
 
-/// The greatest speed of a flight on a curve (m/s), in `length` (s) of it. Within a step the speed rises and falls only
-/// once.
+/// The greatest speed of a flight on a curve (m/s), after its start, in `length` (s) of it. Within a step the speed
+/// rises and falls only once.
 double greatest_speed(const Flight& f, double length) {
   const Vec3 ahead = f.curve->ahead;
   const auto rise = [&](double t) { return (f.velocity(t) - ahead).dot(f.curve->acceleration(t)); };
   double rising = 0, falling = length;
-  // The speeds at both ends are noted elsewhere.
-  if (!(rise(rising) > 0 && rise(falling) < 0)) return 0;
+  if (!(rise(rising) > 0 && rise(falling) < 0)) return (f.velocity(length) - ahead).norm();
   for (int k = 0; k < 24; ++k) {
     const double middle = 0.5 * (rising + falling);
     (rise(middle) > 0 ? rising : falling) = middle;

@@ -394,7 +394,7 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
 // The record as another program reads it: 40 lines of Python.
 TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
   const Workplace here;
-  for (const std::string scene : {"two_bowling_balls", "clay", "rolling_off", "gust", "slack_pendulum"}) {
+  for (const std::string scene : {"two_bowling_balls", "clay", "rolling_off", "gust", "slack_pendulum", "pockets"}) {
     const Finished run = here.carom({"run", SCENES_DIR "/" + scene + ".yaml", "-o", scene, "--only",
                                      "trajectory,flights", "--set", "output.trajectory.every=0.37"});
     ASSERT_EQ(run.code, 0) << run.err;

@@ -9,9 +9,10 @@ import sys
 data, time, at = open(sys.argv[1], "rb").read(), float(sys.argv[2]), 32
 magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
 assert (magic, version, order) == (b"caromfly", 5, 0x01020304)
+(entries,) = struct.unpack_from("<Q", data, len(data) - 136)
 path, whole, a = [None] * bodies, list(range(bodies)), [None] * bodies
-while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
-    (body, has), at = entry, at + 8
+for _ in range(entries):
+    (body, has), at = struct.unpack_from("<II", data, at), at + 8
 
     def take(count, kind="d"):
         global at

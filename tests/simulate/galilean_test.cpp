@@ -217,6 +217,22 @@ TEST(Galilean, AllKindsOfContactAreTheSameInAFrameThatMoves) {
       expect_same(of, u, Integrator::dop853, 0);
 }
 
+TEST(Galilean, ForcesOnCurvedSurfacesAreTheSameAtEachInstant) {
+  const Problem still = off_a_ball(), drifting = moving(still, {0.3, -0.7, 0.2});
+  const auto at_rest = make_exact_simulator(still.world, still.initial, still.options);
+  const auto moves = make_exact_simulator(drifting.world, drifting.initial, drifting.options);
+  std::size_t forces = 0;
+  for (double t = 0.0137; t < 0.3; t += 0.0137) {
+    go_to(*at_rest, t);
+    go_to(*moves, t);
+    const std::span<const ContactForce> a = at_rest->contacts(), b = moves->contacts();
+    ASSERT_EQ(a.size(), b.size()) << t;
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k].force, b[k].force, 1e-10) << t;
+    forces += a.size();
+  }
+  EXPECT_GT(forces, 20u);
+}
+
 TEST(Galilean, FlightsInStepsAreTheSameInAFrameThatMoves) {
   for (const Integrator integrator : {Integrator::verlet, Integrator::rk4})
     for (const Case& of : {Case{"in wind", in_wind, 1e-9}, Case{"in thick air", in_thick_air, 1e-9}})

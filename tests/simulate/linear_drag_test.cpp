@@ -232,6 +232,24 @@ TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
   }
 }
 
+TEST(LinearDrag, ABallCreepsOverAGlobeInThickAir) {
+  for (const double linear : {2e3, 2e4, 2e5}) {
+    Problem problem;
+    problem.world.gravity = {0, -OffAGlobe::g, 0};
+    OffAGlobe reference{linear / 2};
+    problem.ball(OffAGlobe::reach * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
+    problem.obstacle({0, 0, 0}, Volume::sphere(1));
+    problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
+    problem.options.duration = 0.5;
+    const Outcome got = run(problem);
+    const int steps = static_cast<int>(4 * linear);  // a sixteenth of the time in which drag decays
+    for (int k = 0; k < steps; ++k) reference.step(0.5 / steps);
+    const Vec3 out(std::sin(reference.angle), std::cos(reference.angle), 0);
+    EXPECT_LT((got.end.position[0] - OffAGlobe::reach * out).norm(), 1e-12) << linear;
+    EXPECT_EQ(got.tally.collisions(), 0u) << linear;
+  }
+}
+
 /// Balls of many sizes in a closed box, in units of length, time and mass: some of them come to rest on each other.
 Problem in_units(double length, double time, double mass, double linear, int seed) {
   Random random(seed);

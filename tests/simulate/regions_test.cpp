@@ -463,6 +463,19 @@ TEST(Stops, AtTheInstantOfACrossing) {
   EXPECT_NEAR((run.end.position[run.crossings[0].body] - Vec3(1.5, -1.5, 1.5)).norm(), 0.5, 1e-15);
 }
 
+TEST(Stops, EndWhatIsWatched) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  const Entity ball = problem.ball({0, 0, 0}, Vec3::Zero(), 1, 0.1);
+  problem.world.regions = {stopping(region_at({0, -2, 0}, Volume::box({10, 2, 10})))};
+  problem.options.duration = 5;
+  problem.options.watch = {{Quantity::y, ball, 1}};
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 1);  // it enters at y = -1, after sqrt(0.2) s
+  EXPECT_NEAR(simulator->extremes()[0].least.value, -1, 1e-14);
+  EXPECT_NEAR(simulator->extremes()[0].least.time, std::sqrt(0.2), 1e-14);
+}
+
 TEST(Stops, RecordAllThatEnterAtThatInstant) {
   Problem problem;
   problem.ball({-4, 3, 0}, {1, 0, 0});
