@@ -25,7 +25,6 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   const double speed = v.norm();
   bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
   bodies_.log.note_speed(speed);
-  if (bodies_.is_constrained(i)) bodies_.log.note_speed(bodies_.velocity(i).norm());
   book(i, x, bodies_.now);
   const Contact contact = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh ? Contact::stepped : Contact::none;
   if (contact != in_contact_[i]) {

@@ -75,6 +75,7 @@ void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) const
   for (std::size_t k = 0; k < passed.bodies.size(); ++k) {
     const Entity i = passed.bodies[k];
     if (i == a || i == b) continue;
+    bodies_.log.note_speed(bodies_.velocity(i).norm());
     parts_.flights.begin(i, bodies_.position(i), passed.v[k], {});
     parts_.predictor.predict(i);
   }
