@@ -14,9 +14,10 @@
 //   32       f64 length L (s), then c1 to c8: x, y, z (m) of each
 //   64       the body has left the world
 // At a time T let s = (T - hi) - lo. The position is x + s (v + (s/2) a), and the velocity is v + s a.
-// With flag 32 let u = s / L. The position is x + c1 u + ... + c8 u^8, and the velocity is v + (2 c2 u + ... + 8 c8
-// u^7) / L, both by Horner's scheme. Flag 4 subtracts (until - T) h from the velocity. The tail is u32 0xffffffff and
-// u32 0, then counts as u64, then values as f64.
+// With flag 32 let u = s / L. The position is x + c1 u + ... + c8 u^8, the velocity v + (2 c2 u + ... + 8 c8 u^7) / L,
+// both by Horner's scheme. Flag 4 subtracts (until - T) h from the velocity.
+//
+// The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
 //   u64: entries, body-body collisions, body-fixed collisions, merges, strings that went taut, clusters that became
 //        lasting contacts, bodies at rest at the end, impacts that contact took up
 //   f64: first and last collision (s, NaN: none), energy lost (J), work (J), deepest overlap (m), greatest speed (m/s),
