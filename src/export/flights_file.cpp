@@ -173,7 +173,7 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is not a file");
   const auto size = static_cast<std::uint64_t>(info.st_size);
   // The header tells whether the rest is what is expected.
-  left_ = size;
+  left_ = std::min<std::uint64_t>(size, header_size);
   fill(header_size);
   if (end_ < header_size) refuse("it is truncated");
   if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
@@ -205,7 +205,6 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   at_ = end_ = 0;
   left_ = size - tail_size - header_size;
   if (has_end == 1) take_end(header_size + (left_ -= end_size), scene);
-  if (lseek(file_.get(), header_size, SEEK_SET) != header_size) refuse("it cannot be read");
 }
 
 /// Reads what has ended the run, at `offset` in the file, and what it has lost.

@@ -84,7 +84,7 @@ struct ExactBodies {
   void apply_forces(Entity i, const Vec3& x, const Vec3& v);
   /// Whether body i's flights, when free, are steps of a method.
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
-  /// Whether its present flight is one. A path of constrained motion is not.
+  /// Whether body i's present flight is a curve of its own. A path of constrained motion is not.
   bool flies_on_curve(Entity i) const { return flights.curve(i) != nullptr && !is_constrained(i); }
   /// Evaluates them again, if they vary with x (m) and v (m/s).
   void refresh(Entity i, const Vec3& x, const Vec3& v) {

@@ -109,7 +109,7 @@ inline constexpr double contact_gap = 1e-9;
 inline constexpr double contact_rounding = 0x1p-51;
 // Share of a radius: a deeper overlap is closed. [5e-15 2e-14]
 inline constexpr double least_overlap = 0x1p-50;
-// Share of the least radius and of speeds: error of a step, and of the parabolas in it.
+// Share of the least radius and of speeds: error of a step, and of parabolas on curved surfaces.
 inline constexpr double step_error = 1e-12;
 // Share of a radius and of speeds: allowed error of a contact after steps. Slower islands in balance fall asleep.
 inline constexpr double drift = 16e-12;

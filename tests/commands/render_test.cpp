@@ -391,7 +391,7 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
   EXPECT_FALSE(here.has("run/.frames.part"));
 }
 
-// The record as another program reads it: 40 lines of Python.
+// The record as another program reads it: 50 lines of Python.
 TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
   const Workplace here;
   for (const std::string scene : {"two_bowling_balls", "clay", "rolling_off", "gust", "slack_pendulum", "pockets"}) {

@@ -206,14 +206,20 @@ struct OffAGlobe {
   }
 };
 
+/// Its ball of 2 kg and its globe, under linear drag (kg/s).
+Problem off_a_globe(double linear) {
+  Problem problem;
+  problem.world.gravity = {0, -OffAGlobe::g, 0};
+  problem.ball(OffAGlobe::reach * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
+  problem.obstacle({0, 0, 0}, Volume::sphere(1));
+  problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
+  return problem;
+}
+
 TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
   for (const double linear : {0.3, 4.0, 200.0}) {
-    Problem problem;
-    problem.world.gravity = {0, -OffAGlobe::g, 0};
+    Problem problem = off_a_globe(linear);
     OffAGlobe reference{linear / 2};
-    problem.ball(OffAGlobe::reach * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
-    problem.obstacle({0, 0, 0}, Volume::sphere(1));
-    problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
     double h = 2e-5;
     while (reference.presses()) {
       const OffAGlobe before = reference;
@@ -234,12 +240,8 @@ TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
 
 TEST(LinearDrag, ABallCreepsOverAGlobeInThickAir) {
   for (const double linear : {2e3, 2e4, 2e5}) {
-    Problem problem;
-    problem.world.gravity = {0, -OffAGlobe::g, 0};
+    Problem problem = off_a_globe(linear);
     OffAGlobe reference{linear / 2};
-    problem.ball(OffAGlobe::reach * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
-    problem.obstacle({0, 0, 0}, Volume::sphere(1));
-    problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
     problem.options.duration = 0.5;
     const Outcome got = run(problem);
     const int steps = static_cast<int>(4 * linear);  // a sixteenth of the time in which drag decays

@@ -21,7 +21,7 @@ TEST(Pile, AWokenPileComesToRestAgain) {
   expect_pile_at_rest(problem, *simulator, {58, 60});
 }
 
-/// Impacts within time steps may raise the energy: by 1.1e-6 at most in 34 piles of 54 balls that differ by 1e-9 m.
+/// Impacts within time steps may raise the energy: by 1.1e-6 at most in 20 piles of 54 balls that differ by 1e-9 m.
 TEST(Pile, GainsHardlyAnyEnergyAsItSettles) {
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);

@@ -13,7 +13,7 @@ struct Verdict {
   bool stopped = false;  // at a limit, as it may
 };
 
-/// s of CPU time for a run, by default. Sanitizers, and code without optimisation, take up to 30 times as long.
+/// s of CPU time for a run, by default. With sanitizers, or without optimisation, it takes many times as long.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 inline constexpr double usual_patience = 10;
 #else
