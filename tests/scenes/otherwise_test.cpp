@@ -43,17 +43,15 @@ Observed run(const Motion& motion) {
   return seen;
 }
 
-std::vector<std::string> exact_scenes() {
-  std::vector<std::string> names;
-  for (const std::string& name : scene_names()) {
-    const Scene scene = load(name);
-    if (scene.simulate.engine != Engine::book && force_without_closed_form(scene.world) == nullptr)
-      names.push_back(name);
+/// Scenes of another engine, and of forces whose flights have no closed form, are skipped.
+class Otherwise : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const Scene scene = load(GetParam());
+    if (scene.simulate.engine == Engine::book || force_without_closed_form(scene.world) != nullptr)
+      GTEST_SKIP() << "not followed by exact flights";
   }
-  return names;
-}
-
-class Otherwise : public ::testing::TestWithParam<std::string> {};
+};
 
 TEST_P(Otherwise, MirroredItMovesMirrored) {
   const Motion motion = motion_of(GetParam());
@@ -125,7 +123,7 @@ TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Otherwise, ::testing::ValuesIn(exact_scenes()), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(Scenes, Otherwise, ::testing::ValuesIn(scene_names()), [](const auto& parameter) {
   std::string name = parameter.param;
   for (char& c : name)
     if (c == '/') c = '_';
