@@ -19,10 +19,7 @@ class EventLog {
   EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces = 0);
 
   /// Empties the buffer for the next advance. The first one has what happened when bodies were placed.
-  void begin_advance() {
-    if (advanced_) collisions_.clear();
-    advanced_ = true;
-  }
+  void begin_advance() { collisions_.clear(); }
   /// Counts a collision and buffers it. Throws SimulationError beyond max_collisions.
   void record(const Collision& collision);
   /// Whether so many more collisions fit into the buffer. It grows if they do not, so an advance should end before.
@@ -96,7 +93,6 @@ class EventLog {
   const std::uint64_t max_collisions_;
   const bool record_collisions_;
   std::vector<Collision> collisions_;
-  bool advanced_ = false;
   Tally tally_;
   Sum energy_lost_, method_error_, work_, removed_;  // J
   std::vector<Sum> force_work_;                      // J

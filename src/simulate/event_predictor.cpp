@@ -69,10 +69,10 @@ void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
   if (bodies_.ties.any()) offer_strings(i, best);
   if (!bodies_.world.forces.empty())
     offer(i, best,
-          {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+          {{bodies_.merged.next_switch(i, bodies_.now.floor()), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
   if (bodies_.moving.any())
     offer(i, best,
-          {{bodies_.moving.next_switch(bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+          {{bodies_.moving.next_switch(bodies_.now.floor()), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
 }
 
 /// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.

@@ -149,6 +149,19 @@ bool ExactBodies::any_taut(std::span<const Entity> those) const {
   });
 }
 
+bool ExactBodies::any_strained(std::span<const Entity> those) const {
+  const auto strained = [&](Entity string) {
+    const String& s = world.string(string);
+    const Vec3 v = velocity(s.body), ve = s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other);
+    return s.rod && std::abs(string_now(string).normal.dot(ve - v)) >
+                        exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
+  };
+  return ties.any() && std::any_of(those.begin(), those.end(), [&](Entity i) {
+           const std::span<const Entity> strings = ties.of(i);
+           return std::any_of(strings.begin(), strings.end(), strained);
+         });
+}
+
 double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
   return std::max(exact_tolerance::contact_gap * world.radius[i],
                   exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));

@@ -297,7 +297,7 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
 void ExactImpacts::check_room(const FixedImpact& impact) const {
   const World& world = bodies_.world;
   const Vec3& n = impact.there.normal;
-  const double until = std::min(bodies_.moving.next_switch(bodies_.now.hi), bodies_.options.duration);
+  const double until = std::min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
   const Entity i = impact.body;
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || e == impact.surface) continue;

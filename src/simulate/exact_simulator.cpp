@@ -76,9 +76,17 @@ void ExactSimulator::start(const State& initial) {
   predictor_.predict_all();
   if (bodies_.islands.any())
     for (Entity i = 0; i < n; ++i)
-      if (bodies_.in_group(i) && bodies_.islands.of(i).fresh) step_island(i);
+      if (bodies_.in_group(i) && bodies_.islands.of(i).fresh) begin_island(i);
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
+}
+
+/// Takes the first step of body i's island. Impulses along rods are impacts: the step is then the first event.
+void ExactSimulator::begin_island(Entity i) {
+  const std::vector<Entity>& members = bodies_.islands.of(i).members;
+  if (!bodies_.any_strained(members)) return step_island(i);
+  bodies_.islands.of(i).end = bodies_.now;
+  for (const Entity k : members) predictor_.predict(k);
 }
 
 void ExactSimulator::advance_to(double time) {
@@ -297,11 +305,16 @@ void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region
   flights_.book_last(time);
 }
 
-/// Whether body i stays where it is until something else comes.
+/// Whether body i stays where it is until another body comes.
 bool ExactSimulator::rests(Entity i) const {
   if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) return true;
-  if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, bodies_.now.hi) < bodies_.options.duration)
-    return false;
+  const double past = bodies_.now.floor(), end = bodies_.options.duration;
+  if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, past) < end) return false;
+  if (bodies_.moving.any()) {
+    const ExactEvent& event = bodies_.body[i].event;
+    if (bodies_.moving.next_switch(past) < end || (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end))
+      return false;
+  }
   if (bodies_.body[i].state == ContactState::asleep) return true;
   for (std::size_t k = 0; k < flat_.of(i).count; ++k)
     if (flat_.of(i).at[k].settling) return false;

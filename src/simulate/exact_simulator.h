@@ -49,6 +49,7 @@ class ExactSimulator final : public Simulator {
   };
 
   void start(const State& initial);
+  void begin_island(Entity i);
   std::uint32_t take_event(Entity i);
   std::uint32_t process(Entity i);
   void go_taut(Entity i, const ExactEvent& event);
