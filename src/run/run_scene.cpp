@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -183,7 +184,10 @@ class Run {
     while (simulator_->time() < time && !is_over()) {
       const double before = simulator_->time();
       const std::uint64_t collisions_before = simulator_->tally().collisions();
-      const double next = std::min(time, before + slice);
+      // Multiples of the slice, so that round instants stay round.
+      double slices = std::floor(before / slice) + 1;
+      if (!(slices * slice > before)) ++slices;
+      const double next = std::min(time, slices * slice);
       {
         const Stopwatch watch(simulate_s_);
         simulator_->advance_to(next > before ? next : time);

@@ -112,15 +112,18 @@ Crossings::Taken Crossings::take(Entity i) {
 }
 
 std::optional<Crossings::Taken> Crossings::take_until(double time) {
-  for (Entity i = 0; i < bodies_.body.size(); ++i) {
-    const std::vector<Next>& next = next_[i];
-    const auto due = std::find_if(next.begin(), next.end(), [&](const Next& one) { return one.at.hi <= time; });
-    if (due == next.end()) continue;
-    std::vector<Next>& all = next_.write(i);
-    std::rotate(all.begin() + (due - next.begin()), all.begin() + (due - next.begin()) + 1, all.end());
-    return take(i);
-  }
+  for (Entity i = 0; i < bodies_.body.size(); ++i)
+    if (std::optional<Taken> taken = take_of(i, {time, never})) return taken;
   return std::nullopt;
+}
+
+std::optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
+  const std::vector<Next>& next = next_[i];
+  const auto due = std::find_if(next.begin(), next.end(), [&](const Next& one) { return one.at <= last; });
+  if (due == next.end()) return std::nullopt;
+  std::vector<Next>& all = next_.write(i);
+  std::rotate(all.begin() + (due - next.begin()), all.begin() + (due - next.begin()) + 1, all.end());
+  return take(i);
 }
 
 void Crossings::sort() {

@@ -40,6 +40,8 @@ class Crossings {
   Taken take() { return take(queue_->first()); }
   /// The same for one that is at `time` (s) at the latest, sure or not. None: there is no such crossing.
   std::optional<Taken> take_until(double time);
+  /// The same for one of body i that is at the instant `last` at the latest.
+  std::optional<Taken> take_of(Entity i, const Instant& last);
 
   /// Since the last begin_advance. Sorted by time, region and body after sort().
   std::span<const RegionCrossing> recorded() const { return recorded_; }

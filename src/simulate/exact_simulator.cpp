@@ -263,38 +263,46 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
   const ExactOptions& options = bodies_.options;
   if (options.stop_collisions > 0 && tally().collisions() >= options.stop_collisions) {
     end_run(bodies_.now.hi, EndReason::collisions, 0);
-    return true;
-  }
-  if (options.stop_at_rest && all_rest()) {
+  } else if (options.stop_at_rest && all_rest()) {
     end_run(bodies_.now.hi, EndReason::rest, 0);
-    return true;
+  } else {
+    paths_.record_changes();
+    const Instant sure = crossings_.first_sure();
+    if (!(at_it ? sure <= next : sure < next)) return false;
+    take_crossing(crossings_.take());
+    if (!is_over()) return true;
   }
-  paths_.record_changes();
-  const Instant sure = crossings_.first_sure();
-  if (!(at_it ? sure <= next : sure < next)) return false;
-  if (!take_crossing(crossings_.take())) return true;
-  // The run has ended. What else crosses at that instant is recorded too.
+  // The run has ended. What else crosses at that instant happens too.
   const double end = tally().end->time;
   while (const std::optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
   return true;
 }
 
-/// Does what a region does to a body that enters it. Returns whether the run ends.
-bool ExactSimulator::take_crossing(const Crossings::Taken& taken) {
+/// Does what a region does to a body that enters it. What it removes crosses all that it meets at that instant before.
+void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   const RegionCrossing& crossing = taken.crossing;
   const WorldRegion& region = bodies_.world.regions[crossing.region];
-  if (!crossing.enters || !(region.removes || region.stops)) return false;
-  if (bodies_.now < taken.at) bodies_.now = taken.at;
+  if (!crossing.enters || !(region.removes || region.stops)) return;
   if (region.removes) {
+    while (const std::optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
+      const WorldRegion& met = bodies_.world.regions[other->crossing.region];
+      if (other->crossing.enters && met.stops) end_by(*other);
+    }
+    if (bodies_.now < taken.at) bodies_.now = taken.at;
     paths_.note_change(crossing.body);
     for (const Entity k : BodyRemoval(bodies_, group_, flat_, flights_, queue_).remove(crossing.body))
       if (bodies_.in_group(k)) step_island(k);
     paths_.delay(taken.sure);
     guard_.count(StallGuard::Happened::other, bodies_.now.hi);
   }
-  if (!region.stops || is_over()) return false;
-  end_run(bodies_.now.hi, EndReason::region, crossing.region);
-  return true;
+  if (region.stops) end_by(taken);
+}
+
+/// Ends the run by a crossing, unless it is over.
+void ExactSimulator::end_by(const Crossings::Taken& taken) {
+  if (is_over()) return;
+  if (bodies_.now < taken.at) bodies_.now = taken.at;
+  end_run(bodies_.now.hi, EndReason::region, taken.crossing.region);
 }
 
 /// Ends the run at `time` (s), the present instant or just before it.

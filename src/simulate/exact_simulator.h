@@ -60,7 +60,8 @@ class ExactSimulator final : public Simulator {
   void step_island(Entity i);
   bool watches() const;
   bool happens_before(const Instant& next, bool at_it);
-  bool take_crossing(const Crossings::Taken& taken);
+  void take_crossing(const Crossings::Taken& taken);
+  void end_by(const Crossings::Taken& taken);
   void end_run(double time, EndReason reason, std::uint32_t region);
   bool is_over() const { return tally().end.has_value(); }
   bool rests(Entity i) const;
