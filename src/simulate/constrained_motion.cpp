@@ -303,11 +303,15 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
   return recorded;
 }
 
+/// The speed (m/s) at which path errors let pairs separate.
+double ConstrainedMotion::parting_speed(const Step& step) {
+  return std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
+}
+
 /// Pairs that separate by more than path errors are not contacts. If they return, they meet.
 void ConstrainedMotion::drop_parting(Step& step) const {
   const World& world = bodies_.world;
-  const double parting =
-      std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
+  const double parting = parting_speed(step);
   step.contacts.drop_if(0, [&](std::size_t c) {
     if (step.contacts.pairs[c].bilateral) return false;
     const Vec3 w = rate(step.v, step.contacts.names[c].e) - step.v[step.contacts.pairs[c].a];
@@ -347,8 +351,9 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   return system;
 }
 
-/// Removes the small remaining speed of separation of pairs that press, without making any pair approach. Returns
-/// whether there was any.
+/// Removes the small remaining speed of separation of pairs that press, without making any pair approach. Bodies then
+/// change their velocities by path errors too, one after the other along a chain. Where contacts almost lock a motion,
+/// they would stop it: the separation then remains. Returns whether any was removed.
 bool ConstrainedMotion::stop_parting(Step& step) const {
   std::vector<ContactConstraint> kept;
   bool parts = false;
@@ -362,7 +367,13 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
     kept.back().surface = p.surface;
   }
   if (!parts) return false;
-  bodies_.log.note(solve({step.inverse_mass, step.v, kept}));
+  std::vector<Vec3> stopped = step.v;  // m/s
+  const Certificate certificate = solve({step.inverse_mass, stopped, kept});
+  const double most = static_cast<double>(step.members.size()) * parting_speed(step);
+  for (std::size_t k = 0; k < step.v.size(); ++k)
+    if (!((stopped[k] - step.v[k]).norm() <= most)) return false;
+  step.v = std::move(stopped);
+  bodies_.log.note(certificate);
   double work = 0;
   for (const ContactConstraint& p : kept) work += p.work();
   if (work != 0) bodies_.log.carry(work);
