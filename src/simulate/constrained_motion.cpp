@@ -303,21 +303,21 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
   return recorded;
 }
 
-/// The speed (m/s) at which path errors let pairs separate.
-double ConstrainedMotion::parting_speed(const Step& step) {
-  return std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
+/// The speed (m/s) at which path errors let pairs separate. Strings hold by their curvature where nothing else pulls.
+double ConstrainedMotion::parting_speed(const Step& step) const {
+  const bool tied = std::any_of(step.contacts.names.begin(), step.contacts.names.end(),
+                                [&](const auto& name) { return bodies_.world.is_string(name.e); });
+  return std::sqrt(2 * step.greatest * tol::step_error * step.smallest) +
+         (tied ? tol::drift : tol::velocity_rounding) * step.fastest;
 }
 
 /// Pairs that separate by more than path errors are not contacts. If they return, they meet.
 void ConstrainedMotion::drop_parting(Step& step) const {
-  const World& world = bodies_.world;
   const double parting = parting_speed(step);
   step.contacts.drop_if(0, [&](std::size_t c) {
     if (step.contacts.pairs[c].bilateral) return false;
     const Vec3 w = rate(step.v, step.contacts.names[c].e) - step.v[step.contacts.pairs[c].a];
-    // Strings hold by their curvature where nothing else pulls on them.
-    const double drift = world.is_string(step.contacts.names[c].e) ? tol::drift * step.fastest : 0;
-    return step.contacts.pairs[c].normal.dot(w) > parting + drift;
+    return step.contacts.pairs[c].normal.dot(w) > parting;
   });
 }
 

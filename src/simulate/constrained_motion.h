@@ -84,7 +84,7 @@ class ConstrainedMotion {
   void take_approaches(Step& step);
   double surface_speed(const Vec3& normal, Entity e) const;
   std::vector<std::uint8_t> record_fast(const Step& step, const std::vector<Vec3>& met) const;
-  static double parting_speed(const Step& step);
+  double parting_speed(const Step& step) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
   bool stop_parting(Step& step) const;
