@@ -4,6 +4,8 @@
 // the first change of contact. An island with too many changes in the time of a time step is left to time stepping.
 #include "simulate/constrained_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,6 +20,7 @@
 #include "simulate/exact_group.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/flight_changes.h"
+#include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
 
@@ -339,6 +342,7 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
     for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
   }
   const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
+  check_digits(step, scales.acceleration);
   std::vector<std::uint8_t> opens(step.contacts.pairs.size(), 0);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
@@ -349,6 +353,24 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   system.open(opens);
   bodies_.log.note(system.certificate());
   return system;
+}
+
+/// Throws SimulationError where strings and contacts work against one another with forces so great that their rounding
+/// is a noticeable part of the accelerations (m/s^2). Those would then be arbitrary: the bodies are jammed.
+void ConstrainedMotion::check_digits(const Step& step, double acceleration) const {
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    if (!bodies_.world.is_string(step.contacts.names[c].e)) continue;
+    const ContactConstraint& p = step.contacts.pairs[c];
+    const double inverse_mass =
+        std::max(step.inverse_mass[p.a], p.b == ContactConstraint::fixed ? 0.0 : step.inverse_mass[p.b]);
+    const double rounding = 0x1p-53 * std::abs(p.force) * inverse_mass;  // m/s^2
+    if (!(rounding > tol::arbitrary * acceleration)) continue;
+    throw SimulationError(
+        fmt::format("at t = {} s the strings and contacts of ", bodies_.now.hi), step.contacts.names[c].i,
+        fmt::format(" work against one another, with a force of {:.3g} N, and leave it no motion "
+                    "(jammed): let lengths of strings differ from the distances at which bodies touch",
+                    std::abs(p.force)));
+  }
 }
 
 /// Removes the small remaining speed of separation of pairs that press, without making any pair approach. Bodies then

@@ -87,6 +87,7 @@ class ConstrainedMotion {
   double parting_speed(const Step& step) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
+  void check_digits(const Step& step, double acceleration) const;
   bool stop_parting(Step& step) const;
   void find_resting(Step& step) const;
   double longest(Step& step) const;
