@@ -18,7 +18,7 @@ class EventLog {
   /// without a buffer. `forces`: number of forces with sums of their own.
   EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces = 0);
 
-  /// Empties the buffer for the next advance. The first one has what happened when bodies were placed.
+  /// Empties the buffer for the next advance.
   void begin_advance() { collisions_.clear(); }
   /// Counts a collision and buffers it. Throws SimulationError beyond max_collisions.
   void record(const Collision& collision);

@@ -47,7 +47,6 @@ TEST(EventLog, CountsWhatItDoesNotBuffer) {
 TEST(EventLog, KeepsCollisionsUntilTheNextAdvance) {
   EventLog log(0, true);
   log.record(strike(0));
-  log.begin_advance();
   log.record(strike(1));
   ASSERT_EQ(log.collisions().size(), 2u);
   EXPECT_EQ(log.collisions()[1].time, 1);

@@ -311,6 +311,30 @@ TEST(Removal, BooksTheEnergyAndTheMomentumOfTheBody) {
   EXPECT_LT(run.tally.max_overlap, 1e-12);
 }
 
+TEST(Removal, LeavesNoCrossingOfThatInstantOut) {
+  Problem problem;
+  problem.ball({0, 0, 0}, {1, 0, 0}, 1, 0.1);
+  WorldRegion beyond;
+  beyond.position = beyond.normal = Vec3(1, 0, 0);
+  WorldRegion before = beyond;
+  before.normal *= -1;
+  problem.world.regions = {beyond, region_at({2, 0, 0}, Volume::box({2, 2, 2})), removing(beyond), beyond, before};
+  problem.options.duration = 2;
+  WithRegions run = run_with(problem);
+  const std::vector<RegionCrossing> all = {{0, 4, 0, true}, {1, 0, 0, true}, {1, 1, 0, true},
+                                           {1, 2, 0, true}, {1, 3, 0, true}, {1, 4, 0, false}};
+  EXPECT_EQ(run.crossings, all);
+  EXPECT_EQ(run.tally.removed.bodies, 1u);
+  EXPECT_FALSE(run.tally.end);
+  // One of them ends the run.
+  problem.world.regions[3] = stopping(beyond);
+  run = run_with(problem);
+  EXPECT_EQ(run.crossings, all);
+  EXPECT_EQ(run.tally.removed.bodies, 1u);
+  ASSERT_TRUE(run.tally.end);
+  EXPECT_EQ(run.tally.end->region, 3u);
+}
+
 TEST(Removal, KeepsTheMomentumOfAFreeGas) {
   Problem problem = gas(20);
   problem.world.planes.clear();
@@ -503,6 +527,20 @@ TEST(Stops, AfterTheCollisions) {
   }
 }
 
+TEST(Stops, AfterACollisionLetCrossingsOfThatInstantHappen) {
+  Problem problem;
+  problem.ball({-2, 0, 0}, {1, 0, 0});
+  problem.ball({1, 0, 0}, {0, 0, 0});
+  problem.ball({-2, 9, 0}, {1, 0, 0});
+  problem.world.regions = {removing(region_at({1, 9, 0}, Volume::box({2, 2, 2})))};
+  problem.options.stop_collisions = 1;
+  const WithRegions run = run_with(problem);
+  ASSERT_TRUE(run.tally.end);
+  EXPECT_EQ(run.tally.end->time, 2);
+  EXPECT_EQ(run.crossings, (std::vector<RegionCrossing>{{2, 0, 2, true}}));
+  EXPECT_EQ(run.tally.removed.bodies, 1u);
+}
+
 TEST(Stops, CountCollisionsOfOneInstantTogether) {
   Problem problem;
   problem.room({-2, -2, -2}, {2, 2, 2});
@@ -554,6 +592,29 @@ TEST(Stops, AtRestWaitForAForceThatIsToCome) {
   problem.plane({0, -0.5, 0}, {0, 1, 0});
   problem.world.forces[0].law = UniformForce{Vec3(0, -1, 0)};
   EXPECT_EQ(run_with(problem).tally.end->time, 3);
+}
+
+TEST(Stops, AtRestWaitForThingsThatStartToMoveOrCome) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.ball({0, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
+  problem.options.stop_at_rest = true;
+  problem.options.duration = 20;
+  // A floor that rises from 3 to 4 s at 1 m/s throws the ball up at its end. It comes to rest 0.2 s / (1 - e) later.
+  problem.move(1, {{3, 4, {0, 1, 0}}});
+  WithRegions run = run_with(problem);
+  ASSERT_TRUE(run.tally.end);
+  EXPECT_NEAR(run.tally.end->time, 4.4, 1e-14);
+  EXPECT_NEAR(run.end.position[0].y(), 1.5, 1e-14);
+  // A wall comes along: it strikes the ball after 2 s.
+  problem.world.motions.clear();
+  problem.plane({-2.5, 0, 0}, {1, 0, 0});
+  problem.move(2, {{0, 1e3, {1, 0, 0}}});
+  problem.options.duration = 5;
+  run = run_with(problem);
+  ASSERT_FALSE(run.all.empty());
+  EXPECT_NEAR(run.all[0].time, 2, 1e-14);
 }
 
 TEST(Stops, AtRestOfAPile) {

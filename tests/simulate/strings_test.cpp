@@ -873,5 +873,69 @@ TEST(Strings, ARunThatStopsAtRestEndsWhereTheLastBallHangs) {
   EXPECT_NEAR(run.tally.end->time, 3 * std::sqrt(2 / g_n), 0.05);
 }
 
+// What a rod takes of impulses at time 0 is an impact, as that of a string that is taut.
+TEST(Rods, TakeImpulsesAlongThemAsAnImpact) {
+  for (const bool rod : {false, true}) {
+    Tied problem;
+    problem.world.gravity = Vec3::Zero();
+    const Entity ball = problem.ball({5, -1, 0}, {0, 0, 0}, 2, 0.1);
+    String& s = problem.anchored(ball, {5, 0, 0}, 1);
+    s.rod = rod;
+    problem.world.impulse = {Vec3(3, -7, 0)};
+    problem.options.duration = 0.1;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    EXPECT_EQ(simulator->state().velocity[0], Vec3(1.5, -3.5, 0)) << rod;
+    EXPECT_TRUE(simulator->collisions().empty());
+    const Outcome run = run_to_end(*simulator, 0.1);
+    ASSERT_EQ(run.collisions.size(), 1u) << rod;
+    EXPECT_NEAR(run.collisions[0].impulse, 7, 1e-14);
+    EXPECT_NEAR(run.tally.energy_lost, 0.5 * 2 * 3.5 * 3.5, 1e-13) << rod;
+    EXPECT_NEAR(run.end.velocity[0].norm(), 1.5, 1e-12) << rod;
+    EXPECT_NEAR(kinetic_energy(problem.world, run.end), 0.5 * 2 * 1.5 * 1.5, 3e-12);
+  }
+  // Between two bodies: the effective mass is 3/4 kg.
+  Tied pair;
+  pair.world.gravity = Vec3::Zero();
+  pair.ball({0, 0, 0}, {0, 0, 0}, 1, 0.1);
+  pair.ball({1, 0, 0}, {0, 0, 0}, 3, 0.1);
+  pair.between(0, 1, 1).rod = true;
+  pair.world.impulse = {Vec3(2, 0, 0), Vec3(0, 0, 0)};
+  const Outcome run = run_exact(pair);
+  EXPECT_NEAR(run.tally.energy_lost, 0.5 * 0.75 * 4, 1e-14);
+  for (const Vec3& v : run.end.velocity) EXPECT_NEAR((v - Vec3(0.5, 0, 0)).norm(), 0, 1e-14);
+}
+
+// Upright cylinders that touch, joined by a level rod: any motion of one above the other would bring them closer than
+// the rod lets them.
+TEST(Rods, ThatJamBodiesEndTheRun) {
+  Tied problem;
+  problem.world.gravity = Vec3(0, -2, 0);
+  problem.body(Volume::cylinder(0.25, 1), {0, 0, 0}, {0, 0, 0});
+  problem.body(Volume::cylinder(0.5, 1), {0.75, 0, 0}, {0, 0, 0});
+  problem.between(0, 1, 0.75).rod = true;
+  const Spring spring{{3, 4, 1}, 5, 0, 0};
+  problem.world.forces.push_back({spring, 0, std::numeric_limits<double>::infinity(), {0}});
+  EXPECT_NE(error_of(problem).find("jammed"), std::string::npos) << error_of(problem);
+}
+
+// A bob on a rod presses a heavy ball, far from the origin, where rounding lets the two part by more than the clock
+// resolves. The rod's curvature presses them together again.
+TEST(Rods, PressBodiesTogetherFarFromTheOrigin) {
+  Tied problem;
+  problem.world.gravity = Vec3::Zero();
+  const Vec3 far(-968.451535748, 269.919170012, -514.130972092);
+  problem.ball(far, {-0.0832, 0.211, -0.1613}, 386132, 0.3, 0.3);
+  problem.ball(far + Vec3(0, 0, 0.6), {-0.536, -0.0325, -0.2464}, 102891122, 0.3, 0.3);
+  const Vec3 anchor(-968.4607621, 269.914206923, -514.1327055);
+  problem.anchored(0, anchor, (far - anchor).norm()).rod = true;
+  problem.world.combine = Combine::mass_weighted;
+  problem.options.duration = 1;
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  const Outcome run = run_to_end(*simulator, 1);
+  EXPECT_LT(simulator->effort().events, 20000u);
+  EXPECT_LT(run.tally.max_overlap, 1e-11);
+  EXPECT_NEAR((run.end.position[0] - anchor).norm(), (far - anchor).norm(), 1e-11);
+}
+
 }  // namespace
 }  // namespace carom
