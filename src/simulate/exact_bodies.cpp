@@ -149,17 +149,32 @@ bool ExactBodies::any_taut(std::span<const Entity> those) const {
   });
 }
 
-bool ExactBodies::any_strained(std::span<const Entity> those) const {
-  const auto strained = [&](Entity string) {
-    const String& s = world.string(string);
-    const Vec3 v = velocity(s.body), ve = s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other);
-    return s.rod && std::abs(string_now(string).normal.dot(ve - v)) >
-                        exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
+bool ExactBodies::any_meets(std::span<const Entity> those) const {
+  const auto rate = [&](Entity i, Entity e, const Touch& there, const Vec3& ve) {
+    const Vec3 v = velocity(i);
+    const double approach = there.normal.dot(v - ve);
+    const bool both_ways = world.is_string(e) && world.string(e).rod;
+    return (both_ways ? std::abs(approach) : approach) > exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
   };
-  return ties.any() && std::any_of(those.begin(), those.end(), [&](Entity i) {
-           const std::span<const Entity> strings = ties.of(i);
-           return std::any_of(strings.begin(), strings.end(), strained);
-         });
+  return std::any_of(those.begin(), those.end(), [&](Entity i) {
+    const std::span<const Entity> strings = ties.of(i);
+    const std::vector<Entity> near = neighbours_of(i);
+    const Vec3 x = position(i);
+    return std::any_of(strings.begin(), strings.end(),
+                       [&](Entity e) {
+                         const String& s = world.string(e);
+                         const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
+                         const Touch there = string_now(e);
+                         return (s.rod || there.gap <= contact_gap(s.body, position(s.body), xe)) &&
+                                rate(s.body, e, there, s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other));
+                       }) ||
+           std::any_of(near.begin(), near.end(), [&](Entity e) {
+             const Vec3 xe = position_of(e);
+             const Touch there = touch(world, i, x, e, xe);
+             return there.gap <= contact_gap(i, x, xe) &&
+                    rate(i, e, there, world.is_body(e) ? velocity(e) : fixed_velocity(e));
+           });
+  });
 }
 
 double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {

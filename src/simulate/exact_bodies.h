@@ -145,8 +145,9 @@ struct ExactBodies {
   bool holds(Entity string) const;
   /// Whether one of these bodies has a taut string, or a rod.
   bool any_taut(std::span<const Entity> those) const;
-  /// Whether the length of a rod of one of these bodies changes, by more than rounding.
-  bool any_strained(std::span<const Entity> those) const;
+  /// Whether one of these bodies approaches what it touches, or the length of a taut string or of a rod, by more than
+  /// rounding.
+  bool any_meets(std::span<const Entity> those) const;
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
 

@@ -81,10 +81,11 @@ void ExactSimulator::start(const State& initial) {
   paths_.record_changes();
 }
 
-/// Takes the first step of body i's island. Impulses along rods are impacts: the step is then the first event.
+/// Takes the first step of body i's island. With strings it may be an impact, as by an impulse along a rod. It is then
+/// the first event.
 void ExactSimulator::begin_island(Entity i) {
   const std::vector<Entity>& members = bodies_.islands.of(i).members;
-  if (!bodies_.any_strained(members)) return step_island(i);
+  if (!bodies_.ties.any() || !bodies_.any_meets(members)) return step_island(i);
   bodies_.islands.of(i).end = bodies_.now;
   for (const Entity k : members) predictor_.predict(k);
 }

@@ -905,6 +905,28 @@ TEST(Rods, TakeImpulsesAlongThemAsAnImpact) {
   for (const Vec3& v : run.end.velocity) EXPECT_NEAR((v - Vec3(0.5, 0, 0)).norm(), 0, 1e-14);
 }
 
+// A bob on a rod that runs into another string, which is taut at time 0, or into a floor that it touches.
+TEST(Rods, AreNotInTheWayOfImpactsAtTimeZero) {
+  for (const bool floor : {false, true}) {
+    Tied problem;
+    problem.world.gravity = Vec3::Zero();
+    const Entity bob = problem.ball({0, -1, 0}, {2, 0, 0}, 3, 0.1, 0);
+    problem.anchored(bob, {0, 0, 0}, 1).rod = true;
+    if (floor)
+      problem.plane({0.1, 0, 0}, {-1, 0, 0});
+    else
+      problem.anchored(bob, {-1, -1, 0}, 1).restitution = 0;
+    problem.options.duration = 0.1;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    EXPECT_EQ(simulator->state().velocity[0], Vec3(2, 0, 0)) << floor;
+    EXPECT_TRUE(simulator->collisions().empty());
+    const Outcome run = run_to_end(*simulator, 0.1);
+    ASSERT_EQ(run.collisions.size(), 1u) << floor;
+    EXPECT_NEAR(run.tally.energy_lost, 6, 1e-13) << floor;
+    EXPECT_LT(run.end.velocity[0].norm(), 1e-14);
+  }
+}
+
 // Upright cylinders that touch, joined by a level rod: any motion of one above the other would bring them closer than
 // the rod lets them.
 TEST(Rods, ThatJamBodiesEndTheRun) {
