@@ -391,10 +391,11 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
   if (!parts) return false;
   std::vector<Vec3> stopped = step.v;  // m/s
   const Certificate certificate = solve({step.inverse_mass, stopped, kept});
-  double taken = 0, made = 0;  // J, twice
+  const double errors = parting_speed(step) * (step.fastest + std::sqrt(step.greatest * step.smallest));  // m^2/s^2
+  double taken = 0, made = 0;                                                                             // J, twice
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     taken += (stopped[k] - step.v[k]).squaredNorm() / step.inverse_mass[k];
-    made += parting_speed(step) * (step.fastest + std::sqrt(step.greatest * step.smallest)) / step.inverse_mass[k];
+    made += errors / step.inverse_mass[k];
   }
   if (!(taken <= made)) return false;
   step.v = std::move(stopped);

@@ -136,44 +136,44 @@ bool ExactBodies::holds(Entity string) const {
          exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[s.body].norm() * radius));
 }
 
+bool ExactBodies::is_taut(Entity string) const {
+  const String& s = world.string(string);
+  const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
+  return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), xe);
+}
+
 bool ExactBodies::any_taut(std::span<const Entity> those) const {
-  if (!ties.any()) return false;
-  const auto taut = [&](Entity string) {
-    const String& s = world.string(string);
-    const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
-    return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), xe);
-  };
-  return std::any_of(those.begin(), those.end(), [&](Entity i) {
-    const std::span<const Entity> strings = ties.of(i);
-    return std::any_of(strings.begin(), strings.end(), taut);
-  });
+  return ties.any() && std::any_of(those.begin(), those.end(), [&](Entity i) {
+           const std::span<const Entity> strings = ties.of(i);
+           return std::any_of(strings.begin(), strings.end(), [&](Entity string) { return is_taut(string); });
+         });
 }
 
 bool ExactBodies::any_meets(std::span<const Entity> those) const {
-  const auto rate = [&](Entity i, Entity e, const Touch& there, const Vec3& ve) {
+  // Whether body i and e, at velocity ve (m/s), approach. The length of a rod must not change either way.
+  const auto meets = [&](Entity i, Entity e, const Touch& there, const Vec3& ve) {
     const Vec3 v = velocity(i);
     const double approach = there.normal.dot(v - ve);
     const bool both_ways = world.is_string(e) && world.string(e).rod;
     return (both_ways ? std::abs(approach) : approach) > exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
   };
+  const auto string_meets = [&](Entity e) {
+    const Entity other = world.string(e).other;
+    const Vec3 ve = other == no_entity ? Vec3(Vec3::Zero()) : velocity(other);
+    return is_taut(e) && meets(world.string(e).body, e, string_now(e), ve);
+  };
   return std::any_of(those.begin(), those.end(), [&](Entity i) {
     const std::span<const Entity> strings = ties.of(i);
     const std::vector<Entity> near = neighbours_of(i);
     const Vec3 x = position(i);
-    return std::any_of(strings.begin(), strings.end(),
-                       [&](Entity e) {
-                         const String& s = world.string(e);
-                         const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
-                         const Touch there = string_now(e);
-                         return (s.rod || there.gap <= contact_gap(s.body, position(s.body), xe)) &&
-                                rate(s.body, e, there, s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other));
-                       }) ||
-           std::any_of(near.begin(), near.end(), [&](Entity e) {
-             const Vec3 xe = position_of(e);
-             const Touch there = touch(world, i, x, e, xe);
-             return there.gap <= contact_gap(i, x, xe) &&
-                    rate(i, e, there, world.is_body(e) ? velocity(e) : fixed_velocity(e));
-           });
+    const auto neighbour_meets = [&](Entity e) {
+      const Vec3 xe = position_of(e);
+      const Touch there = touch(world, i, x, e, xe);
+      return there.gap <= contact_gap(i, x, xe) &&
+             meets(i, e, there, world.is_body(e) ? velocity(e) : fixed_velocity(e));
+    };
+    return std::any_of(strings.begin(), strings.end(), string_meets) ||
+           std::any_of(near.begin(), near.end(), neighbour_meets);
   });
 }
 

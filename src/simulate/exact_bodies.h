@@ -143,6 +143,8 @@ struct ExactBodies {
   /// Whether a string between bodies in lasting contact is taut, and its length does not change but for rounding. A rod
   /// always is.
   bool holds(Entity string) const;
+  /// Whether a string is as long as it can be, but for rounding. A rod always is.
+  bool is_taut(Entity string) const;
   /// Whether one of these bodies has a taut string, or a rod.
   bool any_taut(std::span<const Entity> those) const;
   /// Whether one of these bodies approaches what it touches, or the length of a taut string or of a rod, by more than

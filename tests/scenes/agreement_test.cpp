@@ -47,14 +47,19 @@ Far far(const State& a, const State& b) {
   return most;
 }
 
-/// Skipped: scenes that not both engines support, and those whose outcome depends on the last bit, as that of many
-/// balls that keep colliding does.
+/// All scenes but those whose outcome depends on the last bit, as that of many balls that keep colliding does.
+std::vector<std::string> calm_scenes() {
+  const std::set<std::string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
+                                         "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
+  std::vector<std::string> names = scene_names();
+  std::erase_if(names, [&](const std::string& name) { return chaotic.count(name) != 0; });
+  return names;
+}
+
+/// Scenes that not both engines support are skipped.
 class Agreement : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    const std::set<std::string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
-                                           "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
-    if (chaotic.count(GetParam()) != 0) GTEST_SKIP() << "chaotic";
     const Scene scene = load(GetParam());
     if (scene.simulate.engine == Engine::book || scene.simulate.merge ||
         force_without_closed_form(scene.world) != nullptr)
@@ -94,7 +99,7 @@ TEST_P(Agreement, OfExactAndEulersStepsAtFirstOrder) {
   EXPECT_LT(fine.x, coarse.x / 16 * 1.5 + 1e-9) << coarse.x;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(scene_names()), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(calm_scenes()), [](const auto& parameter) {
   std::string name = parameter.param;
   for (char& c : name)
     if (c == '/') c = '_';
