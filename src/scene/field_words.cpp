@@ -30,6 +30,10 @@ bool contains(const Range& range, double value) {
          (range.below_max ? value < range.max : value <= range.max) && (!range.even || std::fmod(value, 2) == 0);
 }
 
+bool holds_whole_numbers(const Field& field) {
+  return field.type == Type::whole || field.type == Type::repeat || field.type == Type::pixels;
+}
+
 std::span<const UnitLimit> unit_limits() {
   static constexpr UnitLimit limits[] = {
       {"", 1e-90, 1e90},         {"m", 1e-30, 1e30},     {"s", 1e-30, 1e30},       {"1/s", 1e-30, 1e30},

@@ -138,6 +138,8 @@ const Field* find_field(const Kind& kind, std::string_view key);
 /// A phrase for use after a noun: "above 0", "from 1 to 8", "of at least 0". Empty: any number.
 std::string describe(const Range& range);
 bool contains(const Range& range, double value);
+/// Whether each number of a value of this field, or in it, is a whole number.
+bool holds_whole_numbers(const Field& field);
 
 /// The largest number of a unit, whatever the field, and the smallest where numbers must be above 0.
 /// Within these limits doubles hold every energy, distance to the eighth power, and quotient of two of them.

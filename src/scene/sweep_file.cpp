@@ -246,7 +246,7 @@ class SweepReader {
     const View view(&node, kind_named("span"), key.place);
     SampledRange range{*from, *to, view.flag("log").value_or(false)};
     const Field* field = field_at(key.text);
-    range.whole = field != nullptr && field->type == Type::whole;
+    range.whole = field != nullptr && holds_whole_numbers(*field);
     const double low = parse_number(node.find("from")->text).value_or(0),
                  high = parse_number(node.find("to")->text).value_or(0);
     const auto refuse = [&](const char* end, const std::string& message, const char* remedy) {

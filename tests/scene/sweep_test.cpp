@@ -104,6 +104,26 @@ TEST(SweepFile, SamplesOfAKeyOfWholeNumbersAreWhole) {
   }
 }
 
+TEST(SweepFile, SamplesOfARepeatOfItsIndicesAndOfSizesInPixelsAreWhole) {
+  for (const char* path : {"balls.row.repeat", "balls.row.repeat.i", "strings.row.repeat.j", "output.frames.size.width"})
+    for (const char* log : {"", ", log: true"}) {
+      const Sweep sweep = sweep_of(head + "latin: 20\nover: {" + path + ": {from: 20, to: 22" + log + "}}\n");
+      for (std::size_t i = 0; i < 20; ++i) {
+        const std::string count = sweep.run(i).values[0].value_or("");
+        EXPECT_TRUE(count == "20" || count == "21" || count == "22") << path << ": " << count;
+      }
+    }
+  EXPECT_NE(sweep_errors(head + "random: 5\nover: {balls.row.repeat: {from: 1, to: 2.5}}\n")
+                .find("`balls.row.repeat` takes whole numbers"),
+            std::string::npos);
+}
+
+TEST(SweepFile, SamplesOfANameOfLetAreReal) {
+  const Sweep sweep = sweep_of(head + "random: 20\nover: {let.repeat: {from: 1, to: 3}}\n");
+  for (std::size_t i = 0; i < 20; ++i)
+    EXPECT_NE(sweep.run(i).values[0].value_or("").find('.'), std::string::npos) << sweep.run(i).values[0].value_or("");
+}
+
 TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
   const auto has = [](const std::string& text, const std::string& part) {
     EXPECT_NE(sweep_errors(head + text).find(part), std::string::npos) << sweep_errors(head + text);
