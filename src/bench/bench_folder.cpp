@@ -162,7 +162,8 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   return plot;
 }
 
-FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options) {
+FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options,
+                                   FolderChanges* changes) {
   std::vector<std::string> files = {"scene.yaml"};
   files.insert(files.end(), bench_files.begin(), bench_files.end());
   for (const MeshFile& mesh : scene.meshes)
@@ -171,7 +172,7 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
   Scene nothing_else;
   nothing_else.resolved = scene.resolved;
   nothing_else.meshes = scene.meshes;
-  return inspect_folder(folder, nothing_else, text_of_json(outputs_json(options)), files);
+  return inspect_folder(folder, nothing_else, text_of_json(outputs_json(options)), files, changes);
 }
 
 void BenchFolder::write(const Scene& scene, const BenchOptions& options, const BenchResult& result) {

@@ -13,7 +13,8 @@ namespace carom {
 struct Scene;
 
 /// The content of a folder. A bench of this scene with any options is this_run or incomplete.
-FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options);
+FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options,
+                                   FolderChanges* changes = nullptr);
 
 /// The work-precision plot: CPU time of a run against its error,
 /// or against the deviation of a chaotic scene's statistics.

@@ -175,6 +175,8 @@ std::string content_text(const PlannedScene& planned) {
       return "incomplete, will be run again";
     case FolderContent::earlier:
       return "holds a run of the scene as it was, will be replaced";
+    case FolderContent::touched:
+      return fmt::format("holds {}: run needs --force or another -o", planned.obstacle);
     case FolderContent::more:
       return "holds more outputs of this scene: run needs --force or another -o";
     case FolderContent::other_run:
@@ -193,6 +195,8 @@ std::string content_name(FolderContent content) {
       return "incomplete";
     case FolderContent::earlier:
       return "earlier run";
+    case FolderContent::touched:
+      return "changed";
     case FolderContent::more:
       return "more outputs";
     case FolderContent::other_run:

@@ -99,13 +99,14 @@ class CompareSession {
     check(plan, differences.runs());
     const std::string request =
         request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.compare.video);
-    const FolderContent content = inspect_comparison_folder(folder_, request);
+    FolderChanges changes;
+    const FolderContent content = inspect_comparison_folder(folder_, request, changes);
     if (content == FolderContent::this_run && !options_.force) return up_to_date();
-    if (content == FolderContent::other_run && !options_.force)
+    if ((content == FolderContent::other_run || content == FolderContent::touched) && !options_.force)
       return fail("wrong",
-                  fmt::format("the folder {} holds something else\n  write elsewhere with -o, or overwrite it with "
-                              "--force",
-                              printable(folder_)),
+                  fmt::format("the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force",
+                              printable(folder_),
+                              content == FolderContent::touched ? comparison_obstacle(changes) : "something else"),
                   2);
     write(plan, differences, std::move(tiles), request);
     return done(plan, differences);

@@ -17,6 +17,7 @@
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "compare/comparison_folder.h"
 #include "files/copied_run.h"
 #include "files/failed_run.h"
 #include "files/open_folder.h"
@@ -86,6 +87,8 @@ class GatherSession {
   }
 
   int gather(const Sweep& sweep, const std::string& base) {
+    if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
+      return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(name_of_folder(folder_)), 1, 0);

@@ -73,10 +73,7 @@ SceneOrigin origin_of(const PlannedScene& planned, const Options& options) {
 void find_obstacle(PlannedScene& planned) {
   const EarlierRun earlier = find_earlier_run(planned.folder, planned.origin);
   if (earlier.is_replaceable()) planned.content = FolderContent::earlier;
-  if (!earlier.touched.empty())
-    planned.obstacle = fmt::format("a run of this scene with a changed file, {}", printable(earlier.touched));
-  else if (!earlier.foreign.empty())
-    planned.obstacle = fmt::format("{}, which the run there did not write", printable(earlier.foreign));
+  planned.obstacle = obstacle_of(earlier.changes);
 }
 
 void check(PlannedScene& planned, const Options& options, Purpose purpose) {
@@ -110,11 +107,13 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
                     printable(planned.folder)));
   settle_folder(planned.folder);
   if (purpose == Purpose::bench) {
-    planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench);
+    FolderChanges changes;
+    planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench, &changes);
+    planned.obstacle = obstacle_of(changes);
     return;
   }
   planned.origin = origin_of(planned, options);
-  planned.content = inspect_folder(planned.folder, *planned.scene);
+  inspect(planned);
   if (planned.content == FolderContent::other_run) find_obstacle(planned);
   const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
   if (options.only && differs && holds_all(requested, *options.only)) {
@@ -126,6 +125,27 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
 }
 
 }  // namespace
+
+std::string obstacle_of(const FolderChanges& changes) {
+  if (!changes.changed.empty())
+    return fmt::format("a run of this scene with a changed file, {}", printable(changes.changed));
+  if (!changes.foreign.empty()) return fmt::format("{}, which the run there did not write", printable(changes.foreign));
+  if (!changes.missing.empty())
+    return fmt::format("a run of this scene that lacks a file, {}", printable(changes.missing));
+  return {};
+}
+
+void inspect(PlannedScene& planned) {
+  FolderChanges changes;
+  planned.content = inspect_folder(planned.folder, *planned.scene, &changes);
+  planned.obstacle = obstacle_of(changes);
+}
+
+void inspect_own_folder(PlannedScene& planned) {
+  const FolderChanges changes = find_changes(planned.folder);
+  planned.content = changes.changed.empty() ? FolderContent::incomplete : FolderContent::touched;
+  if (!changes.changed.empty()) planned.obstacle = obstacle_of(changes);
+}
 
 std::vector<PlannedScene> planned_folders(const Options& options) {
   std::vector<PlannedScene> runs;
@@ -205,7 +225,8 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
 
 void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options) {
   for (PlannedScene& planned : scenes) {
-    const bool other = planned.content == FolderContent::other_run, more = planned.content == FolderContent::more;
+    const bool more = planned.content == FolderContent::more;
+    const bool other = planned.content == FolderContent::other_run || planned.content == FolderContent::touched;
     if (planned.errors > 0 || !(other || more) || options.force) continue;
     const std::string text = fmt::format(
         "the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force", printable(planned.folder),

@@ -62,6 +62,14 @@ LoadOptions load_options(const Options& options, bool lifted);
 /// Throws ExportError if a run would draw or write too much. `asker`: "--only requests".
 void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker);
 
+/// What of a folder must not be overwritten, for use after "holds". Empty: nothing was changed.
+std::string obstacle_of(const FolderChanges& changes);
+
+/// Fills in the content of the scene's folder, and what of it was changed.
+void inspect(PlannedScene& planned);
+/// The same where the folder holds the run that is drawn again, and its other files are right: incomplete or touched.
+void inspect_own_folder(PlannedScene& planned);
+
 /// Adds an error for each folder that holds something else, unless --force.
 void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options);
 

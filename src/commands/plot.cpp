@@ -73,14 +73,14 @@ class PlotPlanner {
     former->scene = {};
     if (what_stands(planned.folder) == Standing::other)
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
-    inspect(planned, possible_charts(*former));
+    inspect_charts(planned, possible_charts(*former));
     planned.former = std::move(former);
   }
 
  private:
   /// A folder is up to date with all charts of a run, or with all that are possible.
-  static void inspect(PlannedScene& planned, const PossibleCharts& charts) {
-    planned.content = inspect_folder(planned.folder, *planned.scene);
+  static void inspect_charts(PlannedScene& planned, const PossibleCharts& charts) {
+    inspect(planned);
     if (planned.content == FolderContent::this_run) return;
     if (charts.names.empty())
       throw ExportError(
@@ -90,9 +90,11 @@ class PlotPlanner {
     std::vector<std::string> files = run_files(*planned.scene, planned.scene->output);
     std::erase_if(files,
                   [&](const std::string& name) { return series_of(name) != nullptr && !is_drawn_by(charts, name); });
-    planned.content = inspect_folder(planned.folder, *planned.scene, outputs_text(planned.scene->output), files);
-    if (planned.folder == planned.file && planned.content != FolderContent::this_run)
-      planned.content = FolderContent::incomplete;
+    FolderChanges changes;
+    planned.content =
+        inspect_folder(planned.folder, *planned.scene, outputs_text(planned.scene->output), files, &changes);
+    planned.obstacle = obstacle_of(changes);
+    if (planned.folder == planned.file && planned.content != FolderContent::this_run) inspect_own_folder(planned);
   }
 
   const Options& options_;

@@ -114,9 +114,9 @@ class Planner {
   void check_content(PlannedScene& planned) const {
     planned.forecast = forecast(*planned.scene);
     if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
-    planned.content = inspect_folder(planned.folder, *planned.scene);
+    inspect(planned);
     const bool renews = planned.folder == planned.file;
-    if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
+    if (renews && planned.content != FolderContent::this_run) inspect_own_folder(planned);
   }
 
   void check_time(double end) const {

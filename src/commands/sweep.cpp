@@ -9,11 +9,13 @@
 
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
+#include "commands/plan.h"
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "compare/comparison_folder.h"
 #include "files/processors.h"
 #include "files/publication.h"
 #include "scene/scene.h"
@@ -71,12 +73,18 @@ class SweepSession {
       show(outcome, job);
       return 0;
     }
+    if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_));
+        !changed.empty() && shard_.count <= 1 && !options_.force)
+      return refuse(fmt::format("the folder {} holds {}", printable(folder_), changed));
     show_progress("scenarios", job.sweep().size());
     job.plan([&](const SweepProgress& p) { show_progress(p); });
     progress_.reset();
-    if (const auto other = options_.force ? std::nullopt : job.other_content())
-      return refuse(
-          fmt::format("the folder {} holds something other than this run", printable(job.run_folder(*other))));
+    if (const auto other = options_.force ? std::nullopt : job.other_content()) {
+      const std::string place = job.run_folder(*other);
+      const bool touched = job.runs()[*other].content == FolderContent::touched;
+      return refuse(fmt::format("the folder {} holds {}", printable(place),
+                                touched ? obstacle_of(find_changes(place)) : "something other than this run"));
+    }
     for (const std::string& path : job.idle_paths())
       complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
     for (const std::string& note : notes_on_start(job)) remark(options_, note);

@@ -3,6 +3,7 @@
 #include "compare/comparison_folder.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/stored_file.h"
+#include "yaml/printable.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -44,7 +46,17 @@ std::string request_text(const ComparisonPlan& plan, const std::string& runs, bo
   return text_of_json(request);
 }
 
-FolderContent inspect_comparison_folder(const std::string& path, const std::string& request) {
+FolderChanges changes_of_comparison(const std::string& folder) {
+  return find_changes(folder, is_comparison_file);
+}
+
+std::string comparison_obstacle(const FolderChanges& changes) {
+  if (!changes.changed.empty()) return fmt::format("a comparison with a changed file, {}", printable(changes.changed));
+  if (!changes.foreign.empty()) return fmt::format("{}, which no comparison wrote", printable(changes.foreign));
+  return {};
+}
+
+FolderContent inspect_comparison_folder(const std::string& path, const std::string& request, FolderChanges& changes) {
   const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
   if (found.names.empty()) return found.content;
@@ -60,8 +72,9 @@ FolderContent inspect_comparison_folder(const std::string& path, const std::stri
     const auto stored = read_record(folder.get(), file.name);
     return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
   });
-  return whole && manifest->version == CAROM_VERSION && manifest->outputs == request ? FolderContent::this_run
-                                                                                     : FolderContent::incomplete;
+  if (whole && manifest->version == CAROM_VERSION && manifest->outputs == request) return FolderContent::this_run;
+  changes = changes_of_comparison(path);
+  return comparison_obstacle(changes).empty() ? FolderContent::incomplete : FolderContent::touched;
 }
 
 void ComparisonFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film,

@@ -17,7 +17,14 @@ inline constexpr const char* comparison_film_name = "comparison.mp4";
 std::string request_text(const ComparisonPlan& plan, const std::string& runs, bool video);
 
 /// The content of a folder. this_run: this very comparison, complete. incomplete: any other comparison, to be replaced.
-FolderContent inspect_comparison_folder(const std::string& folder, const std::string& request);
+/// touched: one with a file that was changed since, or a foreign one in the place of its files; `changes` names it.
+FolderContent inspect_comparison_folder(const std::string& folder, const std::string& request, FolderChanges& changes);
+
+/// How the comparison in a folder, perhaps a sweep's, differs from what was written. Other files do not count.
+FolderChanges changes_of_comparison(const std::string& folder);
+
+/// "a comparison with a changed file, summary.csv": what must not be overwritten. Empty: nothing.
+std::string comparison_obstacle(const FolderChanges& changes);
 
 class ComparisonFolder {
  public:

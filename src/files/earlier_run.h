@@ -2,6 +2,7 @@
 // A run of the same scene file before the file was edited. Such a run may be replaced as long as nothing else is lost.
 #include <string>
 
+#include "files/run_folder.h"
 #include "files/summary.h"
 
 namespace carom {
@@ -13,9 +14,8 @@ std::string path_from(const std::string& folder, const std::string& scene_file);
 struct EarlierRun {
   /// Whether the folder holds a run of this very scene file with these settings, whatever the file's content was.
   bool of_scene = false;
-  std::string touched;  // a file of that run that was changed or removed since
-  std::string foreign;  // an entry of the folder that the run did not write
-  bool is_replaceable() const { return of_scene && touched.empty() && foreign.empty(); }
+  FolderChanges changes;  // since that run
+  bool is_replaceable() const { return of_scene && !changes.any(); }
 };
 
 /// Reads the folder and every file that its manifest names. Changes nothing. Throws ExportError.

@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"
+#include "files/publication.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
@@ -48,6 +51,46 @@ bool names_all(const Manifest& manifest, const std::vector<std::string>& names) 
     return std::any_of(manifest.files.begin(), manifest.files.end(), has_name) ||
            std::any_of(manifest.left_out.begin(), manifest.left_out.end(), has_name);
   });
+}
+
+/// The first entry of a run's folder that neither the manifest nor a former run accounts for, and that `counts`.
+std::string foreign_entry(const FoundFolder& found, const Manifest& manifest,
+                          const std::function<bool(const std::string& name)>& counts) {
+  std::set<std::string> known = {manifest_name, failure_file};
+  for (const FileRecord& file : manifest.files) known.insert(file.name);
+  const auto is_foreign = [&](const std::string& name) { return !known.contains(name) && counts(name); };
+  const std::vector<std::string> series = series_folder_names();
+  SeriesFolders folders(found.folder.get());
+  for (const std::string& name : found.names) {
+    if (is_part_name(name)) continue;
+    const int inner = std::find(series.begin(), series.end(), name) == series.end() ? -1 : folders.open(name);
+    if (inner < 0 && is_foreign(name)) return name;
+    if (inner < 0) continue;
+    for (const std::string& entry : folder_names(inner)) {
+      std::string path = name + "/";
+      path += entry;
+      if (!is_part_name(entry) && is_foreign(path)) return path;
+    }
+  }
+  return {};
+}
+
+FolderChanges changes_in(const FoundFolder& found, const Manifest& manifest,
+                         const std::function<bool(const std::string& name)>& counts) {
+  FolderChanges changes;
+  // Of an interrupted publication the files are newer than the manifest.
+  if (found.has(next_manifest)) return changes;
+  changes.foreign = foreign_entry(found, manifest, counts);
+  SeriesFolders folders(found.folder.get());
+  for (const FileRecord& file : manifest.files) {
+    const FileSpot spot = folders.spot(file.name);
+    const auto size = spot.folder < 0 ? std::nullopt : stored_size(spot.folder, spot.name);
+    if (!size && changes.missing.empty()) changes.missing = file.name;
+    if (!size || (*size == file.bytes && has_hash(spot, file))) continue;
+    changes.changed = file.name;
+    break;
+  }
+  return changes;
 }
 
 /// Compares sizes before hashes, so that a truncated file is found without reading gigabytes.
@@ -100,6 +143,21 @@ bool is_whole_since(const std::string& path, const std::string& mark) {
   return all_files(folder.get(), *manifest, unchanged);
 }
 
+bool is_older(const std::string& path, const std::string& mark) {
+  const std::optional<timespec> marked = changed({AT_FDCWD, mark});
+  const std::optional<timespec> made = changed({AT_FDCWD, path + "/" + manifest_name});
+  return marked && made && is_before(*made, *marked);
+}
+
+FolderChanges find_changes(const std::string& path, const std::function<bool(const std::string& name)>& counts) {
+  const FoundFolder found = find_folder(path);
+  auto manifest = found.has(manifest_name) ? read_manifest(found.folder.get(), manifest_name) : std::nullopt;
+  if (!manifest) return {};
+  if (!counts) return changes_in(found, *manifest, [](const std::string&) { return true; });
+  std::erase_if(manifest->files, [&](const FileRecord& file) { return !counts(file.name); });
+  return changes_in(found, *manifest, counts);
+}
+
 std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared) {
   SeriesFolders folders(folder);
   for (const FileRecord& file : manifest.files) {
@@ -133,9 +191,9 @@ FoundFolder find_folder(const std::string& path) {
   return found;
 }
 
-FolderContent inspect_folder(const std::string& path, const Scene& scene) {
+FolderContent inspect_folder(const std::string& path, const Scene& scene, FolderChanges* changes) {
   const std::vector<std::string> files = run_files(scene, scene.output);
-  const FolderContent content = inspect_folder(path, scene, outputs_text(scene.output), files);
+  const FolderContent content = inspect_folder(path, scene, outputs_text(scene.output), files, changes);
   const bool changed = content == FolderContent::incomplete || content == FolderContent::more;
   if (!changed || scene.output.plots) return content;
   // Charts that were added to a run leave it whole.
@@ -146,7 +204,7 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene) {
 }
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,
-                             const std::vector<std::string>& files) {
+                             const std::vector<std::string>& files, FolderChanges* changes) {
   const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
   const std::string hash = sha256(scene.resolved);
@@ -156,6 +214,15 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene, const 
       return FolderContent::other_run;
     }
     if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
+    const auto is_written = [&](const std::string& name) {
+      const OutputKind* kind = series_of(name);
+      return kind ? kind->asked(scene.output) : std::find(files.begin(), files.end(), name) != files.end();
+    };
+    FolderChanges its = changes_in(found, *manifest, is_written);
+    if (!its.changed.empty() || !its.foreign.empty()) {
+      if (changes != nullptr) *changes = std::move(its);
+      return FolderContent::touched;
+    }
     return has_more(folder.get(), *manifest, scene, files) ? FolderContent::more : FolderContent::incomplete;
   }
   if (found.has("scene.yaml")) {

@@ -38,6 +38,8 @@ enum class FolderContent {
   more,
   /// A complete run of the same scene file before that was edited, and nothing else (earlier_run.h).
   earlier,
+  /// A run of this scene with a file that was changed since, or with a foreign one in the place of a file to write.
+  touched,
   /// A run of another scene, or files that no run wrote.
   other_run
 };
@@ -48,7 +50,22 @@ enum class FolderContent {
 /// `mark`: a path. Empty: every hash is checked. A change within the same clock tick counts as a change.
 bool is_whole_since(const std::string& folder, const std::string& mark);
 
+/// Whether the run in `folder` was complete before the file `mark` was written. `mark`: a path.
+bool is_older(const std::string& folder, const std::string& mark);
+
 struct Manifest;
+
+/// How a folder differs from its manifest: the first of each sort. A folder whose publication was interrupted does not.
+struct FolderChanges {
+  std::string changed;  // a file with another size or hash
+  std::string missing;  // a file that is absent, or no file
+  std::string foreign;  // an entry that the run did not write
+  bool any() const { return !changed.empty() || !missing.empty() || !foreign.empty(); }
+};
+/// Reads every file of the manifest up to the first changed one. Changes nothing. Throws ExportError.
+/// `counts`: the names to look at. None: all.
+FolderChanges find_changes(const std::string& folder,
+                           const std::function<bool(const std::string& name)>& counts = nullptr);
 
 /// The first of the manifest's files that lacks its size or hash. Empty: none. `spared`: files that may.
 std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared);
@@ -65,9 +82,10 @@ struct FoundFolder {
 FoundFolder find_folder(const std::string& folder);
 
 /// The content of `folder`, from its manifest.json. Changes nothing. A run with charts besides is this_run too.
-FolderContent inspect_folder(const std::string& folder, const Scene& scene);
+/// `changes`: may be null; of a touched run what was changed.
+FolderContent inspect_folder(const std::string& folder, const Scene& scene, FolderChanges* changes = nullptr);
 /// The same for a folder that is not a run's. `outputs`: as in its manifest. `files`: those it must have.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene, const std::string& outputs,
-                             const std::vector<std::string>& files);
+                             const std::vector<std::string>& files, FolderChanges* changes = nullptr);
 
 }  // namespace carom

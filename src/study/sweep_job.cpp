@@ -19,6 +19,7 @@
 #include "files/copied_run.h"
 #include "files/failed_run.h"
 #include "files/hash.h"
+#include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
@@ -203,6 +204,9 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       const std::string folder = run_folder(number);
       settle_folder(folder);
       run.content = inspect_folder(folder, its);
+      // Files of a run of an unfinished sweep are not synced: they may have changed by a power failure.
+      if (run.content == FolderContent::touched && !is_older(folder, folder_ + "/" + manifest_name))
+        run.content = FolderContent::incomplete;
       if (run.content == FolderContent::this_run && !settings_.force && has_measures(folder, measures_))
         run.status = RunStatus::done;
     } catch (const SceneError& error) {
@@ -264,7 +268,7 @@ std::optional<std::size_t> SweepJob::other_content() const {
   const std::vector<std::size_t> mine = of_part();
   const auto found = std::find_if(mine.begin(), mine.end(), [&](std::size_t number) {
     const FolderContent content = runs_[number].content;
-    return content == FolderContent::other_run || content == FolderContent::more;
+    return content == FolderContent::other_run || content == FolderContent::more || content == FolderContent::touched;
   });
   return found == mine.end() ? std::nullopt : std::optional(*found);
 }

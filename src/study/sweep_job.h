@@ -80,8 +80,8 @@ class SweepJob {
   /// The runs that are left out, by number. They belong to no part.
   const std::vector<InvalidRun>& invalid() const { return invalid_; }
 
-  /// The first run of this shard that would overwrite other content: another scene's run, or more outputs.
-  /// Call it after plan().
+  /// The first run of this shard that would overwrite other content: another scene's run, more outputs, or a changed
+  /// file. Call it after plan().
   std::optional<std::size_t> other_content() const;
 
   /// The paths that do not affect the motion, although they are not settings of appearance or output.

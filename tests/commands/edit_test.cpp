@@ -68,9 +68,137 @@ TEST(EditedScene, LeavesTouchedAndForeignFilesAlone) {
   refused("echo mine > output/balls/frames/a.png", "frames/a.png, which the run there did not write");
   refused("mkdir output/balls/older", "older, which the run there did not write");
   refused("echo >> output/balls/energy.csv", "a run of this scene with a changed file, energy.csv");
-  refused("rm output/balls/frames/frame_00001.png", "a run of this scene with a changed file, frames/frame_00001.png");
+  refused("rm output/balls/frames/frame_00001.png", "a run of this scene that lacks a file, frames/frame_00001.png");
   refused("sed -i /path/d output/balls/manifest.json", "another run, or files that no run wrote");
   refused("rm output/balls/manifest.json", "another run, or files that no run wrote");
+}
+
+TEST(UneditedScene, LeavesTouchedFilesAlone) {
+  const auto refused = [](const std::string& change, const std::string& why, const std::string& only = "") {
+    const Workplace here;
+    here.write("balls.yaml", balls_with_frames(3));
+    std::vector<std::string> first = {"run", "balls.yaml", "-q"};
+    if (!only.empty()) first.insert(first.end(), {"--only", only});
+    here.carom(first);
+    here.shell(change);
+    const auto before = here.files("output");
+    const Finished run = here.carom({"run", "balls.yaml", "-q"});
+    EXPECT_EQ(run.code, 2) << change;
+    EXPECT_EQ(run.err, "balls.yaml: the folder output/balls holds " + why +
+                           "\n  write elsewhere with -o, or overwrite it with --force\n"
+                           "carom: 1 error; nothing was run\n");
+    EXPECT_EQ(here.files("output"), before) << change;
+    // Long lines are wrapped.
+    EXPECT_NE(here.carom({"check", "balls.yaml"}).out.find("holds " + why.substr(0, why.find_first_of(" ,"))),
+              std::string::npos);
+    EXPECT_EQ(here.carom({"run", "balls.yaml", "-q", "--force"}).code, 0) << change;
+    EXPECT_EQ(here.carom({"run", "balls.yaml"}).out, "balls: Two balls\n  up to date  output/balls\n");
+  };
+  refused("echo '# mine' >> output/balls/energy.csv", "a run of this scene with a changed file, energy.csv");
+  refused("echo >> output/balls/frames/frame_00001.png; rm output/balls/summary.csv",
+          "a run of this scene with a changed file, frames/frame_00001.png");
+  // More outputs than before do not overwrite a file that the run there did not write.
+  refused("mkdir output/balls/frames; echo mine > output/balls/frames/frame_00001.png",
+          "frames/frame_00001.png, which the run there did not write", "energy");
+}
+
+TEST(UneditedScene, BringsBackLostFilesBesideForeignOnes) {
+  const Workplace here;
+  here.write("balls.yaml", balls_with_frames(3));
+  here.carom({"run", "balls.yaml", "-q"});
+  const auto before = without_manifest(here.files("output/balls"));
+  here.shell("rm output/balls/energy.csv output/balls/frames/frame_00001.png; echo mine > output/balls/notes.txt");
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-q"}).code, 0);
+  EXPECT_EQ(here.read("output/balls/notes.txt"), "mine\n");
+  here.shell("rm output/balls/notes.txt");
+  EXPECT_EQ(without_manifest(here.files("output/balls")), before);
+}
+
+TEST(UneditedScene, PicturesThatWereChangedAreDrawnAgainOnlyByForce) {
+  const Workplace here;
+  here.write("balls.yaml", balls_with_frames(3));
+  here.carom({"run", "balls.yaml", "-o", "run", "-q"});
+  const std::string picture = here.read("run/frames/frame_00001.png");
+  here.shell("echo mine >> run/frames/frame_00001.png");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"render", "run", "-q"},
+        std::vector<std::string>{"render", "run", "-q", "--set", "output.frames.samples=1"}}) {
+    const Finished again = here.carom(words);
+    EXPECT_EQ(again.code, 2) << again.err;
+    EXPECT_NE(again.err.find("holds a run of this scene with a changed file, frames/frame_00001.png"),
+              std::string::npos)
+        << again.err;
+    EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture + "mine\n");
+  }
+  EXPECT_EQ(here.carom({"render", "run", "-q", "--force"}).code, 0);
+  EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture);
+  here.shell("rm run/frames/frame_00001.png");
+  EXPECT_EQ(here.carom({"render", "run", "-q"}).code, 0);
+  EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture);
+}
+
+TEST(UneditedSweep, LeavesTouchedFilesAlone) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const std::vector<std::string> words = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"};
+  std::vector<std::string> forced = words;
+  forced.emplace_back("--force");
+  ASSERT_EQ(here.carom(words).code, 0);
+  const std::pair<std::string, std::string> all[] = {
+      {"sweep/summary.csv", "carom: balls.yaml: the folder sweep holds a comparison with a changed file, summary.csv"},
+      {"sweep/comparison.xlsx",
+       "carom: balls.yaml: the folder sweep holds a comparison with a changed file, comparison.xlsx"},
+      {"sweep/runs/r0002/energy.csv",
+       "carom: balls.yaml: the folder sweep/runs/r0002 holds a run of this scene with a changed file, energy.csv"}};
+  for (const auto& [file, error] : all) {
+    here.shell("echo mine >> " + file);
+    const auto before = here.files("sweep");
+    const Finished again = here.carom(words);
+    EXPECT_EQ(again.code, 2) << file;
+    EXPECT_EQ(again.err, error + "\n  write elsewhere with -o, or overwrite it with --force\n");
+    EXPECT_EQ(here.files("sweep"), before) << file;
+    EXPECT_EQ(here.carom(forced).code, 0) << file;
+    here.shell("rm " + file);
+    EXPECT_EQ(here.carom(words).code, 0) << "what is missing is done: " << file;
+    EXPECT_TRUE(here.has(file));
+  }
+  here.shell("echo mine >> sweep/summary.csv");
+  const Finished gathered = here.carom({"gather", "sweep", "-q"});
+  EXPECT_EQ(gathered.code, 2);
+  EXPECT_EQ(gathered.err,
+            "carom: the folder sweep holds a comparison with a changed file, summary.csv: remove it or rename it; "
+            "nothing was gathered\n");
+}
+
+TEST(UneditedSweep, RepeatsAChangedRunBeforeItsEnd) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const std::vector<std::string> words = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"};
+  ASSERT_EQ(here.carom(words).code, 0);
+  const std::string energy = here.read("sweep/runs/r0002/energy.csv");
+  here.shell("rm sweep/manifest.json; truncate -s 10 sweep/runs/r0002/energy.csv");
+  EXPECT_EQ(here.carom(words).code, 0);
+  EXPECT_EQ(here.read("sweep/runs/r0002/energy.csv"), energy);
+}
+
+TEST(UneditedComparison, LeavesTouchedFilesAlone) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"run", "balls.yaml", "-o", "a", "-q"});
+  here.carom({"run", "balls.yaml", "-o", "b", "-q", "--set", "balls.red.mass=2"});
+  const std::vector<std::string> words = {"compare", "a", "b", "-o", "both", "-q"};
+  ASSERT_EQ(here.carom(words).code, 0);
+  const std::string table = here.read("both/summary.csv");
+  here.shell("echo mine >> both/summary.csv");
+  const Finished again = here.carom(words);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.err,
+            "carom: the folder both holds a comparison with a changed file, summary.csv\n"
+            "  write elsewhere with -o, or overwrite it with --force\n");
+  EXPECT_EQ(here.read("both/summary.csv"), table + "mine\n");
+  here.shell("rm both/summary.csv");
+  EXPECT_EQ(here.carom(words).code, 0);
+  EXPECT_EQ(here.read("both/summary.csv"), table);
 }
 
 TEST(EditedScene, DoesNotReplaceARunOfASweep) {

@@ -85,12 +85,17 @@ TEST(PlotRuns, KeepsTheOtherFilesAndLeavesTheRunUpToDate) {
   EXPECT_TRUE(manifest["wall_times_s"].is_object());
 }
 
-TEST(PlotRuns, DrawsAgainWhatIsDamagedOrForced) {
+TEST(PlotRuns, DrawsAgainWhatIsMissingOrForced) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   here.carom({"run", "balls.yaml", "--set", "output.plots=true", "-o", "run"});
   const Files whole = here.files("run");
   here.write("run/plots/energy.svg", "something else");
+  const Finished refused = here.carom({"plot", "run"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("holds a run of this scene with a changed file, plots/energy.svg"), std::string::npos)
+      << refused.err;
+  here.shell("rm run/plots/energy.svg");
   EXPECT_NE(here.carom({"plot", "run"}).out.find("wrote"), std::string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
   EXPECT_NE(here.carom({"plot", "run", "--force"}).out.find("wrote"), std::string::npos);

@@ -119,12 +119,12 @@ TEST(Sweep, SecondCallIsUpToDateAndTouchesNothing) {
   EXPECT_EQ(here.files("output"), before);
 }
 
-TEST(Sweep, RunsOnlyWhatIsMissingOrWasTouched) {
+TEST(Sweep, RunsOnlyWhatIsMissing) {
   const Workplace here;
   prepare(here);
   here.carom({"sweep", "offsets.yaml", "-q"});
   const Files before = here.files("output");
-  here.shell("rm output/offsets/runs/r0002/trajectory.csv; echo >> output/offsets/runs/r0005/energy.csv");
+  here.shell("rm output/offsets/runs/r0002/trajectory.csv output/offsets/runs/r0005/energy.csv");
   const std::string kept = here.read("output/offsets/runs/r0001/manifest.json");
   const Json again = Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out);
   EXPECT_EQ(again["made"], 2);

@@ -235,7 +235,7 @@ TEST(Folder, ForeignFilesAreAnotherRun) {
   EXPECT_EQ(read(temp / "a/thesis.tex"), "x");
 }
 
-TEST(Folder, AnyDamageMakesItIncomplete) {
+TEST(Folder, AChangedFileMakesItTouchedAndALostOneIncomplete) {
   const Scene scene = scene_with_frames();
   for (const std::string name : {"summary.csv", "scene.yaml", "frames/frame_00001.png"}) {
     TempFolder temp;
@@ -245,9 +245,9 @@ TEST(Folder, AnyDamageMakesItIncomplete) {
     std::string changed = text;
     changed[changed.size() / 2] ^= 1;  // one bit, the same size
     write(file, changed);
-    EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete) << name;
+    EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::touched) << name;
     write(file, text.substr(1));
-    EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete) << name;
+    EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::touched) << name;
     write(file, text);
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::this_run) << name;
     fs::remove(file);
@@ -267,6 +267,10 @@ TEST(Folder, AManifestThatLeavesAFileOutIsNotWhole) {
       break;
     }
   write(temp / "run/manifest.json", manifest.dump());
+  FolderChanges changes;
+  EXPECT_EQ(inspect_folder(temp / "run", scene, &changes), FolderContent::touched);
+  EXPECT_EQ(changes.foreign, "energy.csv");
+  fs::remove(temp / "run/energy.csv");
   EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete);
 }
 

@@ -34,12 +34,12 @@ TEST(Meshes, ThatHaveChangedMakeAnotherRun) {
   }
 }
 
-TEST(Meshes, CopyThatWasTamperedWithIsNotWhole) {
+TEST(Meshes, CopyThatWasTamperedWithMakesTheRunTouched) {
   TempFolder temp;
   const Scene scene = scene_with_mesh(temp);
   run(scene, temp / "run");
   write(temp / "run/pin.stl", "solid pin!");
-  EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete);
+  EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::touched);
 }
 
 TEST(Meshes, OfTheRunsOwnFolderOutliveARunIntoIt) {
