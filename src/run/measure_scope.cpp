@@ -22,6 +22,13 @@ const BodyRange* find_range(const Scene& scene, std::string_view name) {
   return found == bodies.end() ? nullptr : &*found;
 }
 
+/// Whether a thing of this name has no members, and `fits`(the key that it stands under).
+template <typename Fits>
+bool is_empty(const Scene& scene, std::string_view name, const Fits& fits) {
+  const auto& empty = scene.roster.empty;
+  return std::any_of(empty.begin(), empty.end(), [&](const EmptyFamily& e) { return e.name == name && fits(e.of); });
+}
+
 /// The member "17" of a group. Throws MeasureError.
 EntityRange member_of(const BodyRange& range, std::string_view number, const Measure& measure) {
   Entity member = 0;
@@ -61,7 +68,8 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
   if (!found && groups && dot != std::string::npos)
     if (const BodyRange* range = find_range(scene, measure.body.substr(0, dot)); range != nullptr && range->group)
       return member_of(*range, std::string_view(measure.body).substr(dot + 1), measure);
-  if (!found) {
+  const auto is_kind = [&](std::string_view of) { return groups ? of == "groups" : of == "balls" || of == "bodies"; };
+  if (!found && !is_empty(scene, measure.body, is_kind)) {
     std::vector<std::string_view> names;
     for (const BodyRange& range : scene.roster.bodies)
       if (range.group == groups) names.push_back(range.name);
@@ -91,7 +99,8 @@ std::vector<EntityRange> things_named(std::string_view name, const Measure& meas
     names.push_back(scene.roster.strings[k]);
     if (is_named(scene.roster.strings[k], name)) things.push_back({scene.world.string_number(k), 1});
   }
-  if (!things.empty()) return things;
+  const auto is_thing = [](std::string_view of) { return of != "regions"; };
+  if (!things.empty() || is_empty(scene, name, is_thing)) return things;
   const std::size_t dot = name.rfind('.');
   if (dot != std::string_view::npos)
     if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
@@ -108,7 +117,7 @@ std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& sc
     names.push_back(scene.roster.regions[r]);
     if (is_named(scene.roster.regions[r], name)) regions.push_back(r);
   }
-  if (regions.empty())
+  if (regions.empty() && !is_empty(scene, name, [](std::string_view of) { return of == "regions"; }))
     throw MeasureError(fmt::format("{}: no region is named {}{}", in_backticks(measure.name), in_backticks(name),
                                    near_name(name, names)));
   return regions;

@@ -22,14 +22,16 @@ std::string near_name(std::string_view word, const std::vector<std::string_view>
 /// Whether a thing has this name, or is one of several that have it: gas.3, room.x_min, posts.2.
 bool is_named(std::string_view thing, std::string_view name);
 
-/// The bodies of a measure of a quantity: one, the members of a group, or all. Throws MeasureError.
+/// The bodies of a measure of a quantity: one, the members of a group, or all; none of `repeat: 0`. Throws
+/// MeasureError.
 EntityRange bodies_of(const Measure& measure, const Scene& scene);
 
 /// What a measure's name stands for: bodies, members of a group, fixed things, the room or one of its sides, strings.
-/// Throws MeasureError.
+/// Empty: a thing with `repeat: 0`. Throws MeasureError.
 std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene);
 
-/// The regions of a measure of regions: one, or all members of a repeated one; ascending. Throws MeasureError.
+/// The regions of a measure of regions: one, or all members of a repeated one, perhaps none; ascending. Throws
+/// MeasureError.
 std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene);
 
 /// Throws MeasureError unless the scene has all that the measure names.

@@ -56,6 +56,7 @@ class Regions {
       if (inventory_.names.contains(key.text))
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
                          "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene");
+      if (regions->items[i].is(Node::Kind::map) && regions->items[i].find_key("repeat") != nullptr) continue;
       const View view(&regions->items[i], kind_named("region"), key.place);
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
       scene_.roster.regions.push_back(key.text);
@@ -76,7 +77,10 @@ class Regions {
       scene_.simulate.stop_collisions = std::min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
     const std::vector<std::string>& names = scene_.roster.regions;
-    bool found = false;
+    const std::vector<EmptyFamily>& empty = scene_.roster.empty;
+    bool found = std::any_of(empty.begin(), empty.end(), [&](const EmptyFamily& family) {
+      return family.of == "regions" && family.name == region->text;
+    });
     for (std::size_t r = 0; r < names.size(); ++r) {
       if (names[r] != region->text && (region->text.empty() || family_of(names[r]) != region->text)) continue;
       scene_.world.regions[r].stops = found = true;

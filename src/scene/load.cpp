@@ -103,6 +103,7 @@ struct SceneFile::Impl {
     scene.title = whole.text("title").value_or("");
     scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
     const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
+    scene.roster.empty = empty_families(tree);
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
@@ -126,6 +127,19 @@ struct SceneFile::Impl {
   }
 
   /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
+  /// The things that expand() has left in place because they have no members.
+  static std::vector<EmptyFamily> empty_families(const Node& tree) {
+    std::vector<EmptyFamily> families;
+    for (const Field& field : kind_named("scene").fields) {
+      const Node* things = field.type == Type::named ? tree.find(field.key) : nullptr;
+      if (things == nullptr || !things->is(Node::Kind::map) || !find_field(kind_named(field.of), "repeat")) continue;
+      for (std::size_t i = 0; i < things->keys.size(); ++i)
+        if (things->items[i].is(Node::Kind::map) && things->items[i].find_key("repeat") != nullptr)
+          families.push_back({field.key, things->keys[i].text});
+    }
+    return families;
+  }
+
   void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
     if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
       for (std::size_t i = 0; i < let->items.size(); ++i)

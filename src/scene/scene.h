@@ -62,6 +62,12 @@ struct FixedName {
   std::optional<MeshUse> mesh = std::nullopt;  // only of an obstacle
 };
 
+/// A thing with `repeat: 0`.
+struct EmptyFamily {
+  std::string_view of;  // the key of the scene: "balls", "strings"
+  std::string name;
+};
+
 /// The names of bodies, fixed things and strings, in the order of the file. Every output has this order.
 struct Roster {
   std::vector<BodyRange> bodies;  // ordered by first body
@@ -69,6 +75,7 @@ struct Roster {
   std::vector<FixedName> fixed;
   std::vector<std::string> strings;              // by number in World::strings
   std::vector<std::string> regions;              // by number in World::regions
+  std::vector<EmptyFamily> empty;                // in no particular order
   std::string name(Entity e) const;              // "red", "gas.17", "lane", "s1"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };

@@ -105,7 +105,8 @@ TEST(SweepFile, SamplesOfAKeyOfWholeNumbersAreWhole) {
 }
 
 TEST(SweepFile, SamplesOfARepeatOfItsIndicesAndOfSizesInPixelsAreWhole) {
-  for (const char* path : {"balls.row.repeat", "balls.row.repeat.i", "strings.row.repeat.j", "output.frames.size.width"})
+  for (const char* path :
+       {"balls.row.repeat", "balls.row.repeat.i", "strings.row.repeat.j", "output.frames.size.width"})
     for (const char* log : {"", ", log: true"}) {
       const Sweep sweep = sweep_of(head + "latin: 20\nover: {" + path + ": {from: 20, to: 22" + log + "}}\n");
       for (std::size_t i = 0; i < 20; ++i) {
