@@ -141,6 +141,23 @@ std::string start_text(const Scene& scene, const std::string& folder) {
   return fmt::format("{} {} {}", start->run, start->at, start->sha256);
 }
 
+/// Adds the values of `let` that a measure names.
+void add_given(const Measure& measure, const Scene& scene, std::string& text) {
+  for (const Measure& part : measure.parts) add_given(part, scene, text);
+  if (measure.form != MeasureForm::given) return;
+  const auto number = scene.measures.numbers.find(measure.things[0]);
+  if (number != scene.measures.numbers.end()) text += fmt::format("{}={}\n", number->first, number->second);
+}
+
+/// What besides the motion determines the measures of a scene, and these further ones.
+std::string measured_text(const Scene& scene, const std::vector<Measure>& more) {
+  std::string text;
+  for (const OwnMeasure& own : scene.measures.own) text += fmt::format("{}: {}\n", own.name, own.text);
+  for (const Measure& measure : own_measures(scene)) add_given(measure, scene, text);
+  for (const Measure& measure : more) add_given(measure, scene, text);
+  return text;
+}
+
 LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
   const auto is_film = [](const SweepValue& output) { return output.text == "video"; };
   load.chooses_outputs = !sweep.only.empty() && std::none_of(sweep.only.begin(), sweep.only.end(), is_film);
@@ -201,6 +218,7 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       const bool named = its.output.pictures() && has_name(its.overlay.caption, "run");
       run.scene = digest(its.resolved + meshes_text(its) + start_text(its, folder_) + (named ? sweep_.id(number) : ""));
       run.motion = digest(motion_text(its));
+      run.measured = digest(measured_text(its, measures_));
       const std::string folder = run_folder(number);
       settle_folder(folder);
       run.content = inspect_folder(folder, its);
@@ -292,7 +310,8 @@ std::vector<std::string> SweepJob::idle_paths() const {
       // Equal values may differ in notation.
       if (is_new || runs_[number].scene == runs_[found->second].scene) continue;
       ++pairs;
-      if (runs_[number].motion == runs_[found->second].motion) ++alike;
+      const PlannedRun &one = runs_[number], &other = runs_[found->second];
+      if (one.motion == other.motion && one.measured == other.measured) ++alike;
       if (alike < pairs) break;
     }
     if (pairs > 0 && alike == pairs) idle.push_back(path);

@@ -40,8 +40,9 @@ enum class RunStatus : std::uint8_t {
 
 /// A run after planning.
 struct PlannedRun {
-  /// Digests. Scenarios with equal `scene` are equal, and those with equal `motion` move alike.
-  std::array<char, 16> scene{}, motion{};
+  /// Digests. Scenarios with equal `scene` are equal, and those with equal `motion` move alike. Those with equal
+  /// `measured` have the same measures of their motion.
+  std::array<char, 16> scene{}, motion{}, measured{};
   FolderContent content = FolderContent::nothing;
   RunStatus status = RunStatus::missing;
 };
@@ -84,7 +85,7 @@ class SweepJob {
   /// file. Call it after plan().
   std::optional<std::size_t> other_content() const;
 
-  /// The paths that do not affect the motion, although they are not settings of appearance or output.
+  /// The paths that affect neither the motion nor measures, although they are not settings of appearance or output.
   /// Runs that differ only in such a path move alike. Call it after plan().
   std::vector<std::string> idle_paths() const;
 

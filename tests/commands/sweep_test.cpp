@@ -133,6 +133,28 @@ TEST(Sweep, RunsOnlyWhatIsMissing) {
     EXPECT_TRUE(name.ends_with("manifest.json") || here.files("output").at(name) == bytes) << name;
 }
 
+TEST(Sweep, ReportsAPathWithoutEffectUnlessAMeasureUsesIt) {
+  const Workplace here;
+  const auto said = [&](const std::string& measure, const std::string& path) {
+    here.write("balls.yaml",
+               two_balls("let: {k: 2, twice: = 2 * k, idle: 3}\nmeasures: {m: '" + measure + "'}\n" + tables));
+    const Finished sweep =
+        here.carom({"sweep", "balls.yaml", "--grid", path, "-o", "sweep", "--force", "--progress", "none", "-q"});
+    EXPECT_EQ(sweep.code, 0) << sweep.err;
+    return sweep.err;
+  };
+  const auto idle = [](const std::string& path) {
+    return "carom: " + path + " has no effect on the motion: its value is not used\n";
+  };
+  EXPECT_EQ(said("= hits(red)", "let.k=1,2"), idle("let.k"));
+  EXPECT_EQ(said("= hits(red) * let.k", "let.k=1,2"), "");
+  EXPECT_EQ(said("= hits(red) * let.twice", "let.k=1,2"), "") << "by another value";
+  EXPECT_EQ(said("let.k", "let.k=1,2"), "");
+  EXPECT_EQ(said("= 1 + count(y_m < let.k)", "let.k=1,2"), "");
+  EXPECT_EQ(said("= hits(red) * let.k", "let.idle=1,2"), idle("let.idle"));
+  EXPECT_EQ(said("= hits(red)", "measures.m=hits(red),hits(blue)"), "");
+}
+
 TEST(Sweep, PlanShowsRunsAndWritesNothing) {
   const Workplace here;
   prepare(here);
