@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "physics/bounds.h"
 #include "scene/scene.h"
@@ -54,7 +55,10 @@ class Warnings {
       return "lasting contact of many bodies was computed in time steps, to first order: compare dependent figures "
              "across "
              "several seeds";
-    return "shorten simulate.duration, or soften the attractor";
+    const std::vector<Force>& forces = scene_.world.forces;
+    const bool attracts = std::any_of(forces.begin(), forces.end(),
+                                      [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
+    return attracts ? "shorten simulate.duration, or soften the attractor" : "shorten simulate.duration";
   }
 
   void check_energy() {
