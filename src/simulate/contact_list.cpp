@@ -3,7 +3,9 @@
 #include "simulate/contact_list.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "numerics/vanishing_sum.h"
 #include "physics/world.h"
 #include "simulate/exact_bodies.h"
 #include "simulate/tolerances.h"
@@ -27,19 +29,24 @@ void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>&
   std::size_t worst = 0;
   for (std::size_t c = 1; c < pairs.size(); ++c)
     if (approach(velocities, pairs[c]) > approach(velocities, pairs[worst])) worst = c;
-  // The thing on the other side of the body.
+  // The things around the body, and the directions to them.
   const auto& [body, thing, of_worst] = names[worst];
-  Entity other = no_entity;
-  double most = 0;
+  std::vector<Entity> around = {thing};
+  std::vector<Vec3> directions = {pairs[worst].normal};
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
     if (c == worst || (i != body && e != body)) continue;
-    const double opposite = (i == body ? -1 : 1) * pairs[worst].normal.dot(pairs[c].normal);
-    if (!(opposite > most)) continue;
-    most = opposite;
-    other = i == body ? e : i;
+    around.push_back(i == body ? e : i);
+    directions.emplace_back(i == body ? pairs[c].normal : Vec3(-pairs[c].normal));
   }
-  if (other != no_entity) bodies.fail_squeezed(body, thing, other);
+  std::vector<Entity> things;
+  for (const std::size_t k : vanishing_sum(directions, 0, exact_tolerance::level)) things.push_back(around[k]);
+  if (!things.empty()) bodies.fail_squeezed(body, std::move(things));
+  // They do not hold the body all around: the thing on its other side.
+  std::size_t other = 0;
+  for (std::size_t k = 1; k < around.size(); ++k)
+    if (directions[k].dot(directions[0]) < std::min(0.0, directions[other].dot(directions[0]))) other = k;
+  if (other > 0) bodies.fail_squeezed(body, {thing, around[other]});
 }
 
 void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::size_t first, double beside) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "physics/force.h"
 #include "physics/world.h"
@@ -93,10 +94,17 @@ Vec3 ExactBodies::bent_force_at(Entity i, const Vec3& x, const Vec3& v) const {
   return free_acceleration(world, i, now.hi, x, v);
 }
 
-void ExactBodies::fail_squeezed(Entity i, Entity a, Entity b) const {
-  throw SimulationError(fmt::format("at t = {} s ", now.hi), {i, std::min(a, b), std::max(a, b)},
-                        {" has no room left between ", " and ",
-                         ": end or slow their `motion` before, leave room for the body, or shorten simulate.duration"});
+void ExactBodies::fail_squeezed(Entity i, std::vector<Entity> things) const {
+  std::sort(things.begin(), things.end());
+  things.erase(std::unique(things.begin(), things.end()), things.end());
+  std::vector<std::string> after = {" has no room left between "};
+  for (std::size_t k = 0; k < things.size(); ++k)
+    after.emplace_back(k + 2 < things.size()    ? ", "
+                       : k + 2 == things.size() ? " and "
+                                                : ": end or slow their `motion` before, leave room for the body, or "
+                                                  "shorten simulate.duration");
+  things.insert(things.begin(), i);
+  throw SimulationError(fmt::format("at t = {} s ", now.hi), std::move(things), std::move(after));
 }
 
 std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {

@@ -63,8 +63,8 @@ struct ExactBodies {
     if (!bounds.hold(x, v)) [[unlikely]]
       fail_out_of_bounds(bounds, i, time, x, v, remedies());
   }
-  /// Throws SimulationError: fixed things a and b, of which one moves, leave body i no room.
-  [[noreturn]] void fail_squeezed(Entity i, Entity a, Entity b) const;
+  /// Throws SimulationError: these things, of which one moves, leave body i no room.
+  [[noreturn]] void fail_squeezed(Entity i, std::vector<Entity> things) const;
   static constexpr double immovable = never;  // kg
 
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present

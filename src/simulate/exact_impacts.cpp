@@ -310,7 +310,7 @@ void ExactImpacts::check_room(const FixedImpact& impact) const {
     if (bodies_.now.hi + left > until) continue;
     const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
     if (leave_feature(world, i, e, opposite.feature, along, left).time < never) continue;
-    bodies_.fail_squeezed(i, impact.surface, e);
+    bodies_.fail_squeezed(i, {impact.surface, e});
   }
 }
 
@@ -320,8 +320,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (bodies_.moving.any()) check_room(impact);
   const Vec3 &x = impact.x, &v = impact.v, &n = impact.there.normal;
   const double approach = impact.approach, met = impact.unkicked, mass = world.mass[i];
-  // Elastic impacts between things that close in on a body have no end.
-  parts_.guard.note_restitution(impact.e == 1 && world.moves(surface) ? 0 : impact.e);
+  parts_.guard.note_restitution(impact.e, world.moves(surface));
   bodies_.log.note_overlap(-impact.there.gap);
   bodies_.log.note_speed(v.norm());
   FlatContact contact;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "numerics/vanishing_sum.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -48,13 +50,28 @@ FadingPath FlatContacts::path_of(Entity surface, const Instant& start) const {
   return {bodies_.moving.position(surface, start), bodies_.moving.velocity(surface, bodies_.now), Vec3::Zero(), 0};
 }
 
+/// The fewest surfaces that hold the body between them; all of them, if none do.
+std::vector<Entity> FlatContacts::opposite_surfaces(const FlatContactList& contacts) {
+  std::vector<Vec3> normals;
+  std::vector<std::size_t> fewest;
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    normals.push_back(contacts.at[k].normal);
+    fewest.push_back(k);
+  }
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (auto some = vanishing_sum(normals, k, exact_tolerance::level); !some.empty() && some.size() < fewest.size())
+      fewest = std::move(some);
+  std::vector<Entity> surfaces;
+  for (const std::size_t k : fewest) surfaces.push_back(contacts.at[k].surface);
+  return surfaces;
+}
+
 /// Notes the quality of a solution for body i's velocity, and books the work of moving surfaces. Throws SimulationError
 /// where they leave the body no room.
 FlatSolution FlatContacts::allow(Entity i, const FlatSolution& solution) const {
   if (bodies_.moving.any()) {
     if (solution.certificate.verdict == Certificate::Verdict::infeasible) {
-      const FlatContactList& contacts = contacts_[i];
-      bodies_.fail_squeezed(i, contacts.at[0].surface, contacts.at[contacts.count - 1].surface);
+      bodies_.fail_squeezed(i, opposite_surfaces(contacts_[i]));
     }
     const double work = bodies_.world.mass[i] * solution.work;
     bodies_.log.lose(work);

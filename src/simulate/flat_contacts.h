@@ -91,6 +91,7 @@ class FlatContacts {
   using Surfaces = std::array<FlatSurface, FlatContactList::most>;
   std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
   FlatSolution allow(Entity i, const FlatSolution& solution) const;
+  static std::vector<Entity> opposite_surfaces(const FlatContactList& contacts);
   std::vector<ContactConstraint> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);

@@ -14,8 +14,12 @@ class StallGuard {
 
   enum class Happened : std::uint8_t { region_left, impact, other };
 
-  /// Registers the restitution of an impact.
-  void note_restitution(double e) { restitution_ = e; }
+  /// Registers the restitution of an impact, and whether a moving thing took part. Elastic impacts between things that
+  /// close in on a body have no end.
+  void note_restitution(double e, bool moving = false) {
+    restitution_ = e;
+    moving_ = moving;
+  }
   /// Counts an event at `now` (s). Throws SimulationError where the clock stands still.
   void count(Happened what, double now);
 
@@ -32,7 +36,10 @@ class StallGuard {
   // For elastic impacts and exits from regions, and for all other events.
   Watch elastic_, lossy_;
   double restitution_ = 0;  // of the last impact
-  double highest_ = 0;      // greatest restitution of recent impacts
+  bool moving_ = false;     // a moving thing took part in it
+  // Of recent impacts: the greatest restitution and the least one, and whether moving things took part.
+  double highest_ = 0, lowest_ = 1;
+  bool moved_ = false;
 };
 
 }  // namespace carom

@@ -243,5 +243,21 @@ TEST(MovingThings, ABodyWithoutRoomEndsTheRun) {
   }
 }
 
+// A ball in the corner of a floor and a wall, and an obstacle that presses it into the corner from above.
+TEST(MovingThings, ABodyInACornerHasNoRoomBetweenAllThreeThings) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.options.duration = 3;
+  problem.ball({0, 0.1, 0}, {0, 0, 0}, 1, 0.1, 0);
+  problem.plane({2, 0, 0}, {-1, 0, 0});
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.obstacle({-1, 0.45, 0}, Volume::sphere(0.3));
+  problem.move(3, {{0, forever, {1, 0, 0}}});
+  const std::string error = error_of(problem);
+  EXPECT_NE(error.find("body 0 has no room left between body 1, body 2 and body 3: end or slow their `motion`"),
+            std::string::npos)
+      << error;
+}
+
 }  // namespace
 }  // namespace carom

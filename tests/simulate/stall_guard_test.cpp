@@ -10,12 +10,12 @@ namespace carom {
 namespace {
 
 /// Counts impacts while the clock, at 5 s of 10, creeps by 5e-15 s each. Gives the error, or nothing.
-std::string creep(double e, int impacts) {
+std::string creep(double e, int impacts, bool moving = false) {
   StallGuard guard(2, 10);
   double now = 5;
   try {
     for (int k = 0; k < impacts; ++k, now += 5e-15) {
-      guard.note_restitution(e);
+      guard.note_restitution(e, moving);
       guard.count(StallGuard::Happened::impact, now);
     }
   } catch (const SimulationError& error) {
@@ -39,6 +39,15 @@ TEST(StallGuard, NamesRestitutionAboveOne) {
   EXPECT_TRUE(creep(1.5, 2'500'000)
                   .ends_with("(restitution above 1 adds energy at every collision): lower it, or "
                              "shorten simulate.duration"));
+}
+
+TEST(StallGuard, NamesMovingThingsThatCloseInOnElasticBodies) {
+  EXPECT_TRUE(creep(1, 2'500'000, true)
+                  .ends_with("(things that move close in on them): end or slow their `motion` before, or shorten "
+                             "simulate.duration"));
+  EXPECT_TRUE(creep(0.5, 2'500'000, true)
+                  .ends_with("(jammed, or inelastic collapse): give them room, end or slow `motion` before, or raise "
+                             "their restitution"));
 }
 
 TEST(StallGuard, StopsElasticImpactsOnceTheClockStandsStill) {
