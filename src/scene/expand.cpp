@@ -290,17 +290,17 @@ class Expander {
     const std::size_t count_of_values = count_values(pattern);
     double work = 0;
     for (const Slot& slot : slots_) work += static_cast<double>(slot.length()) * counts.members;
-    work_ += work;
-    values_ += static_cast<double>(count_of_values) * counts.members;
-    if (values_ > most_values || work_ > most_work) {
-      diagnostics_.add(
-          where,
-          values_ > most_values
-              ? fmt::format("with these members the scene has {} values; the limit is {}", values_, most_values)
-              : "evaluating the expressions of so many members takes too long",
-          "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
+    const double values = values_ + static_cast<double>(count_of_values) * counts.members;
+    if (values > most_values || work_ + work > most_work) {
+      diagnostics_.add(where,
+                       values > most_values ? fmt::format("with these members the scene has {} values; the limit is {}",
+                                                          values, most_values)
+                                            : "evaluating the expressions of so many members takes too long",
+                       "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
       return false;
     }
+    work_ += work;
+    values_ = values;
     made.reserve(made.size() + static_cast<std::size_t>(counts.members));
     return fill(pattern, counts, made);
   }
@@ -354,7 +354,7 @@ class Expander {
         return std::nullopt;
       }
       for (std::size_t i = 0; i < node.keys.size(); ++i) {
-        good = check_index(node.keys[i], node.keys[i].place) && good;
+        good = check_index(node.keys[i], node.keys[i].place, node) && good;
         const std::optional<double> count = read_count(node.items[i], in_backticks(node.keys[i].text));
         good = good && count;
         counts.names.push_back(node.keys[i].text);
@@ -362,7 +362,7 @@ class Expander {
         counts.members *= counts.counts.back();
       }
     } else {
-      good = check_index({"i", {}}, node.place);
+      good = check_index({"i", {}}, node.place, node);
       const std::optional<double> count = read_count(node, "`repeat`");
       good = good && count;
       counts = {{"i"}, {count.value_or(0)}, count.value_or(0)};
@@ -386,7 +386,15 @@ class Expander {
 
   static Place place_of_repeat(const Node& node, Place where) { return node.is(Node::Kind::null) ? where : node.place; }
 
-  bool check_index(const Key& key, Place where) {
+  /// A letter that is neither a name of `let` nor an index of this `repeat`.
+  std::string free_index(const Node& repeat) const {
+    for (const char c : std::string_view("kjnmabcdefghlopqrstuvwxyz"))
+      if (const std::string name(1, c); !numbers_.has(name) && repeat.find_key(name) == nullptr) return name;
+    return "number";
+  }
+
+  /// `repeat`: the value that has the index.
+  bool check_index(const Key& key, Place where, const Node& repeat) {
     const std::string shown = in_backticks(key.text);
     if (!is_name(key.text) || key.text.find('-') != std::string::npos) {
       diagnostics_.add(where, fmt::format("{} is not a name for an index", shown),
@@ -395,8 +403,9 @@ class Expander {
       diagnostics_.add(where, fmt::format("{} is a {} of expressions", shown, key.text == "pi" ? "number" : "function"),
                        "expected another name for the index");
     } else if (numbers_.has(key.text)) {
-      diagnostics_.add(where, fmt::format("the index {} is a name of `let`, too", shown),
-                       "name the index otherwise, such as `repeat: {k: 7}`, or the number");
+      diagnostics_.add(
+          where, fmt::format("the index {} is a name of `let`, too", shown),
+          fmt::format("name the index otherwise, such as `repeat: {{{}: 7}}`, or the number", free_index(repeat)));
     } else {
       return true;
     }

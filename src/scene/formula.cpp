@@ -17,6 +17,8 @@
 #include "numerics/power.h"
 #include "scene/fields.h"
 #include "yaml/diagnostics.h"
+#include "yaml/document.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -153,6 +155,13 @@ std::size_t read_number(std::string_view text, double& value) {
   return error == std::errc() ? static_cast<std::size_t>(end - text.data()) : 0;
 }
 
+/// The number at the start of a text as it stands there, also beyond the doubles.
+std::string_view number_text(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return text.substr(0, static_cast<std::size_t>(end - text.data()));
+}
+
 int take_number(const char* text, int* position, double* value) {
   const std::size_t length = read_number(text, *value);
   *position += static_cast<int>(length);
@@ -262,11 +271,19 @@ class Reader {
     double value = 0;
     const std::size_t at = at_, length = read_number(text_.substr(at), value);
     const Token token{Token::Sort::number, at, std::max<std::size_t>(length, 1)};
-    if (length == 0) fail(token, "a number beyond those of a double", "the largest is about 1.8e308");
+    if (length == 0) fail_beyond(at);
     if (text_[at] == '0' && length > 1 && is_digit(text_[at + 1]))
       fail(token, fmt::format("{} has a leading zero", in_backticks(of(token))), "write it without");
     at_ += length;
     return token;
+  }
+
+  [[noreturn]] void fail_beyond(std::size_t at) const {
+    Node number;
+    number.kind = Node::Kind::scalar;
+    number.text = number_text(text_.substr(at));
+    const Complaint complaint = explain_number(number, {"", "", "expected a number"});
+    fail({Token::Sort::number, at, number.text.size()}, complaint.message, complaint.remedy);
   }
 
   void operand(const Token& token) {

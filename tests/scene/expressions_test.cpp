@@ -103,7 +103,8 @@ TEST(Formulas, PointAtTheirErrors) {
       {"r²", "²: `²` in an expression"},
       {"0x10", "x10: an operator is missing before `x10`"},
       {"007", "007: `007` has a leading zero"},
-      {"1e999", "1: a number beyond those of a double"},
+      {"1e999", "1e999: `1e999` is too large for a double"},
+      {"r + 1e-400", "1e-400: `1e-400` is too small for a double"},
       {"1 / (r - 0.5)", "/: division by zero"},
       {"1 / (1 / (r - r))", "/: division by zero"},
       {"2 * (3 - 4 / (1 - 1)) / 5", "/: division by zero"},
@@ -119,12 +120,28 @@ TEST(Formulas, PointAtTheirErrors) {
       {"tan(90)", "tan: the tangent of 90 degrees"},
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(fault_of(text), expected) << text;
+  const std::string tiny = "0." + std::string(400, '0') + "1";
+  const std::string fault = fault_of(tiny + " + r");
+  EXPECT_TRUE(fault.starts_with(tiny + ": ") && fault.ends_with(" is too small for a double")) << fault;
   // The second of two equal functions.
   try {
     value_of("sqrt(4) + sqrt(i)");
   } catch (const FormulaError& error) {
     EXPECT_EQ(error.offset, 10u);
   }
+}
+
+TEST(Formulas, RefuseTheNumbersThatPlainValuesRefuse) {
+  for (const std::string number : {"1e-400", "1e400", "2e-324"}) {
+    const std::string plain = errors_of(start + "gravity: [0, " + number + ", 0]\n");
+    const std::string fault = plain.substr(plain.find("error: "), plain.find('\n') - plain.find("error: "));
+    EXPECT_NE(fault.find("for a double"), std::string::npos) << plain;
+    const std::string expression = errors_of(start + "gravity: [0, '= " + number + "', 0]\n");
+    EXPECT_NE(expression.find(fault), std::string::npos) << expression;
+    const std::string limit = plain.substr(plain.rfind("; the "));
+    EXPECT_NE(expression.find(limit), std::string::npos) << expression;
+  }
+  EXPECT_EQ(value_of("5e-324"), 5e-324);
 }
 
 TEST(Formulas, AreBounded) {

@@ -157,6 +157,38 @@ TEST(RepeatErrors, PointAtTheCount) {
   EXPECT_EQ(marked_errors(start + "defaults: {ball: {repeat: 3}}\n"), (Marked{{"3", "`repeat` in `defaults`"}}));
 }
 
+TEST(RepeatErrors, OfAnIndexSuggestANameThatIsFree) {
+  const auto remedy = [](const std::string& let, const std::string& repeat) {
+    const std::string errors = errors_of(start + "let: " + let + "\nballs:\n  row: {repeat: " + repeat +
+                                         ", mass: 1, radius: 0.1, position: [0, 0, 0]}\n");
+    const std::size_t at = errors.find("such as `");
+    return errors.substr(at, errors.find(',', at) - at);
+  };
+  EXPECT_EQ(remedy("{i: 3}", "2"), "such as `repeat: {k: 7}`");
+  EXPECT_EQ(remedy("{k: 3}", "{k: 7}"), "such as `repeat: {j: 7}`");
+  EXPECT_EQ(remedy("{i: 3, k: 3}", "2"), "such as `repeat: {j: 7}`");
+  EXPECT_EQ(remedy("{i: 3}", "{i: 2, k: 2, j: 2}"), "such as `repeat: {n: 7}`");
+}
+
+TEST(RepeatErrors, OfOneHugeThingAreThoseOfNoOther) {
+  const std::string others =
+      "  w: {repeat: 2, mass: 1, radius: 0.1, position: [= i, 0, 5]}\n"
+      "  u: {repeat: 3, mass: 1, radius: 0.1, position: [= i, 0, 9]}\n";
+  for (const std::string count : {"1e9", "2e6"})
+    EXPECT_EQ(marked_errors(start + "balls:\n  v: {repeat: " + count +
+                            ", mass: 1, radius: 0.1, position: [= i, 0, 0]}\n" + others)
+                  .size(),
+              1u)
+        << count;
+  std::string sines = "= sin(i)";
+  for (int k = 0; k < 100; ++k) sines += " + sin(i)";
+  const Marked slow =
+      marked_errors(start + "balls:\n  v: {repeat: 500000, mass: 1, radius: 0.1, position:\n    [= i,\n    " + sines +
+                    ", 0]}\n" + others);
+  ASSERT_EQ(slow.size(), 1u);
+  EXPECT_EQ(slow[0].second, "evaluating the expressions of so many members takes too long");
+}
+
 TEST(RepeatErrors, OfMembersAreReportedOnce) {
   const auto of = [](const std::string& keys) {
     return marked_errors(start + "balls:\n  row: {repeat: 1000, " + keys + "}\n");
