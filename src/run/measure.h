@@ -19,6 +19,7 @@
 #include "numerics/vec3.h"
 #include "physics/quantity.h"
 #include "run/summary_columns.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 
@@ -33,6 +34,8 @@ std::string_view meaning_of(Quantity quantity);
 /// The name of a measure is invalid. The text describes the fault and suggests a near name, if there is one.
 struct MeasureError : std::runtime_error {
   using std::runtime_error::runtime_error;
+  MeasureError(const std::string& text, TextSpan where) : runtime_error(text), span(where) {}
+  TextSpan span{};  // in the text of the measure
 };
 
 enum class MeasureForm : std::uint8_t {
@@ -71,6 +74,8 @@ struct Measure {
   /// `m1`, ... stand for `parts`.
   std::string formula{};
   std::vector<Measure> parts{};
+  /// Of a part: where it stands in the text of the whole.
+  TextSpan span{};
 
   /// Whether summary.csv of the run has it.
   bool is_stored() const { return form == MeasureForm::column || form == MeasureForm::own; }
@@ -83,8 +88,8 @@ Measure parse_measure(std::string_view name, std::span<const std::string> own = 
 Measure parse_measure(std::string_view name, const Scene& scene);
 /// The measures that the scene defines, each with its name. Throws MeasureError.
 std::vector<Measure> own_measures(const Scene& scene);
-/// The fault of one of them; empty: none. For LoadOptions.
-std::string measure_fault(const Scene& scene, const OwnMeasure& measure);
+/// The fault of one of them; an empty text: none. For LoadOptions.
+TextFault measure_fault(const Scene& scene, const OwnMeasure& measure);
 
 /// The value of a measure's formula with these values of its parts. NaN: undefined, as with a part that is, or where a
 /// division by zero occurs.

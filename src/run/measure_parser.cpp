@@ -138,8 +138,9 @@ std::size_t closing_of(std::string_view text, std::size_t open) {
 /// Reads an expression, and takes the measures in it as parts.
 class FormulaParts {
  public:
-  FormulaParts(std::string_view text, std::span<const std::string> own, Measure& measure)
-      : text_(text), own_(own), measure_(measure) {}
+  /// `from`: bytes before the expression in the text of the measure.
+  FormulaParts(std::string_view text, std::size_t from, std::span<const std::string> own, Measure& measure)
+      : text_(text), from_(from), own_(own), measure_(measure) {}
 
   void read() {
     while (at_ < text_.size()) {
@@ -148,11 +149,26 @@ class FormulaParts {
       else if (is_digit(text_[at_]) || text_[at_] == '.')
         number();
       else
-        measure_.formula += text_[at_++];
+        take(at_ + 1);
     }
   }
 
+  /// Where a span of the formula stands in the text of the measure.
+  TextSpan place(const TextSpan& span) const {
+    const std::size_t begin = std::min(span.at, places_.size() - 1),
+                      last = std::min(span.at + std::max<std::size_t>(span.length, 1), places_.size()) - 1;
+    return {places_[begin].at, places_[last].at + places_[last].length - places_[begin].at};
+  }
+
  private:
+  /// Copies the text up to here into the formula.
+  void take(std::size_t end) {
+    for (; at_ < end; ++at_) {
+      measure_.formula += text_[at_];
+      places_.push_back({from_ + at_, 1});
+    }
+  }
+
   std::size_t end_of_word(std::size_t from) const {
     while (from < text_.size() && (is_letter(text_[from]) || is_digit(text_[from]))) ++from;
     return from;
@@ -160,14 +176,14 @@ class FormulaParts {
 
   /// Digits, so that the e of 1e3 is no name.
   void number() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) ++at_;
-    if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
-      std::size_t after = at_ + 1;
+    std::size_t end = at_;
+    while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '.')) ++end;
+    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
+      std::size_t after = end + 1;
       if (after < text_.size() && (text_[after] == '+' || text_[after] == '-')) ++after;
-      if (after < text_.size() && is_digit(text_[after])) at_ = end_of_word(after);
+      if (after < text_.size() && is_digit(text_[after])) end = end_of_word(after);
     }
-    measure_.formula += text_.substr(begin, at_ - begin);
+    take(end);
   }
 
   void word() {
@@ -185,8 +201,7 @@ class FormulaParts {
     } else if (find_summary_column(word) != nullptr || std::find(own_.begin(), own_.end(), word) != own_.end()) {
       return part(end);
     }
-    measure_.formula += word;
-    at_ = end;
+    take(end);
   }
 
   /// The end of "balls.red.y_m", "groups.gas.17.x_m", "regions.left-pocket.entries", "let.h". Names may have hyphens,
@@ -202,19 +217,29 @@ class FormulaParts {
   }
 
   void part(std::size_t end) {
-    const Measure part = parse_measure(text_.substr(at_, end - at_), own_);
+    const TextSpan span{from_ + at_, end - at_};
+    Measure part;
+    try {
+      part = parse_measure(text_.substr(at_, end - at_), own_);
+    } catch (const MeasureError& error) {
+      throw MeasureError(error.what(), within(span, error.span));
+    }
     if (part.is_text())
       throw MeasureError(
-          fmt::format("{} is a name, not a number, and cannot stand in an expression", in_backticks(part.name)));
+          fmt::format("{} is a name, not a number, and cannot stand in an expression", in_backticks(part.name)), span);
+    part.span = span;
     measure_.formula += fmt::format("m{}", measure_.parts.size());
-    measure_.parts.push_back(part);
+    places_.resize(measure_.formula.size(), span);
+    measure_.parts.push_back(std::move(part));
     at_ = end;
   }
 
   std::string_view text_;
+  std::size_t from_;
   std::span<const std::string> own_;
   Measure& measure_;
   std::size_t at_ = 0;
+  std::vector<TextSpan> places_;  // by byte of the formula
 };
 
 /// "m0", "m1", ...
@@ -224,17 +249,21 @@ std::vector<std::string> names_of_parts(const Measure& measure) {
   return names;
 }
 
-void read_formula(std::string_view text, std::span<const std::string> own, Measure& measure) {
-  FormulaParts(text, own, measure).read();
+/// `from`: bytes before it in the text of the measure.
+void read_formula(std::string_view text, std::size_t from, std::span<const std::string> own, Measure& measure) {
+  FormulaParts parts(text, from, own, measure);
+  parts.read();
   try {
     const Formula checked(measure.formula, names_of_parts(measure), "expected a measure, let.NAME or a number");
   } catch (const FormulaError& error) {
     throw MeasureError(fmt::format("{}: {}{}{}", in_backticks(measure.name), error.message,
-                                   error.remedy.empty() ? "" : "; ", error.remedy));
+                                   error.remedy.empty() ? "" : "; ", error.remedy),
+                       measure.formula.empty() ? TextSpan{} : parts.place({error.offset, error.length}));
   }
 }
 
-void read_count(std::string_view inside, std::span<const std::string> own, Measure& measure) {
+/// `whole`: the text of the measure, of which `inside` is a part.
+void read_count(std::string_view inside, std::string_view whole, std::span<const std::string> own, Measure& measure) {
   for (const RelationText& text : relations) {
     const std::size_t at = inside.find(text.sign);
     if (at == std::string_view::npos) continue;
@@ -243,16 +272,18 @@ void read_count(std::string_view inside, std::span<const std::string> own, Measu
     measure.relation = text.relation;
     read_quantity(quantity, false, measure);
     if (limit.empty()) break;
-    read_formula(limit, own, measure);
+    read_formula(limit, static_cast<std::size_t>(limit.data() - whole.data()), own, measure);
     measure.name = fmt::format("count({} {} {})", quantity, text.sign, limit);
     return;
   }
   throw MeasureError(fmt::format("{}: expected a comparison, such as count(y_m < 0)", in_backticks(measure.name)));
 }
 
-void read_call(const Call& call, std::string_view inside, std::span<const std::string> own, Measure& measure) {
+/// `whole`: the text of the measure, of which `inside` is a part.
+void read_call(const Call& call, std::string_view inside, std::string_view whole, std::span<const std::string> own,
+               Measure& measure) {
   measure.form = call.form;
-  if (call.form == MeasureForm::count) return read_count(trimmed(inside), own, measure);
+  if (call.form == MeasureForm::count) return read_count(trimmed(inside), whole, own, measure);
   const auto arguments = arguments_of(inside);
   const bool of_things = call.form == MeasureForm::first_hit || call.form == MeasureForm::hits;
   const bool empty =
@@ -313,7 +344,8 @@ Measure parse_measure(std::string_view text, std::span<const std::string> own) {
   measure.name = name;
   if (name.starts_with('=')) {
     measure.form = MeasureForm::expression;
-    read_formula(trimmed(name.substr(1)), own, measure);
+    const std::string_view formula = trimmed(name.substr(1));
+    read_formula(formula, static_cast<std::size_t>(formula.data() - text.data()), own, measure);
     return measure;
   }
   measure.column = find_summary_column(name);
@@ -329,7 +361,7 @@ Measure parse_measure(std::string_view text, std::span<const std::string> own) {
     const std::size_t close = closing_of(name, open);
     if (close + 1 != name.size())
       throw MeasureError(fmt::format("{}: arithmetic begins with `=`, such as '= {}'", in_backticks(name), name));
-    read_call(*call, name.substr(open + 1, close - open - 1), own, measure);
+    read_call(*call, name.substr(open + 1, close - open - 1), text, own, measure);
     return measure;
   }
   if (name.starts_with("regions.")) {

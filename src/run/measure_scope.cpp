@@ -42,6 +42,10 @@ EntityRange member_of(const BodyRange& range, std::string_view number, const Mea
 
 }  // namespace
 
+TextSpan within(const TextSpan& part, const TextSpan& span) {
+  return span.length == 0 ? part : TextSpan{part.at + span.at, span.length};
+}
+
 std::string near_name(std::string_view word, const std::vector<std::string_view>& names) {
   const std::string near = nearest(word, names);
   return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
@@ -143,7 +147,13 @@ Measure defined(const std::string& name, const Scene& scene) {
 /// Throws MeasureError unless the scene has all that the measure names. `above`: the scene's own measures of which it
 /// is a part.
 void check(const Measure& measure, const Scene& scene, std::vector<std::string>& above) {
-  for (const Measure& part : measure.parts) check(part, scene, above);
+  for (const Measure& part : measure.parts) {
+    try {
+      check(part, scene, above);
+    } catch (const MeasureError& error) {
+      throw MeasureError(error.what(), within(part.span, error.span));
+    }
+  }
   switch (measure.form) {
     case MeasureForm::at_end:
     case MeasureForm::greatest:
@@ -176,7 +186,12 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
         throw MeasureError(
             fmt::format("{} is defined by itself: {}", in_backticks(measure.things[0]), joined(above, ", ")));
       above.push_back(measure.things[0]);
-      check(defined(measure.things[0], scene), scene, above);
+      try {
+        check(defined(measure.things[0], scene), scene, above);
+      } catch (const MeasureError& error) {
+        // Its place is in another text.
+        throw MeasureError(error.what());
+      }
       above.pop_back();
       return;
     }
@@ -214,12 +229,12 @@ std::vector<Measure> own_measures(const Scene& scene) {
   return measures;
 }
 
-std::string measure_fault(const Scene& scene, const OwnMeasure& measure) {
+TextFault measure_fault(const Scene& scene, const OwnMeasure& measure) {
   try {
     own_measure(measure, scene);
     return {};
   } catch (const MeasureError& error) {
-    return error.what();
+    return {error.what(), error.span};
   }
 }
 

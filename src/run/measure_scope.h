@@ -16,6 +16,9 @@ struct EntityRange {
   bool has(Entity e) const { return e >= first && e - first < count; }
 };
 
+/// A span of a part's text in the text of the whole. An empty one: the whole part.
+TextSpan within(const TextSpan& part, const TextSpan& span);
+
 /// "; did you mean `red`?", or empty.
 std::string near_name(std::string_view word, const std::vector<std::string_view>& names);
 

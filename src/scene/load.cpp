@@ -11,6 +11,7 @@
 #include "scene/check.h"
 #include "scene/decode.h"
 #include "scene/expand.h"
+#include "scene/expressions.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -102,8 +103,8 @@ struct SceneFile::Impl {
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
     scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
-    const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
     scene.roster.empty = empty_families(tree);
+    const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
@@ -126,7 +127,6 @@ struct SceneFile::Impl {
     return scene;
   }
 
-  /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
   /// The things that expand() has left in place because they have no members.
   static std::vector<EmptyFamily> empty_families(const Node& tree) {
     std::vector<EmptyFamily> families;
@@ -140,6 +140,7 @@ struct SceneFile::Impl {
     return families;
   }
 
+  /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
   void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
     if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
       for (std::size_t i = 0; i < let->items.size(); ++i)
@@ -150,11 +151,12 @@ struct SceneFile::Impl {
       if (!measures->items[i].bad) scene.measures.own.push_back({measures->keys[i].text, measures->items[i].text});
     if (!diagnostics.empty() || !options.measure_fault) return;
     for (std::size_t i = 0; i < measures->items.size(); ++i) {
-      const std::string fault = options.measure_fault(scene, scene.measures.own[i]);
+      const auto [fault, span] = options.measure_fault(scene, scene.measures.own[i]);
       const std::size_t remedy = std::min(fault.find("; "), fault.size());
+      const Node& node = measures->items[i];
       if (!fault.empty())
-        diagnostics.add(measures->items[i].place, fault.substr(0, remedy),
-                        remedy < fault.size() ? fault.substr(remedy + 2) : std::string());
+        diagnostics.add(span.length == 0 ? node.place : place_in(node, 0, {span.at, span.length, "", ""}),
+                        fault.substr(0, remedy), remedy < fault.size() ? fault.substr(remedy + 2) : std::string());
     }
   }
 

@@ -29,8 +29,8 @@ struct LoadOptions {
   /// Reads the state of a run's bodies. `folder`: relative to the working folder. `at`: s of the run; none: its end.
   /// Throws StartError. Unset: scenes with `start` are refused.
   std::function<FormerState(const std::string& folder, std::optional<double> at)> former_state;
-  /// The fault of a measure that the scene defines; empty: none. Unset: measures are not checked.
-  std::function<std::string(const Scene& scene, const OwnMeasure& measure)> measure_fault;
+  /// The fault of a measure that the scene defines; an empty text: none. Unset: measures are not checked.
+  std::function<TextFault(const Scene& scene, const OwnMeasure& measure)> measure_fault;
 };
 
 /// All errors of a scene file, as text for a terminal.

@@ -9,6 +9,17 @@
 
 namespace carom {
 
+/// A part of a text, in bytes. Length 0: none.
+struct TextSpan {
+  std::size_t at = 0, length = 0;
+};
+
+/// What is wrong with a text, and where. Length 0: with all of it.
+struct TextFault {
+  std::string text;
+  TextSpan span{};
+};
+
 /// An error in parts, for other programs.
 struct ErrorRecord {
   std::string file;  // or the option: "--set balls.red.mass=x"; empty: none

@@ -77,6 +77,44 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
   EXPECT_NE(error_of("...", scene), "");
 }
 
+/// The text that the error of a scene's own measure marks.
+std::string marked(const Place& place, const std::string& measure) {
+  place.write("scene.yaml", mixed + "let: {k: 2}\nmeasures:\n  m: \"" + measure + "\"\n");
+  LoadOptions options;
+  options.measure_fault = measure_fault;
+  try {
+    load_scene(place / "scene.yaml", options);
+  } catch (const SceneError& error) {
+    const std::string text = error.what();
+    const std::size_t line = text.find('\n') + 1, marks = text.find('\n', line) + 1;
+    const std::size_t first = text.find('^', marks), end = text.find_first_not_of("^~", first);
+    return text.substr(line + first - marks, end - first);
+  }
+  return "no error";
+}
+
+TEST(OwnMeasures, ErrorsMarkTheFaultyPartOfAnExpression) {
+  const Place place;
+  const std::pair<std::string, std::string> all[] = {
+      {"= 1 + let.q", "let.q"},
+      {"= hits(red) + nothing", "nothing"},
+      {"=  2 * hits(red, rde) / 3", "hits(red, rde)"},
+      {"= max(1, 2) + balls.red.speed", "balls.red.speed"},
+      {"= hits(red) ** 2", "**"},
+      {"= collisions + sqrt(1, 2)", "sqrt"},
+      {"= 2 * groups.gas.3.x_m", "groups.gas.3.x_m"},
+      {"= 1 + count(y_m < let.h)", "let.h"},
+      {"count(y_m < 2 * let.h)", "let.h"},
+      {"count(groups.gas.y_m < 2 let.k)", "let.k"},
+      {"= frames + 1e999", "1e999"},
+      {"= 1 +", "+"},
+      // The whole is wrong.
+      {"balls.rde.x_m", "\"balls.rde.x_m\""},
+      {"=", "\"=\""},
+  };
+  for (const auto& [measure, text] : all) EXPECT_EQ(marked(place, measure), text) << measure;
+}
+
 /// The values of measures, as the run itself finds them.
 std::vector<Measured> measured(const Place& place, const std::string& yaml, const std::vector<std::string>& names) {
   const Scene scene = scene_of(place, yaml);
@@ -155,6 +193,47 @@ TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
   EXPECT_EQ(values[9].value, 1);
 }
 
+TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
+  const Place place;
+  const std::vector<std::pair<std::string, std::string>> all = {{"hits(THING)", "0"},
+                                                                {"hits(THING, v)", "0"},
+                                                                {"count(KIND.THING.x_m < 9)", "0"},
+                                                                {"first(THING)", "nan"},
+                                                                {"min(KIND.THING.x_m)", "nan"},
+                                                                {"max(KIND.THING.x_m)", "nan"},
+                                                                {"= hits(THING) + 1", "1"},
+                                                                {"hits(s)", "0"},
+                                                                {"hits(p)", "0"},
+                                                                {"regions.r.entries", "0"},
+                                                                {"regions.r.inside", "0"},
+                                                                {"regions.r.first_s", "nan"},
+                                                                {"time_of_max(KIND.THING.y_m)", "nan"}};
+  const std::string yaml =
+      "scene: 1\ngravity: [0, 0, 0]\n"
+      "balls: {v: {mass: 1, radius: 0.1, position: [0, 0, 0]},\n"
+      "  w: {repeat: 0, mass: 1, radius: 0.1, position: [= i, 0, 9]}}\n"
+      "groups: {g: {count: 0, ball: {mass: 1, radius: 0.1}, in: {min: [7, 0, 0], max: [9, 1, 1]}}}\n"
+      "planes: {p: {repeat: 0, point: [= i, 0, 0], normal: [1, 0, 0]}}\n"
+      "strings: {s: {repeat: 0, from: [= i, 1, 0], to: v}}\n"
+      "regions: {r: {repeat: 0, radius: 1, position: [= i, 0, 0]}}\n"
+      "simulate: {duration: 1, stop: [{region: r}]}\noutput: {collisions: true}\n";
+  for (const auto& [kind, thing] : {std::pair("balls", "w"), std::pair("groups", "g")}) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : all)
+      names.push_back(
+          std::regex_replace(std::regex_replace(name, std::regex("THING"), thing), std::regex("KIND"), kind));
+    const std::vector<Measured> values = measured(place, yaml, names);
+    ASSERT_EQ(values.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      EXPECT_EQ(fmt::format("{}", values[i].value), all[i].second) << names[i];
+  }
+  const Scene scene = scene_of(place, yaml);
+  EXPECT_TRUE(scene.world.regions.empty());
+  EXPECT_NE(error_of("max(groups.w.x_m)", scene), "") << "a ball is no group";
+  EXPECT_NE(error_of("hits(r)", scene), "") << "a region is no thing";
+  EXPECT_NE(error_of("balls.w.0.x_m", scene), "") << "the member is absent";
+}
+
 TEST(OwnMeasures, AreTheLastColumnsOfTheSummary) {
   const Place place;
   place.run(std::regex_replace(mixed, std::regex("scene: 1"),
@@ -191,47 +270,6 @@ TEST(MeasureValues, OfAJointBodyArePartOfNoOther) {
   EXPECT_EQ(run.measures[0], 1);
   EXPECT_TRUE(std::isnan(run.measures[1]));
   EXPECT_TRUE(std::isnan(run.measures[2])) << "a trajectory does not tell what a joint body weighs";
-}
-
-TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
-  const Place place;
-  const std::vector<std::pair<std::string, std::string>> all = {{"hits(THING)", "0"},
-                                                                {"hits(THING, v)", "0"},
-                                                                {"count(KIND.THING.x_m < 9)", "0"},
-                                                                {"first(THING)", "nan"},
-                                                                {"min(KIND.THING.x_m)", "nan"},
-                                                                {"max(KIND.THING.x_m)", "nan"},
-                                                                {"= hits(THING) + 1", "1"},
-                                                                {"hits(s)", "0"},
-                                                                {"hits(p)", "0"},
-                                                                {"regions.r.entries", "0"},
-                                                                {"regions.r.inside", "0"},
-                                                                {"regions.r.first_s", "nan"},
-                                                                {"time_of_max(KIND.THING.y_m)", "nan"}};
-  const std::string yaml =
-      "scene: 1\ngravity: [0, 0, 0]\n"
-      "balls: {v: {mass: 1, radius: 0.1, position: [0, 0, 0]},\n"
-      "  w: {repeat: 0, mass: 1, radius: 0.1, position: [= i, 0, 9]}}\n"
-      "groups: {g: {count: 0, ball: {mass: 1, radius: 0.1}, in: {min: [7, 0, 0], max: [9, 1, 1]}}}\n"
-      "planes: {p: {repeat: 0, point: [= i, 0, 0], normal: [1, 0, 0]}}\n"
-      "strings: {s: {repeat: 0, from: 'v', to: [= i, 1, 0]}}\n"
-      "regions: {r: {repeat: 0, radius: 1, position: [= i, 0, 0]}}\n"
-      "simulate: {duration: 1, stop: [{region: r}]}\noutput: {collisions: true}\n";
-  for (const auto& [kind, thing] : {std::pair("balls", "w"), std::pair("groups", "g")}) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : all)
-      names.push_back(
-          std::regex_replace(std::regex_replace(name, std::regex("THING"), thing), std::regex("KIND"), kind));
-    const std::vector<Measured> values = measured(place, yaml, names);
-    ASSERT_EQ(values.size(), all.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-      EXPECT_EQ(fmt::format("{}", values[i].value), all[i].second) << names[i];
-  }
-  const Scene scene = scene_of(place, yaml);
-  EXPECT_TRUE(scene.world.regions.empty());
-  EXPECT_NE(error_of("max(groups.w.x_m)", scene), "") << "a ball is no group";
-  EXPECT_NE(error_of("hits(r)", scene), "") << "a region is no thing";
-  EXPECT_NE(error_of("balls.w.0.x_m", scene), "") << "the member is absent";
 }
 
 TEST(MeasureLabels, HaveTheirUnits) {
