@@ -17,7 +17,11 @@ namespace carom {
 
 /// The command line is wrong. The text is for the user.
 struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit UsageError(const std::string& text) : runtime_error(text), fault(text) {}
+  /// The text is "fault: remedy".
+  UsageError(const std::string& what, const std::string& what_to_do)
+      : runtime_error(what + ": " + what_to_do), fault(what), remedy(what_to_do) {}
+  std::string fault, remedy;  // an empty remedy: unknown
 };
 
 enum class ProgressChoice { automatic, bar, lines, none };

@@ -115,8 +115,8 @@ class CompareSession {
   /// A comparison never overwrites a run that it compares.
   void refuse_own_folder(const std::string& folder) const {
     if (canonical(folder) == canonical(folder_))
-      throw UsageError(
-          fmt::format("{} is both compared and written to: name another folder with -o", printable(folder)));
+      throw UsageError(fmt::format("{} is both compared and written to", printable(folder)),
+                       "name another folder with -o");
   }
 
   /// The names of the measures that the scene of the first whole run defines.

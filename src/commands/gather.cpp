@@ -82,8 +82,8 @@ class GatherSession {
 
   void refuse_other(const std::string& folder, const Sweep& sweep, const std::string& base) const {
     if (text_of(folder, stored_sweep) == sweep.resolved(stored_base) && text_of(folder, stored_base) == base) return;
-    throw UsageError(fmt::format("{} holds no part of the sweep in {}: gather parts of one sweep", printable(folder),
-                                 printable(folder_)));
+    throw UsageError(fmt::format("{} holds no part of the sweep in {}", printable(folder), printable(folder_)),
+                     "gather parts of one sweep");
   }
 
   int gather(const Sweep& sweep, const std::string& base) {

@@ -57,9 +57,9 @@ void refuse_existing(const FilePlace& place, const std::string& name, bool force
     return;
   }
   const std::string path = printable((fs::path(place.path) / name).lexically_normal().string());
-  if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder: choose another name", path));
+  if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder", path), "choose another name");
   if (!force)
-    throw UsageError(fmt::format("{} exists already: choose another name, or overwrite it with --force", path));
+    throw UsageError(fmt::format("{} exists already", path), "choose another name, or overwrite it with --force");
 }
 
 /// A schema of another version is replaced; any other file of that name stays.

@@ -45,8 +45,9 @@ void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
   for (const PlannedScene& scene : scenes) {
     const auto [found, is_new] = owner.emplace(canonical(scene.folder), &scene);
     if (is_new) continue;
-    throw UsageError(fmt::format("{} and {} would both be written to {}: run one of them with another -o",
-                                 printable(found->second->file), printable(scene.file), printable(scene.folder)));
+    throw UsageError(fmt::format("{} and {} would both be written to {}", printable(found->second->file),
+                                 printable(scene.file), printable(scene.folder)),
+                     "run one of them with another -o");
   }
 }
 

@@ -57,7 +57,7 @@ const Command* find_command(const std::string& name) {
 
 [[noreturn]] void refuse_command(const std::string& word) {
   if (word.starts_with('-')) {
-    throw UsageError(fmt::format("options come after the command: carom run SCENE {}", printable(word)));
+    throw UsageError("options come after the command", fmt::format("carom run SCENE {}", printable(word)));
   }
   std::vector<std::string_view> names = {"help"};
   for (const Command& command : commands()) names.push_back(command.text.name);
@@ -65,22 +65,23 @@ const Command* find_command(const std::string& name) {
     throw UsageError(fmt::format("no command {}; did you mean {}?", in_backticks(word), in_backticks(near)));
   }
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
-    throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
+    throw UsageError("name a command first", fmt::format("carom run {}", printable(word)));
   }
   throw UsageError(fmt::format("no command {}; the commands are {}", in_backticks(word), command_names()));
 }
 
 /// The document of --json for an error that leaves a command without one.
-void write_failure(const std::vector<std::string>& words, std::string_view status, std::string_view text) {
+void write_failure(const std::vector<std::string>& words, std::string_view status,
+                   const std::vector<ErrorRecord>& errors) {
   if (std::find(words.begin(), words.end(), "--json") == words.end() || find_command(words.front()) == nullptr) return;
   Json json = {{"status", std::string(status)}};
-  if (!text.empty()) json["errors"] = errors_json(error_of_text(text));
+  if (!errors.empty()) json["errors"] = errors_json(errors);
   write_out(document(words.front(), std::move(json)));
 }
 
 int usage_error(const std::string& command, const UsageError& error, const std::vector<std::string>& words) {
   const std::string program = command.empty() ? "carom" : "carom " + command;
-  write_failure(words, "wrong", error.what());
+  write_failure(words, "wrong", {{"", 0, 0, error.fault, error.remedy, suggestion_in(error.what())}});
   write_err(fmt::format("{}: {}\n  {} --help shows how it is used\n", program, error.what(), program));
   return 2;
 }
@@ -128,14 +129,14 @@ int guarded(const std::vector<std::string>& words) {
   try {
     return dispatch(words);
   } catch (const Interrupted& interrupted) {
-    write_failure(words, "interrupted", "");
+    write_failure(words, "interrupted", {});
     write_err("carom: interrupted\n");
     return interrupted.exit_code();
   } catch (const std::bad_alloc&) {
-    write_failure(words, "failed", "not enough memory");
+    write_failure(words, "failed", error_of_text("not enough memory"));
     write_err("carom: not enough memory\n");
   } catch (const std::exception& error) {
-    write_failure(words, "failed", error.what());
+    write_failure(words, "failed", error_of_text(error.what()));
     write_err(fmt::format("carom: {}\n", error.what()));
   }
   return 1;

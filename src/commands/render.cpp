@@ -39,8 +39,8 @@ void refuse_tables(const Options& options) {
   const std::vector<std::string> drawn = names_of(with_all({}), true);
   for (const std::string& name : options.only.value_or(std::vector<std::string>{}))
     if (std::find(drawn.begin(), drawn.end(), name) == drawn.end())
-      throw UsageError(fmt::format("render makes {}: carom {} {}", joined(drawn, ", "),
-                                   name == plot_files.folder ? "plot makes" : "run writes", name));
+      throw UsageError(fmt::format("render makes {}", joined(drawn, ", ")),
+                       fmt::format("carom {} {}", name == plot_files.folder ? "plot makes" : "run writes", name));
 }
 
 /// Charts show tables and flights, whatever the pictures.
@@ -204,7 +204,7 @@ const CommandText& render_text() {
 
 int render_command(const Options& options) {
   refuse_tables(options);
-  if (options.at && options.only) throw UsageError("--at draws one picture: leave out --only");
+  if (options.at && options.only) throw UsageError("--at draws one picture", "leave out --only");
   const Planner planner(options);
   std::vector<PlannedScene> runs =
       plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); });

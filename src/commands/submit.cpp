@@ -148,7 +148,7 @@ const CommandText& submit_text() {
 }
 
 int submit_command(const Options& options) {
-  if (!options.submit.slurm) throw UsageError("name the batch system: --slurm");
+  if (!options.submit.slurm) throw UsageError("name the batch system", "--slurm");
   try {
     return submit(options);
   } catch (const SceneError& error) {

@@ -56,7 +56,7 @@ std::optional<std::size_t> slurm(const char* name) {
   const char* end = text + std::string_view(text).size();
   const auto [stop, error] = std::from_chars(text, end, value);
   if (error != std::errc() || stop != end)
-    throw UsageError(fmt::format("{} is {}, which is not a number: use --shard I/N", name, in_backticks(text)));
+    throw UsageError(fmt::format("{} is {}, which is not a number", name, in_backticks(text)), "use --shard I/N");
   return value;
 }
 
@@ -71,18 +71,18 @@ void refuse_samples(const Options& options) {
   const std::string& file = options.operands.front();
   const bool samples = words.random || words.latin;
   if ((!words.grid.empty() || samples) && is_sweep_file(file))
-    throw UsageError(fmt::format("{} a scene; {} is a sweep: add to its {}",
-                                 words.grid.empty() ? "--random and --latin vary" : "--grid varies", printable(file),
-                                 words.grid.empty() ? "`random` or `latin`" : "`grid`"));
-  if (words.random && words.latin) throw UsageError("--random and --latin exclude one another: remove one of them");
+    throw UsageError(fmt::format("{} a scene; {} is a sweep",
+                                 words.grid.empty() ? "--random and --latin vary" : "--grid varies", printable(file)),
+                     fmt::format("add to its {}", words.grid.empty() ? "`random` or `latin`" : "`grid`"));
+  if (words.random && words.latin) throw UsageError("--random and --latin exclude one another", "remove one of them");
   const auto open = std::find_if(words.grid.begin(), words.grid.end(), is_open_range);
   if (open != words.grid.end() && !samples)
-    throw UsageError(fmt::format("--grid {} has no count: add one, such as {}:6, or draw from it with --latin 50",
-                                 printable(*open), printable(*open)));
+    throw UsageError(fmt::format("--grid {} has no count", printable(*open)),
+                     fmt::format("add one, such as {}:6, or draw from it with --latin 50", printable(*open)));
   if (open == words.grid.end() && samples)
-    throw UsageError(fmt::format("{0} {1} draws from ranges, and there are none: add --grid PATH=FROM:TO",
-                                 words.random ? "--random" : "--latin",
-                                 words.random.value_or(words.latin.value_or(0))));
+    throw UsageError(fmt::format("{0} {1} draws from ranges, and there are none", words.random ? "--random" : "--latin",
+                                 words.random.value_or(words.latin.value_or(0))),
+                     "add --grid PATH=FROM:TO");
 }
 
 }  // namespace
@@ -215,7 +215,7 @@ Shard shard_of(const Options& options) {
   const std::size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
   const Shard shard{*task < least ? 0 : (*task - least) / step + 1, *count};
   if (shard.index < 1 || shard.index > shard.count || (*task - least) % step != 0)
-    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps: use --shard I/N");
+    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps", "use --shard I/N");
   return shard;
 }
 

@@ -107,7 +107,7 @@ class WatchSession {
 }  // namespace
 
 int watch_scenes(const Options& options) {
-  if (options.json) throw UsageError("--watch has no end that a JSON document could wait for: leave out --json");
+  if (options.json) throw UsageError("--watch has no end that a JSON document could wait for", "leave out --json");
   return WatchSession(options).go();
 }
 

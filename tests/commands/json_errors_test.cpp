@@ -68,5 +68,25 @@ TEST(JsonErrors, OfFoldersAndOptionsHaveTheSameMembers) {
   EXPECT_EQ(error_of(here, {"new", "a"}).at("file"), nullptr);
 }
 
+TEST(JsonErrors, OfTheCommandLineHaveTheirRemedyApart) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const auto expect = [&](const std::vector<std::string>& words, const std::string& message,
+                          const std::string& remedy) {
+    const Json error = error_of(here, words);
+    EXPECT_EQ(error.at("message"), message);
+    EXPECT_EQ(error.at("remedy"), remedy);
+  };
+  expect({"run", "a.yaml", "a.yaml"}, "a.yaml and a.yaml would both be written to output/a",
+         "run one of them with another -o");
+  expect({"run", "a.yaml", "--watch"}, "--watch has no end that a JSON document could wait for", "leave out --json");
+  expect({"sweep", "a.yaml", "--grid", "seed=1:3"}, "--grid seed=1:3 has no count",
+         "add one, such as seed=1:3:6, or draw from it with --latin 50");
+  // In the terminal they stand in one line.
+  EXPECT_EQ(here.carom({"sweep", "a.yaml", "--grid", "seed=1:3"}).err,
+            "carom sweep: --grid seed=1:3 has no count: add one, such as seed=1:3:6, or draw from it with --latin 50\n"
+            "  carom sweep --help shows how it is used\n");
+}
+
 }  // namespace
 }  // namespace carom::testing
