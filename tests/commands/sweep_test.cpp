@@ -155,6 +155,19 @@ TEST(Sweep, ReportsAPathWithoutEffectUnlessAMeasureUsesIt) {
   EXPECT_EQ(said("= hits(red)", "measures.m=hits(red),hits(blue)"), "");
 }
 
+TEST(Sweep, OfARepeatGoesThroughZero) {
+  const Workplace here;
+  here.write("row.yaml",
+             "scene: 1\ngravity: [0, 0, 0]\nballs:\n  w: {repeat: 0, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n"
+             "forces: [{uniform: [1, 0, 0], on: [w]}]\nsimulate: {duration: 1}\noutput: {energy: {every: 1}}\n"
+             "measures: {most: max(balls.w.x_m), hit: hits(w), many: count(balls.w.x_m > 0), met: first(w)}\n");
+  ASSERT_EQ(here.carom({"sweep", "row.yaml", "--grid", "balls.w.repeat=0:2:3", "-o", "sweep", "-q"}).code, 0);
+  std::string table;
+  for (auto& row : rows_of(here.read("sweep/summary.csv")))
+    table += row["most"] + "|" + row["hit"] + "|" + row["many"] + "|" + row["met"] + "; ";
+  EXPECT_EQ(table, "|0|0|; 0.5|0|1|; 1.5|0|2|; ");  // x = i + t^2 / 2
+}
+
 TEST(Sweep, PlanShowsRunsAndWritesNothing) {
   const Workplace here;
   prepare(here);
