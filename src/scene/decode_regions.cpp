@@ -78,8 +78,8 @@ class Regions {
     if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
     const std::vector<std::string>& names = scene_.roster.regions;
     const std::vector<EmptyFamily>& empty = scene_.roster.empty;
-    bool found = std::any_of(empty.begin(), empty.end(), [&](const EmptyFamily& family) {
-      return family.of == "regions" && family.name == region->text;
+    bool found = std::any_of(empty.begin(), empty.end(), [&name = region->text](const EmptyFamily& family) {
+      return family.of == "regions" && family.name == name;
     });
     for (std::size_t r = 0; r < names.size(); ++r) {
       if (names[r] != region->text && (region->text.empty() || family_of(names[r]) != region->text)) continue;
