@@ -255,10 +255,10 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
              "scene: 1\nbodies: {pin: {mass: 1, mesh: m/pin.obj, fit: sphere, position: [0, 0, 0]}}\n"
              "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
   here.write("b.yaml", two_balls());
-  // The files of a run are absent for a moment while it is replaced.
+  // The files of a run are absent for a moment while it is replaced, and cmp then gives 2.
   const Finished run = watched(
       here,
-      "differs() { n=0; until [ -s \"$1\" ] && ! cmp -s \"$1\" \"$2\"; do n=$((n + 1)); [ $n -lt 500 ] || exit 9; "
+      "differs() { n=0; until cmp -s \"$1\" \"$2\"; [ $? -eq 1 ]; do n=$((n + 1)); [ $n -lt 500 ] || exit 9; "
       "sleep 0.02; done; }\n"
       "await err waiting; cp -r output/a before\n"
       "echo 'newmtl a\nKd 0 1 0' > m/new; mv m/new m/pin.mtl\n"
