@@ -12,6 +12,7 @@
 
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
+#include "commands/plan.h"
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/sweep_report.h"
@@ -89,6 +90,14 @@ class GatherSession {
   int gather(const Sweep& sweep, const std::string& base) {
     if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
+    const std::size_t ended = is_ended_sweep(folder_) ? sweep.size() : 0;
+    for (std::size_t number = 0; number < ended; ++number) {
+      stop_if_interrupted();
+      const std::string run = fmt::format("{}/runs/{}", folder_, sweep.id(number));
+      if (const FolderChanges changes = find_changes(run); !changes.changed.empty())
+        return refuse(
+            fmt::format("the folder {} holds {}: remove it or rename it", printable(run), obstacle_of(changes)));
+    }
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(name_of_folder(folder_)), 1, 0);

@@ -143,12 +143,6 @@ bool is_whole_since(const std::string& path, const std::string& mark) {
   return all_files(folder.get(), *manifest, unchanged);
 }
 
-bool is_older(const std::string& path, const std::string& mark) {
-  const std::optional<timespec> marked = changed({AT_FDCWD, mark});
-  const std::optional<timespec> made = changed({AT_FDCWD, path + "/" + manifest_name});
-  return marked && made && is_before(*made, *marked);
-}
-
 FolderChanges find_changes(const std::string& path, const std::function<bool(const std::string& name)>& counts) {
   const FoundFolder found = find_folder(path);
   auto manifest = found.has(manifest_name) ? read_manifest(found.folder.get(), manifest_name) : std::nullopt;

@@ -50,9 +50,6 @@ enum class FolderContent {
 /// `mark`: a path. Empty: every hash is checked. A change within the same clock tick counts as a change.
 bool is_whole_since(const std::string& folder, const std::string& mark);
 
-/// Whether the run in `folder` was complete before the file `mark` was written. `mark`: a path.
-bool is_older(const std::string& folder, const std::string& mark);
-
 struct Manifest;
 
 /// How a folder differs from its manifest: the first of each sort. A folder whose publication was interrupted does not.

@@ -96,6 +96,13 @@ SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, c
   return whole ? SweepContent::this_sweep : SweepContent::incomplete;
 }
 
+bool is_ended_sweep(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  const auto manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
+  const auto is_other = [](std::string_view name) { return name != stored_sweep && name != stored_base; };
+  return manifest && wrong_file(folder.get(), *manifest, is_other).empty();
+}
+
 std::string skipped_text(const Sweep& sweep, const std::vector<InvalidRun>& invalid) {
   if (invalid.empty()) return "";
   std::string text = "run,error\n";

@@ -34,6 +34,10 @@ enum class SweepContent {
 /// Changes of mesh files that the scene names are not detected.
 SweepContent inspect_sweep_folder(const std::string& folder, const Sweep& sweep, const std::string& base_text);
 
+/// Whether the folder's sweep has ended: its manifest is that of its sweep.yaml and base.yaml. All runs there are
+/// synced. Times of files do not count, so that this holds for a copy too.
+bool is_ended_sweep(const std::string& folder);
+
 /// The text of stored_skipped. Empty: none is left out, and there is no such file.
 std::string skipped_text(const Sweep& sweep, const std::vector<InvalidRun>& invalid);
 

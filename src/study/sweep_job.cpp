@@ -19,7 +19,6 @@
 #include "files/copied_run.h"
 #include "files/failed_run.h"
 #include "files/hash.h"
-#include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
@@ -223,8 +222,7 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       settle_folder(folder);
       run.content = inspect_folder(folder, its);
       // Files of a run of an unfinished sweep are not synced: they may have changed by a power failure.
-      if (run.content == FolderContent::touched && !is_older(folder, folder_ + "/" + manifest_name))
-        run.content = FolderContent::incomplete;
+      if (run.content == FolderContent::touched && !is_ended_sweep(folder_)) run.content = FolderContent::incomplete;
       if (run.content == FolderContent::this_run && !settings_.force && has_measures(folder, measures_))
         run.status = RunStatus::done;
     } catch (const SceneError& error) {

@@ -170,6 +170,23 @@ TEST(UneditedSweep, LeavesTouchedFilesAlone) {
             "nothing was gathered\n");
 }
 
+TEST(UneditedSweep, IsLeftAloneInACopyToo) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"});
+  // The runs are newer than the copy's manifest.
+  here.shell("mkdir copy; cp sweep/*.* copy; cp -r sweep/runs copy; echo mine >> copy/runs/r0002/energy.csv");
+  const auto before = here.files("copy");
+  const std::string held = "copy/runs/r0002 holds a run of this scene with a changed file, energy.csv";
+  const Finished again = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "copy", "-q"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find(held), std::string::npos) << again.err;
+  const Finished gathered = here.carom({"gather", "copy", "sweep", "-q"});
+  EXPECT_EQ(gathered.code, 2);
+  EXPECT_EQ(gathered.err, "carom: the folder " + held + ": remove it or rename it; nothing was gathered\n");
+  EXPECT_EQ(here.files("copy"), before);
+}
+
 TEST(UneditedSweep, RepeatsAChangedRunBeforeItsEnd) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
@@ -256,15 +273,15 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
              "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
   here.write("b.yaml", two_balls());
   // The files of a run are absent for a moment while it is replaced, and cmp then gives 2.
-  const Finished run = watched(
-      here,
-      "differs() { n=0; until cmp -s \"$1\" \"$2\"; [ $? -eq 1 ]; do n=$((n + 1)); [ $n -lt 500 ] || exit 9; "
-      "sleep 0.02; done; }\n"
-      "await err waiting; cp -r output/a before\n"
-      "echo 'newmtl a\nKd 0 1 0' > m/new; mv m/new m/pin.mtl\n"
-      "differs output/a/manifest.json before/manifest.json; cp -r output/a green\n"
-      "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
-      "differs output/a/manifest.json green/manifest.json");
+  const Finished run =
+      watched(here,
+              "differs() { n=0; until cmp -s \"$1\" \"$2\"; [ $? -eq 1 ]; do n=$((n + 1)); [ $n -lt 500 ] || exit 9; "
+              "sleep 0.02; done; }\n"
+              "await err waiting; cp -r output/a before\n"
+              "echo 'newmtl a\nKd 0 1 0' > m/new; mv m/new m/pin.mtl\n"
+              "differs output/a/manifest.json before/manifest.json; cp -r output/a green\n"
+              "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
+              "differs output/a/manifest.json green/manifest.json");
   EXPECT_EQ(run.code, 143) << run.err << run.out;
   const std::string frame = "/frames/frame_00000.png";
   EXPECT_FALSE(here.read("green" + frame).empty());
