@@ -355,22 +355,72 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   return system;
 }
 
-/// Throws SimulationError where strings and contacts work against one another with forces so great that their rounding
-/// is a noticeable part of the accelerations (m/s^2). Those would then be arbitrary: the bodies are jammed.
+/// Throws SimulationError where strings and contacts work against one another with forces so great that rounding makes
+/// a noticeable part of the accelerations (m/s^2). Those would then be arbitrary: the bodies are jammed. Rounding is
+/// that of the force, and that of positions, which turns the string's direction.
 void ConstrainedMotion::check_digits(const Step& step, double acceleration) const {
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
-    if (!bodies_.world.is_string(step.contacts.names[c].e)) continue;
+    const auto& [i, e, feature] = step.contacts.names[c];
+    if (!bodies_.world.is_string(e)) continue;
     const ContactConstraint& p = step.contacts.pairs[c];
     const double inverse_mass =
         std::max(step.inverse_mass[p.a], p.b == ContactConstraint::fixed ? 0.0 : step.inverse_mass[p.b]);
-    const double rounding = 0x1p-53 * std::abs(p.force) * inverse_mass;  // m/s^2
-    if (!(rounding > tol::arbitrary * acceleration)) continue;
-    throw SimulationError(
-        fmt::format("at t = {} s the strings and contacts of ", bodies_.now.hi), step.contacts.names[c].i,
-        fmt::format(" work against one another, with a force of {:.3g} N, and leave it no motion "
-                    "(jammed): let lengths of strings differ from the distances at which bodies touch",
-                    std::abs(p.force)));
+    const double by_force = std::abs(p.force) * inverse_mass;  // m/s^2
+    const double noticeable = tol::arbitrary * acceleration;   // m/s^2
+    const double position =
+        tol::contact_rounding * (step.x[p.a].cwiseAbs().sum() + at(step.x, e).cwiseAbs().sum());  // m
+    const double turn = position / bodies_.world.string(e).length;
+    // Forces are great where a motion is across almost all pairs that bear. An error along them is then one across them
+    // that is greater by as much as the force is than what acts: such an estimate is cheap.
+    const bool doubtful = by_force * turn * by_force > noticeable * acceleration;
+    if (0x1p-53 * by_force > noticeable || (doubtful && by_force * turn * leverage(step, c) > noticeable))
+      fail_jammed(i, std::abs(p.force));
   }
+}
+
+/// The angle (radians) by which the rounding of positions turns the pair's string.
+double ConstrainedMotion::turn_by_rounding(const Step& step, std::size_t pair) const {
+  const ContactConstraint& p = step.contacts.pairs[pair];
+  const Entity e = step.contacts.names[pair].e;
+  return 0x1p-53 * (step.x[p.a].cwiseAbs().sum() + at(step.x, e).cwiseAbs().sum()) / bodies_.world.string(e).length;
+}
+
+/// Throws SimulationError where a string's direction decides whether bodies can move, and rounding decides on that.
+void ConstrainedMotion::check_directions(const Step& step) const {
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const auto& [i, e, feature] = step.contacts.names[c];
+    if (bodies_.world.is_string(e) && turn_by_rounding(step, c) * leverage(step, c) > tol::arbitrary)
+      fail_jammed(i, std::abs(step.contacts.pairs[c].force));
+  }
+}
+
+/// How far the pair's closing by a unit moves bodies while all others that bear stay closed. Infinity: they keep it
+/// from closing.
+double ConstrainedMotion::leverage(const Step& step, std::size_t pair) const {
+  std::vector<ContactConstraint> bearing;
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    ContactConstraint p = step.contacts.pairs[c];
+    if (p.force == 0 && c != pair) continue;
+    p.bilateral = true;
+    p.target = c == pair ? 1 : 0;
+    p.force = p.slack = p.surface = 0;
+    bearing.push_back(p);
+  }
+  std::vector<Vec3> moved(step.x.size(), Vec3::Zero());
+  solve({step.inverse_mass, moved, bearing});
+  for (const ContactConstraint& p : bearing)
+    if (std::abs(-approach(moved, p) - p.target) > 0.25) return never;
+  double farthest = 0;
+  for (const Vec3& u : moved) farthest = std::max(farthest, u.norm());
+  return farthest;
+}
+
+/// `force`: of a string of body i, in N.
+void ConstrainedMotion::fail_jammed(Entity i, double force) const {
+  throw SimulationError(fmt::format("at t = {} s the strings and contacts of ", bodies_.now.hi), i,
+                        fmt::format(" work against one another, with a force of {:.3g} N that rounding makes arbitrary "
+                                    "(jammed): let lengths of strings differ from those that just fit",
+                                    force));
 }
 
 /// Removes the small remaining speed of separation of pairs that press, without making any pair approach. This takes no
@@ -466,6 +516,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   ConstrainedSystem::Followed followed = system.follow(step.x, step.v, step.a, island.next_length, step.length);
   step.length = followed.motion->length();
   island.next_length = followed.next;
+  if (followed.stuck) check_directions(step);
   if (followed.changes) count_change(island);
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion)});
   if (system.works()) step.forces = std::make_shared<ConstrainedSystem>(std::move(system));

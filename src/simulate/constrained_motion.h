@@ -88,6 +88,10 @@ class ConstrainedMotion {
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
   void check_digits(const Step& step, double acceleration) const;
+  double turn_by_rounding(const Step& step, std::size_t pair) const;
+  void check_directions(const Step& step) const;
+  double leverage(const Step& step, std::size_t pair) const;
+  [[noreturn]] void fail_jammed(Entity i, double force) const;
   bool stop_parting(Step& step) const;
   void find_resting(Step& step) const;
   double longest(Step& step) const;

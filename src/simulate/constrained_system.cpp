@@ -280,6 +280,13 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
   return follow_smooth(x, v, a, h);
 }
 
+/// Whether a step moves any body by more than its position's rounding.
+bool ConstrainedSystem::moves(const DenseMotion& motion) {
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    if (motion.displacement(k, motion.length()).norm() > 0x1p-53 * motion.start(k).norm()) return true;
+  return false;
+}
+
 /// Follows the motion by the method of order 8, with a first step of h (s).
 ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                              const std::vector<Vec3>& a, double h) {
@@ -296,13 +303,16 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
   const auto step = [&](double length) {
     return motion->step(length, smooth, tol::step_error * scales_.length, tol::step_error * scales_.speed);
   };
+  bool rejected = false;
   for (;;) {
     const double error = step(h);
     followed.next = DormandPrince::next_length(h, error);
     if (error <= 1) break;
+    rejected = true;
     h = followed.next;
   }
   motion->interpolate(smooth);
+  followed.stuck = rejected && greatest_norm(v) > 0 && !moves(*motion);
   const double change = first_change(*motion);
   followed.changes = change < never;
   if (change < h) {

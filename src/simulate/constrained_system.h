@@ -69,6 +69,8 @@ class ConstrainedSystem {
     std::unique_ptr<DenseMotion> motion;
     double next = 0;       // s, a good length for the next step
     bool changes = false;  // it ends where a contact opens, closes or reaches a rim
+    // Bodies have a speed, but longer steps than those that move them by less than their rounding were rejected.
+    bool stuck = false;
   };
   /// The forces are those of the last accelerate(). first: a guess of the step (s), or 0.
   Followed follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double first,
@@ -100,6 +102,7 @@ class ConstrainedSystem {
   void allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const;
   std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                std::vector<ContactConstraint>& rows, Certificate& certificate) const;
+  static bool moves(const DenseMotion& motion);
   double opens(const DenseMotion& motion, double t);
   double find_opening(const DenseMotion& motion, double from, double to, double at_end);
   double first_change(const DenseMotion& motion);

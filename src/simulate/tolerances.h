@@ -131,7 +131,7 @@ inline constexpr std::uint32_t many_changes = 64;
 inline constexpr std::uint32_t calm_steps = 8;
 // Share of the greatest acceleration: forces are in balance.
 inline constexpr double constrained_balance = 1e-11;
-// Part of the accelerations. Where the rounding of a string's force is greater, the motion is arbitrary.
+// Part of the accelerations. Where the rounding of a string's force or direction makes more, the motion is arbitrary.
 inline constexpr double arbitrary = 1e-3;
 // Share of a speed: a contact has changed it.
 inline constexpr double velocity_change = 0x1p-40;

@@ -928,16 +928,84 @@ TEST(Rods, AreNotInTheWayOfImpactsAtTimeZero) {
 }
 
 // Upright cylinders that touch, joined by a level rod: any motion of one above the other would bring them closer than
-// the rod lets them.
+// the rod lets them. Far from the origin they can move by less than the rounding of their positions.
 TEST(Rods, ThatJamBodiesEndTheRun) {
-  Tied problem;
-  problem.world.gravity = Vec3(0, -2, 0);
-  problem.body(Volume::cylinder(0.25, 1), {0, 0, 0}, {0, 0, 0});
-  problem.body(Volume::cylinder(0.5, 1), {0.75, 0, 0}, {0, 0, 0});
-  problem.between(0, 1, 0.75).rod = true;
-  const Spring spring{{3, 4, 1}, 5, 0, 0};
-  problem.world.forces.push_back({spring, 0, std::numeric_limits<double>::infinity(), {0}});
-  EXPECT_NE(error_of(problem).find("jammed"), std::string::npos) << error_of(problem);
+  for (const double strength : {5.0, 1e-3})
+    for (const double far : {0.0, 700.0, 1e5}) {
+      Tied problem;
+      problem.world.gravity = Vec3(0, -2, 0);
+      problem.body(Volume::cylinder(0.25, 1), {far, 0, 0}, {0, 0, 0});
+      problem.body(Volume::cylinder(0.5, 1), {far + 0.75, 0, 0}, {0, 0, 0});
+      problem.between(0, 1, 0.75).rod = true;
+      const Spring spring{{far + 3, 4, 1}, strength, 0, 0};
+      problem.world.forces.push_back({spring, 0, std::numeric_limits<double>::infinity(), {0}});
+      EXPECT_NE(error_of(problem).find("jammed"), std::string::npos) << strength << ' ' << far << error_of(problem);
+    }
+}
+
+// A ball between two strings that are exactly straight, and one on a floor to which a rod ties it: both are to move
+// across.
+TEST(Rods, AndStraightStringsThatJamABallEndTheRun) {
+  for (const double far : {0.0, 700.0, 1e5}) {
+    Tied rope;
+    rope.ball({far, 0.5, 0}, {0, 0, 0}, 1, 0.1);
+    for (const double side : {-1, 1}) rope.anchored(0, {far + side, 0.5, 0}, 1);
+    EXPECT_NE(error_of(rope).find("jammed"), std::string::npos) << far << error_of(rope);
+    Tied floor;
+    floor.world.gravity = Vec3(0.5, -9.81, 0);
+    floor.ball({far, 0.5, 0}, {0, 0, 0}, 1, 0.5);
+    floor.plane({0, 0, 0}, {0, 1, 0});
+    floor.anchored(0, {far, -1, 0}, 1.5).rod = true;
+    EXPECT_NE(error_of(floor).find("jammed"), std::string::npos) << far << error_of(floor);
+  }
+}
+
+// A ball that hangs on two almost straight strings: forces of m g / (2 sag), until they have less than three digits.
+TEST(Strings, ThatAreAlmostStraightBearAsTheirSagSays) {
+  for (const double far : {0.0, 700.0})
+    for (const double sag : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+      Tied problem;
+      problem.world.gravity = Vec3(0, -10, 0);
+      const Vec3 ball(far, 0.5 - sag, 0);
+      problem.ball(ball, {0, 0, 0}, 1, 0.1);
+      for (const double side : {-1, 1}) {
+        const Vec3 anchor(far + side, 0.5, 0);
+        problem.anchored(0, anchor, (ball - anchor).norm());
+      }
+      problem.options.duration = 1;
+      // What the rounding of coordinates makes of the sag, as a share of it.
+      const double rounding = 0x1p-53 * (far + 1) / (sag * sag);
+      if (rounding > 4e-3) {
+        EXPECT_NE(error_of(problem).find("jammed"), std::string::npos) << far << ' ' << sag;
+        continue;
+      }
+      if (rounding > 1e-4) continue;
+      const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+      const Outcome run = run_to_end(*simulator, 1);
+      EXPECT_LT((run.end.position[0] - ball).norm(), 1e-3 * sag);
+      const std::span<const ContactForce> forces = simulator->contacts();
+      ASSERT_EQ(forces.size(), 2u);
+      for (const ContactForce& f : forces) EXPECT_NEAR(f.force * 2 * sag / 10, 1, 4 * rounding + 2 * sag * sag);
+    }
+}
+
+// Frames of touching balls and rods bear more than they need, but nothing jams: thrown, they turn and lose nothing.
+TEST(Rods, BetweenTouchingBallsAreNotJammed) {
+  for (const double far : {0.0, 700.0}) {
+    Tied problem;
+    problem.world.gravity = Vec3(0, -9.81, 0);
+    problem.ball({far, 0, 0}, {0, 0, 0}, 1, 0.5);
+    problem.ball({far + 1, 0, 0}, {0, 0, 0}, 2, 0.5);
+    problem.ball({far + 0.5, std::sqrt(0.75), 0}, {0, 0, 1}, 3, 0.5);
+    for (const auto& [a, b] : {std::pair<Entity, Entity>{0, 1}, {1, 2}, {0, 2}}) problem.between(a, b, 1).rod = true;
+    problem.options.duration = 4;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    const Outcome run = run_to_end(*simulator, 4);
+    const State& end = run.end;
+    for (const auto& [a, b] : {std::pair<int, int>{0, 1}, {1, 2}, {0, 2}})
+      EXPECT_NEAR((end.position[a] - end.position[b]).norm(), 1, 1e-11);
+    EXPECT_NEAR(energy(problem, end), energy(problem, problem.initial), 1e-9);
+  }
 }
 
 // A bob on a rod presses a heavy ball, far from the origin, where rounding lets the two part by more than the clock
