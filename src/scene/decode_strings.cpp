@@ -120,8 +120,10 @@ class Lengths {
           "doubles do not resolve it there: bring it nearer, or make it longer");
       return;
     }
-    if (std::fabs(distance - length) <= rounding() * (far + length)) {
-      if (distance > length || string.rod || !scene_.made_from.start) string.length = distance;
+    const double off = std::fabs(distance - length) / (far + length);
+    if (off <= rounding()) {
+      // The resolved scene has this length and no `start`: it must be understood alike.
+      if (distance > length || string.rod || off <= rounding_of_lengths) string.length = distance;
     } else if (distance > length || string.rod) {
       diagnostics_.add(view.place("length"),
                        fmt::format("{} is {} m long, but its ends are {} m apart at time 0", in_backticks(name),

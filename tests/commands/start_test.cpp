@@ -102,6 +102,30 @@ TEST(Start, GoesOnAlongTheParabolasOfARun) {
   }
 }
 
+// A bob that swings on a taut string, and a double pendulum on rods.
+TEST(Start, OfStringsIsTheRunOfItsSceneFile) {
+  for (const bool rods : {false, true}) {
+    const Workplace here;
+    const std::string tied = rods ? "strings: {a: {from: [0, 4, 0], to: red, length: 2.5, rod: true}, "
+                                    "b: {from: red, to: blue, length: 1.25, rod: true}}\n"
+                                  : "strings: {a: {from: [0, 4, 0], to: red, length: 2.5, restitution: 1}}\n";
+    const std::string scene =
+        "scene: 1\nballs:\n  red: {mass: 1, radius: 0.1, position: [1.5, 2, 0]}\n"
+        "  blue: {mass: 1, radius: 0.1, position: [2.25, 1, 0]}\n" +
+        tied + "simulate: {duration: 1.5}\noutput: {trajectory: {every: 0.1}, collisions: true, flights: true}\n";
+    here.write("first.yaml", scene);
+    expect_run(here, {"run", "first.yaml", "-o", "first"});
+    for (const char* at : {"0.1", "0.37", "0.7", "1.2"}) {
+      here.write("second.yaml", scene + "start: {run: first, at: " + at + "}\n");
+      expect_run(here, {"run", "second.yaml", "-o", "second", "--force"});
+      expect_run(here, {"run", "second/scene.yaml", "-o", "third", "--force"});
+      for (const std::string file : {"trajectory.csv", "collisions.csv", "summary.csv"})
+        EXPECT_EQ(here.read("second/" + file), here.read("third/" + file)) << at << ' ' << file;
+      EXPECT_TRUE(rods || rows_in(here.read("second/collisions.csv")).empty()) << at;
+    }
+  }
+}
+
 TEST(Start, OfAFreeBallIsTheClosedFormAtAnyTime) {
   const Workplace here;
   const std::string ball =
