@@ -289,17 +289,20 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const auto& [i, e, feature] = step.contacts.names[c];
-    const double approach = p.normal.dot(met[p.a] - rate(met, e));
-    if (!(p.force > 0 && approach > group_.slow_approach(i, e, step.greatest))) continue;
+    // A rod may push, which is a pull along the other direction.
+    const double sign = p.bilateral && p.force < 0 ? -1 : 1, force = sign * p.force;
+    const Vec3 normal = sign * p.normal;
+    const double approach = normal.dot(met[p.a] - rate(met, e));
+    if (!(force > 0 && approach > group_.slow_approach(i, e, step.greatest))) continue;
     const CollisionKind kind = world.is_string(e) ? CollisionKind::string
                                : world.is_body(e) ? CollisionKind::body_body
                                                   : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, at(step.x, e), feature);
-    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, p.normal, approach, 0,
+    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, normal, approach, 0,
                                      pair_restitution(world, i, e));
     // Shared among all struck bodies.
-    taken.impulse = p.force;
-    taken.energy_lost = 0.5 * p.force * approach;
+    taken.impulse = force;
+    taken.energy_lost = 0.5 * force * approach;
     bodies_.log.record(taken);
     recorded[c] = 1;
   }
@@ -417,10 +420,11 @@ double ConstrainedMotion::leverage(const Step& step, std::size_t pair) const {
 
 /// `force`: of a string of body i, in N.
 void ConstrainedMotion::fail_jammed(Entity i, double force) const {
+  const char* motion = bodies_.moving.any() ? "end or slow `motion` before, or " : "";
   throw SimulationError(fmt::format("at t = {} s the strings and contacts of ", bodies_.now.hi), i,
                         fmt::format(" work against one another, with a force of {:.3g} N that rounding makes arbitrary "
-                                    "(jammed): let lengths of strings differ from those that just fit",
-                                    force));
+                                    "(jammed): {}let lengths of strings differ from those that just fit",
+                                    force, motion));
 }
 
 /// Removes the small remaining speed of separation of pairs that press, without making any pair approach. This takes no

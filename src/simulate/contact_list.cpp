@@ -26,18 +26,28 @@ void ContactList::add(const ContactConstraint& pair, const Contact& name, double
 
 void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const {
   if (!bodies.moving.any() || pairs.empty()) return;
+  const World& world = bodies.world;
+  // m/s. A rod must not get longer either.
+  const auto excess = [&](std::size_t c) {
+    const double speed = approach(velocities, pairs[c]);
+    return pairs[c].bilateral ? std::abs(speed) : speed;
+  };
   std::size_t worst = 0;
   for (std::size_t c = 1; c < pairs.size(); ++c)
-    if (approach(velocities, pairs[c]) > approach(velocities, pairs[worst])) worst = c;
-  // The things around the body, and the directions to them.
+    if (excess(c) > excess(worst)) worst = c;
+  // The things around the body, and the directions to them. A rod holds it from both sides.
   const auto& [body, thing, of_worst] = names[worst];
   std::vector<Entity> around = {thing};
-  std::vector<Vec3> directions = {pairs[worst].normal};
+  std::vector<Vec3> directions = {approach(velocities, pairs[worst]) < 0 ? Vec3(-pairs[worst].normal)
+                                                                         : pairs[worst].normal};
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
-    if (c == worst || (i != body && e != body)) continue;
-    around.push_back(i == body ? e : i);
+    if (c == worst || (i != body && world.second_body(e) != body)) continue;
+    around.push_back(i == body || world.is_string(e) ? e : i);
     directions.emplace_back(i == body ? pairs[c].normal : Vec3(-pairs[c].normal));
+    if (!pairs[c].bilateral) continue;
+    around.push_back(around.back());
+    directions.emplace_back(-directions.back());
   }
   std::vector<Entity> things;
   for (const std::size_t k : vanishing_sum(directions, 0, exact_tolerance::level)) things.push_back(around[k]);

@@ -138,10 +138,7 @@ bool ExactBodies::holds(Entity string) const {
   const Vec3 x = position(s.body), xe = s.other == no_entity ? s.anchor : position(s.other);
   const Vec3 v = velocity(s.body), ve = s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other);
   const Touch there = touch(world, s.body, x, string, xe);
-  const double radius = world.radius[s.body];
-  if (there.gap > contact_gap(s.body, x, xe)) return false;
-  return std::abs(there.normal.dot(ve - v)) <=
-         exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[s.body].norm() * radius));
+  return there.gap <= contact_gap(s.body, x, xe) && std::abs(there.normal.dot(ve - v)) <= drift_of(s.body, v, ve);
 }
 
 bool ExactBodies::is_taut(Entity string) const {
@@ -188,6 +185,10 @@ bool ExactBodies::any_meets(std::span<const Entity> those) const {
 double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
   return std::max(exact_tolerance::contact_gap * world.radius[i],
                   exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
+}
+
+double ExactBodies::drift_of(Entity i, const Vec3& v, const Vec3& ve) const {
+  return exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[i].norm() * world.radius[i]));
 }
 
 double ExactBodies::load_on(Entity i) const {

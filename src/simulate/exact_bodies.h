@@ -155,6 +155,9 @@ struct ExactBodies {
 
   /// The largest gap between body i, at x, and a thing at xe that counts as contact (m).
   double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;
+  /// The speed (m/s) along the normal of body i and a thing in lasting contact, at v and ve, that is the method's
+  /// error.
+  double drift_of(Entity i, const Vec3& v, const Vec3& ve) const;
 
   /// The acceleration (m/s^2) with which body i may press on others.
   /// It is zero in common free fall, without fixed things, anchors and other forces, because gravity moves all bodies
@@ -166,7 +169,8 @@ struct ExactBodies {
   /// The length on which two things are slow (m): the diameter of the smaller one, or the radius of a body on a fixed
   /// thing.
   double smaller_length(Entity i, Entity e) const {
-    return world.is_body(e) ? 2 * std::min(world.radius[i], world.radius[e]) : world.radius[i];
+    const Entity second = world.second_body(e);
+    return second != no_entity ? 2 * std::min(world.radius[i], world.radius[second]) : world.radius[i];
   }
   /// A speed that counts as zero (m/s), because its square would underflow.
   double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().max_speed; }

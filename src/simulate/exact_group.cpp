@@ -121,13 +121,15 @@ void ExactGroup::join_initial(Entity first) {
       const Vec3 xe = body ? bodies_.flights[e].x : bodies_.fixed_position(e);
       const Vec3 ve = body ? bodies_.flights[e].v : bodies_.fixed_velocity(e);
       const Vec3 ae = body ? bodies_.flights[e].a : Vec3(Vec3::Zero());
-      const double rounding =
-          exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]);
-      if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * rounding) continue;
+      // A run may begin with the state of another one, in which contacts hold within the method's error.
+      const double near =
+          std::max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
+                   bodies_.contact_gap(i, f.x, xe));
+      if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
       const Touch there = touch(world, i, f.x, e, xe);
-      if (std::abs(there.gap) > rounding) continue;
+      if (std::abs(there.gap) > near) continue;
       const Vec3 w = ve - f.v;
-      if (std::abs(there.normal.dot(w)) > exact_tolerance::velocity_rounding * (f.v.norm() + ve.norm())) continue;
+      if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, f.v, ve)) continue;
       const double press = -(there.normal.dot(ae - f.a) + bending(world, i, f.x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
       for (const Entity k : {i, e}) {
@@ -140,33 +142,93 @@ void ExactGroup::join_initial(Entity first) {
   }
 }
 
-void ExactGroup::join_by_strings(Entity first) {
+void ExactGroup::join_by_strings() {
   const World& world = bodies_.world;
-  for (const Entity string : bodies_.ties.of(first)) {
-    const String& s = world.string(string);
-    if (s.body != first) continue;
-    const Flight f = bodies_.flights[first];
-    const Flight other =
-        s.other == no_entity ? Flight{{}, s.anchor, Vec3::Zero(), Vec3::Zero()} : bodies_.flights[s.other];
-    const Touch there = touch(world, first, f.x, string, other.x);
-    const double rounding =
-        exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + other.x.cwiseAbs().sum() + s.length);
-    if (there.gap < -rounding || (s.rod && there.gap > rounding))
-      throw SimulationError(fmt::format("at t = 0 s the {} of ", s.rod ? "rod" : "string"), first,
-                            fmt::format(" is {:.17g} m long, and its ends are {:.17g} m apart: change `length`, or "
-                                        "place its ends accordingly",
-                                        s.length, s.length - there.gap));
-    if (!s.rod) {
-      const Vec3 w = other.v - f.v;
-      const double speeds = f.v.norm() + other.v.norm();
-      if (there.gap > rounding || std::abs(there.normal.dot(w)) > exact_tolerance::velocity_rounding * speeds) continue;
-      if (!(there.normal.dot(other.a - f.a) + bending(world, first, f.x, string, other.x, there, w) < 0)) continue;
+  std::vector<Entity> moved;  // bodies that only strings hold, in the problem's order
+  std::vector<Vec3> a;        // m/s^2, of these
+  std::vector<double> inverse_mass;
+  std::vector<ContactConstraint> rows;
+  std::vector<Entity> strings;  // of the rows
+  const auto place = [&](Entity i) {
+    if (index[i] == ContactConstraint::fixed) {
+      index.write(i) = static_cast<std::uint32_t>(moved.size());
+      moved.push_back(i);
+      a.push_back(bodies_.flights[i].a);
+      inverse_mass.push_back(1 / world.mass[i]);
     }
-    join_at_rest(first);
+    return index[i];
+  };
+  std::vector<Entity> held;
+  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+    const Entity string = world.string_number(k);
+    const String& s = world.strings[k];
+    const Touch there = bodies_.string_now(string);
+    check_length(string, there.gap);
+    if (!may_hold(string, there)) continue;
+    const bool anchored = s.other == no_entity;
+    const Vec3 w = (anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(s.other)) - bodies_.velocity(s.body);
+    const Vec3 other = anchored ? s.anchor : bodies_.position(s.other);
+    // Bodies in lasting contact with other things have these accelerations.
+    double known = bending(world, s.body, bodies_.position(s.body), string, other, there, w);
+    const bool free = !bodies_.in_lasting_contact(s.body),
+               other_free = !anchored && !bodies_.in_lasting_contact(s.other);
+    if (!free) known -= there.normal.dot(bodies_.flights[s.body].a);
+    if (!anchored && !other_free) known += there.normal.dot(bodies_.flights[s.other].a);
+    if (s.rod || (!free && !other_free && known < 0)) held.push_back(string);
+    if (!free && !other_free) continue;
+    ContactConstraint row{0, ContactConstraint::fixed, free ? there.normal : Vec3(-there.normal), -known};
+    row.a = place(free ? s.body : s.other);
+    if (free && other_free) row.b = place(s.other);
+    row.bilateral = s.rod;
+    rows.push_back(row);
+    strings.push_back(string);
+  }
+  double greatest = 0;
+  for (const Vec3& acceleration : a) greatest = std::max(greatest, acceleration.norm());
+  for (ContactConstraint& row : rows)
+    if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
+  solve({inverse_mass, a, rows});
+  for (const Entity i : moved) index.write(i) = ContactConstraint::fixed;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!rows[k].bilateral && rows[k].force > 0) held.push_back(strings[k]);
+  for (const Entity string : held) {
+    const String& s = world.string(string);
+    join_at_rest(s.body);
     if (s.other == no_entity) continue;
     join_at_rest(s.other);
-    unite(first, s.other);
+    unite(s.body, s.other);
   }
+}
+
+/// Throws SimulationError if the string is too short for its ends, or the rod not as long as they are apart.
+void ExactGroup::check_length(Entity string, double gap) const {
+  const String& s = bodies_.world.string(string);
+  if (gap >= -initial_rounding(string) && (!s.rod || gap <= initial_rounding(string))) return;
+  throw SimulationError(fmt::format("at t = 0 s the {} of ", s.rod ? "rod" : "string"), s.body,
+                        fmt::format(" is {:.17g} m long, and its ends are {:.17g} m apart: change `length`, or "
+                                    "place its ends accordingly",
+                                    s.length, s.length - gap));
+}
+
+/// The rounding of a string's gap (m).
+double ExactGroup::initial_rounding(Entity string) const {
+  const String& s = bodies_.world.string(string);
+  const Vec3 other = s.other == no_entity ? s.anchor : bodies_.position(s.other);
+  return exact_tolerance::initial_rounding *
+         (bodies_.position(s.body).cwiseAbs().sum() + other.cwiseAbs().sum() + s.length);
+}
+
+/// Whether the string is taut, and its ends neither part nor approach. A run may begin with the state of another one,
+/// in which it holds within the method's error.
+bool ExactGroup::may_hold(Entity string, const Touch& there) const {
+  const String& s = bodies_.world.string(string);
+  if (s.rod) return true;
+  const bool anchored = s.other == no_entity;
+  const Vec3 x = bodies_.position(s.body), v = bodies_.velocity(s.body);
+  const Vec3 xe = anchored ? s.anchor : bodies_.position(s.other);
+  const Vec3 ve = anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(s.other);
+  return there.gap <= std::max(initial_rounding(string), bodies_.contact_gap(s.body, x, xe)) &&
+         std::abs(there.normal.dot(ve - v)) <= bodies_.drift_of(s.body, v, ve);
 }
 
 void ExactGroup::widen_margin(Entity i, double approach) {

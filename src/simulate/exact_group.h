@@ -54,9 +54,9 @@ class ExactGroup {
   /// At the start, a body may touch others or a curved surface, without speed along the normal, and be pressed on.
   /// Such a body joins the group, and so does all that it touches.
   void join_initial(Entity first);
-  /// The same for strings that body i holds by their first end, where they are taut, and for rods. Throws
-  /// SimulationError where a string is too short.
-  void join_by_strings(Entity i);
+  /// The same for bodies that taut strings pull, and for those on rods. The tensions are those under the forces at the
+  /// start: a taut string without tension holds nothing. Throws SimulationError where a string is too short.
+  void join_by_strings();
   /// The sleeping bodies at the other ends of body i's taut strings and of its rods.
   std::vector<Entity> asleep_on_strings(Entity i) const;
   /// Sets whether body i, a member or asleep, rests on a thing. The tally counts such bodies.
@@ -104,6 +104,9 @@ class ExactGroup {
 
  private:
   void join_at_rest(Entity i);
+  void check_length(Entity string, double gap) const;
+  double initial_rounding(Entity string) const;
+  bool may_hold(Entity string, const Touch& there) const;
   double power(Entity i) const;
 
   ExactBodies& bodies_;

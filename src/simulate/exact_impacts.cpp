@@ -331,7 +331,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   const StringImpacts::Passed* const passed =
-      bodies_.ties.any() && !rests ? strings_->pass_on({i, no_entity, n, approach, met + separation, n.dot(impact.u)})
+      bodies_.ties.any() && !rests ? strings_->pass_on({i, surface, n, approach, met + separation, n.dot(impact.u)})
                                    : nullptr;
   if (approach > 0 || separation > 0) {
     const double impulse = passed ? passed->impulse : mass * (rests ? approach : met + separation);

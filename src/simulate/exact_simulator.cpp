@@ -69,7 +69,7 @@ void ExactSimulator::start(const State& initial) {
     // Where no force acts, nothing presses.
     if (!(world.gravity.isZero(0) && world.forces.empty()))
       for (Entity i = 0; i < n; ++i) group_.join_initial(i);
-    for (Entity i = 0; bodies_.ties.any() && i < n; ++i) group_.join_by_strings(i);
+    if (bodies_.ties.any()) group_.join_by_strings();
   }
   for (Entity i = 0; i < n; ++i)
     if (bodies_.flies_in_steps(i) && !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0) flights_.let_fall(i);

@@ -9,6 +9,7 @@
 #include "physics/impact.h"
 #include "physics/world.h"
 #include "simulate/collapse_detector.h"
+#include "simulate/contact_list.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flat_contacts.h"
@@ -23,7 +24,8 @@ const StringImpacts::Passed* StringImpacts::pass_on(const Strike& strike) {
     const std::span<const Entity> strings = bodies_.ties.of(i);
     return std::any_of(strings.begin(), strings.end(), [&](Entity string) { return bodies_.holds(string); });
   };
-  if (!held(strike.a) && !(strike.b != no_entity && held(strike.b))) return nullptr;
+  const Entity b = bodies_.world.second_body(strike.thing);
+  if (!held(strike.a) && !(b != no_entity && held(b))) return nullptr;
   solve_with_strings(strike);
   for (const Entity i : passed_.bodies)
     if (bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
@@ -42,8 +44,9 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
     passed.bodies.push_back(i);
     passed.v.push_back(bodies_.velocity(i));
   };
+  const Entity b = bodies_.world.second_body(strike.thing);
   take_in(strike.a);
-  if (strike.b != no_entity) take_in(strike.b);
+  if (b != no_entity) take_in(b);
   std::vector<Entity> strings;
   for (std::size_t k = 0; k < passed.bodies.size(); ++k)
     for (const Entity string : bodies_.ties.of(passed.bodies[k])) {
@@ -53,22 +56,27 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
     }
   std::sort(strings.begin(), strings.end());
   strings.erase(std::unique(strings.begin(), strings.end()), strings.end());
-  const auto row = [&](Entity a, Entity b, const Vec3& normal, double target) {
-    return ContactConstraint{index[a], b == no_entity ? ContactConstraint::fixed : index[b], normal, target};
+  const auto row = [&](Entity i, Entity other, const Vec3& normal, double target) {
+    return ContactConstraint{index[i], other == no_entity ? ContactConstraint::fixed : index[other], normal, target};
   };
-  std::vector<ContactConstraint> rows{row(strike.a, strike.b, strike.normal, strike.change - strike.approach)};
-  rows.front().surface = strike.surface;
+  ContactList rows;
+  ContactConstraint struck = row(strike.a, b, strike.normal, strike.change - strike.approach);
+  struck.surface = strike.surface;
+  rows.add(struck, {strike.a, strike.thing, no_feature}, 0);
   for (const Entity string : strings) {
     const String& s = bodies_.world.string(string);
-    rows.push_back(row(s.body, s.other, bodies_.string_now(string).normal, 0));
-    rows.back().bilateral = s.rod;
-    rows.back().slack = s.rod ? exact_tolerance::step_error * std::abs(strike.change) : 0;
+    ContactConstraint held = row(s.body, s.other, bodies_.string_now(string).normal, 0);
+    held.bilateral = s.rod;
+    held.slack = s.rod ? exact_tolerance::step_error * std::abs(strike.change) : 0;
+    rows.add(held, {s.body, string, no_feature}, 0);
   }
   std::vector<double> inverse_mass;
   for (const Entity i : passed.bodies) inverse_mass.push_back(1 / bodies_.world.mass[i]);
-  bodies_.log.note(solve({inverse_mass, passed.v, rows}));
+  const Certificate certificate = solve({inverse_mass, passed.v, rows.pairs});
+  if (certificate.verdict == Certificate::Verdict::infeasible) rows.check_room(bodies_, passed.v);
+  bodies_.log.note(certificate);
   for (const Entity i : passed.bodies) index.write(i) = ContactConstraint::fixed;
-  passed.impulse = rows.front().force;
+  passed.impulse = rows.pairs.front().force;
 }
 
 void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) const {
@@ -117,7 +125,7 @@ void StringImpacts::tighten(Entity string) {
   const bool ends = e * approach == 0 || collapses(a) || collapses(b) ||
                     (press > 0 && (bodies_.too_low(xa, e * approach, press) || (e == 1 && (fades(a) || fades(b)))));
   const double separation = ends ? 0 : e * approach;
-  solve_with_strings({a, b, n, approach, approach + separation, 0});
+  solve_with_strings({a, string, n, approach, approach + separation, 0});
   const Passed& passed = passed_;
   const double lost = 0.5 * passed.impulse * (approach - separation);
   bodies_.log.lose(lost);

@@ -16,22 +16,22 @@ class StringImpacts {
  public:
   StringImpacts(ExactBodies& bodies, const ImpactParts& parts) : bodies_(bodies), parts_(parts) {}
 
-  /// An impact of body a on b, another body or a thing of unlimited mass (no_entity), at the present instant.
+  /// An impact of body a, at the present instant, on another body or a fixed thing, or along a string that goes taut.
   struct Strike {
-    Entity a, b;
-    Vec3 normal;      // unit, from a to b
+    Entity a, thing;
+    Vec3 normal;      // unit, from a to the thing
     double approach;  // m/s
     double change;    // m/s, of the speed along the normal
     double surface;   // m/s, of a fixed thing along the normal
   };
   /// What it does.
   struct Passed {
-    std::vector<Entity> bodies;  // a, b and those to which strings pass it on
+    std::vector<Entity> bodies;  // both and those to which strings pass it on
     std::vector<Vec3> v;         // m/s, by body, after it
-    double impulse = 0;          // N s, between a and b
+    double impulse = 0;          // N s, between both
   };
   /// Its effect, if a string holds one of its bodies; otherwise null. Sleeping bodies that it reaches wake. Valid until
-  /// the next call.
+  /// the next call. Throws SimulationError where strings hold a body against a fixed thing that moves.
   const Passed* pass_on(const Strike& strike);
   /// Begins the flights of the bodies beyond a and b.
   void begin_beyond(const Passed& passed, Entity a, Entity b) const;

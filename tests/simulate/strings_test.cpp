@@ -905,6 +905,24 @@ TEST(Rods, TakeImpulsesAlongThemAsAnImpact) {
   for (const Vec3& v : run.end.velocity) EXPECT_NEAR((v - Vec3(0.5, 0, 0)).norm(), 0, 1e-14);
 }
 
+// Along a rod between 1 and 3 kg, of 3/4 kg effectively: it pulls and pushes alike.
+TEST(Rods, HaveARowForAnImpulseEitherWay) {
+  for (const double side : {-1, 1}) {
+    Tied pair;
+    pair.world.gravity = Vec3::Zero();
+    pair.ball({0, 0, 0}, {0, 0, 0}, 1, 0.1);
+    pair.ball({1, 0, 0}, {0, 0, 0}, 3, 0.1);
+    pair.between(0, 1, 1).rod = true;
+    pair.world.impulse = {Vec3(2 * side, 0, 0), Vec3(0, 0, 0)};
+    const Outcome run = run_exact(pair);
+    ASSERT_EQ(run.collisions.size(), 1u) << side;
+    EXPECT_NEAR(run.collisions[0].approach_speed, 2, 1e-14);
+    EXPECT_NEAR(run.collisions[0].impulse, 1.5, 1e-14);
+    EXPECT_NEAR(run.collisions[0].energy_lost, 1.5, 1e-14);
+    EXPECT_NEAR(run.collisions[0].normal.x(), side, 1e-15) << "from the struck body on";
+  }
+}
+
 // A bob on a rod that runs into another string, which is taut at time 0, or into a floor that it touches.
 TEST(Rods, AreNotInTheWayOfImpactsAtTimeZero) {
   for (const bool floor : {false, true}) {
@@ -1025,6 +1043,141 @@ TEST(Rods, PressBodiesTogetherFarFromTheOrigin) {
   EXPECT_LT(simulator->effort().events, 20000u);
   EXPECT_LT(run.tally.max_overlap, 1e-11);
   EXPECT_NEAR((run.end.position[0] - anchor).norm(), (far - anchor).norm(), 1e-11);
+}
+
+// A plane that moves on where rods or strings hold a ball, along a rod or between two strings; the same behind a ball
+// that a rod and a wall hold up.
+TEST(Rods, LeaveNoRoomBeforeAThingThatMoves) {
+  const auto error_at = [](Tied& problem, double e, double time) {
+    for (double& each : problem.world.restitution) each = e;
+    problem.options.duration = 4;
+    const std::string error = error_of(problem);
+    EXPECT_NE(error.find("no room left between"), std::string::npos) << e << ": " << error;
+    EXPECT_NEAR(std::strtod(error.c_str() + std::string("at t = ").size(), nullptr), time, 1e-12) << error;
+  };
+  for (const double e : {0.0, 0.5, 1.0}) {
+    Tied rod;
+    rod.world.gravity = Vec3::Zero();
+    rod.ball({0, 0, 0}, {0, 0, 0}, 1, 0.125);
+    rod.plane({-0.5, 0, 0}, {1, 0, 0});
+    rod.move(1, {{0, 2, {0.5, 0, 0}}});
+    rod.anchored(0, {1, 0, 0}, 1).rod = true;
+    error_at(rod, e, 0.75);
+    Tied hanging;
+    hanging.ball({0, 1, 0}, {0, 0, 0}, 1, 0.125);
+    hanging.plane({0, 0, 0}, {0, 1, 0});
+    hanging.move(1, {{0, 9, {0, 0.5, 0}}});
+    hanging.anchored(0, {0, 2, 0}, 1).rod = true;
+    error_at(hanging, e, 1.75);
+    Tied both;  // a string and a rod, neither upright
+    both.ball({0, 1, 0}, {0, 0, 0}, 1, 0.125);
+    both.plane({0, 0, 0}, {0, 1, 0});
+    both.move(1, {{0, 9, {0, 0.5, 0}}});
+    both.anchored(0, {-0.75, 2, 0}, 1.25).rod = true;
+    both.anchored(0, {0.75, 2, 0}, 1.25).rod = true;
+    error_at(both, e, 1.75);
+    if (e > 0) continue;  // the balls would bounce between plane and wall
+    Tied chain;
+    chain.ball({0, 0.125, 0}, {0, 0, 0}, 1, 0.125);
+    chain.ball({1, 0.125, 0}, {0, 0, 0}, 1, 0.125);
+    chain.plane({0, 0, 0}, {0, 1, 0});
+    chain.plane({-0.5, 0, 0}, {1, 0, 0});
+    chain.plane({1.125, 0, 0}, {-1, 0, 0});
+    chain.move(3, {{0, 2, {0.5, 0, 0}}});
+    chain.between(0, 1, 1).rod = true;
+    error_at(chain, e, 0.75);
+  }
+}
+
+// A rod that a plane pushes along until it just fits before a wall, where the plane stops.
+TEST(Rods, MayJustFit) {
+  Tied problem;
+  problem.ball({0, 0.125, 0}, {0, 0, 0}, 1, 0.125, 0);
+  problem.ball({1, 0.125, 0}, {0, 0, 0}, 1, 0.125, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.plane({-0.5, 0, 0}, {1, 0, 0});
+  problem.plane({1.25, 0, 0}, {-1, 0, 0});
+  problem.move(3, {{0, 1, {0.5, 0, 0}}});
+  problem.between(0, 1, 1).rod = true;
+  problem.options.duration = 2;
+  const Outcome run = run_exact(problem);
+  EXPECT_NEAR(run.tally.energy_lost, 0.5, 1e-12);
+  EXPECT_NEAR(run.end.position[1].x(), 1.125, 1e-12);
+  EXPECT_LT(run.end.velocity[0].norm() + run.end.velocity[1].norm(), 1e-12);
+}
+
+// An impulse along a rod from b1 to b0, which a taut string ties to b2. All fall together, so that the string has no
+// tension: it is an impact with its own restitution. By hand: the rod takes 1/3 J, the string gives the ends 0.4 m/s.
+TEST(Strings, WithoutTensionAtTheStartBounceInAnyOrderOfBodies) {
+  const Vec3 places[] = {{0, 0, 0}, {1, 0, 0}, {0.6, -0.8, 0}};
+  for (const std::vector<Entity>& order : {std::vector<Entity>{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 2, 1}})
+    for (const bool falls : {false, true})
+      for (const bool far_floor : {false, true})
+        for (const bool swapped : {false, true}) {
+          Tied problem;
+          if (!falls) problem.world.gravity = Vec3::Zero();
+          Entity at[3];
+          for (const Entity b : order) at[b] = problem.ball(places[b], {0, 0, 0}, b == 1 ? 0.5 : 1, 0.125);
+          problem.world.impulse.assign(3, Vec3::Zero());
+          problem.world.impulse[at[1]] = Vec3(-1, 0, 0);
+          if (far_floor) problem.plane({0, -1e3, 0}, {0, 1, 0});
+          const auto rod = [&] { problem.between(at[1], at[0], 1).rod = true; };
+          if (swapped) rod();
+          problem.between(at[2], at[0], 1).restitution = 1;
+          if (!swapped) rod();
+          problem.options.duration = 0.25;
+          const Outcome run = run_exact(problem);
+          EXPECT_NEAR(run.tally.energy_lost, 2.0 / 3, 1e-13) << falls << far_floor << swapped;
+          std::size_t of_string = 0;
+          for (const Collision& c : run.collisions) {
+            if (c.restitution == 0) continue;
+            ++of_string;
+            EXPECT_NEAR(c.approach_speed, 0.4, 1e-14);
+            EXPECT_NEAR(c.separation_speed, 0.4, 1e-14);
+          }
+          EXPECT_EQ(of_string, 1u);
+        }
+}
+
+// The state of a run half-way has the errors of its path. A run from there holds what was held, with any restitution.
+TEST(Strings, HoldFromAStateOfAnotherRun) {
+  for (const double at : {0.25, 0.5, 0.75, 1.25}) {
+    Tied problem = pendulum(1.2, 1.25);
+    problem.options.duration = 3;
+    const auto first = make_exact_simulator(problem.world, problem.initial, problem.options);
+    go_to(*first, at);
+    Tied second = pendulum(1.2, 1.25);
+    second.initial = first->state();
+    second.initial.time = 0;
+    second.world.strings[0].length = std::max(second.world.strings[0].length, second.initial.position[0].norm());
+    second.world.strings[0].restitution = 1;
+    second.options.duration = 3 - at;
+    const Outcome run = run_exact(second);
+    EXPECT_TRUE(run.collisions.empty()) << at << ' ' << run.collisions.size();
+    go_to(*first, 3);
+    EXPECT_LT((run.end.position[0] - first->state().position[0]).norm(), 1e-11);
+  }
+}
+
+// The same for an elastic ball that slides down a globe.
+TEST(Start, OfASlideOverAGlobeHolds) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g_n, 0);
+  problem.ball({0.01, std::sqrt(1.1 * 1.1 - 1e-4), 0}, {0, 0, 0}, 1, 0.1, 1);
+  problem.obstacle({0, 0, 0}, Volume::sphere(1));
+  problem.options.duration = 1;
+  for (const double at : {0.25, 0.5, 0.75}) {
+    const auto first = make_exact_simulator(problem.world, problem.initial, problem.options);
+    go_to(*first, at);
+    Problem second = problem;
+    second.initial = first->state();
+    second.initial.time = 0;
+    second.options.duration = 1 - at;
+    const Outcome run = run_exact(second);
+    EXPECT_TRUE(run.collisions.empty()) << at << ' ' << run.collisions.size();
+    go_to(*first, 1);
+    EXPECT_LT((run.end.position[0] - first->state().position[0]).norm(), 1e-11);
+  }
 }
 
 }  // namespace
