@@ -376,7 +376,9 @@ void ConstrainedMotion::check_digits(const Step& step, double acceleration) cons
     // Forces are great where a motion is across almost all pairs that bear. An error along them is then one across them
     // that is greater by as much as the force is than what acts: such an estimate is cheap.
     const bool doubtful = by_force * turn * by_force > noticeable * acceleration;
-    if (0x1p-53 * by_force > noticeable || (doubtful && by_force * turn * leverage(step, c) > noticeable))
+    // Great forces on light bodies are no contradiction. A frame with more rods than it needs has no such motion.
+    const double magnified = doubtful ? leverage(step, c) : 0;
+    if (0x1p-53 * by_force > noticeable || (magnified < never && by_force * turn * magnified > noticeable))
       fail_jammed(i, std::abs(p.force));
   }
 }
