@@ -370,9 +370,7 @@ void ConstrainedMotion::check_digits(const Step& step, double acceleration) cons
         std::max(step.inverse_mass[p.a], p.b == ContactConstraint::fixed ? 0.0 : step.inverse_mass[p.b]);
     const double by_force = std::abs(p.force) * inverse_mass;  // m/s^2
     const double noticeable = tol::arbitrary * acceleration;   // m/s^2
-    const double position =
-        tol::contact_rounding * (step.x[p.a].cwiseAbs().sum() + at(step.x, e).cwiseAbs().sum());  // m
-    const double turn = position / bodies_.world.string(e).length;
+    const double turn = turn_by_rounding(step, c);
     // Forces are great where a motion is across almost all pairs that bear. An error along them is then one across them
     // that is greater by as much as the force is than what acts: such an estimate is cheap.
     const bool doubtful = by_force * turn * by_force > noticeable * acceleration;
