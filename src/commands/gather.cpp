@@ -90,19 +90,15 @@ class GatherSession {
   int gather(const Sweep& sweep, const std::string& base) {
     if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
-    const std::size_t ended = is_ended_sweep(folder_) ? sweep.size() : 0;
-    for (std::size_t number = 0; number < ended; ++number) {
-      stop_if_interrupted();
-      const std::string run = fmt::format("{}/runs/{}", folder_, sweep.id(number));
-      if (const FolderChanges changes = find_changes(run); !changes.changed.empty())
-        return refuse(
-            fmt::format("the folder {} holds {}: remove it or rename it", printable(run), obstacle_of(changes)));
-    }
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(name_of_folder(folder_)), 1, 0);
     std::vector<std::vector<bool>> whole;  // by folder, run
     for (const std::string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
+    if (const std::string edited = edited_run(sweep, whole.front()); !edited.empty()) {
+      progress.clear();
+      return refuse(edited + ": remove it or rename it");
+    }
     std::vector<RunStatus> statuses;
     std::vector<std::string> missing, failed;
     for (std::size_t number = 0; number < sweep.size(); ++number) {
@@ -137,6 +133,19 @@ class GatherSession {
                fmt::format("{} failed: {}", counted(failed.size(), "run", "runs"), listed(failed, parts_shown)));
     show("done", sweep, missing, failed);
     return failed.empty() ? 0 : 3;
+  }
+
+  /// A run of the ended sweep here that was changed since, in words. Empty: there is none. `whole`: flags of those
+  /// here.
+  std::string edited_run(const Sweep& sweep, const std::vector<bool>& whole) const {
+    const std::size_t ended = is_ended_sweep(folder_) ? sweep.size() : 0;
+    for (std::size_t number = 0; number < ended; ++number) {
+      if (whole[number]) continue;
+      const std::string run = fmt::format("{}/runs/{}", folder_, sweep.id(number));
+      if (const FolderChanges changes = find_changes(run); !changes.changed.empty())
+        return fmt::format("the folder {} holds {}", printable(run), obstacle_of(changes));
+    }
+    return {};
   }
 
   /// Flags of the sweep's runs that are whole in a folder.

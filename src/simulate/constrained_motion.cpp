@@ -412,7 +412,7 @@ double ConstrainedMotion::leverage(const Step& step, std::size_t pair) const {
   std::vector<Vec3> moved(step.x.size(), Vec3::Zero());
   solve({step.inverse_mass, moved, bearing});
   for (const ContactConstraint& p : bearing)
-    if (std::abs(-approach(moved, p) - p.target) > 0.25) return never;
+    if (std::abs(approach(moved, p) + p.target) > 0.25) return never;
   double farthest = 0;
   for (const Vec3& u : moved) farthest = std::max(farthest, u.norm());
   return farthest;

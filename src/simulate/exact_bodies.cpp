@@ -133,12 +133,17 @@ Touch ExactBodies::string_now(Entity string) const {
 
 bool ExactBodies::holds(Entity string) const {
   const String& s = world.string(string);
-  if (!in_lasting_contact(s.body) || (s.other != no_entity && !in_lasting_contact(s.other))) return false;
+  return in_lasting_contact(s.body) && (s.other == no_entity || in_lasting_contact(s.other)) && keeps_length(string, 0);
+}
+
+bool ExactBodies::keeps_length(Entity string, double near) const {
+  const String& s = world.string(string);
   if (s.rod) return true;
   const Vec3 x = position(s.body), xe = s.other == no_entity ? s.anchor : position(s.other);
   const Vec3 v = velocity(s.body), ve = s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other);
   const Touch there = touch(world, s.body, x, string, xe);
-  return there.gap <= contact_gap(s.body, x, xe) && std::abs(there.normal.dot(ve - v)) <= drift_of(s.body, v, ve);
+  return there.gap <= std::max(near, contact_gap(s.body, x, xe)) &&
+         std::abs(there.normal.dot(ve - v)) <= drift_of(s.body, v, ve);
 }
 
 bool ExactBodies::is_taut(Entity string) const {

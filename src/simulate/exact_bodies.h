@@ -143,6 +143,8 @@ struct ExactBodies {
   /// Whether a string between bodies in lasting contact is taut, and its length does not change but for rounding. A rod
   /// always is.
   bool holds(Entity string) const;
+  /// The same for any bodies. `near`: m, a gap that counts as taut if it is more than that of a contact.
+  bool keeps_length(Entity string, double near) const;
   /// Whether a string is as long as it can be, but for rounding. A rod always is.
   bool is_taut(Entity string) const;
   /// Whether one of these bodies has a taut string, or a rod.

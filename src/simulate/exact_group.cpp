@@ -164,7 +164,8 @@ void ExactGroup::join_by_strings() {
     const String& s = world.strings[k];
     const Touch there = bodies_.string_now(string);
     check_length(string, there.gap);
-    if (!may_hold(string, there)) continue;
+    // A run may begin with the state of another one, in which strings hold within the method's error.
+    if (!bodies_.keeps_length(string, initial_rounding(string))) continue;
     const bool anchored = s.other == no_entity;
     const Vec3 w = (anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(s.other)) - bodies_.velocity(s.body);
     const Vec3 other = anchored ? s.anchor : bodies_.position(s.other);
@@ -216,19 +217,6 @@ double ExactGroup::initial_rounding(Entity string) const {
   const Vec3 other = s.other == no_entity ? s.anchor : bodies_.position(s.other);
   return exact_tolerance::initial_rounding *
          (bodies_.position(s.body).cwiseAbs().sum() + other.cwiseAbs().sum() + s.length);
-}
-
-/// Whether the string is taut, and its ends neither part nor approach. A run may begin with the state of another one,
-/// in which it holds within the method's error.
-bool ExactGroup::may_hold(Entity string, const Touch& there) const {
-  const String& s = bodies_.world.string(string);
-  if (s.rod) return true;
-  const bool anchored = s.other == no_entity;
-  const Vec3 x = bodies_.position(s.body), v = bodies_.velocity(s.body);
-  const Vec3 xe = anchored ? s.anchor : bodies_.position(s.other);
-  const Vec3 ve = anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(s.other);
-  return there.gap <= std::max(initial_rounding(string), bodies_.contact_gap(s.body, x, xe)) &&
-         std::abs(there.normal.dot(ve - v)) <= bodies_.drift_of(s.body, v, ve);
 }
 
 void ExactGroup::widen_margin(Entity i, double approach) {

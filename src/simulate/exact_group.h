@@ -106,7 +106,6 @@ class ExactGroup {
   void join_at_rest(Entity i);
   void check_length(Entity string, double gap) const;
   double initial_rounding(Entity string) const;
-  bool may_hold(Entity string, const Touch& there) const;
   double power(Entity i) const;
 
   ExactBodies& bodies_;
