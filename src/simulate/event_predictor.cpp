@@ -34,10 +34,11 @@ void EventPredictor::predict(Entity i) {
 
 void EventPredictor::predict_all() {
   std::vector<Entity> others;
+  // Never on curves, which may part later: their fade equals nothing.
   const auto together = [&](Entity i, Entity j) {
     const Flights::Core* const f = bodies_.flights.cores();
     return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j) &&
-           bodies_.fade[i] == bodies_.fade[j];
+           bodies_.flights.fade(i) == bodies_.flights.fade(j);
   };
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
     if (bodies_.islands.any()) {

@@ -27,7 +27,7 @@ class EventPredictor {
   /// earlier event.
   void predict(Entity i);
   /// The same for all bodies at once. A pair is tested once, from the higher number.
-  /// It is not tested at all if the two fall alike from rest.
+  /// It is not tested at all if the two fall alike from rest, without a curve.
   void predict_all();
   /// Gives body i, which leaves its region, a new region, and predicts collisions with the bodies in it.
   /// A body that leaves several regions on one flight tries wider ones. Among bodies with the same motion they cost no
