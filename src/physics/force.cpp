@@ -167,6 +167,18 @@ double step_within(double reach, double speed, double acceleration) {
   return reach / (speed + std::sqrt(speed * speed + acceleration * reach));
 }
 
+double left_of_speed(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
+  double depth = 0;  // m^2/s^2
+  for (const Force& force : world.forces) {
+    const Attractor* const attractor = std::get_if<Attractor>(&force.law);
+    if (attractor == nullptr || !acts(force, body, time)) continue;
+    depth = std::max(depth, -attractor->potential({x, v, 1}));
+  }
+
+  const double kinetic = 0.5 * v.squaredNorm();
+  return depth > 0 && kinetic > 0 ? std::min(std::abs(kinetic - depth) / kinetic, 1.0) : 1;
+}
+
 ForceJacobian force_jacobian(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
   ForceJacobian sum;
   for (const Force& force : world.forces) {

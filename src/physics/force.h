@@ -65,6 +65,10 @@ double force_reach(const World& world, Entity body, const Vec3& x);
 /// The time (s) in which a body covers at most half of `reach` (m), from a speed (m/s) under an acceleration (m/s^2).
 double step_within(double reach, double speed, double acceleration);
 
+/// The kinetic energy that a body keeps far from its attractors, as a share of the energy that it has at x (m) and v
+/// (m/s), from `time` (s) on. An error of the speed here is a larger share of the speed there.
+double left_of_speed(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
+
 /// The derivatives of a body's acceleration by x (m) and v (m/s), from `time` (s) on.
 ForceJacobian force_jacobian(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
 

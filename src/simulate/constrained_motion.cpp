@@ -503,7 +503,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
   step.length = longest(step);
   const bool all_rest = std::find(step.rests.begin(), step.rests.end(), 0) == step.rests.end();
-  const double straight = all_rest ? step.length : system.straight_time(step.v, step.a);
+  const double straight = all_rest ? step.length : system.straight_time(step.x, step.v, step.a);
   if (straight >= std::min(step.length, scales.time())) {
     step.length = std::min(step.length, straight);
     step.fade = all_rest ? 0 : std::max(system.common_fade(), 0.0);
@@ -642,7 +642,8 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   const Vec3 &x = step.x[k], &v = step.v[k], before = bodies_.velocity(i);
   bodies_.log.note_speed(before.norm());
   bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
-  if (step.bound[k]) group_.needed.write(i) = bodies_.now;
+  const bool was_bound = following_[i].version == bodies_.body[i].version && following_[i].bound;
+  if (step.bound[k] || was_bound) group_.needed.write(i) = bodies_.now;
   if (leaves(step, k) && bodies_.now - group_.needed[i] >= step.grace) {
     bodies_.body[i].state = ContactState::free;
     group_.set_carried(i, false);
@@ -663,7 +664,7 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;
   flights_.go_on(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
-  following_.write(i) = {step.path, static_cast<std::uint32_t>(k), bodies_.body[i].version};
+  following_.write(i) = {step.path, static_cast<std::uint32_t>(k), bodies_.body[i].version, step.bound[k] != 0};
   if (step.path)
     flights_.follow(i, step.path->motion->path(k));
   else

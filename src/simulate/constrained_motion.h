@@ -46,6 +46,7 @@ class ConstrainedMotion {
     std::shared_ptr<const Path> path;
     std::uint32_t place = 0;    // number in the path
     std::uint16_t version = 0;  // of the flight
+    bool bound = false;         // things other than flat surfaces press on the body
   };
 
   /// A step, in numbers of its own.

@@ -218,6 +218,21 @@ double ConstrainedSystem::gap_acceleration(std::size_t c, const std::vector<Vec3
   return rows_[c].normal.dot(relative(a, rows_[c])) - rows_[c].target;
 }
 
+/// The greatest speed of members relative to what they touch, and where forces vary in space (m/s). What moves all of
+/// them alike does not count.
+double ConstrainedSystem::relative_speed(const std::vector<Vec3>& v) const {
+  double fastest = 0;
+  const auto take = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      fastest = std::max(fastest, relative_velocity(v, rows[c], contacts[c].e).norm());
+  };
+  take(closed_, rows_);
+  take(opened_, opened_rows_);
+  for (std::size_t k = 0; k < members_.size(); ++k)
+    if (applied_[k].bent || applied_[k].fade > 0) fastest = std::max(fastest, v[k].norm());
+  return fastest;
+}
+
 ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
   Scales s;
   double farthest = 0;
@@ -225,7 +240,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
   s.acceleration = greatest_norm(forces_at(x, v));
   for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
-  s.speed = std::max(greatest_norm(v), std::sqrt(s.acceleration * s.length));
+  s.speed = std::max(relative_speed(v), std::sqrt(s.acceleration * s.length));
   // The greatest term of the forces' sum.
   double strongest = s.acceleration;
   for (std::size_t k = 0; k < v.size(); ++k)
@@ -235,22 +250,70 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   return s;
 }
 
+/// By member: the rounding of its position (m). A coordinate that does not change is not rounded.
+std::vector<double> ConstrainedSystem::place_roundings(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                       const std::vector<Vec3>& a) const {
+  std::vector<double> roundings;
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    double sum = 0;  // m
+    for (int axis = 0; axis < 3; ++axis)
+      if (v[k][axis] != 0 || a[k][axis] != 0) sum += std::abs(x[k][axis]);
+    roundings.push_back(0x1p-53 * sum);
+  }
+  return roundings;
+}
+
+/// The same for the distance of a contact's two things.
+double ConstrainedSystem::distance_rounding(const std::vector<double>& of_places, const ContactConstraint& row,
+                                            Entity e) const {
+  if (row.b != ContactConstraint::fixed) return of_places[row.a] + of_places[row.b];
+  const Carrier* const carrier = carrier_of(e);
+  return of_places[row.a] + (carrier == nullptr ? 0 : 0x1p-53 * carrier->x.cwiseAbs().sum());
+}
+
+/// The acceleration by a contact's force of its two members relative to one another (m/s^2).
+double ConstrainedSystem::reaction(const ContactConstraint& row) const {
+  const double inverse_mass = inverse_mass_[row.a] + (row.b == ContactConstraint::fixed ? 0 : inverse_mass_[row.b]);
+  return std::abs(row.force) * inverse_mass;
+}
+
+/// The time (s) for which a contact's force keeps its direction, where its members slide at w (m/s) and with the
+/// acceleration a (m/s^2) over a surface of radius `bend` (m).
+///
+/// The force turns by the way over the radius. Parabolas then miss load (w t^3 / 6 + a t^4 / 24) / bend, with the
+/// acceleration `load` (m/s^2) by the force, however small w and a are. That must be a small share of the way itself,
+/// because the motion away from an equilibrium grows in proportion to it, or half the rounding of positions (m).
+double ConstrainedSystem::turning_time(double load, double bend, double w, double a, double rounding) {
+  if (!(load * (w + a) > 0)) return never;
+  const double share = std::sqrt(6 * tol::step_error * bend / load);
+  double rounded = never;
+  if (w > 0) rounded = cube_root(3 * rounding * bend / (load * w));
+  if (a > 0) rounded = std::min(rounded, std::sqrt(std::sqrt(12 * rounding * bend / (load * a))));
+  return std::max(share, rounded);
+}
+
 /// The time for which parabolas stay on closed contacts, and for which open contacts cannot return unseen.
 ///
 /// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. For this time they move the body off
-/// the parabola by less than the method's error.
-double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const {
+/// the parabola by less than the method's error. The forces keep their direction meanwhile.
+double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                        const std::vector<Vec3>& a) const {
   double h = never;
   const double fade = std::max(common_fade(), 0.0);
+  const std::vector<double> roundings = place_roundings(x, v, a);
   const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& [i, e, feature] = contacts[c];
       if (is_flat(world_, i, e, feature)) continue;
-      const double bend = bend_radius(world_, i, e),
-                   room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
-      const double w = relative_velocity(v, rows[c], e).norm(), bent = relative(a, rows[c]).norm() + w * w / bend;
+
+      const double bend = bend_radius(world_, i, e);
+      const double room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
+      const double w = relative_velocity(v, rows[c], e).norm();
+      const double pull = relative(a, rows[c]).norm();
+      const double bent = pull + w * w / bend;
       if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
       if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
+      h = std::min(h, turning_time(reaction(rows[c]), bend, w, pull, distance_rounding(roundings, rows[c], e)));
       // On a path that drag bends the acceleration decays, and that across the surface does not.
       if (fade * w > 0) h = std::min(h, std::max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
     }
@@ -259,11 +322,71 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
   keep(opened_, opened_rows_);
   if (any_bent()) return 0;
   if (common_fade() >= 0) return h;
+
   double length = never;
   for (const Entity i : members_) length = std::min(length, world_.radius[i]);
   // m/s^3, an upper bound: the effect of drag on forces in flat contacts.
   const double jerk = greatest_fade() * greatest_norm(a);
   return jerk > 0 ? std::min(h, cube_root(6 * tol::step_error * length / jerk)) : h;
+}
+
+/// The errors that a step may have: shares of the motion itself, as far as rounding allows. Near an equilibrium speeds
+/// and accelerations are small, and errors grow with the motion.
+ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                             const std::vector<Vec3>& a) const {
+  const std::vector<double> roundings = place_roundings(x, v, a);
+  double rate = 0;     // 1/s, at which accelerations change
+  double fastest = 0;  // m/s, along what bends paths
+  double rounded = 0;  // m/s, by the rounding of what turns forces
+  const auto take = [&](double of_rate, double speed, double rounding) {
+    rate = std::max(rate, of_rate);
+    fastest = std::max(fastest, speed);
+    rounded = std::max(rounded, of_rate * rounding);
+  };
+  for (std::size_t c = 0; c < closed_.size(); ++c) {
+    const auto& [i, e, feature] = closed_[c];
+    if (is_flat(world_, i, e, feature)) continue;
+    const double bend = bend_radius(world_, i, e);
+    const double w = relative_velocity(v, rows_[c], e).norm();
+    take(std::max(std::sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
+  }
+
+  // Forces that vary refer to places and velocities in space.
+  double width = scales_.length;  // m, in which forces change
+  double left = 1;                // of speeds
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    const Entity i = members_[k];
+    if (applied_[k].bent || applied_[k].fade > 0) take(0, v[k].norm(), 0);
+    if (!applied_[k].bent) continue;
+
+    const double swings = std::sqrt(force_jacobian(world_, i, time_, x[k], v[k]).by_position.norm());
+    take(std::min(swings, force_rate(world_, i, x[k], v[k])), 0, roundings[k]);
+    width = std::min(width, force_reach(world_, i, x[k]));
+    left = std::min(left, left_of_speed(world_, i, time_, x[k], v[k]));
+  }
+
+  // The speed that the motion reaches, from rest, before accelerations change.
+  const double pull = greatest_norm(a);
+  double gained = std::sqrt(pull * width);
+  if (rate > 0) gained = std::min(gained, pull / rate);
+  if (const double fade = greatest_fade(); fade > 0) gained = std::min(gained, pull / fade);
+
+  const double place = *std::max_element(roundings.begin(), roundings.end());
+  const double speed = tol::step_error * left * std::max(fastest, gained);
+  return {std::max(tol::step_error * left * width, place),
+          std::max({speed, rounded, 0x1p-53 * greatest_norm(v), 0x1p-900})};
+}
+
+/// The longest step (s) in which no member comes to more than half of its way to an attractor.
+double ConstrainedSystem::within_reach(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                       const std::vector<Vec3>& a) const {
+  double longest = never;
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    if (!applied_[k].bent) continue;
+    const double time = step_within(force_reach(world_, members_[k], x[k]), v[k].norm(), a[k].norm());
+    if (time > 0) longest = std::min(longest, time);
+  }
+  return longest;
 }
 
 ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
@@ -273,7 +396,8 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
   // opening too.
   held_ = rows_;
   for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.force > 0;
-  const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
+  allowed_ = allowed_errors(x, v, a);
+  const double h = std::min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a)});
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
     if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
@@ -300,8 +424,9 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
   start.resize(a.size() + carriers_.size(), Vec3::Zero());
   auto motion =
       std::make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
+  const double rounded = 0x1p-53 * greatest_norm(v);  // m/s
   const auto step = [&](double length) {
-    return motion->step(length, smooth, tol::step_error * scales_.length, tol::step_error * scales_.speed);
+    return motion->step(length, smooth, std::max(allowed_.place, length * rounded), allowed_.speed);
   };
   bool rejected = false;
   for (;;) {
@@ -345,7 +470,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
   Followed followed;
   auto motion = std::make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
   const auto step = [&](double length) {
-    return motion->step(length, forces, hold, tol::step_error * scales_.length, tol::step_error * scales_.speed);
+    return motion->step(length, forces, hold, allowed_.place, allowed_.speed);
   };
   for (;;) {
     const double error = step(h);

@@ -52,7 +52,7 @@ class ConstrainedSystem {
   struct Scales {
     double length = never;    // m, the least radius
     double acceleration = 0;  // m/s^2, the greatest by a force or by the surfaces' curvature
-    double speed = 0;         // m/s, the greatest, or that of falling by a radius
+    double speed = 0;         // m/s, the greatest relative to what members touch, or that of falling by a radius
     double opening = 0;       // m/s^2, a greater acceleration of a gap is more than rounding
     double time() const { return speed > 0 ? length / speed : never; }  // s
   };
@@ -61,8 +61,9 @@ class ConstrainedSystem {
   /// The decay rate by linear drag (1/s), if it is the same for all members; otherwise -1.
   double common_fade() const;
   /// The time (s) for which all members move along parabolas, or along paths that a common drag bends.
-  /// They start with velocities v (m/s) and accelerations a (m/s^2).
-  double straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
+  /// They start at x (m) with velocities v (m/s) and accelerations a (m/s^2). The forces are those of the last
+  /// accelerate().
+  double straight_time(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
 
   /// The motion from there on until a change, or for `longest` (s).
   struct Followed {
@@ -86,6 +87,11 @@ class ConstrainedSystem {
     Vec3 x, v;  // m, m/s: at the start
   };
 
+  /// The errors of a step that are allowed: of positions (m) and of velocities (m/s).
+  struct Allowed {
+    double place, speed;
+  };
+
   const Carrier* carrier_of(Entity e) const;
   std::size_t place_of_carrier(const Carrier& carrier) const {
     return members_.size() + static_cast<std::size_t>(&carrier - carriers_.data());
@@ -93,6 +99,14 @@ class ConstrainedSystem {
   std::vector<Vec3> with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
   Vec3 relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const;
   Vec3 moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row, Entity e) const;
+  double relative_speed(const std::vector<Vec3>& v) const;
+  std::vector<double> place_roundings(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                      const std::vector<Vec3>& a) const;
+  double distance_rounding(const std::vector<double>& of_places, const ContactConstraint& row, Entity e) const;
+  double reaction(const ContactConstraint& row) const;
+  static double turning_time(double load, double bend, double w, double a, double rounding);
+  Allowed allowed_errors(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
+  double within_reach(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
   std::vector<Vec3> forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
   bool any_bent() const;
   Vec3 place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const;
@@ -121,6 +135,7 @@ class ConstrainedSystem {
   std::vector<ContactConstraint> rows_, opened_rows_;
   std::vector<ContactConstraint> held_;  // rows_ in the motion that is followed
   Scales scales_;                        // of the step that is followed
+  Allowed allowed_;                      // the same
   Certificate certificate_;
 };
 

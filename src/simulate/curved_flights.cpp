@@ -149,19 +149,6 @@ void CurvedFlights::note_method(Entity i, bool implicit) {
 
 namespace {
 
-/// The kinetic energy that a body keeps far from its attractors, as a share of the energy here.
-/// An error of the speed here is a larger share of the speed there.
-double left_of_speed(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
-  double depth = 0;  // m^2/s^2
-  for (const Force& force : world.forces) {
-    const Attractor* const attractor = std::get_if<Attractor>(&force.law);
-    if (attractor == nullptr || !acts(force, body, time)) continue;
-    depth = std::max(depth, -attractor->potential({x, v, 1}));
-  }
-  const double kinetic = 0.5 * v.squaredNorm();
-  return depth > 0 && kinetic > 0 ? std::min(std::abs(kinetic - depth) / kinetic, 1.0) : 1;
-}
-
 /// Shortens the path to its first `length` (s).
 void cut(PolynomialPath& path, double length) {
   path.displacement = PolynomialPath::shifted(path.displacement, 0, length / path.length);
