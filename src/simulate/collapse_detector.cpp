@@ -46,18 +46,15 @@ bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approac
   const bool collapse_a = collapses(a, b, e, approach, length);
   const bool collapse_b = body && collapses(b, a, e, approach, length);
   if (collapse_a || collapse_b) return true;
-  if (e >= 1) return false;
-  const bool a_in = bodies_.in_lasting_contact(a), b_in = bodies_.in_lasting_contact(b);
-  const bool both_in = a_in && (b_in || !body);
-  const double load = std::max(bodies_.load_on(a), body ? bodies_.load_on(b) : 0.0);
-  if (load == 0) return both_in && collapse_[a].impacts > exact_tolerance::unloaded_impacts;
-  const double slow = bodies_.slow_speed(load, length);
+  if (e >= 1 || !(press > 0)) return false;
+
+  const double slow = bodies_.slow_speed(press, length);
   if (approach >= slow) return false;
-  if (both_in) return true;
-  if (press > 0 && (a_in || b_in)) return true;
-  const double window = 2 * slow / load;
+  if (bodies_.in_lasting_contact(a) || bodies_.in_lasting_contact(b)) return true;
+
   // Alone on flat surfaces a body comes to rest on each of them in closed form. Only between several of them can it
   // continue for ever.
+  const double window = 2 * slow / press;
   if (alone) return bodies_.body[a].origin_partner != b && in_burst(a, window, exact_tolerance::burst_on_surfaces);
   const bool burst_a = in_burst(a, window, exact_tolerance::burst_of_bodies);
   const bool burst_b = body && in_burst(b, window, exact_tolerance::burst_of_bodies);

@@ -1,5 +1,6 @@
 #pragma once
-// The end of bouncing in lasting contact: inelastic collapse, and slow impacts under load in quick succession.
+// The end of bouncing in lasting contact: inelastic collapse, and slow impacts in quick succession of bodies that are
+// pressed together.
 //
 // Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it strikes
 // them in turn, ever sooner. What is left of the gaps vanishes in no time. The detector sums 1 - e over a body's
@@ -20,8 +21,8 @@ class CollapseDetector {
   /// Counts an impact of a on b at `approach` (m/s). Returns whether it ends in contact, so that nothing is left of the
   /// approach. `press`: the acceleration that drives the two together (m/s^2). `length`: the diameter of the smaller
   /// one, or a's radius on a fixed thing (m). `alone`: on a flat surface, not among bodies. An inelastic collapse ends
-  /// bouncing at any speed. Under load a slow impact also ends it in two cases. It is one of very many within the time
-  /// of a hop at that speed, or it meets bodies in lasting contact.
+  /// bouncing at any speed. Where the two are pressed together a slow impact also ends it in two cases. It is one of
+  /// very many within the time of a hop at that speed, or it meets bodies in lasting contact.
   bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   /// Counts an impact of body i in turn with the impact that caused it. lost: its 1 - e.
   void count_in_turn(Entity i, double lost);

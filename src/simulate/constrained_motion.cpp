@@ -72,19 +72,16 @@ bool ConstrainedMotion::follows(Entity i) const {
   return following.path && following.version == bodies_.body[i].version;
 }
 
-/// Counts a change of an island's contacts. Returns whether the changes in the time of a time step are not too many.
-bool ConstrainedMotion::count_change(Island& island) const {
-  // m/s^2 and m.
-  double greatest = 0, smallest = never;
-  for (const Entity i : island.members) {
-    greatest = std::max(greatest, bodies_.load_on(i));
-    smallest = std::min(smallest, bodies_.world.radius[i]);
-  }
-  if (greatest == 0 || island.changed == bodies_.now) return true;
-  if (bodies_.now - island.counted > tol::shortest_step * std::sqrt(2 * smallest / greatest)) {
+/// Counts a change of the contacts of a step's island. Returns whether the changes in the time of a time step are not
+/// too many.
+bool ConstrainedMotion::count_change(const Step& step) const {
+  Island& island = bodies_.islands.of(step.members.front());
+  if (step.greatest == 0 || island.changed == bodies_.now) return true;
+  if (bodies_.now - island.counted > tol::shortest_step * std::sqrt(2 * step.smallest / step.greatest)) {
     island.counted = bodies_.now;
     island.changes = 0;
   }
+
   island.changed = bodies_.now;
   if (++island.changes <= tol::many_changes) return true;
   island.busy = true;
@@ -95,17 +92,20 @@ bool ConstrainedMotion::count_change(Island& island) const {
 }
 
 bool ConstrainedMotion::advance(Entity i) {
-  Island& island = bodies_.islands.of(i);
+  const Island& island = bodies_.islands.of(i);
   const bool undisturbed = island.constrained && bodies_.now == island.planned;
-  if (!undisturbed && !bodies_.any_taut(island.members) && !count_change(island)) return false;
+  const bool may_be_busy = !undisturbed && !bodies_.any_taut(island.members);
   if (!undisturbed) take_in_touching(i);
   std::vector<Entity>& all = bodies_.islands.of(i).members;
   std::sort(all.begin(), all.end());
   const std::vector<Entity> members = all;
+
   Step step = begin_step(members);
   find_contacts(step);
   const std::vector<std::uint32_t> part = parts_of(step);
   clear_index(members);
+  if (may_be_busy && !count_change(step)) return false;
+
   for (const Entity first : bodies_.islands.split(i, part)) {
     Step of_part = begin_step(bodies_.islands.of(first).members);
     of_part.undisturbed = undisturbed;
@@ -123,10 +123,11 @@ void ConstrainedMotion::take_in_touching(Entity i) {
   while (!todo.empty()) {
     const Entity k = todo.back();
     todo.pop_back();
-    if (bodies_.load_on(k) > 0) continue;
+    if (!bodies_.falls_freely(k)) continue;
     const Vec3 x = bodies_.position(k), v = bodies_.velocity(k);
     for (const Entity e : bodies_.neighbours_of(k)) {
       if (!world.is_body(e) || bodies_.body[e].state != ContactState::free) continue;
+      if (!bodies_.falls_freely(e) || bodies_.applied[e] != bodies_.applied[k]) continue;
       const Vec3 xe = bodies_.position(e), ve = bodies_.velocity(e);
       const Touch there = touch(world, k, x, e, xe);
       if (there.gap > bodies_.contact_gap(k, x, xe)) continue;
@@ -187,14 +188,84 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     bodies_.refresh(i, step.x.back(), step.v.back());
-    step.greatest = std::max(step.greatest, bodies_.load_on(i));
     step.smallest = std::min(step.smallest, bodies_.world.radius[i]);
   }
   return step;
 }
 
-/// Finds the pairs in contact, except those that are about to strike.
+/// Finds the pairs in contact, except those that are about to strike, and the load.
 void ConstrainedMotion::find_contacts(Step& step) const {
+  find_touching(step);
+  step.greatest = load_of(step);
+  drop_striking(step);
+}
+
+/// The greatest acceleration by forces with which members may press on anything (m/s^2). Without a fixed thing in
+/// contact it is that relative to one another, because what falls freely presses on nothing.
+double ConstrainedMotion::load_of(const Step& step) const {
+  const std::vector<ContactConstraint>& pairs = step.contacts.pairs;
+  const bool held = std::any_of(pairs.begin(), pairs.end(),
+                                [](const ContactConstraint& p) { return p.b == ContactConstraint::fixed; });
+  const auto pull = [&](std::size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
+  const Vec3 common = held ? Vec3(Vec3::Zero()) : pull(0);
+  double greatest = 0;
+  for (std::size_t k = 0; k < step.members.size(); ++k) greatest = std::max(greatest, (pull(k) - common).norm());
+  return greatest;
+}
+
+/// Drops the pairs that are about to strike: they approach too fast for what presses them together.
+void ConstrainedMotion::drop_striking(Step& step) const {
+  std::vector<ContactConstraint>& pairs = step.contacts.pairs;
+  const auto approach_of = [&](std::size_t c) {
+    const double speed = pairs[c].normal.dot(step.v[pairs[c].a] - rate(step.v, step.contacts.names[c].e));
+    return pairs[c].bilateral ? std::abs(speed) : speed;
+  };
+  const auto path_error = [&](std::size_t c) {  // m/s
+    return std::max(tol::drift * (step.v[pairs[c].a].norm() + rate(step.v, step.contacts.names[c].e).norm()),
+                    std::numeric_limits<double>::min());
+  };
+  step.slow.assign(pairs.size(), never);
+  bool approaching = false;
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    approaching = approaching || approach_of(c) >= path_error(c);
+  if (!approaching) return;
+
+  // A contact's force would take so much acceleration from the pair.
+  const std::vector<double> press = presses(step);
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto& [i, e, feature] = step.contacts.names[c];
+    const double slow = press[c] > 0 ? bodies_.slow_speed(press[c], bodies_.smaller_length(i, e)) : 0;
+    step.slow[c] = std::max(slow, path_error(c));
+  }
+  std::vector<double> kept;
+  step.contacts.drop_if(0, [&](std::size_t c) {
+    const auto& [i, e, feature] = step.contacts.names[c];
+    const Vec3& x = step.x[pairs[c].a];
+    const bool apart =
+        step.contacts.gaps[c] > tol::contact_rounding * (x.cwiseAbs().sum() + at(step.x, e).cwiseAbs().sum());
+    const bool strikes = !pairs[c].bilateral && group_.strikes(i, e, approach_of(c), step.slow[c], apart);
+    if (!strikes) kept.push_back(step.slow[c]);
+    return strikes;
+  });
+  step.slow = std::move(kept);
+}
+
+/// By pair: the acceleration that contact takes from the two, relative to one another (m/s^2); 0: nothing but rounding
+/// presses them together.
+std::vector<double> ConstrainedMotion::presses(const Step& step) const {
+  ConstrainedSystem system = system_of(step);
+  system.accelerate(step.x, step.v);
+  std::vector<double> press;
+  for (const ContactConstraint& row : system.rows()) {
+    const double of_b = row.b == ContactConstraint::fixed ? 0 : step.inverse_mass[row.b];
+    const double taken = row.force * (step.inverse_mass[row.a] + of_b);
+    press.push_back(taken > tol::curve_rounding * step.greatest ? taken : 0);
+  }
+  return press;
+}
+
+/// The pairs that touch.
+void ConstrainedMotion::find_touching(Step& step) const {
   const World& world = bodies_.world;
   for (std::size_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
@@ -207,9 +278,6 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       const Vec3 xe = at(step.x, e);
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
       if (there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
-      const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
-      const bool apart = there.gap > tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
-      if (group_.strikes(i, e, approach, step.greatest, apart)) continue;
       const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
       step.contacts.add({static_cast<std::uint32_t>(k), other, there.normal, -there.gap, 0, 0}, {i, e, there.feature},
                         there.gap);
@@ -228,11 +296,7 @@ void ConstrainedMotion::find_strings(Step& step, std::size_t k) const {
     if (s.body != i || (s.other != no_entity && other == ContactConstraint::fixed)) continue;
     const Vec3 xe = at(step.x, e);
     const Touch there = touch(bodies_.world, i, step.x[k], e, xe);
-    const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
-    const bool apart = there.gap > tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
-    if (!s.rod &&
-        (there.gap > bodies_.contact_gap(i, step.x[k], xe) || group_.strikes(i, e, approach, step.greatest, apart)))
-      continue;
+    if (!s.rod && there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
     ContactConstraint pair{static_cast<std::uint32_t>(k), other, there.normal, -there.gap};
     pair.bilateral = s.rod;
     pair.slack = s.rod ? tol::step_error * bodies_.world.radius[i] : 0;
@@ -267,7 +331,9 @@ void ConstrainedMotion::take_approaches(Step& step) {
   const Certificate certificate = solve({step.inverse_mass, step.v, step.contacts.pairs});
   if (certificate.verdict == Certificate::Verdict::infeasible) step.contacts.check_room(bodies_, step.v);
   bodies_.log.note(certificate);
-  bodies_.log.take_up(step.inverse_mass, met, step.v, step.contacts.pairs, record_fast(step, met));
+  std::vector<AbsorbedImpact> absorbed = absorbed_impacts(step, met);
+  record_fast(step, absorbed);
+  bodies_.log.take_up(step.inverse_mass, met, step.v, step.contacts.pairs, absorbed);
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
     const Vec3 before = bodies_.velocity(i);
@@ -281,32 +347,77 @@ double ConstrainedMotion::surface_speed(const Vec3& normal, Entity e) const {
   return bodies_.world.moves(e) ? normal.dot(bodies_.fixed_velocity(e)) : 0;
 }
 
-/// Records the impacts at velocities `met` (m/s) that contact absorbed although they were not slow: those that struck
-/// bodies passed on at once. Returns for each pair whether it is recorded.
-std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
+/// By pair: the impacts at velocities `met` (m/s) that contact has just absorbed. A pair that a struck body closes has
+/// its impact after that body's, and each takes energy from the velocities that it meets.
+std::vector<AbsorbedImpact> ConstrainedMotion::absorbed_impacts(const Step& step, const std::vector<Vec3>& met) const {
+  const std::vector<ContactConstraint>& pairs = step.contacts.pairs;
+  std::vector<AbsorbedImpact> impacts(pairs.size());
+  double all = 0;  // J, lost by all of them
+  bool closed_later = false;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const double speed = approach(met, pairs[c]);
+    // A rod may push, which is a pull along the other direction.
+    const double force = pairs[c].bilateral ? std::abs(pairs[c].force) : pairs[c].force;
+    impacts[c].approach = pairs[c].bilateral ? std::abs(speed) : speed;
+    impacts[c].lost = 0.5 * pairs[c].force * speed;
+    all += impacts[c].lost;
+    closed_later = closed_later || (force > 0 && impacts[c].lost < 0);
+  }
+  if (!closed_later || !(all > 0)) return impacts;
+
+  // One round after the other, of the pairs that approach by then.
+  double in_rounds = 0;  // J
+  std::vector<Vec3> v = met;
+  std::vector<std::size_t> which;
+  std::vector<std::uint8_t> taken(pairs.size(), 0);
+  for (AbsorbedImpact& impact : impacts) impact = {};
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+      const double speed = pairs[c].bilateral ? std::abs(approach(v, pairs[c])) : approach(v, pairs[c]);
+      if (taken[c] || !(speed > tol::drift * step.fastest)) continue;
+      taken[c] = any = true;
+      which.push_back(c);
+      impacts[c].approach = speed;
+    }
+    std::vector<ContactConstraint> rows;
+    for (const std::size_t c : which) rows.push_back(pairs[c]);
+    const std::vector<Vec3> before = v;
+    if (any) solve({step.inverse_mass, v, rows});
+    for (std::size_t k = 0; any && k < which.size(); ++k) {
+      const double lost = 0.5 * rows[k].force * (approach(before, rows[k]) + approach(v, rows[k]));
+      impacts[which[k]].lost += lost;
+      in_rounds += lost;
+    }
+  }
+
+  // Impulses of one round may end in a later one. Energy is that of all together.
+  for (AbsorbedImpact& impact : impacts) impact.lost *= in_rounds > 0 ? all / in_rounds : 0;
+  return impacts;
+}
+
+/// Records the absorbed impacts that were not slow: those that struck bodies passed on at once.
+void ConstrainedMotion::record_fast(const Step& step, std::vector<AbsorbedImpact>& impacts) const {
   const World& world = bodies_.world;
-  std::vector<std::uint8_t> recorded(step.contacts.pairs.size(), 0);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const auto& [i, e, feature] = step.contacts.names[c];
-    // A rod may push, which is a pull along the other direction.
-    const double sign = p.bilateral && p.force < 0 ? -1 : 1, force = sign * p.force;
-    const Vec3 normal = sign * p.normal;
-    const double approach = normal.dot(met[p.a] - rate(met, e));
-    if (!(force > 0 && approach > group_.slow_approach(i, e, step.greatest))) continue;
+    const bool presses = p.force > 0 || (p.bilateral && p.force < 0);
+    if (!(presses && impacts[c].approach > step.slow[c])) continue;
+
+    const double sign = p.force < 0 ? -1 : 1;
     const CollisionKind kind = world.is_string(e) ? CollisionKind::string
                                : world.is_body(e) ? CollisionKind::body_body
                                                   : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, at(step.x, e), feature);
-    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, normal, approach, 0,
-                                     pair_restitution(world, i, e));
+    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, sign * p.normal,
+                                     impacts[c].approach, 0, pair_restitution(world, i, e));
     // Shared among all struck bodies.
-    taken.impulse = force;
-    taken.energy_lost = 0.5 * force * approach;
+    taken.impulse = sign * p.force;
+    taken.energy_lost = impacts[c].lost;
     bodies_.log.record(taken);
-    recorded[c] = 1;
+    impacts[c].recorded = true;
   }
-  return recorded;
 }
 
 /// The speed (m/s) at which path errors let pairs separate. Strings hold by their curvature where nothing else pulls.
@@ -327,9 +438,8 @@ void ConstrainedMotion::drop_parting(Step& step) const {
   });
 }
 
-/// Computes the accelerations and forces at the step's start. Contacts that separate and carry no force open.
-/// They are watched until they are wide enough to meet again.
-ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
+/// The equations of the step's members and contacts.
+ConstrainedSystem ConstrainedMotion::system_of(const Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
   ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied));
@@ -338,6 +448,13 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
     if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
     system.add(step.contacts.names[c], step.contacts.pairs[c]);
   }
+  return system;
+}
+
+/// Computes the accelerations and forces at the step's start. Contacts that separate and carry no force open.
+/// They are watched until they are wide enough to meet again.
+ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
+  ConstrainedSystem system = system_of(step);
   step.a = system.accelerate(step.x, step.v);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
   if (stop_parting(step)) {
@@ -521,7 +638,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.length = followed.motion->length();
   island.next_length = followed.next;
   if (followed.stuck) check_directions(step);
-  if (followed.changes) count_change(island);
+  if (followed.changes) count_change(step);
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion)});
   if (system.works()) step.forces = std::make_shared<ConstrainedSystem>(std::move(system));
 }

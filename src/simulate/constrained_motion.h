@@ -52,11 +52,12 @@ class ConstrainedMotion {
   /// A step, in numbers of its own.
   struct Step {
     std::vector<Entity> members;  // ascending
-    // The greatest acceleration (m/s^2) and the least radius (m).
+    // The load (m/s^2) and the least radius (m).
     double greatest = 0, smallest = never;
     std::vector<Vec3> x, v;            // m and m/s, by member
     std::vector<double> inverse_mass;  // 1/kg
     ContactList contacts;              // force: N, at the step's start
+    std::vector<double> slow;          // m/s, by contact: a faster approach is an impact of its own
     std::vector<Vec3> a;               // m/s^2, at the step's start
     double fastest = 0;                // m/s
     std::vector<std::uint8_t> rests;   // by member
@@ -74,17 +75,23 @@ class ConstrainedMotion {
   };
 
   bool follows(Entity i) const;
-  bool count_change(Island& island) const;
+  bool count_change(const Step& step) const;
   void take_in_touching(Entity i);
   Step begin_step(std::vector<Entity> members) const;
   std::vector<std::uint32_t> parts_of(const Step& step) const;
   void advance_whole(Step& step);
   void find_contacts(Step& step) const;
+  void find_touching(Step& step) const;
+  double load_of(const Step& step) const;
+  void drop_striking(Step& step) const;
+  std::vector<double> presses(const Step& step) const;
+  ConstrainedSystem system_of(const Step& step) const;
   void find_strings(Step& step, std::size_t k) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
   double surface_speed(const Vec3& normal, Entity e) const;
-  std::vector<std::uint8_t> record_fast(const Step& step, const std::vector<Vec3>& met) const;
+  std::vector<AbsorbedImpact> absorbed_impacts(const Step& step, const std::vector<Vec3>& met) const;
+  void record_fast(const Step& step, std::vector<AbsorbedImpact>& impacts) const;
   double parting_speed(const Step& step) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;

@@ -41,7 +41,7 @@ void EventLog::take_up(double approach, double energy) {
 }
 
 void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
-                       std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded) {
+                       std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts) {
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
   bool any = false, any_recorded = false;
@@ -50,9 +50,10 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
     const ContactConstraint& p = pairs[c];
     if (!(p.force > 0 || (p.bilateral && p.force < 0))) continue;
     work += p.work();
-    const double speed = p.bilateral ? std::abs(approach(before, p)) : approach(before, p);
-    if (!recorded.empty() && recorded[c]) {
-      of_recorded += 0.5 * p.force * speed;
+    const double met = p.bilateral ? std::abs(approach(before, p)) : approach(before, p);
+    const double speed = impacts.empty() ? met : impacts[c].approach;
+    if (!impacts.empty() && impacts[c].recorded) {
+      of_recorded += impacts[c].lost;
       any_recorded = true;
     } else if (speed > std::max(exact_tolerance::drift * fastest, p.slack)) {
       take_up(speed, 0);

@@ -12,6 +12,13 @@
 
 namespace carom {
 
+/// An impact that a contact of an island absorbs.
+struct AbsorbedImpact {
+  double approach = 0;  // m/s, as it meets
+  double lost = 0;      // J
+  bool recorded = false;
+};
+
 class EventLog {
  public:
   /// max_collisions: one more is an error; 0: no limit. record_collisions: if false, collisions are only counted,
@@ -66,11 +73,11 @@ class EventLog {
   /// elsewhere.
   void take_up(double approach, double energy);
   /// The same for all pairs that press in a solution for the velocities `after` from those before (m/s). `inverse_mass`
-  /// (1/kg) is by body. Approaches within a pair's slack, or within path errors, do not count. `recorded`: by pair,
-  /// whether the impact is recorded, or empty. Their energy is booked as lost, and that of moving things as work. Both
-  /// are removed from the deviation, because the caller books the whole change of velocities as deviation.
+  /// (1/kg) is by body. Approaches within a pair's slack, or within path errors, do not count. `impacts`: by pair, or
+  /// empty. Their energy is booked as lost, and that of moving things as work. Both are removed from the deviation,
+  /// because the caller books the whole change of velocities as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
-               std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
+               std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts = {});
   /// Books energy (J) of impacts that are already counted, in lasting contact.
   void go_on_taking(double energy) {
     tally_.taken_up.energy += energy;

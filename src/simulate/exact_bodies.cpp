@@ -196,11 +196,6 @@ double ExactBodies::drift_of(Entity i, const Vec3& v, const Vec3& ve) const {
   return exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[i].norm() * world.radius[i]));
 }
 
-double ExactBodies::load_on(Entity i) const {
-  if (world.fixed_count() == 0 && world.forces.empty() && !ties.anchored()) return 0;
-  return fade[i] == 0 ? applied[i].norm() : force_at(i, position(i), velocity(i)).norm();
-}
-
 double ExactBodies::slow_speed(double press, double length) const {
   return options.rest_speed > 0 ? options.rest_speed : exact_tolerance::slow_impact * std::sqrt(press * length);
 }

@@ -155,16 +155,16 @@ struct ExactBodies {
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
 
+  /// Whether nothing presses on body i, and constant forces alone move it.
+  bool falls_freely(Entity i) const {
+    return bent[i] == 0 && fade[i] == 0 && flights.curve(i) == nullptr && flights.acceleration(i) == applied[i];
+  }
   /// The largest gap between body i, at x, and a thing at xe that counts as contact (m).
   double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;
   /// The speed (m/s) along the normal of body i and a thing in lasting contact, at v and ve, that is the method's
   /// error.
   double drift_of(Entity i, const Vec3& v, const Vec3& ve) const;
 
-  /// The acceleration (m/s^2) with which body i may press on others.
-  /// It is zero in common free fall, without fixed things, anchors and other forces, because gravity moves all bodies
-  /// alike.
-  double load_on(Entity i) const;
   /// The speed (m/s) below which impacts in lasting contact do not count one by one. It is rest_speed.
   /// By default it is a share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
   double slow_speed(double press, double length) const;

@@ -257,20 +257,11 @@ bool ExactGroup::opens(Entity i) const {
   return false;
 }
 
-bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest, bool apart) const {
+bool ExactGroup::strikes(Entity i, Entity e, double approach, double slow, bool apart) const {
   const World& world = bodies_.world;
   const bool body = world.is_body(e);
   const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
-  return approach >= slow_approach(i, e, greatest) && (pair_restitution(world, i, e) > 0 ? !collapse : apart);
-}
-
-double ExactGroup::slow_approach(Entity i, Entity e, double greatest) const {
-  if (greatest > 0) return bodies_.slow_speed(greatest, bodies_.smaller_length(i, e));
-  const Entity second = bodies_.world.second_body(e);
-  if (bodies_.ties.of(i).empty() && (second == no_entity || bodies_.ties.of(second).empty())) return never;
-  const double speeds =
-      bodies_.velocity(i).norm() + (second == no_entity ? bodies_.fixed_velocity(e) : bodies_.velocity(second)).norm();
-  return std::max(exact_tolerance::drift * speeds, std::numeric_limits<double>::min());
+  return approach >= slow && (pair_restitution(world, i, e) > 0 ? !collapse : apart);
 }
 
 void ExactGroup::part(Entity i) {

@@ -69,12 +69,9 @@ class ExactGroup {
   double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
   /// Whether member i separates from a thing that pressed on it in the last time step.
   bool opens(Entity i) const;
-  /// Whether members i and e approach each other (m/s) for an impact of their own: one that bounces, or if they are
-  /// `apart`. Contact must not take that speed. `greatest`: the greatest acceleration in the group (m/s^2).
-  bool strikes(Entity i, Entity e, double approach, double greatest, bool apart = false) const;
-  /// A slower approach of members i and e (m/s) is none of its own. Where nothing presses there is no such speed,
-  /// except for bodies on strings, which keep them in islands: path errors.
-  double slow_approach(Entity i, Entity e, double greatest) const;
+  /// Whether members i and e approach each other (m/s) for an impact of their own: not below `slow` (m/s), and one that
+  /// bounces, or if they are `apart`. Contact must not take that speed.
+  bool strikes(Entity i, Entity e, double approach, double slow, bool apart = false) const;
 
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
   void part(Entity i);

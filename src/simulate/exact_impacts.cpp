@@ -33,13 +33,13 @@ void ExactImpacts::tighten(Entity string) {
   strings_->tighten(string);
 }
 
-/// Whether the striker lies on flat surfaces and strikes a sleeping body that forces hold on all sides, too slowly
-/// (m/s) to lift it noticeably.
-bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
+/// Whether the striker lies on flat surfaces and strikes a sleeping body that forces hold on all sides, at an approach
+/// too slow (m/s) to lift it noticeably.
+bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double approach) const {
   const World& world = bodies_.world;
   if (parts_.flat.of(striker).count == 0 || !bodies_.ties.of(struck).empty()) return false;
-  if (!(speed * speed < 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck]))
-    return false;
+  const double lifts = 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck];
+  if (!(approach * approach < lifts)) return false;
   // At least three forces that are not in one plane.
   std::vector<Vec3> normals;
   const Vec3 x = bodies_.flights[struck].x;
@@ -60,21 +60,23 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed)
   return false;
 }
 
-/// Resolves a strike that is too slow to wake the struck body, by a body that nothing presses on it. The striker comes
-/// to rest.
-void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach) {
+/// Resolves a strike that is too slow to wake the struck body, by a body that nothing presses on it. The struck body is
+/// held, as if it were fixed.
+void ExactImpacts::bounce_off(Entity striker, Entity struck, std::uint8_t feature, const Touch& there,
+                              double approach) {
   const double mass = bodies_.world.mass[striker];
-  const Vec3 x = bodies_.position(striker), v = bodies_.velocity(striker);
-  const double lost = 0.5 * mass * v.squaredNorm();
+  const double e = pair_restitution(bodies_.world, striker, struck), separation = e * approach;
   Collision met = make_collision(bodies_.world, CollisionKind::body_body, bodies_.now.hi, std::min(striker, struck),
-                                 std::max(striker, struck), there.point, there.normal, approach, 0,
-                                 pair_restitution(bodies_.world, striker, struck));
-  // The struck body is held.
-  met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, 0);
-  met.energy_lost = lost;
+                                 std::max(striker, struck), there.point, there.normal, approach, separation, e);
+  met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, separation);
+  met.energy_lost = impact_loss(mass, ExactBodies::immovable, approach, separation);
   bodies_.log.record(met);
-  bodies_.log.lose(lost);
-  parts_.flights.begin(striker, x, Vec3::Zero(), {struck, feature});
+  bodies_.log.lose(met.energy_lost);
+
+  // The normal points from the lower number to the higher one.
+  const Vec3 away = striker < struck ? Vec3(-there.normal) : there.normal;
+  const Vec3 after = bodies_.velocity(striker) + (approach + separation) * away;
+  parts_.flights.begin(striker, bodies_.position(striker), parts_.flat.keep_at(striker, after), {struck, feature});
   parts_.predictor.predict(striker);
 }
 
@@ -93,7 +95,11 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
              (q.fade * ma + p.fade * mb) * share;
   }
-  return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
+  const double press = -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
+
+  // Accelerations that cancel but for rounding do not press.
+  const double terms = p.a.norm() + q.a.norm() + bodies_.applied[a].norm() + bodies_.applied[b].norm();
+  return std::abs(press) > exact_tolerance::curve_rounding * terms ? press : 0;
 }
 
 /// The acceleration of body i at x (m), in m/s^2, after an impact has ended the approach.
@@ -104,6 +110,14 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   const Vec3 towards = there.normal.dot(w) * there.normal;  // m/s
   const Vec3 v = f.velocity(bodies_.now - f.start) + (i < other ? share : -share) * towards;
   return bodies_.flies_on_curve(i) ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
+}
+
+/// The acceleration that drives the two together (m/s^2), as far as flights show it. In time steps they hold forces in
+/// advance, and any load may press.
+double ExactImpacts::press_in_steps(double press, Entity i, Entity e) const {
+  for (const Entity k : {i, e})
+    if (bodies_.world.is_body(k) && bodies_.is_stepped(k)) press = std::max(press, bodies_.applied[k].norm());
+  return press;
 }
 
 /// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
@@ -141,15 +155,15 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double press = p.a == q.a && p.fade == q.fade ? 0 : press_of(a, xa, b, xb, there, w);
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
-      if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, w.norm()))
-        return stop_at(striker, struck, feature, there, approach);
+      if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, approach))
+        return bounce_off(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is only rounding ends with this impact.
-  const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || bodies_.load_on(a) > 0 ||
-                    bodies_.load_on(b) > 0;
+  const double held = press_in_steps(press, a, b);
+  const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || held > 0;
   // The approach begins by a change of forces.
   const bool enters = met == 0 && w.dot(n) <= 0 && (bodies_.flies_on_curve(a) || bodies_.flies_on_curve(b));
   const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
-                    (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
+                    (real && parts_.collapses.count_impact(a, b, e, met, held, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
                                    (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));
   const double separation = ends ? 0 : e * met;
@@ -228,6 +242,10 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
   const double towards = (v - u).dot(n), approach = towards > bodies_.negligible_speed() ? towards : 0;
   bodies_.refresh(i, x, v - approach * n);
   const double bend = flat ? 0 : bending(world, i, x, surface, point, there, u - v);
+  // In constrained motion other contacts are part of the flight. Drag then acts on the velocity after the impact.
+  const double pull = bodies_.is_constrained(i)
+                          ? f.acceleration(t).dot(n) + bodies_.fade[i] * approach
+                          : parts_.flat.acceleration_without(i, surface).dot(n) + parts_.flat.drag_along(i, n, surface);
   return {i,
           surface,
           feature,
@@ -240,7 +258,7 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
           pair_restitution(world, i, surface),
           approach,
           parts_.group.approach_without_kick(approach, n, i, surface),
-          parts_.flat.acceleration_without(i, surface).dot(n) + parts_.flat.drag_along(i, n, surface) - bend};
+          pull - bend};
 }
 
 /// Whether a flat surface carries the body from this instant on. If so, `contact` has the instant at which its bounces
@@ -283,7 +301,8 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
   if (unkicked == 0 && (approach > 0 || bodies_.flies_on_curve(i))) return true;
   const bool alone = flat && !parts_.collapses.among_bodies(i);
-  if (parts_.collapses.count_impact(i, surface, e, unkicked, press, bodies_.world.radius[i], alone)) return true;
+  const double held = press_in_steps(press, i, surface);
+  if (parts_.collapses.count_impact(i, surface, e, unkicked, held, bodies_.world.radius[i], alone)) return true;
   const double separation = e * unkicked;
   if (!(press > 0)) return false;
   if (flat && bodies_.bent[i] && !bodies_.in_lasting_contact(i) && e < 1)

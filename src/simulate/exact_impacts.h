@@ -67,12 +67,13 @@ class ExactImpacts {
 
   double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   Vec3 pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there, const Vec3& w) const;
-  bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
+  bool too_slow_to_wake(Entity striker, Entity struck, double approach) const;
+  double press_in_steps(double press, Entity i, Entity e) const;
   [[gnu::noinline]] bool move_as_one(Entity a, Entity b, double approach) const;
   void hold_together(Entity a, Entity b, const Vec3& n);
   void release(Entity i);
   bool is_plastic(const Collision& met, double press, double length) const;
-  void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
+  void bounce_off(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature);
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
   bool over_at_once(const FixedImpact& impact, double left) const;

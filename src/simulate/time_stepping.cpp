@@ -159,7 +159,8 @@ void TimeStepping::find_pairs(Step& step) const {
       const Vec3 still = asleep ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(e);
       const Vec3 ve = !body ? still : of_other_island ? bodies_.velocity(e) : step.v[other];
       const double rate = there.normal.dot(ve - step.v[k]);
-      if (group_.strikes(i, e, -rate / tol::fast_impact, step.greatest)) continue;
+      const double slow = step.greatest > 0 ? bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)) : never;
+      if (group_.strikes(i, e, -rate / tol::fast_impact, slow)) continue;
       const double margin_e = !body ? 0 : of_other_island ? group_.margin[e] : margin_of(other);
       const double margin = std::max(margin_of(k), margin_e);
       const double expected = step.expected[k] + (!body ? 0 : of_other_island ? ve.norm() : step.expected[other]);

@@ -67,8 +67,6 @@ inline constexpr double collapse_gap = 1e-9;
 inline constexpr int collapse_impacts = 64;
 // Their sum of 1 - e, which leaves exp(-8) of the speeds.
 inline constexpr double collapse_loss = 16;
-// Impacts at one place in lasting contact, where nothing presses.
-inline constexpr int unloaded_impacts = 8;
 // Slow impacts of a body on flat surfaces within the time of a hop. [- 2e-15]
 inline constexpr int burst_on_surfaces = 256;
 // The same among bodies. [6e-8 6e-6]
