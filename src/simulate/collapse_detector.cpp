@@ -11,7 +11,6 @@
 namespace carom {
 
 void CollapseDetector::count_in_turn(Entity i, double lost) {
-  ++collapse_.write(i).impacts;
   collapse_.write(i).lost += lost;
 }
 
@@ -29,13 +28,9 @@ bool CollapseDetector::collapses(Entity i, Entity other, double e, double approa
   Collapse& collapse = collapse_.write(i);
   const double away = std::max(exact_tolerance::collapse_gap * length,
                                exact_tolerance::position_rounding * bodies_.flights[i].x.cwiseAbs().sum());
-  if (approach * (bodies_.now - collapse.start) > away) collapse = {bodies_.now, 0, 0};
-  if (bodies_.body[i].origin_partner != other) {
-    if (e < 1) ++collapse.impacts;
-    collapse.lost = std::max(collapse.lost + 1 - e, 0.0);
-  }
-  if (collapse.impacts <= exact_tolerance::collapse_impacts || collapse.lost <= exact_tolerance::collapse_loss)
-    return false;
+  if (approach * (bodies_.now - collapse.start) > away) collapse = {bodies_.now, 0};
+  if (bodies_.body[i].origin_partner != other) collapse.lost = std::max(collapse.lost + 1 - e, 0.0);
+  if (collapse.lost <= exact_tolerance::collapse_loss) return false;
   collapse.ended = bodies_.now;
   return true;
 }

@@ -43,9 +43,7 @@ class CollapseDetector {
   /// Impacts of a body at one place.
   struct Collapse {
     Instant start;
-    // Impacts with e < 1, without repeated ones on the same thing.
-    int impacts = 0;
-    double lost = 0;  // the sum of 1 - e, at least 0
+    double lost = 0;  // the sum of 1 - e, at least 0, without repeated impacts on the same thing
     // The last collapse that ended in contact.
     Instant ended{never, 0};
   };

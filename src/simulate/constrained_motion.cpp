@@ -102,10 +102,19 @@ bool ConstrainedMotion::advance(Entity i) {
 
   Step step = begin_step(members);
   find_contacts(step);
-  const std::vector<std::uint32_t> part = parts_of(step);
-  clear_index(members);
-  if (may_be_busy && !count_change(step)) return false;
+  if (may_be_busy && !count_change(step)) {
+    clear_index(members);
+    return false;
+  }
 
+  const std::vector<std::uint32_t> part = parts_of(step);
+  if (std::all_of(part.begin(), part.end(), [](std::uint32_t first) { return first == 0; })) {
+    step.undisturbed = undisturbed;
+    advance_whole(step);
+    return true;
+  }
+
+  clear_index(members);
   for (const Entity first : bodies_.islands.split(i, part)) {
     Step of_part = begin_step(bodies_.islands.of(first).members);
     of_part.undisturbed = undisturbed;
@@ -213,7 +222,7 @@ double ConstrainedMotion::load_of(const Step& step) const {
   return greatest;
 }
 
-/// Drops the pairs that are about to strike: they approach too fast for what presses them together.
+/// Drops the pairs that are about to strike: they approach too fast for the force that pressed them together last.
 void ConstrainedMotion::drop_striking(Step& step) const {
   std::vector<ContactConstraint>& pairs = step.contacts.pairs;
   const auto approach_of = [&](std::size_t c) {
@@ -224,18 +233,15 @@ void ConstrainedMotion::drop_striking(Step& step) const {
     return std::max(tol::drift * (step.v[pairs[c].a].norm() + rate(step.v, step.contacts.names[c].e).norm()),
                     std::numeric_limits<double>::min());
   };
-  step.slow.assign(pairs.size(), never);
-  bool approaching = false;
-  for (std::size_t c = 0; c < pairs.size(); ++c)
-    approaching = approaching || approach_of(c) >= path_error(c);
-  if (!approaching) return;
-
-  // A contact's force would take so much acceleration from the pair.
-  const std::vector<double> press = presses(step);
+  // A pair that nothing has pressed together decides by its impact.
+  step.slow.clear();
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
-    const double slow = press[c] > 0 ? bodies_.slow_speed(press[c], bodies_.smaller_length(i, e)) : 0;
-    step.slow[c] = std::max(slow, path_error(c));
+    const double of_e = pairs[c].b == ContactConstraint::fixed ? 0 : step.inverse_mass[pairs[c].b];
+    const double press = group_.pressing_force(i, e) * (step.inverse_mass[pairs[c].a] + of_e);  // m/s^2
+    const bool pressed = press > tol::curve_rounding * step.greatest;
+    const double slow = pressed ? bodies_.slow_speed(press, bodies_.smaller_length(i, e)) : 0;
+    step.slow.push_back(std::max(slow, path_error(c)));
   }
   std::vector<double> kept;
   step.contacts.drop_if(0, [&](std::size_t c) {
@@ -248,20 +254,6 @@ void ConstrainedMotion::drop_striking(Step& step) const {
     return strikes;
   });
   step.slow = std::move(kept);
-}
-
-/// By pair: the acceleration that contact takes from the two, relative to one another (m/s^2); 0: nothing but rounding
-/// presses them together.
-std::vector<double> ConstrainedMotion::presses(const Step& step) const {
-  ConstrainedSystem system = system_of(step);
-  system.accelerate(step.x, step.v);
-  std::vector<double> press;
-  for (const ContactConstraint& row : system.rows()) {
-    const double of_b = row.b == ContactConstraint::fixed ? 0 : step.inverse_mass[row.b];
-    const double taken = row.force * (step.inverse_mass[row.a] + of_b);
-    press.push_back(taken > tol::curve_rounding * step.greatest ? taken : 0);
-  }
-  return press;
 }
 
 /// The pairs that touch.
@@ -403,7 +395,8 @@ void ConstrainedMotion::record_fast(const Step& step, std::vector<AbsorbedImpact
     const ContactConstraint& p = step.contacts.pairs[c];
     const auto& [i, e, feature] = step.contacts.names[c];
     const bool presses = p.force > 0 || (p.bilateral && p.force < 0);
-    if (!(presses && impacts[c].approach > step.slow[c])) continue;
+    const double slow = step.greatest > 0 ? bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)) : 0;
+    if (!(presses && impacts[c].approach > std::max(slow, step.slow[c]))) continue;
 
     const double sign = p.force < 0 ? -1 : 1;
     const CollisionKind kind = world.is_string(e) ? CollisionKind::string
@@ -438,23 +431,18 @@ void ConstrainedMotion::drop_parting(Step& step) const {
   });
 }
 
-/// The equations of the step's members and contacts.
-ConstrainedSystem ConstrainedMotion::system_of(const Step& step) const {
+/// Computes the accelerations and forces at the step's start. Contacts that separate and carry no force open.
+/// They are watched until they are wide enough to meet again.
+ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
   ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied));
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const Entity e = step.contacts.names[c].e;
     if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
-    system.add(step.contacts.names[c], step.contacts.pairs[c]);
+    system.add(step.contacts.names[c], step.contacts.pairs[c], group_.pressing_force(step.contacts.names[c].i, e));
   }
-  return system;
-}
 
-/// Computes the accelerations and forces at the step's start. Contacts that separate and carry no force open.
-/// They are watched until they are wide enough to meet again.
-ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
-  ConstrainedSystem system = system_of(step);
   step.a = system.accelerate(step.x, step.v);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
   if (stop_parting(step)) {

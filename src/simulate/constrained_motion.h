@@ -84,8 +84,6 @@ class ConstrainedMotion {
   void find_touching(Step& step) const;
   double load_of(const Step& step) const;
   void drop_striking(Step& step) const;
-  std::vector<double> presses(const Step& step) const;
-  ConstrainedSystem system_of(const Step& step) const;
   void find_strings(Step& step, std::size_t k) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);

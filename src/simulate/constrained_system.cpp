@@ -111,10 +111,11 @@ std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members,
   return of_members;
 }
 
-void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pair) {
+void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pair, double guess) {
   closed_.push_back(contact);
   rows_.push_back({pair.a, pair.b, pair.normal});
   rows_.back().bilateral = pair.bilateral;
+  rows_.back().force = guess;
 }
 
 void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {

@@ -29,7 +29,8 @@ class ConstrainedSystem {
 
   /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never
   /// opens.
-  void add(const Contact& contact, const ContactConstraint& pair);
+  /// `guess`: of its force (N).
+  void add(const Contact& contact, const ContactConstraint& pair, double guess);
   /// Registers a fixed thing that moves, at its position (m) and velocity (m/s) at the start, before contacts with it
   /// are added.
   void carry(Entity e, const Vec3& x, const Vec3& v);

@@ -264,6 +264,12 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double slow, bool 
   return approach >= slow && (pair_restitution(world, i, e) > 0 ? !collapse : apart);
 }
 
+double ExactGroup::pressing_force(Entity i, Entity e) const {
+  for (const PressingContact& p : pressing[std::min(i, e)])
+    if (p.partner == std::max(i, e)) return p.force;
+  return 0;
+}
+
 void ExactGroup::part(Entity i) {
   for (const Entity e : partners[i])
     if (bodies_.world.is_body(e)) std::erase(partners.write(e), i);

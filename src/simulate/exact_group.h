@@ -73,6 +73,8 @@ class ExactGroup {
   /// bounces, or if they are `apart`. Contact must not take that speed.
   bool strikes(Entity i, Entity e, double approach, double slow, bool apart = false) const;
 
+  /// The force between member i and a thing in the last step (N).
+  double pressing_force(Entity i, Entity e) const;
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
   void part(Entity i);
   /// The same for member i, which leaves the world: nothing presses on it, and it on nothing.

@@ -95,11 +95,7 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
              (q.fade * ma + p.fade * mb) * share;
   }
-  const double press = -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
-
-  // Accelerations that cancel but for rounding do not press.
-  const double terms = p.a.norm() + q.a.norm() + bodies_.applied[a].norm() + bodies_.applied[b].norm();
-  return std::abs(press) > exact_tolerance::curve_rounding * terms ? press : 0;
+  return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
 }
 
 /// The acceleration of body i at x (m), in m/s^2, after an impact has ended the approach.
@@ -112,12 +108,18 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   return bodies_.flies_on_curve(i) ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
 }
 
-/// The acceleration that drives the two together (m/s^2), as far as flights show it. In time steps they hold forces in
-/// advance, and any load may press.
-double ExactImpacts::press_in_steps(double press, Entity i, Entity e) const {
-  for (const Entity k : {i, e})
-    if (bodies_.world.is_body(k) && bodies_.is_stepped(k)) press = std::max(press, bodies_.applied[k].norm());
-  return press;
+/// The acceleration that drives the two together (m/s^2), for which impacts are slow. Loads that cancel but for rounding
+/// do not press. In time steps flights hold forces in advance, and any load may press.
+double ExactImpacts::holding(double press, Entity i, Entity e) const {
+  double loads = 0;
+  bool stepped = false;
+  for (const Entity k : {i, e}) {
+    if (!bodies_.world.is_body(k)) continue;
+    loads = std::max(loads, bodies_.applied[k].norm());
+    stepped = stepped || bodies_.is_stepped(k);
+  }
+  if (stepped) return std::max(press, loads);
+  return press > exact_tolerance::curve_rounding * loads ? press : 0;
 }
 
 /// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
@@ -158,7 +160,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
       if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, approach))
         return bounce_off(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is only rounding ends with this impact.
-  const double held = press_in_steps(press, a, b);
+  const double held = holding(press, a, b);
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || held > 0;
   // The approach begins by a change of forces.
   const bool enters = met == 0 && w.dot(n) <= 0 && (bodies_.flies_on_curve(a) || bodies_.flies_on_curve(b));
@@ -301,7 +303,7 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
   if (unkicked == 0 && (approach > 0 || bodies_.flies_on_curve(i))) return true;
   const bool alone = flat && !parts_.collapses.among_bodies(i);
-  const double held = press_in_steps(press, i, surface);
+  const double held = holding(press, i, surface);
   if (parts_.collapses.count_impact(i, surface, e, unkicked, held, bodies_.world.radius[i], alone)) return true;
   const double separation = e * unkicked;
   if (!(press > 0)) return false;

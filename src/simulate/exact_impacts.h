@@ -68,7 +68,7 @@ class ExactImpacts {
   double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   Vec3 pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there, const Vec3& w) const;
   bool too_slow_to_wake(Entity striker, Entity struck, double approach) const;
-  double press_in_steps(double press, Entity i, Entity e) const;
+  double holding(double press, Entity i, Entity e) const;
   [[gnu::noinline]] bool move_as_one(Entity a, Entity b, double approach) const;
   void hold_together(Entity a, Entity b, const Vec3& n);
   void release(Entity i);

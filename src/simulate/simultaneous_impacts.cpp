@@ -81,7 +81,7 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
     const Entity e = set.near.names[c].e;
     // Otherwise the next step computes it anew.
-    set.held.push_back(set.rest > 0 ? pressing(i, e) * remaining(set, i, e) : 0);
+    set.held.push_back(set.rest > 0 ? group_.pressing_force(i, e) * remaining(set, i, e) : 0);
   }
 }
 
@@ -101,13 +101,6 @@ Vec3 SimultaneousImpacts::forced(const Struck& set, Entity i) const {
   const double rest = remaining(set, i);
   return bodies_.now < bodies_.islands.kicked_until[i] ? Vec3(rest * bodies_.islands.kick[i])
                                                        : flights_.by_forces(i, rest);
-}
-
-/// The force between member i and a thing near it in the last step (N).
-double SimultaneousImpacts::pressing(Entity i, Entity e) const {
-  for (const PressingContact& p : group_.pressing[std::min(i, e)])
-    if (p.partner == std::max(i, e)) return p.force;
-  return 0;
 }
 
 /// The distance that time stepping keeps between the two (m).

@@ -54,7 +54,6 @@ class SimultaneousImpacts {
   double remaining(const Struck& set, Entity i) const;
   double remaining(const Struck& set, Entity i, Entity e) const;
   Vec3 forced(const Struck& set, Entity i) const;
-  double pressing(Entity i, Entity e) const;
   double approach(const Struck& set, const std::vector<Vec3>& velocities, std::size_t near) const;
   double margin(const Struck& set, std::size_t near) const;
   double allowed(const Struck& set, std::size_t near) const;

@@ -63,9 +63,7 @@ inline constexpr double approach_rounding = 0x1p-50;
 inline constexpr double slow_impact = 0.03;
 // Share of a length: impacts within it are at one place.
 inline constexpr double collapse_gap = 1e-9;
-// Impacts at one place that make a collapse. [- 7e-15]
-inline constexpr int collapse_impacts = 64;
-// Their sum of 1 - e, which leaves exp(-8) of the speeds.
+// The sum of 1 - e of impacts at one place that makes a collapse. It leaves exp(-8) of the speeds.
 inline constexpr double collapse_loss = 16;
 // Slow impacts of a body on flat surfaces within the time of a hop. [- 2e-15]
 inline constexpr int burst_on_surfaces = 256;
