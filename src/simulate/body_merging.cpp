@@ -21,8 +21,10 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   const Entity whole = world.mass[b] > world.mass[a] ? b : a, part = whole == a ? b : a;
   for (const Entity i : {a, b}) paths_.note_change(i);
   for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i), bodies_.now);
-  record(a, b, there);
-  join(whole, part);
+  Collision met = meeting(a, b, there);
+  met.energy_lost += join(whole, part);
+  bodies_.log.lose(met.energy_lost);
+  bodies_.log.record(met);
   predictor_.renew_region(whole);
   move_out(whole);
   for (const Entity e : bodies_.neighbours_of(whole)) {
@@ -34,7 +36,8 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   predictor_.predict(whole);
 }
 
-void BodyMerging::record(Entity a, Entity b, const Touch& there) {
+/// The record of bodies a and b, without what forces on them lose.
+Collision BodyMerging::meeting(Entity a, Entity b, const Touch& there) const {
   const World& world = bodies_.world;
   const bool second = world.mass[b] > world.mass[a];
   const double mw = world.mass[second ? b : a], mp = world.mass[second ? a : b], mass = mw + mp;
@@ -45,12 +48,12 @@ void BodyMerging::record(Entity a, Entity b, const Touch& there) {
   met.impulse = approach * (mw * mp / mass);
   // The energy of the motion along the surfaces is lost too.
   met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
-  bodies_.log.lose(met.energy_lost);
-  bodies_.log.record(met);
+  return met;
 }
 
 /// The joint body continues from the centre of mass with the common momentum. Forces continue to act on the parts.
-void BodyMerging::join(Entity whole, Entity part) {
+/// Returns what their potential loses (J).
+double BodyMerging::join(Entity whole, Entity part) {
   const double mass_part = bodies_.world.mass[part], share = mass_part / (bodies_.world.mass[whole] + mass_part);
   const Vec3 xw = bodies_.position(whole), xp = bodies_.position(part);
   const Vec3 vw = bodies_.velocity(whole), vp = bodies_.velocity(part);
@@ -70,10 +73,11 @@ void BodyMerging::join(Entity whole, Entity part) {
   bodies_.body[part].event = {};
   queue_.remove(part);
   bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
-  if (!bodies_.world.forces.empty()) bodies_.log.lose(before - bodies_.merged.potential(whole, x));
+  const double lost = bodies_.world.forces.empty() ? 0 : before - bodies_.merged.potential(whole, x);
   bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, x, v), bodies_.fade[whole]});
   flights_.count(whole);
   bodies_.body[whole].set_origin({});
+  return lost;
 }
 
 /// Moves a joint body out of fixed things that its volume overlaps. The work of lifting it goes into the log.

@@ -7,6 +7,7 @@
 #include "physics/entity.h"
 namespace carom {
 
+struct Collision;
 struct ExactBodies;
 class FlatContacts;
 class PathLog;
@@ -26,8 +27,8 @@ class BodyMerging {
   void merge(Entity a, Entity b, const Touch& there);
 
  private:
-  void record(Entity a, Entity b, const Touch& there);
-  void join(Entity whole, Entity part);
+  Collision meeting(Entity a, Entity b, const Touch& there) const;
+  double join(Entity whole, Entity part);
   void move_out(Entity whole);
 
   ExactBodies& bodies_;

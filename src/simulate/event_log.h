@@ -78,10 +78,14 @@ class EventLog {
   /// because the caller books the whole change of velocities as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts = {});
-  /// Books energy (J) of impacts that are already counted, in lasting contact.
-  void go_on_taking(double energy) {
+  /// Books energy (J) lost beside the impacts that are recorded or counted. The record of a rest takes its part back.
+  void absorb(double energy) {
     tally_.taken_up.energy += energy;
     lose(energy);
+  }
+  /// Books energy (J) of impacts that are already counted, in lasting contact.
+  void go_on_taking(double energy) {
+    absorb(energy);
     deviate(-energy);
   }
   void count_collapse() { ++tally_.collapses; }

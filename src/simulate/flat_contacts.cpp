@@ -66,16 +66,16 @@ std::vector<Entity> FlatContacts::opposite_surfaces(const FlatContactList& conta
   return surfaces;
 }
 
-/// Notes the quality of a solution for body i's velocity, and books the work of moving surfaces. Throws SimulationError
-/// where they leave the body no room.
-FlatSolution FlatContacts::allow(Entity i, const FlatSolution& solution) const {
+/// Notes the quality of a solution for body i's velocity, and books the work of moving surfaces, which is lost (J).
+/// Throws SimulationError where they leave the body no room.
+FlatSolution FlatContacts::allow(Entity i, const FlatSolution& solution, double& lost) const {
   if (bodies_.moving.any()) {
     if (solution.certificate.verdict == Certificate::Verdict::infeasible) {
       bodies_.fail_squeezed(i, opposite_surfaces(contacts_[i]));
     }
     const double work = bodies_.world.mass[i] * solution.work;
-    bodies_.log.lose(work);
     bodies_.log.add_work(work);
+    lost += work;
   }
   bodies_.log.note(solution.certificate);
   return solution;
@@ -143,7 +143,8 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
 }
 
 void FlatContacts::add(Entity i, const FlatContact& contact) {
-  bodies_.log.lose(impact_loss(bodies_.world.mass[i], ExactBodies::immovable, contact.residual_speed, 0));
+  // The record of the rest, when bounces are over, has that energy.
+  bodies_.log.absorb(impact_loss(bodies_.world.mass[i], ExactBodies::immovable, contact.residual_speed, 0));
   FlatContactList& contacts = contacts_.write(i);
   if (contacts.count == 0) bodies_.log.add_resting(1);
   contacts.at[contacts.count++] = contact;
@@ -205,17 +206,18 @@ void FlatContacts::end_bounces(Entity i) {
   }
 }
 
-/// Records a bounce that ends at once: an impact that leaves no speed.
-void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double approach, double e) {
+/// Records a bounce that ends at once: an impact that leaves no speed. lost: J, that of a single surface or its part of
+/// what several take together.
+void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost) {
   const World& world = bodies_.world;
-  // It is in turn with the impact that threw the body at the surface.
-  collapses_.count_in_turn(i, 1 - e);
   const Vec3 point =
       bodies_
           .touch_at(i, bodies_.position(i), contact.surface, bodies_.fixed_position(contact.surface), contact.feature)
           .point;
-  bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, contact.surface, point,
-                                    -contact.normal, approach, 0, e));
+  Collision met = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, contact.surface, point,
+                                 -contact.normal, approach, 0, e);
+  met.energy_lost = lost;
+  bodies_.log.record(met);
 }
 
 void FlatContacts::keep(FlatContactList& contacts, const std::array<bool, most>& which) {
@@ -227,11 +229,18 @@ void FlatContacts::keep(FlatContactList& contacts, const std::array<bool, most>&
 
 Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   FlatContactList& contacts = contacts_.write(i);
-  const double now = bodies_.now.hi;
+  const double now = bodies_.now.hi, mass = bodies_.world.mass[i];
   const Vec3 x = bodies_.position(i);
   const double noise = velocity_rounding * (v.norm() + bodies_.flights[i].v.norm());
   std::array<bool, most> kept;
   std::array<double, most> press;
+  // A bounce that ends at once.
+  struct Bounce {
+    FlatContact contact;
+    double approach, e;
+  };
+  std::array<Bounce, most> bounces;
+  std::size_t bounced = 0;
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const FlatContact& contact = contacts.at[k];
     const Vec3 n = -contact.normal;
@@ -244,15 +253,18 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
     if (kept[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(bodies_.world, i, contact.surface);
     kept[k] = e < 1 && now + 2 * e * u / (press[k] * (1 - e)) == now;
-    if (kept[k]) record_bounce(i, contact, u, e);
+    if (kept[k]) bounces[bounced++] = {contact, u, e};
   }
+
   std::size_t n = 0;
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (kept[k]) press[n++] = press[k];
   keep(contacts, kept);
   Surfaces surfaces;
   n = surfaces_of(contacts, no_entity, 1, surfaces);
-  FlatSolution solution = allow(i, solve_flat_contacts(v, {surfaces.data(), n}));
+  double lost = 0;  // J
+  FlatSolution solution = allow(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
+
   // A push into one surface may lift the body off another.
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const double u = surfaces[k].normal.dot(solution.u) - surfaces[k].u;
@@ -260,10 +272,20 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   }
   keep(contacts, kept);
   n = surfaces_of(contacts, no_entity, 1, surfaces);
-  solution = allow(i, keep_flat_contacts(solution.u, {surfaces.data(), n}));
+  solution = allow(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
   const Vec3& allowed = solution.u;
   if (contacts.count == 0) bodies_.log.remove_resting(1);
-  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - allowed).dot(v + allowed));
+
+  // Bounces are in turn with the impact that threw the body at the surfaces.
+  lost += 0.5 * mass * (v - allowed).dot(v + allowed);
+  double squares = 0;  // m^2/s^2
+  for (std::size_t k = 0; k < bounced; ++k) squares += bounces[k].approach * bounces[k].approach;
+  for (std::size_t k = 0; k < bounced; ++k) {
+    const auto& [contact, approach, e] = bounces[k];
+    collapses_.count_in_turn(i, 1 - e);
+    record_bounce(i, contact, approach, e, lost * (approach * approach / squares));
+  }
+  bounced > 0 ? bodies_.log.lose(lost) : bodies_.log.absorb(lost);
   return allowed;
 }
 

@@ -90,12 +90,12 @@ class FlatContacts {
  private:
   using Surfaces = std::array<FlatSurface, FlatContactList::most>;
   std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
-  FlatSolution allow(Entity i, const FlatSolution& solution) const;
+  FlatSolution allow(Entity i, const FlatSolution& solution, double& lost) const;
   static std::vector<Entity> opposite_surfaces(const FlatContactList& contacts);
   std::vector<ContactConstraint> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);
-  void record_bounce(Entity i, const FlatContact& contact, double approach, double e);
+  void record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost);
   static void keep(FlatContactList& contacts, const std::array<bool, FlatContactList::most>& which);
 
   ExactBodies& bodies_;

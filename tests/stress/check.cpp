@@ -74,6 +74,7 @@ class Check {
     paths_ = std::make_unique<Paths>(scene_, times_, seen_.seen, first_.records, first_.tally.collapses > 0);
     for (std::string& overlap : paths_->overlaps()) fail(std::move(overlap));
     energy();
+    rows();
     momentum();
     for (const Collision& c : first_.records) record(c);
     if (scene_.seed % 8 == 0) same("run again", watch(scene_, {}, patience_));
@@ -172,6 +173,19 @@ class Check {
     if (!(std::abs(residual) <= tolerance))
       fail("energy books: residual " + text(residual) + " J of " + text(size) + " J, lost " + text(t.energy_lost) +
            ", work " + text(t.work));
+  }
+
+  /// What the records have lost, and what contact has absorbed without a record, is all that is lost.
+  void rows() {
+    const Tally& t = first_.tally;
+    long double lost = t.taken_up.energy, turned = std::abs(t.taken_up.energy);
+    for (const Collision& c : first_.records) {
+      lost += c.energy_lost;
+      turned += std::abs(c.energy_lost);
+    }
+    const double off = static_cast<double>(lost - t.energy_lost);
+    if (!(std::abs(off) <= 1e-9 * static_cast<double>(turned)))
+      fail("rows lose " + text(off) + " J more than the run, of " + text(static_cast<double>(turned)) + " J");
   }
 
   void momentum() {
