@@ -45,6 +45,7 @@ class Run {
       outcome_.collisions = tally.collisions();
       if (counted_ != tally.collisions())
         fail(fmt::format("{} collisions are recorded and {} counted", counted_, tally.collisions()));
+      rows(tally);
       if (exact_) books(static_cast<double>(energy() - before), tally);
       if (exact_) overlaps(tally);
     } catch (const SimulationError& error) {
@@ -147,6 +148,13 @@ class Run {
                        size));
   }
 
+  /// What the records have lost, and what contact has absorbed without a record, is all that is lost.
+  void rows(const Tally& tally) {
+    const double off = static_cast<double>(lost_ + tally.taken_up.energy - tally.energy_lost);
+    if (!(std::abs(off) <= 1e-9 * (turned_ + std::abs(tally.taken_up.energy))))
+      fail(fmt::format("rows lose {} J more than the run, of {} J", off, turned_));
+  }
+
   void overlaps(const Tally& tally) {
     double extent = extent_, largest = 0;
     for (const Wall& w : world_.walls)
@@ -168,6 +176,8 @@ class Run {
     hash(&c.b, sizeof c.b);
     hash(c.position);
     hash(c.normal);
+    lost_ += c.energy_lost;
+    turned_ += std::abs(c.energy_lost);
     if (c.kind == CollisionKind::rest) return;
     ++counted_;
     if (!c.position.allFinite() || !c.normal.allFinite() || !std::isfinite(c.approach_speed) ||
@@ -192,6 +202,8 @@ class Run {
   double last_ = 0;    // s, of the last record
   double extent_ = 0;  // m, of the farthest place
   double size_ = 0;    // J, without signs
+  long double lost_ = 0;  // J, by the records
+  double turned_ = 0;     // J, the same without signs
   std::uint64_t counted_ = 0;
 };
 
