@@ -355,7 +355,7 @@ std::vector<AbsorbedImpact> ConstrainedMotion::absorbed_impacts(const Step& step
     all += impacts[c].lost;
     closed_later = closed_later || (force > 0 && impacts[c].lost < 0);
   }
-  if (!closed_later || !(all > 0)) return impacts;
+  if (!closed_later) return impacts;
 
   // One round after the other, of the pairs that approach by then.
   double in_rounds = 0;  // J
@@ -377,14 +377,14 @@ std::vector<AbsorbedImpact> ConstrainedMotion::absorbed_impacts(const Step& step
     const std::vector<Vec3> before = v;
     if (any) solve({step.inverse_mass, v, rows});
     for (std::size_t k = 0; any && k < which.size(); ++k) {
-      const double lost = 0.5 * rows[k].force * (approach(before, rows[k]) + approach(v, rows[k]));
+      const double lost = std::max(0.5 * rows[k].force * (approach(before, rows[k]) + approach(v, rows[k])), 0.0);
       impacts[which[k]].lost += lost;
       in_rounds += lost;
     }
   }
 
   // Impulses of one round may end in a later one. Energy is that of all together.
-  for (AbsorbedImpact& impact : impacts) impact.lost *= in_rounds > 0 ? all / in_rounds : 0;
+  for (AbsorbedImpact& impact : impacts) impact.lost *= in_rounds > 0 ? std::max(all, 0.0) / in_rounds : 0;
   return impacts;
 }
 
