@@ -18,7 +18,7 @@ double energy_of(const Summary& summary) {
   return summary.energy.*Member;
 }
 
-constexpr std::array<SummaryColumn, 24> columns = {{
+constexpr std::array<SummaryColumn, 25> columns = {{
     {"run", "the run's name"},
     {"title", "the scene's title"},
     {"engine", "the simulator: exact, stepped or book"},
@@ -49,6 +49,8 @@ constexpr std::array<SummaryColumn, 24> columns = {{
     {"removed_J", "kinetic and potential energy of bodies that regions have removed",
      energy_of<&EnergyTotals::removed>},
     {"ended_by", "what ended the run: duration, rest, collisions or a region"},
+    {"energy_absorbed_J", "the part of energy_lost_J that lasting contact absorbed, without rows in collisions.csv",
+     [](const Summary& summary) { return summary.contact.taken_up.energy; }},
 }};
 
 }  // namespace

@@ -582,8 +582,11 @@ void ConstrainedMotion::find_resting(Step& step) const {
   for (std::size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
     step.fastest = std::max(step.fastest, speed);
+    // What drag alone balances goes on.
+    const Entity i = step.members[k];
+    const Vec3 drag = bodies_.force_at(i, step.x[k], step.v[k]) - bodies_.force_at(i, step.x[k], Vec3::Zero());
     if (!(speed <= tol::drift * std::sqrt(step.greatest * step.smallest) &&
-          step.a[k].norm() <= tol::constrained_balance * step.greatest))
+          (step.a[k] - drag).norm() <= tol::constrained_balance * step.greatest))
       moves[island[k]] = 1;
   }
   for (std::size_t k = 0; k < n; ++k) step.rests.push_back(!moves[island[k]]);

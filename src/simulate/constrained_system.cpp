@@ -470,9 +470,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
   };
   Followed followed;
   auto motion = std::make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
-  const auto step = [&](double length) {
-    return motion->step(length, forces, hold, allowed_.place, allowed_.speed);
-  };
+  const auto step = [&](double length) { return motion->step(length, forces, hold, allowed_.place, allowed_.speed); };
   for (;;) {
     const double error = step(h);
     followed.next = DormandPrince::next_length(h, error);

@@ -19,7 +19,7 @@ EventLog::EventLog(std::uint64_t max_collisions, bool record_collisions, std::si
 
 void EventLog::record(const Collision& collision) {
   tally_.count(collision.kind, collision.time);
-  if (collision.kind == CollisionKind::rest) tally_.taken_up.energy -= collision.energy_lost;
+  if (collision.kind == CollisionKind::rest) hold(-collision.energy_lost);
   if (record_collisions_) collisions_.push_back(collision);
   if (max_collisions_ > 0 && tally_.collisions() > max_collisions_)
     throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
@@ -38,7 +38,7 @@ void EventLog::take_up(double approach, double energy) {
   TakenUp& all = tally_.taken_up;
   ++all.impacts;
   all.fastest = std::max(all.fastest, approach);
-  all.energy += energy;
+  hold(energy);
 }
 
 void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
@@ -68,7 +68,7 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
     lost += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
   lose(lost);
   deviate(-lost);
-  tally_.taken_up.energy += lost - of_recorded;
+  hold(lost - of_recorded);
 }
 
 }  // namespace carom

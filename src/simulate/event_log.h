@@ -80,7 +80,7 @@ class EventLog {
                std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts = {});
   /// Books energy (J) lost beside the impacts that are recorded or counted. The record of a rest takes its part back.
   void absorb(double energy) {
-    tally_.taken_up.energy += energy;
+    hold(energy);
     lose(energy);
   }
   /// Books energy (J) of impacts that are already counted, in lasting contact.
@@ -101,12 +101,18 @@ class EventLog {
   static constexpr std::size_t capacity = 4096;  // collisions
 
  private:
+  /// Adds to the energy of impacts without a record (J).
+  void hold(double energy) {
+    absorbed_.add(energy);
+    tally_.taken_up.energy = absorbed_.value();
+  }
+
   const std::uint64_t max_collisions_;
   const bool record_collisions_;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_, method_error_, work_, removed_;  // J
-  std::vector<Sum> force_work_;                      // J
+  Sum energy_lost_, absorbed_, method_error_, work_, removed_;  // J
+  std::vector<Sum> force_work_;                                 // J
 };
 
 }  // namespace carom

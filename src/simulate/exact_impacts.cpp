@@ -108,8 +108,8 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   return bodies_.flies_on_curve(i) ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
 }
 
-/// The acceleration that drives the two together (m/s^2), for which impacts are slow. Loads that cancel but for rounding
-/// do not press. In time steps flights hold forces in advance, and any load may press.
+/// The acceleration that drives the two together (m/s^2), for which impacts are slow. Loads that cancel but for
+/// rounding do not press. In time steps flights hold forces in advance, and any load may press.
 double ExactImpacts::holding(double press, Entity i, Entity e) const {
   double loads = 0;
   bool stepped = false;

@@ -205,6 +205,7 @@ TEST(Tables, TheSummaryIsOneRow) {
   summary.stepped_contact = 0.75;
   summary.energy.removed = 0.5;
   summary.ended_by = "region pocket";
+  summary.contact.taken_up.energy = 0.25;
   {
     Exports exports(scene, temp / "run");
     play(scene, exports);
@@ -214,10 +215,11 @@ TEST(Tables, TheSummaryIsOneRow) {
       read(temp / "run/summary.csv"),
       "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,"
       "last_collision_s,energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,"
-      "momentum_drift_kg_m_per_s,max_overlap_m,max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by\n"
+      "momentum_drift_kg_m_per_s,max_overlap_m,max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by,"
+      "energy_absorbed_J\n"
       "r\xEF\xBF\xBD"
       "1,\"'=cmd|' /C calc'!A0, \"\"quoted\"\"\",exact,done,0.2,4,3,2,1,,0.125,51,50,1,0,-1e-17,2,3e-17,4,5,"
-      "18446744073709551615,0.75,0.5,region pocket\n");
+      "18446744073709551615,0.75,0.5,region pocket,0.25\n");
 }
 
 TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {
