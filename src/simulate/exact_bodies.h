@@ -86,6 +86,10 @@ struct ExactBodies {
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
   /// Whether body i's present flight is a curve of its own. A path of constrained motion is not.
   bool flies_on_curve(Entity i) const { return flights.curve(i) != nullptr && !is_constrained(i); }
+  /// The same, also where such a flight has just ended.
+  bool path_bends(Entity i) const {
+    return flies_on_curve(i) || (flies_in_steps(i) && !in_lasting_contact(i));
+  }
   /// Evaluates them again, if they vary with x (m) and v (m/s).
   void refresh(Entity i, const Vec3& x, const Vec3& v) {
     if (bent[i]) [[unlikely]]

@@ -162,8 +162,9 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   // Where nothing presses, an approach that is only rounding ends with this impact.
   const double held = holding(press, a, b);
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || held > 0;
-  // The approach begins by a change of forces.
-  const bool enters = met == 0 && w.dot(n) <= 0 && (bodies_.flies_on_curve(a) || bodies_.flies_on_curve(b));
+  // The approach begins by a change of forces, out of a motion side by side.
+  const double side_by_side = exact_tolerance::velocity_rounding * (va.norm() + vb.norm());
+  const bool enters = met == 0 && w.dot(n) <= side_by_side && (bodies_.path_bends(a) || bodies_.path_bends(b));
   const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
                     (real && parts_.collapses.count_impact(a, b, e, met, held, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
@@ -301,7 +302,7 @@ bool ExactImpacts::over_at_once(const FixedImpact& impact, double left) const {
 
 bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
-  if (unkicked == 0 && (approach > 0 || bodies_.flies_on_curve(i))) return true;
+  if (unkicked == 0 && (approach > 0 || bodies_.path_bends(i))) return true;
   const bool alone = flat && !parts_.collapses.among_bodies(i);
   const double held = holding(press, i, surface);
   if (parts_.collapses.count_impact(i, surface, e, unkicked, held, bodies_.world.radius[i], alone)) return true;
