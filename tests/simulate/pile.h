@@ -56,8 +56,10 @@ inline double energy_of_pile(const World& world, Simulator& simulator) {
 
 /// At these times only sliding bodies move, to the last bit, and nothing overlaps. Before, no overlap exceeds
 /// `deepest_ever` (m). The contact forces on each ball balance its weight, except for the share `unbalanced`.
+/// So many balls may glide, and one of a hundred: between balls at rest they bounce ever more slowly, without end.
 inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, const std::vector<double>& times,
-                                double deepest_ever = 1e-9, double unbalanced = 1e-9, double still = 0) {
+                                double deepest_ever = 1e-9, double unbalanced = 1e-9, double still = 0,
+                                int gliders = 0) {
   const World& world = problem.world;
   const Entity n = world.body_count(), floor = n;
   std::vector<Vec3> first;
@@ -66,7 +68,7 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
     const State& state = simulator.state();
     const std::vector<std::uint8_t> glides = gliding(world, simulator);
     EXPECT_LE(energy_of_pile(world, simulator), still) << t;
-    EXPECT_LE(std::count(glides.begin(), glides.end(), 1), n / 100) << t;
+    EXPECT_LE(std::count(glides.begin(), glides.end(), 1), gliders + static_cast<int>(n) / 100) << t;
     if (first.empty()) first = state.position;
     // A body stopped by linear drag is at the end of its path, to rounding.
     for (Entity a = 0; a < n; ++a) {
