@@ -230,8 +230,8 @@ void ConstrainedMotion::drop_striking(Step& step) const {
     return pairs[c].bilateral ? std::abs(speed) : speed;
   };
   const auto path_error = [&](std::size_t c) {  // m/s
-    return std::max(tol::drift * (step.v[pairs[c].a].norm() + rate(step.v, step.contacts.names[c].e).norm()),
-                    std::numeric_limits<double>::min());
+    const auto& [i, e, feature] = step.contacts.names[c];
+    return std::max(bodies_.drift_of(i, step.v[pairs[c].a], rate(step.v, e)), std::numeric_limits<double>::min());
   };
   // A pair that nothing has pressed together decides by its impact.
   step.slow.clear();

@@ -126,7 +126,7 @@ double ExactImpacts::holding(double press, Entity i, Entity e) const {
 /// rounding.
 bool ExactImpacts::move_as_one(Entity a, Entity b, double approach) const {
   return bodies_.is_constrained(a) && bodies_.is_constrained(b) &&
-         approach <= exact_tolerance::drift * (bodies_.velocity(a).norm() + bodies_.velocity(b).norm());
+         approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
 }
 
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
