@@ -174,7 +174,8 @@ TEST(ThreeBalls, PartAfterAtMostAsManyCollisionsAsTheReferenceFinds) {
       EXPECT_LE(found, most) << "e = " << e;
       EXPECT_GE(found, most / 2) << "e = " << e;
     } else {
-      EXPECT_GE(found, 40u) << "e = " << e;
+      // The end of a collapse: e^15 of the speeds are left.
+      EXPECT_GE(found, 30u) << "e = " << e;
     }
   }
 }
