@@ -171,6 +171,7 @@ class Bench {
 
   void settle_reference() {
     result_.rounding = reference_.rounding;
+    result_.inexact_islands = reference_.run.inexact_islands;
     result_.chaotic = reference_.chaotic;
     result_.horizon = reference_.horizon;
     if (reference_.ensemble) {

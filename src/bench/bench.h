@@ -39,6 +39,8 @@ struct BenchResult {
   SimulationMethod reference;
   Differences reference_error;     // an estimate (evidence.h)
   std::vector<Witness> witnesses;  // comparisons with other methods
+  /// Whether islands move along paths that are not exact: in that these methods are no witnesses of one another.
+  bool inexact_islands = false;
   /// In m: the greatest difference of runs in shifted coordinates, at any instant.
   double rounding = 0;
   bool chaotic = false;

@@ -33,6 +33,7 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
   }
   go_to(simulate.duration);
   run.tally = simulator->tally();
+  run.inexact_islands = simulator->effort().inexact_steps > 0 || run.tally.stepped_contact > 0;
   run.hash = hash_of(simulator->state(), run.tally);
   std::stable_sort(run.impacts.begin(), run.impacts.end(), [](const Impact& p, const Impact& q) {
     return std::tie(p.a, p.b, p.time) < std::tie(q.a, q.b, q.time);

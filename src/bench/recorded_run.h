@@ -25,8 +25,10 @@ struct RecordedRun {
   std::vector<State> states;  // at the requested instants
   /// Sorted by a, then b, then time.
   std::vector<Impact> impacts;
-  double duration = 0;     // s
-  Tally tally;             // of the whole run
+  double duration = 0;  // s
+  Tally tally;          // of the whole run
+  /// Whether islands moved along paths that are not exact. All engines but the book's move them by the same code.
+  bool inexact_islands = false;
   std::uint64_t hash = 0;  // of the result (state_hash.h)
   double cpu_s = 0;
 

@@ -81,6 +81,7 @@ class Making {
     } else {
       for (const RecordedRun& other : others) take_rounding(other);
     }
+    if (reference_.horizon > 0 && reference_.run.inexact_islands) take_smaller_steps();
     reference_.error = reference_.rounded;
     if (!(reference_.horizon > 0) || varying_force(world_) == nullptr) return;
     watch_.report_progress(0, "dop853");
@@ -90,6 +91,13 @@ class Making {
     } else {
       find_another(fine);
     }
+  }
+
+  /// Adds the effect of smaller step errors in islands to that of rounding.
+  void take_smaller_steps() {
+    SimulationMethod fine = reference_.method;
+    fine.steps.error = exact_tolerance::step_error / accuracy_tolerance::finer;
+    reference_.rounded = larger(reference_.rounded, reference_.off(world_, record(world_, scene_.initial, fine)));
   }
 
   /// Adds a run by dop853 as an independent check. One that takes too long or fails is left out.

@@ -40,8 +40,9 @@ struct Reference {
   /// In m: the greatest difference of shifted runs, at any instant.
   double rounding = 0;
   bool chaotic = false;
-  double horizon = 0;   // s: trajectories are compared until then
-  Differences rounded;  // the effect of rounding until then
+  double horizon = 0;  // s: trajectories are compared until then
+  /// The effect of rounding until then, and of smaller step errors in islands. All methods share it.
+  Differences rounded;
   /// The same. Of a stepped reference, also the effect of smaller step errors.
   Differences error;
   /// By dop853 where paths have closed forms. None: they are parabolas.

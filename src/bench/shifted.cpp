@@ -4,22 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
+#include "physics/places.h"
 #include "physics/world.h"
 
 namespace carom {
 
 World shifted(const World& world, const Vec3& by) {
   World moved = world;
-  for (Plane& plane : moved.planes) plane.point += by;
-  for (Wall& wall : moved.walls) wall.center += by;
-  for (Obstacle& obstacle : moved.obstacles) obstacle.center += by;
-  for (String& string : moved.strings) string.anchor += by;
-  for (Force& force : moved.forces) {
-    if (auto* spring = std::get_if<Spring>(&force.law)) spring->anchor += by;
-    if (auto* attractor = std::get_if<Attractor>(&force.law)) attractor->center += by;
-  }
+  for_each_place(moved, [&](Vec3& place) { place += by; });
   return moved;
 }
 

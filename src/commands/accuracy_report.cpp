@@ -23,9 +23,9 @@ Json finite_or_null(double value) {
 }
 
 std::string integrator_text(const Assessment& assessment) {
-  return assessment.integrator
-             ? fmt::format("{} at most, between runs with two step errors", quantity(*assessment.integrator, "m"))
-             : "closed forms: no step error";
+  if (!assessment.integrator) return "closed forms: no step error";
+  if (std::isnan(*assessment.integrator)) return "not known: a smaller step error changes nothing";
+  return fmt::format("{} at most, between runs with two step errors", quantity(*assessment.integrator, "m"));
 }
 
 std::string contact_text(const Assessment& assessment) {
@@ -54,7 +54,7 @@ Json json_of(const Assessment& assessment) {
   return {{"tolerance_m", assessment.tolerance},
           {"right_until_s", finite_or_null(assessment.right_until)},
           {"rounding_m", assessment.rounding},
-          {"integrator_m", assessment.integrator ? Json(*assessment.integrator) : Json(nullptr)},
+          {"integrator_m", assessment.integrator ? finite_or_null(*assessment.integrator) : Json(nullptr)},
           {"stepped_contact_s", assessment.stepped_contact},
           {"method_error_J", assessment.method_error},
           {"chaotic", assessment.growth.chaotic},

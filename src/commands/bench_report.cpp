@@ -33,9 +33,10 @@ std::string reference_text(const BenchResult& result) {
   if (!(result.horizon > 0)) return text;
   const bool disputed = !result.witnesses.empty() && !is_confirmed(result);
   const char* how = disputed ? "no other method agrees with it: its estimated error is"
-                    : result.reference.engine == Engine::exact           ? "rounding moves it by"
                     : result.reference.is_stepped_by(Integrator::dop853) ? "rounding and smaller step errors move it by"
-                                                                         : "doubled steps move it by";
+                    : result.reference.engine != Engine::exact           ? "doubled steps move it by"
+                    : result.inexact_islands                             ? "rounding and smaller step errors move it by"
+                                                                         : "rounding moves it by";
   return text +
          fmt::format("; {} {} and {} at most", how, quantity(error.position, "m"), quantity(error.velocity, "m/s"));
 }
@@ -47,7 +48,8 @@ std::string witnesses_text(const BenchResult& result) {
   for (const Witness& witness : result.witnesses)
     (witness.agrees ? agree : differ)
         .push_back(fmt::format("{} ({})", full_name_of(witness.method), quantity(witness.apart, "m")));
-  std::string text = agree.empty() ? "" : "in agreement: " + listed(agree, agree.size());
+  const char* where = result.inexact_islands ? "in agreement outside islands: " : "in agreement: ";
+  std::string text = agree.empty() ? "" : where + listed(agree, agree.size());
   if (differ.empty()) return text;
   if (!text.empty()) text += "; ";
   return text + "in disagreement: " + listed(differ, differ.size());
@@ -133,6 +135,9 @@ Json row_json(const BenchRow& row, bool chaotic) {
 void describe(Block& block, const PlannedScene& planned, const BenchResult& result) {
   block.line("reference", reference_text(result));
   if (result.horizon > 0) block.line("checked by", witnesses_text(result));
+  if (result.inexact_islands)
+    block.line("islands",
+               "no independent check: all methods move bodies in lasting contact and on strings by the same code");
   block.line("motion", motion_text(result));
   std::vector<Cells> rows = {heading(result)};
   for (const BenchRow& row : result.rows) rows.push_back(cells_of(row, result.chaotic));
@@ -148,6 +153,7 @@ Json bench_json(const BenchResult& result) {
   Json reference = method_json(result.reference);
   reference.update(errors_json(result.reference_error));
   reference["held_against"] = witnesses_json(result.witnesses);
+  reference["islands_unchecked"] = result.inexact_islands;
   Json json = {{"reference", reference},
                {"rounding_m", result.rounding},
                {"chaotic", result.chaotic},

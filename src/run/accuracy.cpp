@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "physics/force.h"
+#include "physics/places.h"
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
@@ -35,6 +38,13 @@ std::vector<double> instants_of(const Scene& scene, double end) {
   return instants;
 }
 
+struct TrackedRun {
+  Track track;
+  Tally tally;
+  /// Whether the error of its steps in islands is more than rounding.
+  bool inexact_islands = false;
+};
+
 /// Runs of one scene, sampled at the same instants.
 class Runs {
  public:
@@ -44,16 +54,16 @@ class Runs {
   Runs(const Scene& scene, const std::function<void()>& stop_check, double end)
       : scene_(scene), stop_check_(stop_check), instants_(instants_of(scene, end)) {}
 
-  /// `tally`: receives the run's sums, unless null.
-  Track track(const Simulate& way, const StepChoice& steps, double disturbance = 0, Tally* tally = nullptr) const {
-    if (disturbance == 0) return carry(scene_.world, scene_.initial, way, steps, tally);
+  TrackedRun track(const Simulate& way, const StepChoice& steps, double disturbance = 0) const {
+    if (disturbance == 0) return carry(scene_.world, scene_.initial, way, steps);
     const Perturbed other = perturbed(scene_.world, scene_.initial, disturbance);
-    return carry(other.world, other.initial, way, steps, tally);
+    return carry(other.world, other.initial, way, steps);
   }
   const std::vector<double>& instants() const { return instants_; }
 
   /// In m, by instant: the greatest distance so far between a body's positions in the two runs.
-  static std::vector<double> differences(const Track& a, const Track& b) {
+  static std::vector<double> differences(const TrackedRun& one, const TrackedRun& other) {
+    const Track &a = one.track, &b = other.track;
     std::vector<double> most;
     double greatest = 0;
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -64,19 +74,19 @@ class Runs {
   }
 
  private:
-  Track carry(const World& world, const State& initial, const Simulate& way, const StepChoice& steps,
-              Tally* tally) const {
+  TrackedRun carry(const World& world, const State& initial, const Simulate& way, const StepChoice& steps) const {
     const auto simulator = make_simulator(world, initial, way, {}, steps);
-    Track track;
+    TrackedRun run;
     for (const double time : instants_) {
       while (simulator->time() < time) {
         stop_check_();
         simulator->advance_to(time);
       }
-      track.push_back(simulator->state().position);
+      run.track.push_back(simulator->state().position);
     }
-    if (tally != nullptr) *tally = simulator->tally();
-    return track;
+    run.tally = simulator->tally();
+    run.inexact_islands = simulator->effort().inexact_steps > 0;
+    return run;
   }
 
   const Scene& scene_;
@@ -90,11 +100,13 @@ std::size_t within(const std::vector<double>& differences, double tolerance) {
   return static_cast<std::size_t>(beyond - differences.begin());
 }
 
-/// Steps with clearly smaller errors.
+/// Steps with clearly smaller errors. Where doubles have no smaller ones, clearly greater errors.
 StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps) {
-  if (way.engine == Engine::stepped && way.integrator == Integrator::dop853) {
-    steps.error = std::max((steps.error > 0 ? steps.error : exact_tolerance::step_error) / finer, finest_error);
-  } else {
+  if (way.engine != Engine::book) {
+    const double error = steps.error > 0 ? steps.error : exact_tolerance::step_error;
+    steps.error = error / finer >= finest_error ? error / finer : error * finer;
+  }
+  if (way.engine == Engine::book || (way.engine == Engine::stepped && way.integrator != Integrator::dop853)) {
     const double usual = way.engine == Engine::book ? 1.0 / 60 : default_step(scene.world, scene.initial);
     steps.length = 0.5 * steps.length.value_or(way.step.value_or(usual));
   }
@@ -111,7 +123,7 @@ class Settling {
     if (way_.engine == Engine::exact)
       settle_exact();
     else if (way_.integrator == Integrator::dop853)
-      settle_adaptive(tolerance_);
+      settle_adaptive(tolerance_, coarsest_error);
     else
       settle_fixed();
     return accuracy_;
@@ -127,18 +139,29 @@ class Settling {
     if (good < differences.size()) accuracy_.right_until = good > 0 ? runs_.instants()[good - 1] : 0;
   }
 
-  void settle_exact() { note(Runs::differences(runs_.track(way_, {}), runs_.track(way_, {}, disturbance))); }
+  void settle_exact() {
+    const TrackedRun run = runs_.track(way_, {});
+    if (run.inexact_islands)
+      settle_adaptive(tolerance_, exact_tolerance::step_error);
+    else
+      note(Runs::differences(run, runs_.track(way_, {}, disturbance)));
+  }
 
-  /// Returns the finer of the last two runs.
-  Track settle_adaptive(double tolerance) {
+  /// Begins with step errors of `coarsest` at most. Returns the finer of the last two runs.
+  TrackedRun settle_adaptive(double tolerance, double coarsest) {
     double least = std::numeric_limits<double>::infinity();  // m
     for (const double radius : scene_.world.radius) least = std::min(least, radius);
-    StepChoice steps{way_.step, std::clamp(first_share * tolerance / least, finest_error, coarsest_error)};
+    StepChoice steps{way_.step, std::clamp(first_share * tolerance / least, finest_error, coarsest)};
     for (;;) {
-      const Track coarse = runs_.track(way_, steps);
+      const TrackedRun coarse = runs_.track(way_, steps);
+      // In islands greater errors are none, so that a finer run would not show what they are.
+      if (coarse.inexact_islands && steps.error > exact_tolerance::step_error) {
+        steps.error = exact_tolerance::step_error;
+        continue;
+      }
       const bool finest = steps.error <= finest_error * finer;
       steps.error = std::max(steps.error / finer, finest_error);
-      Track fine = runs_.track(way_, steps, disturbance);
+      TrackedRun fine = runs_.track(way_, steps, disturbance);
       const std::vector<double> differences = Runs::differences(coarse, fine);
       accuracy_.steps = steps;
       note(differences);
@@ -155,7 +178,7 @@ class Settling {
     finer_way.integrator = Integrator::dop853;
     finer_way.step.reset();
     const Simulate own = std::exchange(way_, finer_way);
-    const Track reference = settle_adaptive(reference_share * tolerance_);
+    const TrackedRun reference = settle_adaptive(reference_share * tolerance_, coarsest_error);
     way_ = own;
     const std::size_t known = accuracy_.right_until < scene_.simulate.duration
                                   ? within(runs_.instants(), accuracy_.right_until)
@@ -232,10 +255,26 @@ void measure_growth(const std::vector<double>& instants, const std::vector<doubl
   if (growth.chaotic) growth.lyapunov_time = (instants[end] - instants[half]) / std::log(apart[end] / apart[half]);
 }
 
-/// The k-th number in [-1, -1/2] or [1/2, 1], from irrational steps around a circle.
-double irregular(double k) {
-  const double x = k * golden, fraction = x - std::floor(x);
+/// A number in [-1, -1/2] or [1/2, 1], from a fraction in [0, 1].
+double away_from_zero(double fraction) {
   return fraction < 0.5 ? fraction - 1 : fraction;
+}
+
+/// The k-th such number, from irrational steps around a circle.
+double irregular(double k) {
+  const double x = k * golden;
+  return away_from_zero(x - std::floor(x));
+}
+
+/// A place (m) with other last digits. Equal coordinates stay equal, and mirrored ones mirrored.
+Vec3 rounded_otherwise(Vec3 place) {
+  for (double& x : place) {
+    // Steps of the golden section around a circle, as many as the coordinate's bits say (Knuth, The Art of Computer
+    // Programming 3, 6.4).
+    const std::uint64_t turned = std::bit_cast<std::uint64_t>(std::abs(x)) * 0x9e3779b97f4a7c15;
+    x *= 1 + place_disturbance * away_from_zero(std::ldexp(static_cast<double>(turned), -64));
+  }
+  return place;
 }
 
 }  // namespace
@@ -247,6 +286,8 @@ Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double toleran
 
 Perturbed perturbed(const World& world, const State& initial, double share) {
   Perturbed other{world, initial};
+  for (Vec3& place : other.initial.position) place = rounded_otherwise(place);
+  for_each_place(other.world, [](Vec3& place) { place = rounded_otherwise(place); });
   double k = 0;
   for (Vec3& v : other.initial.velocity)
     for (double& component : v) component *= 1 + share * irregular(++k);
@@ -262,16 +303,18 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
   const double least = *std::min_element(scene.world.radius.begin(), scene.world.radius.end());
   assessment.tolerance = way.tolerance.value_or(default_tolerance * least);
   const Runs runs(scene, stop_check);
-  Tally tally;
-  const Track track = runs.track(way, engine.steps, 0, &tally);
-  assessment.stepped_contact = tally.stepped_contact;
-  assessment.method_error = tally.method_error;
-  std::vector<double> off = Runs::differences(track, runs.track(way, engine.steps, disturbance));
+  const TrackedRun run = runs.track(way, engine.steps);
+  assessment.stepped_contact = run.tally.stepped_contact;
+  assessment.method_error = run.tally.method_error;
+  std::vector<double> off = Runs::differences(run, runs.track(way, engine.steps, disturbance));
   assessment.rounding = off.back();
-  if (way.engine != Engine::exact && force_without_closed_form(scene.world) != nullptr) {
+  const bool inexact_flights = way.engine != Engine::exact && force_without_closed_form(scene.world) != nullptr;
+  if (inexact_flights || run.inexact_islands) {
     const std::vector<double> finer_off =
-        Runs::differences(track, runs.track(way, finer_steps(scene, way, engine.steps)));
-    assessment.integrator = finer_off.back();
+        Runs::differences(run, runs.track(way, finer_steps(scene, way, engine.steps)));
+    // Two runs that are the same to the last bit show no error.
+    const bool unknown = !inexact_flights && finer_off.back() == 0;
+    assessment.integrator = unknown ? std::numeric_limits<double>::quiet_NaN() : finer_off.back();
     for (std::size_t k = 0; k < off.size(); ++k) off[k] = std::max(off[k], finer_off[k]);
   }
   if (const std::size_t good = within(off, assessment.tolerance); good < off.size())

@@ -31,15 +31,16 @@ struct Accuracy {
 /// Finds the steps with which positions are within `tolerance` (m). `way`: its engine must be exact or stepped.
 /// - dop853: runs with ever smaller step errors, until one agrees with a finer one, which is then used.
 /// - integrators of fixed steps: steps are halved until a run agrees with that of dop853.
-/// - exact engine: only the effect of rounding is measured.
+/// - exact engine: the effect of rounding is measured. Where the paths of islands have no closed form, it proceeds as
+///   with dop853.
 /// Finer runs start with a perturbation of the size of rounding (perturbed()), so that no two runs agree by accident.
 /// `stop_check` is called between slices of the runs, and may throw. Throws SimulationError.
 Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
                          const std::function<void()>& stop_check);
 
-/// Carries a perturbation of 1e-12 along (Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9).
-/// The motion is chaotic if the perturbation grows faster than the third power of time all along.
-/// Growth is measured until the perturbation is as large as the bodies.
+/// Carries a perturbation of 1e-12, and of places by rounding, along (Benettin, Galgani, Giorgilli & Strelcyn,
+/// Meccanica 15 (1980) 9). The motion is chaotic if the perturbation grows faster than the third power of time all
+/// along. Growth is measured until the perturbation is as large as the bodies.
 Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps,
                  const std::function<void()>& stop_check);
 
@@ -51,7 +52,8 @@ struct Assessment {
   double right_until = std::numeric_limits<double>::infinity();
   /// In m: the effect of a perturbation by rounding on positions.
   double rounding = 0;
-  /// In m: the difference of two accuracies of steps. None: all paths have closed forms.
+  /// In m: the difference of two accuracies of steps. None: all paths have closed forms. NaN: not known, because a
+  /// smaller error of each step changes nothing, as where positions are rounded by more.
   std::optional<double> integrator{};
   double stepped_contact = 0;  // s, summed over bodies
   double method_error = 0;     // J: energy that lasting contact removed, besides impacts
@@ -62,8 +64,8 @@ struct Assessment {
 Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& stop_check);
 
 /// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves,
-/// each differently.
-/// Bodies at rest or in contact stay so.
+/// each differently, and all places by the rounding of their coordinates.
+/// Bodies at rest or in contact stay so, within what a start allows for rounding. Equal coordinates stay equal.
 struct Perturbed {
   World world;
   State initial;

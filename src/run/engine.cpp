@@ -36,6 +36,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.watch = request.recording.watch;
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
+  if (request.steps.error > 0) options.step_error = request.steps.error;
   return options;
 }
 
@@ -57,7 +58,6 @@ std::unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
   const Simulate& simulate = request.simulate;
   const StepChoice& steps = request.steps;
   ExactOptions options = exact_options(request);
-  if (steps.error > 0) options.step_error = steps.error;
   options.integrator = simulate.integrator;
   options.closed_forms = !steps.numerical;
   const std::optional<double> step = steps.length ? steps.length : simulate.step;
@@ -156,6 +156,8 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
         appended(engine.why, chooses_steps(way)
                                  ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
                                  : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+  else if (engine.steps.error > 0)
+    engine.why = appended(engine.why, fmt::format("step error in islands {:.1g} of a radius", engine.steps.error));
   const bool known = accuracy.right_until >= way.duration;
   if (accuracy.reached && known)
     engine.why =

@@ -16,11 +16,11 @@ struct World;
 
 struct Scene;
 
-/// The steps of the stepped engine.
+/// The steps of the stepped engine, and of islands.
 struct StepChoice {
   /// In s. For dop853 the longest step. None: determined by the forces, or adaptive.
   std::optional<double> length{};
-  /// For dop853, the error of each step, as a share of a radius and of speeds. 0: the default.
+  /// For dop853 and islands, the error of each step, as a share of a radius and of speeds. 0: the default.
   double error = 0;
   /// dop853 also follows paths that have closed forms, as a method independent of these.
   bool numerical = false;

@@ -91,6 +91,12 @@ bool ConstrainedMotion::count_change(const Step& step) const {
   return false;
 }
 
+/// Of the usual error of a step, the share that is asked for. What else counts as rounding is as much smaller, or a run
+/// with smaller errors would not show what it does. Contacts allow for no greater errors.
+double ConstrainedMotion::step_share() const {
+  return std::min(1.0, bodies_.options.step_error / tol::step_error);
+}
+
 bool ConstrainedMotion::advance(Entity i) {
   const Island& island = bodies_.islands.of(i);
   const bool undisturbed = island.constrained && bodies_.now == island.planned;
@@ -436,7 +442,8 @@ void ConstrainedMotion::drop_parting(Step& step) const {
 ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
-  ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied));
+  ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied),
+                           step_share() * tol::step_error);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const Entity e = step.contacts.names[c].e;
     if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
@@ -538,10 +545,11 @@ void ConstrainedMotion::fail_jammed(Entity i, double force) const {
 bool ConstrainedMotion::stop_parting(Step& step) const {
   std::vector<ContactConstraint> kept;
   bool parts = false;
+  const double rounding = step_share() * tol::velocity_rounding * step.fastest;  // m/s
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const double speed = p.normal.dot(rate(step.v, step.contacts.names[c].e) - step.v[p.a]);
-    parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
+    parts = parts || (p.force > 0 && speed > rounding);
     kept.push_back({p.a, p.b, p.normal});
     kept.back().bilateral = p.force > 0 || p.bilateral;
     kept.back().slack = p.slack;
@@ -613,6 +621,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   const bool all_rest = std::find(step.rests.begin(), step.rests.end(), 0) == step.rests.end();
   const double straight = all_rest ? step.length : system.straight_time(step.x, step.v, step.a);
   if (straight >= std::min(step.length, scales.time())) {
+    if (straight < never && !all_rest) ++inexact_steps_;
     step.length = std::min(step.length, straight);
     step.fade = all_rest ? 0 : std::max(system.common_fade(), 0.0);
     for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
@@ -625,6 +634,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
     return;
   }
   Island& island = bodies_.islands.of(step.members.front());
+  ++inexact_steps_;
   ConstrainedSystem::Followed followed = system.follow(step.x, step.v, step.a, island.next_length, step.length);
   step.length = followed.motion->length();
   island.next_length = followed.next;

@@ -32,6 +32,9 @@ class ConstrainedMotion {
   /// often, and nothing else has changed.
   bool advance(Entity i);
 
+  /// The number of steps so far along paths that are not exact, but for rounding.
+  std::uint64_t inexact_steps() const { return inexact_steps_; }
+
   /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
@@ -75,6 +78,7 @@ class ConstrainedMotion {
   };
 
   bool follows(Entity i) const;
+  double step_share() const;
   bool count_change(const Step& step) const;
   void take_in_touching(Entity i);
   Step begin_step(std::vector<Entity> members) const;
@@ -122,6 +126,7 @@ class ConstrainedMotion {
   FlightChanges& flights_;
   EventPredictor& predictor_;
   LazyArray<Following> following_;  // by body
+  std::uint64_t inexact_steps_ = 0;
 };
 
 }  // namespace carom

@@ -86,9 +86,11 @@ double greatest_norm(const std::vector<Vec3>& v) {
 }  // namespace
 
 ConstrainedSystem::ConstrainedSystem(const World& world, double time, std::vector<Entity> members,
-                                     std::vector<Applied> applied)
+                                     std::vector<Applied> applied, double step_error)
     : world_(world),
       time_(time),
+      step_error_(step_error),
+      rounding_(0x1p-53 * (step_error / tol::step_error)),
       members_(std::move(members)),
       applied_(std::move(applied)),
       left_(members_.size(), 0) {
@@ -259,7 +261,7 @@ std::vector<double> ConstrainedSystem::place_roundings(const std::vector<Vec3>& 
     double sum = 0;  // m
     for (int axis = 0; axis < 3; ++axis)
       if (v[k][axis] != 0 || a[k][axis] != 0) sum += std::abs(x[k][axis]);
-    roundings.push_back(0x1p-53 * sum);
+    roundings.push_back(rounding_ * sum);
   }
   return roundings;
 }
@@ -269,7 +271,7 @@ double ConstrainedSystem::distance_rounding(const std::vector<double>& of_places
                                             Entity e) const {
   if (row.b != ContactConstraint::fixed) return of_places[row.a] + of_places[row.b];
   const Carrier* const carrier = carrier_of(e);
-  return of_places[row.a] + (carrier == nullptr ? 0 : 0x1p-53 * carrier->x.cwiseAbs().sum());
+  return of_places[row.a] + (carrier == nullptr ? 0 : rounding_ * carrier->x.cwiseAbs().sum());
 }
 
 /// The acceleration by a contact's force of its two members relative to one another (m/s^2).
@@ -284,9 +286,9 @@ double ConstrainedSystem::reaction(const ContactConstraint& row) const {
 /// The force turns by the way over the radius. Parabolas then miss load (w t^3 / 6 + a t^4 / 24) / bend, with the
 /// acceleration `load` (m/s^2) by the force, however small w and a are. That must be a small share of the way itself,
 /// because the motion away from an equilibrium grows in proportion to it, or half the rounding of positions (m).
-double ConstrainedSystem::turning_time(double load, double bend, double w, double a, double rounding) {
+double ConstrainedSystem::turning_time(double load, double bend, double w, double a, double rounding) const {
   if (!(load * (w + a) > 0)) return never;
-  const double share = std::sqrt(6 * tol::step_error * bend / load);
+  const double share = std::sqrt(6 * step_error_ * bend / load);
   double rounded = never;
   if (w > 0) rounded = cube_root(3 * rounding * bend / (load * w));
   if (a > 0) rounded = std::min(rounded, std::sqrt(std::sqrt(12 * rounding * bend / (load * a))));
@@ -308,7 +310,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::v
       if (is_flat(world_, i, e, feature)) continue;
 
       const double bend = bend_radius(world_, i, e);
-      const double room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
+      const double room = step_error_ * smaller_radius(world_, contacts[c]) * bend;
       const double w = relative_velocity(v, rows[c], e).norm();
       const double pull = relative(a, rows[c]).norm();
       const double bent = pull + w * w / bend;
@@ -328,7 +330,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::v
   for (const Entity i : members_) length = std::min(length, world_.radius[i]);
   // m/s^3, an upper bound: the effect of drag on forces in flat contacts.
   const double jerk = greatest_fade() * greatest_norm(a);
-  return jerk > 0 ? std::min(h, cube_root(6 * tol::step_error * length / jerk)) : h;
+  return jerk > 0 ? std::min(h, cube_root(6 * step_error_ * length / jerk)) : h;
 }
 
 /// The errors that a step may have: shares of the motion itself, as far as rounding allows. Near an equilibrium speeds
@@ -373,9 +375,9 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<V
   if (const double fade = greatest_fade(); fade > 0) gained = std::min(gained, pull / fade);
 
   const double place = *std::max_element(roundings.begin(), roundings.end());
-  const double speed = tol::step_error * left * std::max(fastest, gained);
-  return {std::max(tol::step_error * left * width, place),
-          std::max({speed, rounded, 0x1p-53 * greatest_norm(v), 0x1p-900})};
+  const double speed = step_error_ * left * std::max(fastest, gained);
+  return {std::max(step_error_ * left * width, place),
+          std::max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
 }
 
 /// The longest step (s) in which no member comes to more than half of its way to an attractor.
@@ -425,7 +427,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
   start.resize(a.size() + carriers_.size(), Vec3::Zero());
   auto motion =
       std::make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
-  const double rounded = 0x1p-53 * greatest_norm(v);  // m/s
+  const double rounded = rounding_ * greatest_norm(v);  // m/s
   const auto step = [&](double length) {
     return motion->step(length, smooth, std::max(allowed_.place, length * rounded), allowed_.speed);
   };

@@ -24,8 +24,10 @@ class ConstrainedSystem {
     double fade;
     bool bent;  // the forces have no closed form
   };
-  /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object.
-  ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied);
+  /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object. step_error:
+  /// of a step, and of parabolas on curved surfaces, as a share of the least radius and of speeds.
+  ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied,
+                    double step_error);
 
   /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never
   /// opens.
@@ -105,7 +107,7 @@ class ConstrainedSystem {
                                       const std::vector<Vec3>& a) const;
   double distance_rounding(const std::vector<double>& of_places, const ContactConstraint& row, Entity e) const;
   double reaction(const ContactConstraint& row) const;
-  static double turning_time(double load, double bend, double w, double a, double rounding);
+  double turning_time(double load, double bend, double w, double a, double rounding) const;
   Allowed allowed_errors(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
   double within_reach(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
   std::vector<Vec3> forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
@@ -126,7 +128,11 @@ class ConstrainedSystem {
   Opened classify_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
 
   const World& world_;
-  const double time_;  // s
+  const double time_;        // s
+  const double step_error_;  // a share of the least radius and of speeds
+  // A share of coordinates and speeds: an error that counts as rounding. It is as much smaller in a run with smaller
+  // errors of steps, because what it does would else be the same in both.
+  const double rounding_;
   std::vector<Entity> members_;
   std::vector<Applied> applied_;
   std::vector<double> inverse_mass_;  // 1/kg

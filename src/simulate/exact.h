@@ -23,7 +23,8 @@ struct ExactOptions {
   Integrator integrator = Integrator::dop853;
   // s: with dop853 the longest step; steps of other methods end at its multiples.
   double step = std::numeric_limits<double>::infinity();
-  double step_error = exact_tolerance::step_error;  // of dop853, as a share of a radius and of speeds
+  // Of dop853, as a share of a radius and of speeds. In islands it is never greater than the default.
+  double step_error = exact_tolerance::step_error;
   // false: dop853 computes all flights that bend.
   bool closed_forms = true;
   bool merge = false;             // bodies that meet become one

@@ -358,6 +358,7 @@ Effort ExactSimulator::effort() const {
   Effort effort = effort_;
   effort.pair_tests = predictor_.pair_tests();
   effort.surface_tests = predictor_.surface_tests();
+  effort.inexact_steps = constrained_.inexact_steps();
   effort.next = queue_.first_time();
   return effort;
 }

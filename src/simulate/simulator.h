@@ -19,10 +19,12 @@ namespace carom {
 
 /// The work of a simulator so far. Results do not depend on it.
 struct Effort {
-  std::uint64_t pair_tests = 0;                           // computed times of impact of pairs of bodies
-  std::uint64_t surface_tests = 0;                        // computed times of impact of bodies and fixed surfaces
-  std::uint64_t events = 0;                               // taken from the queue
-  std::uint64_t regions = 0;                              // bodies that left their region, a part of the events
+  std::uint64_t pair_tests = 0;     // computed times of impact of pairs of bodies
+  std::uint64_t surface_tests = 0;  // computed times of impact of bodies and fixed surfaces
+  std::uint64_t events = 0;         // taken from the queue
+  std::uint64_t regions = 0;        // bodies that left their region, a part of the events
+  // Steps of islands along paths with an error beyond rounding, which a smaller error of each step reduces.
+  std::uint64_t inexact_steps = 0;
   double next = std::numeric_limits<double>::infinity();  // s, time of the next event; infinite: there is none
 };
 

@@ -191,6 +191,8 @@ inline constexpr double places_kept = 1e6;
 inline constexpr double golden = 0.6180339887498949;
 // Share of speeds and masses: disturbance of a finer run by rounding.
 inline constexpr double disturbance = 0x1p-50;
+// Share of coordinates: the same. Contact of flat surfaces allows twice as much for two places (flat_rounding).
+inline constexpr double place_disturbance = 0x1p-51;
 // Share of a radius and of speeds: error of a step, so that its estimate holds.
 inline constexpr double coarsest_error = 1e-6;
 // The same: rounding.

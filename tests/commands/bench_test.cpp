@@ -31,6 +31,26 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
   return rows;
 }
 
+TEST(BenchCommand, SaysThatNothingIndependentChecksIslands) {
+  const Workplace here;
+  here.write("balls.yaml", R"(scene: 1
+gravity: [0, -9.75, 0]
+restitution: 0
+balls: {b: {mass: 1, radius: 0.25, position: [1.0e-3, 1, 0]}}
+obstacles: {o: {radius: 0.75, position: [0, 0, 0]}}
+simulate: {duration: 3}
+)");
+  const Finished run = here.carom(quick);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("exact; rounding and smaller step errors move it by"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  islands     no independent check: all methods move bodies in lasting contact"),
+            std::string::npos)
+      << run.out;
+  EXPECT_EQ(run.out.find("in agreement: "), std::string::npos) << run.out;
+  const Json json = Json::parse(here.carom(with(quick, {"--json", "--force"})).out);
+  EXPECT_TRUE(json.at("scenes").at(0).at("reference").at("islands_unchecked")) << json;
+}
+
 TEST(BenchCommand, WritesATableAPlotAndAManifest) {
   const Workplace here;
   here.write("balls.yaml", two_balls());

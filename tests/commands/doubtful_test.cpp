@@ -104,5 +104,23 @@ TEST(Accuracy, CheckReportsTheErrorAndItsParts) {
   EXPECT_FALSE(accuracy.at("chaotic"));
 }
 
+TEST(Accuracy, CheckComparesStepErrorsWhereIslandsHaveThem) {
+  const Workplace here;
+  const std::string swing = R"(scene: 1
+gravity: [0, -9.75, 0]
+balls: {b: {mass: 1, radius: 0.05, position: ['= sin(10)', '= -cos(10)', 0]}}
+strings: {s: {from: [0, 0, 0], to: b}}
+simulate: {duration: 5}
+)";
+  here.write("swing.yaml", swing);
+  const Finished check = here.carom({"check", "swing.yaml", "--accuracy"});
+  EXPECT_NE(check.out.find("m at most, between runs with two step errors"), std::string::npos) << check.out;
+  here.write("slack.yaml", std::string(swing)
+                               .replace(swing.find("duration: 5"), 11, "duration: 0.3")
+                               .replace(swing.find("to: b"), 5, "to: b, length: 2"));
+  const Finished slack = here.carom({"check", "slack.yaml", "--accuracy"});
+  EXPECT_NE(slack.out.find("closed forms: no step error"), std::string::npos) << slack.out;
+}
+
 }  // namespace
 }  // namespace carom::testing

@@ -1,8 +1,8 @@
 #pragma once
-// Balls in lasting contact without friction, by an independent method. Lagrange multipliers of the pressing contacts,
-// dense, in 64-bit mantissas, give the accelerations. Extrapolated midpoint steps of order 16 follow them (Hairer,
-// Norsett & Wanner, Solving Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier
-// vanishes. The motion ends before one closes.
+// Balls in lasting contact without friction, and on strings and rods, by an independent method. Lagrange multipliers of
+// the pressing contacts, dense, in 64-bit mantissas, give the accelerations. Extrapolated midpoint steps of order 16
+// follow them (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 1993, II.9). A contact opens where
+// its multiplier vanishes. The motion ends before one closes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,15 +18,30 @@ class ConstrainedReference {
   using Real = long double;
   using Vec = Eigen::Matrix<Real, 3, 1>;
   static constexpr int floor = -1;  // y >= 0; -2 - k: fixed globe k
+  static constexpr int none = -1;
 
   struct Globe {
     Vec3 center;    // m
     double radius;  // m
   };
+  struct Flat {
+    Vec3 point, normal;  // m, unit: to the free side
+  };
+  /// A string at its full length, or a rod.
+  struct Tie {
+    std::size_t body;
+    int other = none;            // the other body, or the anchor
+    Vec3 anchor = Vec3::Zero();  // m
+    bool rod = false;
+  };
   std::vector<double> mass, radius;  // kg, m
   std::vector<Vec3> start, force;    // m; m/s^2, what acts on each, gravity included
+  std::vector<Vec3> velocity{};      // m/s, at the start, along all contacts and ties; empty: at rest
   std::vector<Globe> globes;
+  std::vector<Flat> flats{};
+  std::vector<Tie> ties{};
   bool has_floor = true;
+  Vec3 origin = Vec3::Zero();  // m: a place near all others, from which they are computed
 
   struct Motion {
     std::vector<Vec3> x, v;    // m, m/s, at `time`
@@ -34,12 +49,15 @@ class ConstrainedReference {
     std::size_t openings = 0;  // until then
   };
 
-  /// From rest on for `duration` (s), or until shortly before a contact closes, in steps of `step` (s).
+  /// From the start on for `duration` (s), or until shortly before a contact closes or a string goes slack, in steps of
+  /// `step` (s).
   Motion follow(double duration, double step) {
     const std::size_t n = mass.size();
     x_.clear();
-    for (const Vec3& at : start) x_.push_back(at.cast<Real>());
+    for (const Vec3& at : start) x_.push_back(from_origin(at));
     v_.assign(n, Vec::Zero());
+    for (std::size_t k = 0; k < velocity.size(); ++k) v_[k] = velocity[k].cast<Real>();
+    near_ = std::max<Real>(1e-12L, 0x1p-47L * origin.cwiseAbs().sum());
     find_rows();
     press();
     Motion motion;
@@ -52,7 +70,7 @@ class ConstrainedReference {
         h = find_opening(x, v, h);
         motion.openings += open();
       }
-      if (closes()) {
+      if (closes() || slackens()) {
         x_ = x;
         v_ = v;
         break;
@@ -61,7 +79,7 @@ class ConstrainedReference {
     }
     motion.time = static_cast<double>(time);
     for (std::size_t k = 0; k < n; ++k) {
-      motion.x.push_back(x_[k].cast<double>());
+      motion.x.push_back((x_[k] + origin.cast<Real>()).cast<double>());
       motion.v.push_back(v_[k].cast<double>());
     }
     return motion;
@@ -73,21 +91,39 @@ class ConstrainedReference {
     std::size_t a;
     int b;
     bool presses = false;
+    int flat = none, tie = none;
   };
   struct Bend {
     Vec n;           // from a to b
     Real gap, bend;  // m; m/s^2, of the gap
   };
 
+  Vec from_origin(const Vec3& place) const { return place.cast<Real>() - origin.cast<Real>(); }
+  static Bend bend_along(const Vec& d, const Vec& w, Real sum) {
+    const Real size = d.norm(), along = d.dot(w) / size;
+    return {d / size, size - sum, (w.squaredNorm() - along * along) / size};
+  }
+
   Bend bend_of(const Row& row, const std::vector<Vec>& x, const std::vector<Vec>& v) const {
+    if (row.tie != none) {
+      const Tie& tie = ties[static_cast<std::size_t>(row.tie)];
+      const bool anchored = tie.other == none;
+      const auto other = static_cast<std::size_t>(tie.other);
+      const Vec d = (anchored ? from_origin(tie.anchor) : x[other]) - x[row.a];
+      const Bend at = bend_along(d, anchored ? Vec(-v[row.a]) : Vec(v[other] - v[row.a]), 0);
+      return {-at.n, 0, -at.bend};
+    }
+    if (row.flat != none) {
+      const Flat& flat = flats[static_cast<std::size_t>(row.flat)];
+      const Vec n = flat.normal.cast<Real>();
+      return {-n, n.dot(x[row.a] - from_origin(flat.point)) - radius[row.a], 0};
+    }
     if (row.b == floor) return {Vec(0, -1, 0), x[row.a].y() - radius[row.a], 0};
     const bool body = row.b >= 0;
     const auto b = static_cast<std::size_t>(body ? row.b : -2 - row.b);
-    const Vec d = (body ? x[b] : Vec(globes[b].center.cast<Real>())) - x[row.a];
+    const Vec d = (body ? x[b] : from_origin(globes[b].center)) - x[row.a];
     const Vec w = body ? Vec(v[b] - v[row.a]) : Vec(-v[row.a]);
-    const Real size = d.norm(), along = d.dot(w) / size;
-    const Real sum = static_cast<Real>(radius[row.a]) + (body ? radius[b] : globes[b].radius);
-    return {d / size, size - sum, (w.squaredNorm() - along * along) / size};
+    return bend_along(d, w, static_cast<Real>(radius[row.a]) + (body ? radius[b] : globes[b].radius));
   }
 
   void find_rows() {
@@ -98,6 +134,11 @@ class ConstrainedReference {
       for (int b = a + 1; b < n; ++b) rows_.push_back({i, b});
       if (has_floor) rows_.push_back({i, floor});
       for (int k = 0; k < static_cast<int>(globes.size()); ++k) rows_.push_back({i, -2 - k});
+      for (int k = 0; k < static_cast<int>(flats.size()); ++k) rows_.push_back({i, none, false, k});
+    }
+    for (int k = 0; k < static_cast<int>(ties.size()); ++k) {
+      const Tie& tie = ties[static_cast<std::size_t>(k)];
+      rows_.push_back({tie.body, tie.other, true, none, k});
     }
   }
 
@@ -172,7 +213,7 @@ class ConstrainedReference {
   void press() {
     std::vector<std::size_t> closed;
     for (std::size_t c = 0; c < rows_.size(); ++c)
-      if (std::abs(bend_of(rows_[c], x_, v_).gap) < 1e-12L) closed.push_back(c);
+      if (rows_[c].tie == none && std::abs(bend_of(rows_[c], x_, v_).gap) < near_) closed.push_back(c);
     std::vector<Real> y(rows_.size(), 0);
     for (;;) {
       const std::vector<Vec> a = accelerate(x_, v_);
@@ -190,10 +231,10 @@ class ConstrainedReference {
         const std::vector<Real> z = multipliers(set, x_, v_);
         Real share = 1;
         for (std::size_t k = 0; k < set.size(); ++k)
-          if (z[k] <= 0) share = std::min(share, y[set[k]] / (y[set[k]] - z[k]));
+          if (z[k] <= 0 && rows_[set[k]].tie == none) share = std::min(share, y[set[k]] / (y[set[k]] - z[k]));
         for (std::size_t k = 0; k < set.size(); ++k) {
           y[set[k]] += share * (z[k] - y[set[k]]);
-          if (share < 1 && y[set[k]] <= 1e-18L) {
+          if (share < 1 && y[set[k]] <= 1e-18L && rows_[set[k]].tie == none) {
             rows_[set[k]].presses = false;
             y[set[k]] = 0;
           }
@@ -241,13 +282,14 @@ class ConstrainedReference {
     v_ = vs.back();
   }
 
-  /// The least multiplier, relative to the greatest one. Below 0 a contact pulls.
+  /// The least multiplier of a contact, relative to the greatest one. Below 0 it pulls.
   Real pull() const {
-    const std::vector<Real> y = multipliers(pressing(), x_, v_);
+    const std::vector<std::size_t> set = pressing();
+    const std::vector<Real> y = multipliers(set, x_, v_);
     Real least = 0, greatest = 0;
-    for (const Real of : y) {
-      least = std::min(least, of);
-      greatest = std::max(greatest, std::abs(of));
+    for (std::size_t k = 0; k < set.size(); ++k) {
+      if (rows_[set[k]].tie == none) least = std::min(least, y[k]);
+      greatest = std::max(greatest, std::abs(y[k]));
     }
     return greatest > 0 ? least / greatest : 0;
   }
@@ -275,7 +317,7 @@ class ConstrainedReference {
         std::abs(*std::max_element(y.begin(), y.end(), [](Real p, Real q) { return std::abs(p) < std::abs(q); }));
     std::size_t opened = 0;
     for (std::size_t c = 0; c < set.size(); ++c)
-      if (y[c] < 0.5L * tiny * greatest) {
+      if (y[c] < 0.5L * tiny * greatest && rows_[set[c]].tie == none) {
         rows_[set[c]].presses = false;
         ++opened;
       }
@@ -285,11 +327,21 @@ class ConstrainedReference {
   /// Whether an overlap has formed without a pressing contact.
   bool closes() const {
     return std::any_of(rows_.begin(), rows_.end(),
-                       [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -1e-13L; });
+                       [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -0.1L * near_; });
+  }
+
+  bool slackens() const {
+    const std::vector<std::size_t> set = pressing();
+    const std::vector<Real> y = multipliers(set, x_, v_);
+    for (std::size_t k = 0; k < set.size(); ++k)
+      if (const int tie = rows_[set[k]].tie; tie != none && !ties[static_cast<std::size_t>(tie)].rod && y[k] < 0)
+        return true;
+    return false;
   }
 
   std::vector<Vec> x_, v_;
   std::vector<Row> rows_;
+  Real near_ = 0;  // m: a gap that counts as contact at the start
 };
 
 }  // namespace carom
