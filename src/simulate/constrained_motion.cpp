@@ -230,36 +230,26 @@ double ConstrainedMotion::load_of(const Step& step) const {
 
 /// Drops the pairs that are about to strike: they approach too fast for the force that pressed them together last.
 void ConstrainedMotion::drop_striking(Step& step) const {
-  std::vector<ContactConstraint>& pairs = step.contacts.pairs;
-  const auto approach_of = [&](std::size_t c) {
-    const double speed = pairs[c].normal.dot(step.v[pairs[c].a] - rate(step.v, step.contacts.names[c].e));
-    return pairs[c].bilateral ? std::abs(speed) : speed;
-  };
-  const auto path_error = [&](std::size_t c) {  // m/s
-    const auto& [i, e, feature] = step.contacts.names[c];
-    return std::max(bodies_.drift_of(i, step.v[pairs[c].a], rate(step.v, e)), std::numeric_limits<double>::min());
-  };
-  // A pair that nothing has pressed together decides by its impact.
-  step.slow.clear();
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const auto& [i, e, feature] = step.contacts.names[c];
-    const double of_e = pairs[c].b == ContactConstraint::fixed ? 0 : step.inverse_mass[pairs[c].b];
-    const double press = group_.pressing_force(i, e) * (step.inverse_mass[pairs[c].a] + of_e);  // m/s^2
+  ContactList& contacts = step.contacts;
+  for (std::size_t c = 0; c < contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = contacts.pairs[c];
+    const auto& [i, e, feature] = contacts.names[c];
+    const double of_e = p.b == ContactConstraint::fixed ? 0 : step.inverse_mass[p.b];
+    const double press = group_.pressing_force(i, e) * (step.inverse_mass[p.a] + of_e);  // m/s^2
+    // A pair that nothing has pressed together decides by its impact. An error of paths is none.
     const bool pressed = press > tol::curve_rounding * step.greatest;
     const double slow = pressed ? bodies_.slow_speed(press, bodies_.smaller_length(i, e)) : 0;
-    step.slow.push_back(std::max(slow, path_error(c)));
+    const double errors = bodies_.drift_of(i, step.v[p.a], rate(step.v, e));
+    contacts.slow[c] = std::max({slow, errors, std::numeric_limits<double>::min()});
   }
-  std::vector<double> kept;
-  step.contacts.drop_if(0, [&](std::size_t c) {
-    const auto& [i, e, feature] = step.contacts.names[c];
-    const Vec3& x = step.x[pairs[c].a];
-    const bool apart =
-        step.contacts.gaps[c] > tol::contact_rounding * (x.cwiseAbs().sum() + at(step.x, e).cwiseAbs().sum());
-    const bool strikes = !pairs[c].bilateral && group_.strikes(i, e, approach_of(c), step.slow[c], apart);
-    if (!strikes) kept.push_back(step.slow[c]);
-    return strikes;
+
+  contacts.drop_if(0, [&](std::size_t c) {
+    const ContactConstraint& p = contacts.pairs[c];
+    const auto& [i, e, feature] = contacts.names[c];
+    const double approach = p.normal.dot(step.v[p.a] - rate(step.v, e));
+    const double rounding = tol::contact_rounding * (step.x[p.a].cwiseAbs().sum() + at(step.x, e).cwiseAbs().sum());
+    return !p.bilateral && group_.strikes(i, e, approach, contacts.slow[c], contacts.gaps[c] > rounding);
   });
-  step.slow = std::move(kept);
 }
 
 /// The pairs that touch.
@@ -402,7 +392,7 @@ void ConstrainedMotion::record_fast(const Step& step, std::vector<AbsorbedImpact
     const auto& [i, e, feature] = step.contacts.names[c];
     const bool presses = p.force > 0 || (p.bilateral && p.force < 0);
     const double slow = step.greatest > 0 ? bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)) : 0;
-    if (!(presses && impacts[c].approach > std::max(slow, step.slow[c]))) continue;
+    if (!(presses && impacts[c].approach > std::max(slow, step.contacts.slow[c]))) continue;
 
     const double sign = p.force < 0 ? -1 : 1;
     const CollisionKind kind = world.is_string(e) ? CollisionKind::string

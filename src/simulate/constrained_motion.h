@@ -60,7 +60,6 @@ class ConstrainedMotion {
     std::vector<Vec3> x, v;            // m and m/s, by member
     std::vector<double> inverse_mass;  // 1/kg
     ContactList contacts;              // force: N, at the step's start
-    std::vector<double> slow;          // m/s, by contact: a faster approach is an impact of its own
     std::vector<Vec3> a;               // m/s^2, at the step's start
     double fastest = 0;                // m/s
     std::vector<std::uint8_t> rests;   // by member

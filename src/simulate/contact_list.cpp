@@ -16,12 +16,14 @@ void ContactList::clear() {
   pairs.clear();
   names.clear();
   gaps.clear();
+  slow.clear();
 }
 
 void ContactList::add(const ContactConstraint& pair, const Contact& name, double gap) {
   pairs.push_back(pair);
   names.push_back(name);
   gaps.push_back(gap);
+  slow.push_back(never);
 }
 
 void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const {

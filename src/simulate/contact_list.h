@@ -21,6 +21,8 @@ struct ContactList {
   std::vector<ContactConstraint> pairs;
   std::vector<Contact> names;  // of the pairs
   std::vector<double> gaps;    // m, of the pairs, at present
+  // m/s, of the pairs: a faster approach is an impact of its own.
+  std::vector<double> slow;
 
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
@@ -38,11 +40,13 @@ struct ContactList {
       if (drops(c)) continue;
       pairs[kept] = pairs[c];
       names[kept] = names[c];
+      slow[kept] = slow[c];
       gaps[kept++] = gaps[c];
     }
     pairs.resize(kept);
     names.resize(kept);
     gaps.resize(kept);
+    slow.resize(kept);
   }
 };
 
