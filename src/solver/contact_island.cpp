@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+
+#include "numerics/disjoint_sets.h"
 
 namespace carom {
 
@@ -57,6 +60,42 @@ void ContactIsland::scale() {
     speed = std::max(speed, std::abs(r.target));
     unilateral = unilateral && !r.bilateral;
   }
+}
+
+void ContactIsland::close_mass_gaps() {
+  // Beyond it a light body has no effect on a heavy one.
+  constexpr int widest = 60;
+  heavier.clear();
+  const auto [least, most] = std::minmax_element(inverse_mass.begin(), inverse_mass.end());
+  if (exponent_of(*most) - exponent_of(*least) <= widest) return;
+
+  std::vector<std::size_t> order(inverse_mass.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return inverse_mass[i] < inverse_mass[j]; });
+  heavier.assign(inverse_mass.size(), 0);
+  int shift = 0, last = exponent_of(inverse_mass[order.front()]);
+  for (const std::size_t k : order) {
+    const int exponent = exponent_of(inverse_mass[k]);
+    shift += std::max(exponent - last - widest, 0);
+    last = exponent;
+    heavier[k] = shift;
+    inverse_mass[k] = std::ldexp(inverse_mass[k], -shift);
+  }
+}
+
+std::vector<int> ContactIsland::force_exponents(const std::vector<DoubleDouble>& force) const {
+  if (heavier.empty()) return {};
+
+  // The heaviest of the bodies that forces connect decides.
+  DisjointSets sets(free.size());
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    if (force[c].hi != 0 && rows[c].moves_b()) sets.join(rows[c].a, rows[c].b);
+  std::vector<int> least(free.size(), std::numeric_limits<int>::max());  // by root
+  for (std::uint32_t k = 0; k < free.size(); ++k) least[sets.root(k)] = std::min(least[sets.root(k)], heavier[k]);
+  std::vector<int> exponents;
+  for (const Row& r : rows) exponents.push_back(-least[sets.root(r.a)]);
+  return exponents;
 }
 
 std::size_t ContactIsland::reach() const {

@@ -60,9 +60,17 @@ struct ContactIsland {
   double mass_ratio = 1;    // the heaviest over the lightest
   bool unilateral = true;   // no row is bilateral
 
+  // By body: log2 of its mass over the true one. Empty: all are true (close_mass_gaps).
+  std::vector<int> heavier{};
+
   std::size_t unknowns() const { return 3 * free.size(); }
   /// The effect of the data's rounding on a row of unit length times the motion.
   double noise_scale(const Row& r) const { return r.scale * (std::abs(r.target) + (r.moves_b() ? 2 : 1) * speed); }
+  /// Makes light bodies heavier by powers of two, until no gap between the masses of two bodies is more than 2^60. What
+  /// is lighter by that changes no digit of a heavier body's motion, and rows of such bodies no longer look alike.
+  void close_mass_gaps();
+  /// By row: log2 of the true force over the one here; empty: 0. Forces that light bodies alone bear have their scale.
+  std::vector<int> force_exponents(const std::vector<DoubleDouble>& force) const;
   /// An estimate of the longest of the shortest paths between rows, in steps between rows that share a body.
   /// It is the distance between the row farthest from the first one and the row farthest from that.
   std::size_t reach() const;

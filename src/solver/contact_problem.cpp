@@ -207,6 +207,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }
   for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;
+  island.close_mass_gaps();
   island.scale();
 }
 
@@ -220,8 +221,11 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
       const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
       problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
     }
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    problem.contacts[contacts[k]].force = unit_of_force * solution.force[k].value();
+  const std::vector<int> exponents = island.force_exponents(solution.force);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const double force = unit_of_force * solution.force[k].value();
+    problem.contacts[contacts[k]].force = exponents.empty() ? force : std::ldexp(force, exponents[k]);
+  }
 }
 
 /// This function and solve_to_slack choose a method: the cheaper one, or orthogonal factors where masses are too

@@ -214,6 +214,46 @@ TEST(SlowImpacts, TwoHeavyBallsCloseInOnALightOneWithAllTheirBounces) {
   }
 }
 
+TEST(MassRatios, AHeavyBallFallsOnALightOneOfAnyMass) {
+  // The light one is struck from both sides until the heavy one rests on it. Its mass decides nothing.
+  for (const auto& [light, heavy] : {std::pair(1e-6, 1.0), std::pair(1e-20, 1.0), std::pair(1e-30, 1.0),
+                                     std::pair(1e-60, 1.0), std::pair(1.0, 1e60), std::pair(1e-60, 1e60)}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -9.8, 0);
+    problem.ball({0, 1, 0}, {0, 0, 0}, light, 0.1, 0.9);
+    problem.ball({0, 3, 0}, {0, 0, 0}, heavy, 0.1, 0.9);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    problem.options.duration = 2;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    const Outcome run = run_to_end(*simulator, 2);
+    EXPECT_NEAR(static_cast<double>(run.collisions.size()), 393, 1) << light << " " << heavy;
+    EXPECT_LT((run.end.position[0] - Vec3(0, 0.1, 0)).norm(), 1e-15) << light << " " << heavy;
+    EXPECT_LT((run.end.position[1] - Vec3(0, 0.3, 0)).norm(), 1e-15) << light << " " << heavy;
+    EXPECT_EQ(run.tally.doubtful, 0u);
+
+    ASSERT_EQ(simulator->contacts().size(), 2u);
+    for (const ContactForce& contact : simulator->contacts()) EXPECT_NEAR(contact.force / (9.8 * heavy), 1, 1e-5);
+  }
+}
+
+TEST(MassRatios, LightBodiesBesideHeavyOnesPressWithTheirOwnWeight) {
+  // A ball of 1e-50 kg on a plane touches one of 1 kg, and carries one of 3e-50 kg.
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9.8, 0);
+  problem.ball({0, 0.1, 0}, {0, 0, 0}, 1e-50, 0.1, 0);
+  problem.ball({0.2, 0.1, 0}, {0, 0, 0}, 1, 0.1, 0);
+  problem.ball({0, 0.3, 0}, {0, 0, 0}, 3e-50, 0.1, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.options.duration = 1;
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 1);
+  const Entity floor = 3;
+  for (const ContactForce& contact : simulator->contacts()) {
+    const double carried = contact.b == floor ? (contact.a == 0 ? 4e-50 : 1) : 3e-50;  // kg
+    EXPECT_NEAR(contact.force / (9.8 * carried), 1, 1e-12) << contact.a << " " << contact.b;
+  }
+}
+
 /// Two balls that touch nothing else, each on its own spring (N/m), stretched so that both are pulled alike at first.
 Problem on_two_springs(double x, double gap, double radius, double first, double second, double at_first) {
   Problem problem;
