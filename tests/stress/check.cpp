@@ -231,8 +231,9 @@ class Check {
     const double tick = std::nextafter(c.time, 1e300) - c.time;
     const Vec3 vb = body ? s.velocity[c.b] : fixed_velocity(world_, c.b, {c.time, 0});
     const double speed = s.velocity[c.a].norm() + vb.norm() + c.approach_speed;
-    // Collisions ended together by a collapse are in one place within a billionth of a radius.
-    const double place = c.separation_speed == 0 && c.restitution > 0 ? 1e-9 * world_.radius[c.a] : 0;
+    // Collisions that end together, by a collapse or as struck bodies pass them on, are in one place within a billionth
+    // of a radius.
+    const double place = c.separation_speed == 0 ? 1e-9 * world_.radius[c.a] : 0;
     if (!(std::abs(distance) <= paths_->allowed(c.a, c.b) + 2 * tick * speed + place))
       fail(what + "they are " + text(distance) + " m apart");
   }
