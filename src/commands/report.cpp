@@ -211,7 +211,8 @@ Json summary_json(const Summary& s) {
           {"frames", s.frames},
           {"stepped_contact_s", s.stepped_contact},
           {"removed_J", number_or_null(s.energy.removed)},
-          {"ended_by", s.ended_by}};
+          {"ended_by", s.ended_by},
+          {"energy_absorbed_J", number_or_null(s.contact.taken_up.energy)}};
 }
 
 Json warnings_json(const std::vector<Warning>& warnings) {
