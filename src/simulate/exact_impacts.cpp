@@ -160,11 +160,11 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
       if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, approach))
         return bounce_off(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is only rounding ends with this impact.
-  const double held = holding(press, a, b);
+  const double held = press > 0 || bodies_.islands.any() ? holding(press, a, b) : 0;
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || held > 0;
   // The approach begins by a change of forces, out of a motion side by side.
-  const double side_by_side = exact_tolerance::velocity_rounding * (va.norm() + vb.norm());
-  const bool enters = met == 0 && w.dot(n) <= side_by_side && (bodies_.path_bends(a) || bodies_.path_bends(b));
+  const auto side_by_side = [&] { return exact_tolerance::velocity_rounding * (va.norm() + vb.norm()); };
+  const bool enters = met == 0 && w.dot(n) <= side_by_side() && (bodies_.path_bends(a) || bodies_.path_bends(b));
   const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
                     (real && parts_.collapses.count_impact(a, b, e, met, held, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
