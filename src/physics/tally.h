@@ -39,6 +39,12 @@ struct RunEnd {
   std::uint32_t region = 0;  // of that reason
 };
 
+/// The greatest speed of a body.
+struct Fastest {
+  double speed = 0;         // m/s
+  Entity body = no_entity;  // no_entity: none has moved, or it was not recorded
+};
+
 /// A step of one length for all, in which forces on a body turn.
 struct StiffStep {
   double phase = 0;                         // rad, the angle
@@ -68,7 +74,7 @@ struct Tally {
   std::vector<double> force_work;
   StiffStep stiffest;         // that with the greatest angle, for a method with steps of one length
   double max_overlap = 0;     // m, deepest seen
-  double max_speed = 0;       // m/s, greatest seen
+  Fastest fastest;            // seen
   std::uint64_t resting = 0;  // bodies in resting contact
   // s, summed over bodies: lasting contact in time steps.
   double stepped_contact = 0;

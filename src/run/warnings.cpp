@@ -129,10 +129,10 @@ class Warnings {
           fmt::format("bodies are {:.3g} m from the origin, where doubles resolve positions to {:.2g} m: shorten "
                       "simulate.duration, or move the scene nearer to the origin",
                       farthest, place_rounding * farthest));
-    const double path = tally_.max_speed * summary_.duration;
+    const double path = tally_.fastest.speed * summary_.duration;
     if (place_rounding * path > place_resolution * size)
       add("speed", fmt::format("at {:.3g} m/s the clock resolves positions to {:.2g} m: shorten simulate.duration",
-                               tally_.max_speed, place_rounding * path));
+                               tally_.fastest.speed, place_rounding * path));
   }
 
   const Scene& scene_;

@@ -60,7 +60,7 @@ void ExactSimulator::start(const State& initial) {
     const Vec3& x = initial.position[i];
     if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
     bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
-    bodies_.log.note_speed(v.norm());
+    bodies_.note_speed(i, v);
   }
   bodies_.neighbours.start(initial.position);
   if (!bodies_.options.merge) {
