@@ -33,7 +33,7 @@ struct RecordedRun {
   double cpu_s = 0;
 
   /// In m/s: the limit below which collisions are bounces that die away. Their number differs between engines.
-  double least_speed() const { return 0.01 * tally.max_speed; }
+  double least_speed() const { return 0.01 * tally.fastest.speed; }
 };
 
 /// Runs from `initial` to simulate.duration, and samples at `instants` (s, ascending).

@@ -149,7 +149,7 @@ void FlightsFile::end(const Tally& tally) {
                                     tally.collapses, tally.resting, tally.taken_up.impacts})
     writer.put(count);
   for (const double value :
-       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed,
+       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.fastest.speed,
         tally.stepped_contact, tally.taken_up.fastest, tally.taken_up.energy})
     writer.put(value);
   file_->written(writer.end());
@@ -199,7 +199,7 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
     *count = take<std::uint64_t>();
   for (double* value :
        {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work, &tally_.max_overlap,
-        &tally_.max_speed, &tally_.stepped_contact, &tally_.taken_up.fastest, &tally_.taken_up.energy})
+        &tally_.fastest.speed, &tally_.stepped_contact, &tally_.taken_up.fastest, &tally_.taken_up.energy})
     *value = take<double>();
 
   at_ = end_ = 0;

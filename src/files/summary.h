@@ -25,7 +25,7 @@ struct EnergyTotals {
   double removed = 0;  // of bodies that regions have removed
   /// What neither impacts nor work account for: the error of the method, and rounding.
   double residual = 0;
-  /// A lower bound of the energy that changed its form: kinetic at both ends, potential, lost, work.
+  /// A lower bound of the energy that changed its form: kinetic at both ends or in between, potential, lost, work.
   double turnover = 0;
   std::vector<ForceWork> of_forces{};  // empty for a scene without forces
 };

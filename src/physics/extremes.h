@@ -16,19 +16,29 @@ struct WatchedQuantity {
   friend bool operator==(const WatchedQuantity&, const WatchedQuantity&) = default;
 };
 
-/// A value in the quantity's unit, and the first time at which it is taken (s). NaN: there is none.
+/// The extreme value in the quantity's unit, and the first time at which the quantity has it but for rounding (s). NaN:
+/// there is none.
 struct Extreme {
   double value = std::numeric_limits<double>::quiet_NaN();
   double time = std::numeric_limits<double>::quiet_NaN();
+  double then = std::numeric_limits<double>::quiet_NaN();  // the value at that time
+
+  /// Takes the value at a time (s) if it is beyond the extreme in this direction, 1 or -1. Only one that is beyond by
+  /// more than `rounding` has a later time.
+  void take(double direction, double other, double at, double rounding) {
+    const double beyond = direction * (other - value);
+    if (!(direction * (other - then) <= rounding) || (beyond >= -rounding && at < time)) time = at, then = other;
+    if (!(beyond <= 0)) value = other;
+  }
 };
 
 struct Extremes {
   Extreme least, greatest;
 
-  /// Takes the value at a time (s).
-  void take(double value, double time) {
-    if (!(value > least.value) && (value != least.value || time < least.time)) least = {value, time};
-    if (!(value < greatest.value) && (value != greatest.value || time < greatest.time)) greatest = {value, time};
+  /// Takes the value at a time (s). `rounding`: the error of values until then, in the quantity's unit.
+  void take(double value, double time, double rounding = 0) {
+    least.take(-1, value, time, rounding);
+    greatest.take(1, value, time, rounding);
   }
 };
 

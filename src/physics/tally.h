@@ -8,6 +8,7 @@
 
 #include "numerics/vec3.h"
 #include "physics/collision.h"
+#include "physics/entity.h"
 
 namespace carom {
 
@@ -38,6 +39,21 @@ struct RunEnd {
   std::uint32_t region = 0;  // of that reason
 };
 
+/// The greatest speed of a body.
+struct Fastest {
+  double speed = 0;         // m/s
+  Entity body = no_entity;  // no_entity: none has moved, or it was not recorded
+};
+
+/// A step of one length for all, in which forces on a body turn.
+struct StiffStep {
+  double phase = 0;                         // rad, the angle
+  double length = 0;                        // s
+  double time = 0;                          // s, of its start
+  Entity body = no_entity;                  // no_entity: there was no such step
+  Vec3 x = Vec3::Zero(), v = Vec3::Zero();  // m, m/s
+};
+
 struct Tally {
   std::uint64_t body_body = 0;   // collisions
   std::uint64_t body_fixed = 0;  // collisions
@@ -56,10 +72,9 @@ struct Tally {
   double work = 0;  // J, by the World's forces (gravity apart)
   // J, the part of each force in the work; empty: there are no forces, or it was not recorded.
   std::vector<double> force_work;
-  // rad: the greatest angle by which forces turn in one step, for a method with steps of one length.
-  double greatest_phase = 0;
+  StiffStep stiffest;         // that with the greatest angle, for a method with steps of one length
   double max_overlap = 0;     // m, deepest seen
-  double max_speed = 0;       // m/s, greatest seen
+  Fastest fastest;            // seen
   std::uint64_t resting = 0;  // bodies in resting contact
   // s, summed over bodies: lasting contact in time steps.
   double stepped_contact = 0;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -64,6 +65,14 @@ std::string ended_by(const Scene& scene, const Tally& tally) {
   return "";
 }
 
+/// A lower bound of the greatest kinetic energy of a run (J), so that one whose motion ends as it began has turned over
+/// energy too: that of the fastest body at its greatest speed.
+double greatest_kinetic(const World& world, const StoredEnergy& start, const StoredEnergy& end, const Tally& tally) {
+  const double at_ends = start.kinetic + end.kinetic;
+  const auto [speed, body] = tally.fastest;
+  return body == no_entity ? at_ends : std::max(at_ends, 0.5 * world.mass[body] * speed * speed);
+}
+
 }  // namespace
 
 StoredEnergy stored_energy(const Scene& scene, const State& state) {
@@ -95,11 +104,12 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.energy.removed = tally.removed.energy;
   summary.energy.residual =
       summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost + summary.energy.removed;
-  summary.energy.turnover = start.kinetic + last.kinetic + std::abs(last.potential - start.potential) +
-                            std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.removed.energy);
+  summary.energy.turnover = greatest_kinetic(scene.world, start, last, tally) +
+                            std::abs(last.potential - start.potential) + std::abs(tally.energy_lost) +
+                            std::abs(tally.work) + std::abs(tally.removed.energy);
   summary.momentum_drift = (momentum(scene.world, end) + tally.removed.momentum - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
-  summary.max_speed = tally.max_speed;
+  summary.max_speed = tally.fastest.speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
   summary.contact = {tally.merges, tally.tautened, tally.removed.bodies, tally.collapses, tally.taken_up};

@@ -9,6 +9,9 @@
 #include <variant>
 
 #include "physics/bounds.h"
+#include "physics/force.h"
+#include "physics/stability.h"
+#include "physics/world.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -21,6 +24,7 @@ constexpr double residual_share = 1e-3;
 constexpr double energy_rounding = 0x1p-40;
 /// In rad, of a step. Forces that turn faster are not resolved.
 constexpr double longest_phase = 1;
+constexpr double accurate_phase = 0.1;      // rad, of a step that is proposed
 constexpr double place_rounding = 0x1p-53;  // of coordinates
 /// Of the smallest size. The resolution that positions must have.
 constexpr double place_resolution = 1e-6;
@@ -71,13 +75,42 @@ class Warnings {
                               std::abs(residual) / energy.turnover, remedy()));
   }
 
+  /// Steps in which forces turn by more than a radian. The text has the stable step, which may be longer: rk4 then
+  /// takes the energy.
   void check_steps() {
-    if (!(tally_.greatest_phase > longest_phase)) return;
-    add("step",
-        fmt::format(
-            "forces turned by {:.3g} rad in a step, which resolves at most 1: use steps of at most {:.2g} s, or "
-            "`integrator: dop853`",
-            tally_.greatest_phase, *engine_.steps.length * 0.1 / tally_.greatest_phase));
+    const StiffStep& step = tally_.stiffest;
+    if (!(step.phase > longest_phase)) return;
+    const Integrator method = scene_.simulate.integrator;
+    LinearMode mode;
+    const double stable = stable_step(method, force_jacobian(scene_.world, step.body, step.time, step.x, step.v), mode);
+    std::string text = fmt::format("forces turned by {:.3g} rad in a step of {:.3g} s", step.phase, step.length);
+    if (const std::string stiff = stiffest_force(step); !stiff.empty())
+      text += fmt::format(", most by {} on `{}`", stiff, scene_.roster.name(step.body));
+    const double left = growth(method, mode, step.length);
+    if (step.length > stable)
+      text += fmt::format(", beyond stability: {} is stable up to {:.3g} s", name_of(method), stable);
+    else if (mode.damping == 0 && left < 0.995)
+      text += fmt::format(", stable up to {:.3g} s, but {} leaves {:.2g} of an amplitude in each step", stable,
+                          name_of(method), left);
+    add("step", text + fmt::format(": use steps of at most {:.2g} s, or `integrator: dop853`",
+                                   step.length * accurate_phase / step.phase));
+  }
+
+  /// The path in the scene of the force that changes fastest in a step; empty: none acts.
+  std::string stiffest_force(const StiffStep& step) const {
+    const World& world = scene_.world;
+    double greatest = 0;
+    std::string name;
+    for (std::size_t k = 0; k < world.forces.size(); ++k) {
+      if (!acts(world.forces[k], step.body, step.time)) continue;
+      const double rate = std::visit(
+          [&](const auto& law) {
+            return law.rate({step.x, step.v, world.mass[step.body]});
+          },
+          world.forces[k].law);
+      if (rate > greatest) greatest = rate, name = fmt::format("forces.{}.{}", k, name_of(world.forces[k].law));
+    }
+    return name;
   }
 
   void check_contact() {
@@ -96,10 +129,10 @@ class Warnings {
           fmt::format("bodies are {:.3g} m from the origin, where doubles resolve positions to {:.2g} m: shorten "
                       "simulate.duration, or move the scene nearer to the origin",
                       farthest, place_rounding * farthest));
-    const double path = tally_.max_speed * summary_.duration;
+    const double path = tally_.fastest.speed * summary_.duration;
     if (place_rounding * path > place_resolution * size)
       add("speed", fmt::format("at {:.3g} m/s the clock resolves positions to {:.2g} m: shorten simulate.duration",
-                               tally_.max_speed, place_rounding * path));
+                               tally_.fastest.speed, place_rounding * path));
   }
 
   const Scene& scene_;

@@ -87,7 +87,7 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       extremes_(options.watch.size()) {
   if (!world.strings.empty())
     throw SimulationError("the engine `book` has no strings: use `engine: exact`, or remove `strings`");
-  for (const Vec3& v : v_) log_.note_speed(v.norm());
+  for (Entity i = 0; i < world.body_count(); ++i) log_.note_speed(i, v_[i].norm());
   take_extremes();
 }
 
@@ -202,7 +202,7 @@ void BookSimulator::move() {
     if (!bounds_.hold(x_[i], v_[i]))
       fail_out_of_bounds(bounds_, i, frame_time(frames_), x_[i], v_[i],
                          {.speed = "use a smaller simulate.step, or engine: exact"});
-    log_.note_speed(v_[i].norm());
+    log_.note_speed(i, v_[i].norm());
     const Vec3 other = force_[i] - world_.mass[i] * world_.gravity;
     if (!other.isZero(0)) log_.add_work(0.5 * other.dot(before + v_[i]) * dt);
   }

@@ -748,7 +748,7 @@ void ConstrainedMotion::begin_flights(const Step& step) {
 /// Body i, member k of the step, leaves its island, falls asleep or continues. Returns whether it stays.
 bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) {
   const Vec3 &x = step.x[k], &v = step.v[k], before = bodies_.velocity(i);
-  bodies_.log.note_speed(before.norm());
+  bodies_.note_speed(i, before);
   bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
   const bool was_bound = following_[i].version == bodies_.body[i].version && following_[i].bound;
   if (step.bound[k] || was_bound) group_.needed.write(i) = bodies_.now;

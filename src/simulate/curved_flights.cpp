@@ -244,7 +244,8 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   const PolynomialPath* const last = bodies_.flights.curve(i);
   Vec3 ahead = last == nullptr ? Vec3(Vec3::Zero()) : last->ahead;
   const Vec3 own = v - ahead, a = acceleration(x, own);
-  if (bodies_.bent[i] || bodies_.fade[i] != 0) bodies_.log.note_phase(h * force_rate(bodies_.world, i, x, own));
+  if (bodies_.bent[i] || bodies_.fade[i] != 0)
+    bodies_.log.note_step({h * force_rate(bodies_.world, i, x, own), h, bodies_.now.hi, i, x, own});
   if (method == Integrator::rk4) {
     const auto [bend, change] = runge_kutta(h, x, v, a, acceleration);
     return PolynomialPath::through(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));

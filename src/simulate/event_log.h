@@ -60,9 +60,13 @@ class EventLog {
     force_work_[force].add(work);
     tally_.force_work[force] = force_work_[force].value();
   }
-  void note_speed(double speed) { tally_.max_speed = tally_.max_speed < speed ? speed : tally_.max_speed; }  // m/s
-  void note_phase(double phase) { tally_.greatest_phase = std::max(tally_.greatest_phase, phase); }  // rad, of a step
-  void note_overlap(double overlap) {                                                                // m
+  void note_speed(Entity i, double speed) {  // m/s
+    if (tally_.fastest.speed < speed) tally_.fastest = {speed, i};
+  }
+  void note_step(const StiffStep& step) {
+    if (tally_.stiffest.phase < step.phase) tally_.stiffest = step;
+  }
+  void note_overlap(double overlap) {  // m
     tally_.max_overlap = tally_.max_overlap < overlap ? overlap : tally_.max_overlap;
   }
   /// Counts bodies that come to rest on a thing, and bodies that leave it.

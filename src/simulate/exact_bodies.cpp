@@ -73,6 +73,20 @@ void ExactBodies::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
   apply(i, {free_acceleration(world, i, now.hi, x, v), 0});
 }
 
+/// Euler's method has another velocity than its path.
+void ExactBodies::note_greatest_speed(Entity i, const Vec3& v) {
+  const PolynomialPath* const curve = flights.curve(i);
+  log.note_speed(i, curve == nullptr ? v.norm() : (v - curve->ahead).norm());
+}
+
+VelocityBeyond ExactBodies::beyond_curve(Entity i, const Flight& f, double length) const {
+  VelocityBeyond beyond;
+  beyond.terms[0] = -f.curve->ahead;
+  if (options.integrator == Integrator::verlet && f.curve->is_parabola && length > 0)
+    beyond.terms[2] = verlet_change(i, f, length) / (length * length);
+  return beyond;
+}
+
 bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
   return speed * speed < press * exact_tolerance::fading_hop * world.radius[i] && damps(world, i, now.hi);
 }
@@ -81,7 +95,7 @@ bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
 Remedies ExactBodies::remedies() const {
   constexpr const char* step =
       "steps of simulate.step are too long for the forces: shorten it, or use `integrator: dop853`";
-  return log.tally().greatest_phase > 1 ? Remedies{step, step} : Remedies{};
+  return log.tally().stiffest.phase > 1 ? Remedies{step, step} : Remedies{};
 }
 
 /// Whether the method's steps under forces with a closed form differ from it. Except for Euler's method they do not

@@ -90,6 +90,19 @@ struct ExactBodies {
   bool path_bends(Entity i) const {
     return flies_on_curve(i) || (flies_in_steps(i) && !in_lasting_contact(i));
   }
+  /// What Verlet's method adds to the velocity (m/s) in `t` s of body i's flight: the accelerations of its two ends
+  /// count alike.
+  Vec3 verlet_change(Entity i, const Flight& f, double t) const {
+    return (0.5 * t) * (force_at(i, f.position(t), f.velocity(t)) - f.a);
+  }
+  /// The velocity by the scene's method within the first `length` (s) of body i's flight on a curve. Verlet's
+  /// acceleration is linear between the two ends.
+  VelocityBeyond beyond_curve(Entity i, const Flight& f, double length) const;
+  /// Notes the speed of body i, at velocity v (m/s) of its present flight.
+  [[gnu::always_inline]] void note_speed(Entity i, const Vec3& v) {
+    if (log.tally().fastest.speed < v.norm()) [[unlikely]]
+      note_greatest_speed(i, v);
+  }
   /// Evaluates them again, if they vary with x (m) and v (m/s).
   void refresh(Entity i, const Vec3& x, const Vec3& v) {
     if (bent[i]) [[unlikely]]
@@ -179,7 +192,7 @@ struct ExactBodies {
     return second != no_entity ? 2 * std::min(world.radius[i], world.radius[second]) : world.radius[i];
   }
   /// A speed that counts as zero (m/s), because its square would underflow.
-  double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().max_speed; }
+  double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().fastest.speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than the rounding of its
   /// position x (m).
   static bool too_low(const Vec3& x, double speed, double press) {
@@ -191,6 +204,7 @@ struct ExactBodies {
   bool hops_fade(Entity i, double speed, double press) const;
 
  private:
+  [[gnu::noinline]] void note_greatest_speed(Entity i, const Vec3& v);
   bool method_bends(Entity i) const;
   Remedies remedies() const;
   Vec3 bent_force_at(Entity i, const Vec3& x, const Vec3& v) const;

@@ -67,12 +67,15 @@ void ExactGroup::unite(Entity a, Entity b) {
   if (Island& island = bodies_.islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
 }
 
-void ExactGroup::wake(Entity i) {
+bool ExactGroup::wake(Entity i) {
+  bool stepped = false;
   std::vector<Entity> todo{i};
   bodies_.body[i].state = ContactState::free;
   while (!todo.empty()) {
     const Entity k = todo.back();
     todo.pop_back();
+    // Constrained motion rests on its partners.
+    stepped = stepped || partners[k].empty();
     set_carried(k, false);
     join(k);
     unite(i, k);
@@ -89,6 +92,14 @@ void ExactGroup::wake(Entity i) {
       todo.push_back(e);
     }
   }
+  return stepped;
+}
+
+void ExactGroup::stir(Entity i) {
+  if (!wake(i)) return;
+  Island& island = bodies_.islands.of(i);
+  island.busy = true;
+  island.calm_needed = std::max(island.calm_needed, exact_tolerance::calm_steps);
 }
 
 std::vector<Entity> ExactGroup::asleep_on_strings(Entity i) const {

@@ -49,8 +49,12 @@ class ExactGroup {
   void unite_fresh(Entity a, Entity b) {
     if (bodies_.islands.of(a).fresh || bodies_.islands.of(b).fresh) unite(a, b);
   }
-  /// Wakes a sleeping body and all that rest in contact with it. They make up an island.
-  void wake(Entity i);
+  /// Wakes a sleeping body and all that rest in contact with it. They make up an island. Returns whether time steps
+  /// have put one of them to rest.
+  bool wake(Entity i);
+  /// The same where forces change, or the velocity of things: the island goes on in time steps if these have put it to
+  /// rest. They leave gaps, and constrained motion would let bodies fall through these.
+  void stir(Entity i);
   /// At the start, a body may touch others or a curved surface, without speed along the normal, and be pressed on.
   /// Such a body joins the group, and so does all that it touches.
   void join_initial(Entity first);

@@ -144,8 +144,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     w = pair.vb - pair.va;
   }
   bodies_.log.note_overlap(-there.gap);
-  bodies_.log.note_speed(va.norm());
-  bodies_.log.note_speed(vb.norm());
+  bodies_.note_speed(a, va);
+  bodies_.note_speed(b, vb);
   if (bodies_.options.merge) return parts_.merging.merge(a, b, there);
   const double ma = world.mass[a], mb = world.mass[b];
   const Vec3& n = there.normal;
@@ -344,7 +344,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   const double approach = impact.approach, met = impact.unkicked, mass = world.mass[i];
   parts_.guard.note_restitution(impact.e, world.moves(surface));
   bodies_.log.note_overlap(-impact.there.gap);
-  bodies_.log.note_speed(v.norm());
+  bodies_.note_speed(i, v);
   FlatContact contact;
   const bool rests = comes_to_rest(impact, contact);
   const bool taken_over = rests && !contact.settling;

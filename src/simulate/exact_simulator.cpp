@@ -60,7 +60,7 @@ void ExactSimulator::start(const State& initial) {
     const Vec3& x = initial.position[i];
     if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
     bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
-    bodies_.log.note_speed(v.norm());
+    bodies_.note_speed(i, v);
   }
   bodies_.neighbours.start(initial.position);
   if (!bodies_.options.merge) {
@@ -220,7 +220,7 @@ void ExactSimulator::switch_forces(Entity i) {
   paths_.note_change(i);
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
-  if (bodies_.body[i].state == ContactState::asleep) group_.join(i);
+  if (bodies_.body[i].state == ContactState::asleep) group_.stir(i);
   // The last step contained the old forces until its end.
   if (bodies_.in_group(i)) {
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);

@@ -1,6 +1,7 @@
 #pragma once
 // A body's path since its last change: x + v t + a t^2/2 from its start on, or the same under linear drag.
 // Under other varying forces it is a step of a method, as a polynomial.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -61,6 +62,16 @@ struct Flight {
  private:
   Vec3 bent_position(double t) const;
   Vec3 bent_velocity(double t) const;
+};
+
+/// The velocity that a body has by its method, less that of its flight, by powers of the time since the flight's start.
+struct VelocityBeyond {
+  std::array<Vec3, 3> terms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // m/s, m/s^2, m/s^3
+
+  bool is_zero() const { return terms[0].isZero(0) && terms[1].isZero(0) && terms[2].isZero(0); }
+  // t: s since the flight's start.
+  Vec3 at(double t) const { return terms[0] + t * (terms[1] + t * terms[2]); }
+  Vec3 slope(double t) const { return terms[1] + 2 * t * terms[2]; }
 };
 
 /// The velocity v (m/s) at `at` without a kick. The kick is the effect of forces until `until`, `kick` (m/s^2) on

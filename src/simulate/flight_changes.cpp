@@ -24,7 +24,7 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   paths_.note_change(i);
   const double speed = v.norm();
   bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
-  bodies_.log.note_speed(speed);
+  bodies_.note_speed(i, v);
   book(i, x, bodies_.now);
   const Contact contact = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh ? Contact::stepped : Contact::none;
   if (contact != in_contact_[i]) {
@@ -96,18 +96,19 @@ Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
   const Flight f = bodies_.flights[i];
   if (f.curve == nullptr || bodies_.in_lasting_contact(i)) return v;
   if (bodies_.options.integrator != Integrator::verlet) return v - f.curve->ahead;
-  const double t = at - f.start;
-  return v + (0.5 * t) * (bodies_.force_at(i, f.position(t), v) - f.a);
+  return v + bodies_.verlet_change(i, f, at - f.start);
 }
 
 void FlightChanges::end_verlets(Entity i) {
   if (bodies_.in_lasting_contact(i) || bodies_.flights.curve(i) == nullptr) return;
+  paths_.note_change(i);
   const Vec3 x = bodies_.position(i), v = velocity_of_method(i, bodies_.now);
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
 }
 
 void FlightChanges::end_closed(Entity i) {
+  paths_.note_change(i);
   const auto [x, v] = curved_.closed_place(i, bodies_.now);
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
@@ -174,7 +175,7 @@ void FlightChanges::change(Entity i, const Vec3& dv) {
   Flight f = bodies_.flights[i];
   bodies_.log.deviate(-0.5 * bodies_.world.mass[i] * dv.dot(2 * f.v + dv));
   f.v += dv;
-  bodies_.log.note_speed(f.v.norm());
+  bodies_.note_speed(i, f.v);
   bodies_.flights.set(i, {f.start, f.x, f.v, f.a, f.fade});
 }
 
@@ -246,23 +247,20 @@ void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, d
     }
 }
 
-namespace {
-
-/// The greatest speed of a flight on a curve (m/s), after its start, in `length` (s) of it. Within a step the speed
-/// rises and falls only once.
-double greatest_speed(const Flight& f, double length) {
-  const Vec3 ahead = f.curve->ahead;
-  const auto rise = [&](double t) { return (f.velocity(t) - ahead).dot(f.curve->acceleration(t)); };
+/// The greatest speed of a flight on a curve (m/s) in `length` (s) of it, by the scene's method. Within a step the
+/// speed rises and falls only once.
+double FlightChanges::greatest_speed(Entity i, const Flight& f, double length) const {
+  const VelocityBeyond beyond = bodies_.beyond_curve(i, f, length);
+  const auto velocity = [&](double t) { return Vec3(f.velocity(t) + beyond.at(t)); };
+  const auto rise = [&](double t) { return velocity(t).dot(f.curve->acceleration(t) + beyond.slope(t)); };
   double rising = 0, falling = length;
-  if (!(rise(rising) > 0 && rise(falling) < 0)) return (f.velocity(length) - ahead).norm();
+  if (!(rise(rising) > 0 && rise(falling) < 0)) return std::max(velocity(0).norm(), velocity(length).norm());
   for (int k = 0; k < 24; ++k) {
     const double middle = 0.5 * (rising + falling);
     (rise(middle) > 0 ? rising : falling) = middle;
   }
-  return (f.velocity(rising) - ahead).norm();
+  return velocity(rising).norm();
 }
-
-}  // namespace
 
 /// The effect of forces on a free flight is in the potential and in their work. For other flights the rest is due to
 /// contact, which does no work: it is the method's error.
@@ -271,7 +269,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const double length = end - f.start;
   if (!(length > 0)) return;
   const double work = curved_.book_work(i, f, length);
-  if (f.curve != nullptr) bodies_.log.note_speed(greatest_speed(f, length));
+  if (f.curve != nullptr) bodies_.log.note_speed(i, greatest_speed(i, f, length));
   if (f.curve != nullptr && in_contact_[i] != Contact::followed) return;
   bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
                       work);
@@ -282,7 +280,7 @@ void FlightChanges::book_followed(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
   const double length = end - f.start, mass = bodies_.world.mass[i];
   if (!(length > 0)) return;
-  bodies_.log.note_speed(greatest_speed(f, length));
+  bodies_.log.note_speed(i, greatest_speed(i, f, length));
   const Vec3 displacement = x - f.x;
   const double fade = bodies_.fade[i], squared = fade == 0 ? 0 : CurvedFlights::squared_speed(f, length);
   bodies_.log.deviate(kinetic_loss(i, f, length) + mass * (bodies_.applied[i].dot(displacement) - fade * squared));
@@ -308,7 +306,7 @@ Vec3 FlightChanges::book_until(Entity i, const Instant& at) {
   const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   bodies_.hold_to_bounds(i, at.hi, x, v);
-  bodies_.log.note_speed(v.norm());
+  bodies_.note_speed(i, v);
   book(i, x, at);
   bodies_.contact_work.change(i, at, 0);
   if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));

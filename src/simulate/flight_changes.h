@@ -91,6 +91,7 @@ class FlightChanges {
   void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);
+  double greatest_speed(Entity i, const Flight& f, double length) const;
   double kinetic_loss(Entity i, const Flight& f, double length) const;
 
   ExactBodies& bodies_;

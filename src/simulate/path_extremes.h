@@ -1,6 +1,6 @@
 #pragma once
-// The extremes of quantities along the bodies' paths. They are taken from each flight when it ends: at both ends, and
-// where its polynomial turns. Outputs and samples have no effect on them.
+// The extremes of quantities along the bodies' paths. They are taken from each flight when it ends: where its
+// polynomial turns, and where the next flight does not continue it. Outputs and samples have no effect on them.
 #include <span>
 #include <vector>
 
@@ -8,6 +8,12 @@
 #include "simulate/exact_bodies.h"
 
 namespace carom {
+
+/// A point of a body's path.
+struct PathPoint {
+  Vec3 x = Vec3::Zero(), v = Vec3::Zero();    // m, and m/s by the scene's method
+  Vec3 way = Vec3::Zero(), a = Vec3::Zero();  // m/s, m/s^2: the changes of x and of v
+};
 
 class PathExtremes {
  public:
@@ -21,11 +27,22 @@ class PathExtremes {
   std::vector<Extremes> up_to(double time) const;
 
  private:
-  void take(Entity i, const Instant& until, std::vector<Extremes>& found) const;
+  /// What has been taken of a body's path.
+  struct Seen {
+    bool any = false;
+    Instant until;
+    PathPoint end;                // there, not taken yet
+    double place = 0, speed = 0;  // m and m/s: bounds of the errors so far
+  };
+
+  Seen take(Entity i, const Instant& until, std::vector<Extremes>& found) const;
+  void offer(std::size_t k, Entity i, const PathPoint& at, double time, const Seen& errors, Extremes& found) const;
+  static double rounding_of(Quantity quantity, const PathPoint& at, double mass, const Seen& errors);
+  void add_errors(Entity i, const Flight& f, const PathPoint& from, const PathPoint& to, Seen& seen) const;
 
   const ExactBodies& bodies_;
   std::vector<Extremes> found_;  // by options.watch
-  std::vector<Instant> seen_;    // by body: until when its path has been taken
+  std::vector<Seen> seen_;       // by body
 };
 
 }  // namespace carom

@@ -83,7 +83,7 @@ void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) const
   for (std::size_t k = 0; k < passed.bodies.size(); ++k) {
     const Entity i = passed.bodies[k];
     if (i == a || i == b) continue;
-    bodies_.log.note_speed(bodies_.velocity(i).norm());
+    bodies_.note_speed(i, bodies_.velocity(i));
     parts_.flights.begin(i, bodies_.position(i), passed.v[k], {});
     parts_.predictor.predict(i);
   }
@@ -106,7 +106,7 @@ void StringImpacts::tighten(Entity string) {
   const Touch there = touch(world, a, xa, string, xb);
   const Vec3 &n = there.normal, w = vb - va;
   for (const Entity i : {a, b})
-    if (i != no_entity) bodies_.log.note_speed(bodies_.velocity(i).norm());
+    if (i != no_entity) bodies_.note_speed(i, bodies_.velocity(i));
   const double rounding = exact_tolerance::velocity_rounding * (va.norm() + vb.norm());
   const double approach = -w.dot(n) > std::max(bodies_.negligible_speed(), rounding) ? -w.dot(n) : 0;
   const double e = s.restitution;

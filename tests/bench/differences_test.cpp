@@ -29,7 +29,7 @@ RecordedRun bounce(double impact, const std::vector<double>& instants) {
     run.states.push_back(state);
   }
   run.impacts = {{impact, 1, 0, 1}};
-  run.tally.max_speed = 1;
+  run.tally.fastest.speed = 1;
   run.duration = 4;
   return run;
 }
@@ -37,7 +37,7 @@ RecordedRun bounce(double impact, const std::vector<double>& instants) {
 RecordedRun with_impacts(const std::vector<Impact>& impacts) {
   RecordedRun run;
   run.impacts = impacts;
-  run.tally.max_speed = 1;
+  run.tally.fastest.speed = 1;
   run.duration = 100;
   return run;
 }

@@ -51,7 +51,7 @@ Tally some_tally() {
   tally.merges = 1;
   tally.tautened = 2;
   tally.last_collision = 0.1875;
-  tally.max_speed = 12;
+  tally.fastest.speed = 12;
   tally.stepped_contact = 0.5;
   tally.taken_up = {4, 0.125, 0.375};
   return tally;
@@ -119,7 +119,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_EQ(reader.tally().tautened, 2u);
   EXPECT_TRUE(std::isnan(reader.tally().first_collision));
   EXPECT_EQ(reader.tally().last_collision, 0.1875);
-  EXPECT_EQ(reader.tally().max_speed, 12);
+  EXPECT_EQ(reader.tally().fastest.speed, 12);
   EXPECT_EQ(reader.tally().stepped_contact, 0.5);
   EXPECT_EQ(reader.tally().taken_up.impacts, 4u);
   EXPECT_EQ(reader.tally().taken_up.fastest, 0.125);

@@ -115,6 +115,96 @@ TEST(PathExtremes, DoNotDependOnTheEngine) {
   EXPECT_NEAR(by("book").greatest.value, exact.greatest.value, 0.1);
 }
 
+// Half a period of a pendulum of 2 m that swings from 60 degrees, by its elliptic integral (mpmath, 20 digits). Later
+// periods have speeds that are higher by rounding and by path errors.
+TEST(PathExtremes, OfASwingHaveTheirFirstTime) {
+  const std::string yaml =
+      "scene: 1\ngravity: [0, -9.75, 0]\n"
+      "balls: {bob: {mass: 3, radius: 0.05, position: ['= 2 * sin(60)', -1, 0]}}\n"
+      "strings: {s: {from: [0, 0, 0], to: bob, length: 2}}\nsimulate: {duration: 40}";
+  const double turn = 1.5269891296443249689;
+  EXPECT_NEAR(extremes_of(yaml, Quantity::speed).greatest.time, turn / 2, 1e-14);    // measured: 5e-16
+  EXPECT_NEAR(extremes_of(yaml, Quantity::kinetic).greatest.time, turn / 2, 1e-14);  // 5e-16
+  EXPECT_NEAR(extremes_of(yaml, Quantity::vx).least.time, turn / 2, 1e-14);          // 3e-16
+  EXPECT_NEAR(extremes_of(yaml, Quantity::y).least.time, turn / 2, 1e-14);           // 7e-16
+  EXPECT_NEAR(extremes_of(yaml, Quantity::x).least.time, turn, 1e-12);               // 3e-16
+  EXPECT_EQ(extremes_of(yaml, Quantity::y).greatest.time, 0);
+}
+
+// x = cos 5t + sin(5t) / 5 turns at atan(1/5) / 5. Speeds are greatest a quarter of a period later.
+TEST(PathExtremes, OfSpringsHaveTheirFirstTimeByEveryMethod) {
+  const auto by = [](const std::string& more, Quantity quantity) {
+    return extremes_of(
+        "scene: 1\ngravity: [0, 0, 0]\n"
+        "balls: {b: {mass: 1, radius: 0.05, position: [1, 0, 0], velocity: [1, 0, 0]}}\n"
+        "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\nsimulate: {duration: 20" +
+            more + "}",
+        quantity);
+  };
+  const double turn = std::atan(0.2) / 5, fastest = turn + std::numbers::pi / 10;
+  for (const char* more : {"", ", engine: stepped"}) {
+    EXPECT_NEAR(by(more, Quantity::x).greatest.time, turn, 1e-12) << more;         // measured: 2e-17,
+    EXPECT_NEAR(by(more, Quantity::speed).greatest.time, fastest, 1e-11) << more;  // 7e-14,
+  }
+}
+
+// By Verlet's method the speed's amplitude is A w sqrt(1 - (w h)^2 / 4): x_n = A cos(n p), sin(p / 2) = w h / 2. Its
+// accelerations are too great for that by the share (w h)^2 / 12, which a step with its peak in the middle shows.
+const double verlet_speed = 5 * std::sqrt(63.0 / 64);
+constexpr double within_steps = 5 * 0.25 * 0.25 * 0.25 * 0.25 / 96;  // 2.0e-4, measured: 1.6e-4
+
+TEST(PathExtremes, OfSpeedsAreThoseOfTheSummary) {
+  for (const char* integrator : {"verlet", "rk4", "euler", "dop853"}) {
+    const Scene scene =
+        load_text(std::string("scene: 1\ngravity: [0, 0, 0]\nballs: {b: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n"
+                              "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\n"
+                              "simulate: {duration: 20, engine: stepped, step: 0.05, integrator: ") +
+                  integrator + "}");
+    const auto simulator = make_simulator(scene, {.watch = {{Quantity::speed, 0, 1}}});
+    while (simulator->time() < 20) simulator->advance_to(20);
+    const double speed = simulator->extremes().front().greatest.value;
+    EXPECT_NEAR(speed, simulator->tally().fastest.speed, 1e-14) << integrator;  // measured: 9e-16
+    if (integrator == std::string("verlet")) {
+      EXPECT_NEAR(speed, verlet_speed, within_steps);
+    }
+  }
+}
+
+// The step in which the ball strikes the wall also has its greatest speed, 5 m/s at x = 0.
+TEST(PathExtremes, AreThoseOfAStepThatAnImpactEnds) {
+  const std::string yaml =
+      "scene: 1\ngravity: [0, 0, 0]\nballs: {b: {mass: 1, radius: 0.1, position: [1, 0, 0], restitution: 0}}\n"
+      "planes: {wall: {point: [-0.11, 0, 0], normal: [1, 0, 0]}}\n"
+      "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\n";
+  const Extremes exact = extremes_of(yaml + "simulate: {duration: 3}", Quantity::speed);
+  EXPECT_NEAR(exact.greatest.value, 5, 1e-12);                     // measured: 3e-14
+  EXPECT_NEAR(exact.greatest.time, std::numbers::pi / 10, 1e-12);  // measured: 1e-14
+  const Extremes verlet =
+      extremes_of(yaml + "simulate: {duration: 3, engine: stepped, integrator: verlet, step: 0.05}", Quantity::speed);
+  EXPECT_NEAR(verlet.greatest.value, verlet_speed, within_steps);
+}
+
+TEST(PathExtremes, OfElasticHopsHaveTheirFirstTime) {
+  const std::string yaml =
+      "scene: 1\ngravity: [0, -9.75, 0]\nrestitution: 1\n"
+      "balls: {b: {mass: 1, radius: 0.1, position: [0, 1.1, 0], velocity: [0, 1, 0]}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 200}";
+  EXPECT_NEAR(extremes_of(yaml, Quantity::y).greatest.time, 1 / 9.75, 1e-16);
+  const double impact = (1 + std::sqrt(1 + 2 * 9.75)) / 9.75;
+  EXPECT_NEAR(extremes_of(yaml, Quantity::speed).greatest.time, impact, 1e-15);
+  EXPECT_NEAR(extremes_of(yaml, Quantity::y).least.time, impact, 1e-15);
+}
+
+// Each hop is higher than the last by 1e-6 of its height: that is no rounding, and the last one counts.
+TEST(PathExtremes, ThatGrowHaveTheirLastTime) {
+  const Extremes y = extremes_of(
+      "scene: 1\ngravity: [0, -9.75, 0]\nrestitution: 1.0000005\n"
+      "balls: {b: {mass: 1, radius: 0.1, position: [0, 1.1, 0]}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 20}",
+      Quantity::y);
+  EXPECT_GT(y.greatest.time, 18);
+}
+
 TEST(PathExtremes, ChangeNoResult) {
   const Scene scene = load_text(
       "scene: 1\nroom: {min: [0, 0, 0], max: [1, 1, 1]}\n"
@@ -130,7 +220,7 @@ TEST(PathExtremes, ChangeNoResult) {
     EXPECT_EQ(plain->state().position[i], watched->state().position[i]);
     EXPECT_EQ(plain->state().velocity[i], watched->state().velocity[i]);
   }
-  EXPECT_EQ(watched->extremes()[0].greatest.value, plain->tally().max_speed);
+  EXPECT_EQ(watched->extremes()[0].greatest.value, plain->tally().fastest.speed);
 }
 
 }  // namespace

@@ -3,10 +3,72 @@
 
 #include <gtest/gtest.h>
 
+#include "run/account.h"
 #include "scene/scene.h"
+#include "scene/scenes_in_text.h"
 
 namespace carom {
 namespace {
+
+/// A scene that has run to its end.
+struct Ended {
+  explicit Ended(const std::string& yaml) : scene(load_text("scene: 1\n" + yaml)), engine(choose_engine(scene)) {
+    const auto simulator = make_simulator(scene);
+    const StoredEnergy start = stored_energy(scene, simulator->state());
+    while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
+    summary = account_of(scene, engine, start, simulator->state(), simulator->tally());
+    warnings = warnings_of(scene, engine, simulator->state(), summary, simulator->tally());
+  }
+  std::string texts() const {
+    std::string all;
+    for (const Warning& warning : warnings) all += warning.code + ": " + warning.text + '\n';
+    return all;
+  }
+  Scene scene;
+  EngineChoice engine;
+  Summary summary;
+  std::vector<Warning> warnings;
+};
+
+// One whole period of a swing from the horizontal (T = 2.36784... s by its elliptic integral): at both ends all
+// energies are 0. In between the bob has g l = 9.81 J.
+TEST(EnergyWarning, IsNoneWhereTheMotionEndsAsItBegan) {
+  const std::string gravity = "gravity: [0, -9.81, 0]\n", swing = "strings: {s: {from: [0, 0, 0], to: bob}}\n",
+                    period = "simulate: {duration: 2.3678419475762374}\n";
+  const Ended one(gravity + "balls: {bob: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n" + swing + period);
+  EXPECT_EQ(one.texts(), "");
+  EXPECT_NEAR(one.summary.energy.turnover, 9.81, 1e-9);
+  // On a rod, in steps, below the origin with a heavier one at rest beside it, and with a lighter and slower one.
+  const Ended rod(gravity +
+                  "balls: {bob: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n"
+                  "strings: {s: {from: [0, 0, 0], to: bob, rod: true}}\n"
+                  "simulate: {duration: 2.3678419475762374, engine: stepped}\n");
+  EXPECT_EQ(rod.texts(), "");
+  const Ended two(gravity +
+                  "balls:\n  bob: {mass: 1, radius: 0.05, position: [1, 0, 0]}\n"
+                  "  rests: {mass: 1e9, radius: 0.5, position: [9, 0, 0]}\n"
+                  "  dust: {mass: 1e-9, radius: 0.001, position: [20, 0, 0]}\n"
+                  "planes: {floor: {point: [0, -0.5, 0], normal: [0, 1, 0]}}\n"
+                  "strings: {s: {from: [0, 1.5, 0], to: bob, length: 1.8027756377319946}}\n"
+                  "simulate: {duration: 0.1}\n");
+  EXPECT_EQ(two.texts(), "");
+  // A hop from the origin and back to it, on a plane 1 m below it.
+  const Ended hop(gravity +
+                  "restitution: 1\nballs: {b: {mass: 3, radius: 0.5, position: [0, 0, 0]}}\n"
+                  "planes: {floor: {point: [0, -1.5, 0], normal: [0, 1, 0]}}\n"
+                  "simulate: {duration: 0.90304}\n");
+  EXPECT_EQ(hop.texts(), "");
+}
+
+// It gains energy by too long steps, which its greatest kinetic energy does not hide.
+TEST(EnergyWarning, IsGivenForALossOfAllThatSwung) {
+  const Ended lost(
+      "gravity: [0, 0, 0]\nballs: {b: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n"
+      "forces: [{spring: {anchor: [0, 0, 0], stiffness: 39600}}]\n"
+      "simulate: {duration: 2, engine: stepped, integrator: rk4, step: 0.005}\n");
+  ASSERT_FALSE(lost.warnings.empty());
+  EXPECT_EQ(lost.warnings[0].code, "energy");
+}
 
 /// The warning of a run that gained 1 J of 4 J without impacts or work.
 std::string energy_warning(const Scene& scene) {
@@ -29,6 +91,34 @@ TEST(EnergyWarning, AdvisesToSoftenAnAttractorOnlyWhereThereIsOne) {
   EXPECT_EQ(energy_warning(scene), gained + "shorten simulate.duration");
   scene.world.forces.push_back({Attractor{}});
   EXPECT_EQ(energy_warning(scene), gained + "shorten simulate.duration, or soften the attractor");
+}
+
+/// The warning of the step, of a ball on this force.
+std::string step_warning(const std::string& force, const std::string& method, const std::string& step) {
+  const Ended run(
+      "gravity: [0, 0, 0]\nballs: {b: {mass: 4, radius: 0.05, position: [1, 0, 0], velocity: [0, 1, 0]}}\n"
+      "forces: [{acceleration: [0, 0, 1.0e-9]}, {" +
+      force + "}]\nsimulate: {duration: 0.3, engine: stepped, integrator: " + method + ", step: " + step + "}\n");
+  for (const Warning& warning : run.warnings)
+    if (warning.code == "step") return warning.text;
+  return "";
+}
+
+// w = sqrt(k / m) = 199 1/s: verlet is stable up to 2 / w, rk4 up to sqrt(8) / w. c / m = 400 1/s: rk4 up to 2.7853 m /
+// c.
+TEST(StepWarning, NamesTheForceTheStableStepAndTheRemedy) {
+  const std::string spring = "spring: {anchor: [0, 0, 0], stiffness: 158404}", drag = "drag: {linear: 1600}";
+  EXPECT_EQ(step_warning(spring, "rk4", "0.01"),
+            "forces turned by 1.99 rad in a step of 0.01 s, most by forces.1.spring on `b`, stable up to 0.0142 s, but "
+            "rk4 leaves 0.75 of an amplitude in each step: use steps of at most 0.0005 s, or `integrator: dop853`");
+  EXPECT_EQ(step_warning(spring, "verlet", "0.0101"),
+            "forces turned by 2.01 rad in a step of 0.0101 s, most by forces.1.spring on `b`, beyond stability: verlet "
+            "is stable up to 0.0101 s: use steps of at most 0.0005 s, or `integrator: dop853`");
+  EXPECT_EQ(
+      step_warning(drag, "rk4", "0.0075"),
+      "forces turned by 3 rad in a step of 0.0075 s, most by forces.1.drag on `b`, beyond stability: rk4 is stable "
+      "up to 0.00696 s: use steps of at most 0.00025 s, or `integrator: dop853`");
+  EXPECT_EQ(step_warning(spring, "rk4", "0.005"), "");
 }
 
 }  // namespace

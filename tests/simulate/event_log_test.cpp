@@ -94,10 +94,11 @@ TEST(EventLog, SumsEnergyWithoutRounding) {
 TEST(EventLog, KeepsTheGreatestSpeedAndOverlap) {
   EventLog log(0, false);
   for (const double x : {1.0, 3.0, 2.0}) {
-    log.note_speed(x);
+    log.note_speed(static_cast<Entity>(x), x);
     log.note_overlap(0.5 * x);
   }
-  EXPECT_EQ(log.tally().max_speed, 3);
+  EXPECT_EQ(log.tally().fastest.speed, 3);
+  EXPECT_EQ(log.tally().fastest.body, 3u);
   EXPECT_EQ(log.tally().max_overlap, 1.5);
 }
 

@@ -341,7 +341,7 @@ TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreRead) {
   }
   while (silent->time() < 4) silent->advance_to(4);
   EXPECT_EQ(silent->tally().energy_lost, requested->tally().energy_lost);
-  EXPECT_EQ(silent->tally().max_speed, requested->tally().max_speed);
+  EXPECT_EQ(silent->tally().fastest.speed, requested->tally().fastest.speed);
   EXPECT_EQ(silent->tally().work, requested->tally().work);
   const Tally before = silent->tally();
   silent->state();
@@ -355,7 +355,7 @@ TEST(ExactSimulator, TallyAtTheEndHasTheLastFlights) {
   p.options.duration = 2;
   const auto simulator = make_exact_simulator(p.world, p.initial, p.options);
   simulator->advance_to(2);
-  EXPECT_EQ(simulator->tally().max_speed, 2 * pull);
+  EXPECT_EQ(simulator->tally().fastest.speed, 2 * pull);
 }
 
 TEST(TimeStepping, CarriesABodyThatFellWithoutLettingItFallOn) {

@@ -140,5 +140,32 @@ TEST(Switches, AtTheEndOfBouncesStrikeTheBall) {
   }
 }
 
+// A ball on a floor, one on a globe below a heavier one, a bob on a string: contacts of closed forms and of constrained
+// motion. A force that starts counts at its instant, and one that ends does not, also at the run's end.
+TEST(Switches, OnBodiesInContactShowTheForcesFromThatInstantOn) {
+  for (const double duration : {1.0, 2.0})
+    for (const bool starts : {true, false}) {
+      Problem problem;
+      problem.world.gravity = Vec3(0, -10, 0);
+      problem.plane({0, 0, 0}, {0, 1, 0});
+      problem.obstacle({4, 1, 0}, Volume::sphere(1));
+      problem.ball({0, 0.5, 0}, Vec3::Zero(), 1, 0.5, 0);
+      problem.ball({4, 2.5, 0}, Vec3::Zero(), 1, 0.5, 0);
+      problem.ball({4, 3.5, 0}, Vec3::Zero(), 2, 0.5, 0);
+      problem.ball({8, 2, 0}, Vec3::Zero(), 1, 0.5, 0);
+      problem.world.strings.push_back({3, no_entity, {8, 4, 0}, 2});
+      const UniformForce down{Vec3(0, -4, 0)};
+      problem.world.forces.push_back({down, starts ? 1.0 : 0.0, starts ? forever : 1.0});
+      problem.options.duration = duration;
+      const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+      go_to(*simulator, 1);
+      const double each = starts ? 4 : 0;
+      EXPECT_NEAR(force_between(*simulator, 0, 4), 10 + each, 1e-13) << duration << starts;
+      EXPECT_NEAR(force_between(*simulator, 1, 5), 30 + 2 * each, 1e-13) << duration << starts;
+      EXPECT_NEAR(force_between(*simulator, 1, 2), 20 + each, 1e-13) << duration << starts;
+      EXPECT_NEAR(force_between(*simulator, 3, 6), 10 + each, 1e-13) << duration << starts;
+    }
+}
+
 }  // namespace
 }  // namespace carom
