@@ -15,6 +15,7 @@
 #include "commands/preview.h"
 #include "commands/report.h"
 #include "commands/scene_outcome.h"
+#include "commands/slow.h"
 #include "commands/text.h"
 #include "commands/volumes.h"
 #include "export/tables.h"
@@ -258,6 +259,7 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
+  if (const std::string slow = slow_text(*planned.scene); !slow.empty()) block.line("slow", slow);
   if (findings.camera) {
     block.line(
         "camera",
@@ -333,6 +335,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
       findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);
   if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
   if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
+  if (const std::string slow = slow_text(scene); !slow.empty()) entry["slow"] = slow;
   entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
   const std::optional<double> steps = steps_of(scene);
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);

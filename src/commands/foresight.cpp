@@ -45,6 +45,9 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
   return ticks;
 }
 
+/// Multiple of the budget: the search for the first collision ends.
+constexpr double budgets_to_first = 20;
+
 /// Runs the most exact simulator from instant to instant.
 class Trial {
  public:
@@ -63,6 +66,9 @@ class Trial {
       made_s_ = since(start);
       check_view_if_due();
       while (oracle_->time() < scene_.simulate.duration && needs_more()) advance();
+      if (!result_.first && oracle_->time() < scene_.simulate.duration)
+        result_.trouble = fmt::format("there is none until {:.3g} s, and a second of motion takes {:.2g} s",
+                                      oracle_->time(), advance_s_ / oracle_->time());
     } catch (const SimulationError& error) {
       (result_.first ? result_.failure : result_.trouble) =
           error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); }).what();
@@ -84,7 +90,7 @@ class Trial {
     if (next_ <= last_) result_.cut = true;
     // Crossings are not worth more time.
     next_ = last_ + 1;
-    return !result_.first;
+    return !result_.first && since(start_) < budgets_to_first * budget_;
   }
 
   /// To the next instant. Before the first collision at most to twice the time reached, so that little is simulated

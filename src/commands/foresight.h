@@ -32,8 +32,8 @@ struct Foresight {
   std::optional<double> simulate_s;            // approximate wall time of the whole simulation; none: unknown
 };
 
-/// Simulates by the most exact engine, whatever the scene names, to the first collision, and further for at most
-/// `budget` (s). `camera`: of the crossings; null: none are sought.
+/// Simulates by the most exact engine, whatever the scene names, to the first collision for at most 20 times `budget`
+/// (s), and further for at most `budget`. `camera`: of the crossings; null: none are sought.
 Foresight foresee(const Scene& scene, const EngineChoice& engine, const MovingCamera* camera, double budget);
 
 /// Frames the motion by the most exact engine, if the camera does that. False: it takes longer than `budget` (s).

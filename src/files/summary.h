@@ -32,7 +32,7 @@ struct EnergyTotals {
 
 /// The reason why a result may be wrong, and the remedy.
 struct Warning {
-  /// One word, for programs: energy, step, tolerance, contact, place, speed.
+  /// One word, for programs: energy, step, tolerance, contact, rest, place, speed.
   std::string code;
   std::string text;
 };

@@ -54,6 +54,19 @@ struct StiffStep {
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();  // m, m/s
 };
 
+/// An acceleration that forces left to a body at rest. It counts as balance, and is more than their rounding.
+struct Unbalanced {
+  double acceleration = 0;  // m/s^2
+  double way = 0;           // m, how far it would have moved the body by the run's end
+  Entity body = no_entity;  // no_entity: there was none
+};
+
+/// What may make a run doubtful (run/warnings.h).
+struct Doubts {
+  StiffStep stiffest;     // the step with the greatest angle, for a method with steps of one length
+  Unbalanced unbalanced;  // that with the longest way
+};
+
 struct Tally {
   std::uint64_t body_body = 0;   // collisions
   std::uint64_t body_fixed = 0;  // collisions
@@ -72,7 +85,7 @@ struct Tally {
   double work = 0;  // J, by the World's forces (gravity apart)
   // J, the part of each force in the work; empty: there are no forces, or it was not recorded.
   std::vector<double> force_work;
-  StiffStep stiffest;         // that with the greatest angle, for a method with steps of one length
+  Doubts doubts;
   double max_overlap = 0;     // m, deepest seen
   Fastest fastest;            // seen
   std::uint64_t resting = 0;  // bodies in resting contact

@@ -44,6 +44,7 @@ class Warnings {
     check_energy();
     check_steps();
     check_contact();
+    check_rest();
     check_digits();
     return std::move(all_);
   }
@@ -78,7 +79,7 @@ class Warnings {
   /// Steps in which forces turn by more than a radian. The text has the stable step, which may be longer: rk4 then
   /// takes the energy.
   void check_steps() {
-    const StiffStep& step = tally_.stiffest;
+    const StiffStep& step = tally_.doubts.stiffest;
     if (!(step.phase > longest_phase)) return;
     const Integrator method = scene_.simulate.integrator;
     LinearMode mode;
@@ -117,6 +118,16 @@ class Warnings {
     if (tally_.doubtful == 0) return;
     add("contact", fmt::format("{} contact problem{} not solved to rounding: make masses less unequal", tally_.doubtful,
                                tally_.doubtful == 1 ? " was" : "s were"));
+  }
+
+  /// Warns of a body that fell asleep in balance although forces would have moved it noticeably.
+  void check_rest() {
+    const Unbalanced& left = tally_.doubts.unbalanced;
+    if (!(left.way > place_resolution * smallest_size(scene_.world))) return;
+    add("rest", fmt::format("forces that count as balanced leave `{}`, at rest, an acceleration of {:.2g} m/s^2, which "
+                            "could move it by {:.2g} m in the rest of the run: make masses less unequal, or shorten "
+                            "simulate.duration",
+                            scene_.roster.name(left.body), left.acceleration, left.way));
   }
 
   /// Warns of positions far from the origin, and of clock times too coarse for the speeds.

@@ -588,6 +588,27 @@ void ConstrainedMotion::find_resting(Step& step) const {
       moves[island[k]] = 1;
   }
   for (std::size_t k = 0; k < n; ++k) step.rests.push_back(!moves[island[k]]);
+  note_unbalanced(step);
+}
+
+/// Notes accelerations of members at rest that are more than the rounding of forces and of their directions.
+void ConstrainedMotion::note_unbalanced(const Step& step) const {
+  std::vector<double> rounding(step.x.size(), tol::velocity_rounding * step.greatest);  // m/s^2
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
+    const double places = step.x[p.a].cwiseAbs().sum() + at(step.x, step.contacts.names[c].e).cwiseAbs().sum();
+    const double of_force =
+        std::abs(p.force) * (tol::velocity_rounding + tol::contact_rounding * places / step.smallest);
+    // A rod's force has an allowed error.
+    const double of_rod = p.bilateral ? tol::step_error * step.greatest : 0;
+    for (const std::uint32_t k : {p.a, p.b})
+      if (k != ContactConstraint::fixed) rounding[k] += of_force * step.inverse_mass[k] + of_rod;
+  }
+  const double left = Instant{bodies_.options.duration, 0} - bodies_.now;
+  for (std::size_t k = 0; k < step.x.size(); ++k) {
+    const double a = step.a[k].norm();
+    if (step.rests[k] && a > rounding[k]) bodies_.log.note_unbalanced({a, 0.5 * a * left * left, step.members[k]});
+  }
 }
 
 /// The longest step (s). It ends when a body may leave the group, otherwise beyond the run's end.

@@ -103,6 +103,7 @@ class ConstrainedMotion {
   [[noreturn]] void fail_jammed(Entity i, double force) const;
   bool stop_parting(Step& step) const;
   void find_resting(Step& step) const;
+  void note_unbalanced(const Step& step) const;
   double longest(Step& step) const;
   void choose_motion(Step& step, ConstrainedSystem& system);
   double rim_time(const Step& step, std::size_t pair, double length) const;

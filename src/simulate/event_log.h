@@ -64,7 +64,10 @@ class EventLog {
     if (tally_.fastest.speed < speed) tally_.fastest = {speed, i};
   }
   void note_step(const StiffStep& step) {
-    if (tally_.stiffest.phase < step.phase) tally_.stiffest = step;
+    if (tally_.doubts.stiffest.phase < step.phase) tally_.doubts.stiffest = step;
+  }
+  void note_unbalanced(const Unbalanced& body) {
+    if (tally_.doubts.unbalanced.way < body.way) tally_.doubts.unbalanced = body;
   }
   void note_overlap(double overlap) {  // m
     tally_.max_overlap = tally_.max_overlap < overlap ? overlap : tally_.max_overlap;

@@ -95,7 +95,7 @@ bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
 Remedies ExactBodies::remedies() const {
   constexpr const char* step =
       "steps of simulate.step are too long for the forces: shorten it, or use `integrator: dop853`";
-  return log.tally().stiffest.phase > 1 ? Remedies{step, step} : Remedies{};
+  return log.tally().doubts.stiffest.phase > 1 ? Remedies{step, step} : Remedies{};
 }
 
 /// Whether the method's steps under forces with a closed form differ from it. Except for Euler's method they do not

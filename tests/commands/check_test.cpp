@@ -230,6 +230,36 @@ TEST(Check, NamesAtMostTenBodiesOutOfView) {
       << out;
 }
 
+TEST(Check, NamesSizesAndMassesThatMakeARunSlow) {
+  const Workplace here;
+  const std::string scene =
+      "scene: 1\nballs:\n  bob: {mass: 1, radius: 1e-9, position: [1, 0, 0]}\n"
+      "  joint: {mass: 1e-12, radius: 0.01, position: [0.5, 0, 0]}\n"
+      "strings:\n  s: {from: [0, 0, 0], to: joint}\n  t: {from: joint, to: bob}\nsimulate: {duration: 1e-6}\n";
+  here.write("chain.yaml", scene);
+  const Finished check = here.carom({"check", "chain.yaml"});
+  EXPECT_NE(check.out.find("  slow        the radius of bob is 2e-09 of the length of its string"), std::string::npos)
+      << check.out;
+  EXPECT_NE(check.out.find("the mass of joint is 1e-12 of the heaviest"), std::string::npos) << check.out;
+  const Json json = Json::parse(here.carom({"check", "chain.yaml", "--json"}).out);
+  EXPECT_TRUE(json.at("scenes").at(0).contains("slow"));
+  const Finished fine =
+      here.carom({"check", "chain.yaml", "--set", "balls.bob.radius=1e-6", "--set", "balls.joint.mass=1e-8"});
+  EXPECT_EQ(fine.out.find("  slow "), std::string::npos) << fine.out;
+}
+
+// No body ever meets another one, and a second of motion takes a minute.
+TEST(Check, EndsItsSearchForACollisionAndEstimatesTheRun) {
+  const Workplace here;
+  here.write("bob.yaml",
+             "scene: 1\nballs: {bob: {mass: 1, radius: 1e-9, position: [1, 0, 0]}}\n"
+             "strings: {s: {from: [0, 0, 0], to: bob}}\nsimulate: {duration: 200}\n");
+  const Finished check = here.carom({"check", "bob.yaml"});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_NE(check.out.find("  first hit   not known: there is none until "), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find(" and roughly "), std::string::npos) << check.out;
+}
+
 TEST(Check, ReportsThatThereIsNoCollision) {
   const Workplace here;
   here.write("balls.yaml", two_balls());

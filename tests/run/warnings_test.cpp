@@ -121,5 +121,55 @@ TEST(StepWarning, NamesTheForceTheStableStepAndTheRemedy) {
   EXPECT_EQ(step_warning(spring, "rk4", "0.005"), "");
 }
 
+/// A light ball on two heavy ones that touch each other, and for so long (s). Each of them pushes a heavy one aside by
+/// m g tan(30 degrees) / 2.
+std::string wedge(const std::string& heavy, const std::string& duration, const std::string& engine = "engine: exact") {
+  return "gravity: [0, -10, 0]\nrestitution: 0\nballs:\n  l: {mass: " + heavy +
+         ", radius: 0.5, position: [-0.4, 0.5, 0]}\n  r: {mass: " + heavy +
+         ", radius: 0.5, position: [0.6, 0.5, 0]}\n  m: {mass: 1, radius: 0.5, position: [0.1, 1.3660254037844386, "
+         "0]}\n"
+         "planes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: " +
+         duration + ", " + engine + "}\noutput: {}\n";
+}
+
+TEST(RestWarning, IsGivenWhereBalanceHidesAMotion) {
+  for (const char* engine : {"engine: exact", "engine: stepped, step: 10"}) {
+    const Ended run(wedge("1e12", "345035", engine));
+    EXPECT_EQ(
+        run.texts(),
+        "rest: forces that count as balanced leave `l`, at rest, an acceleration of 2.9e-12 m/s^2, which could move "
+        "it by 0.17 m in the rest of the run: make masses less unequal, or shorten simulate.duration\n");
+  }
+  EXPECT_EQ(Ended(wedge("1e13", "1e5")).warnings.size(), 1u);
+  // Between a wall and the rim of a heavy cylinder, at 45 degrees.
+  const Ended rim(
+      "gravity: [0, -10, 0]\nrestitution: 0\n"
+      "bodies: {c: {mass: 1e12, cylinder: {radius: 0.5, height: 1}, position: [0, 0.5, 0]}}\n"
+      "balls: {m: {mass: 1, radius: 0.5, position: [0.8535533905932737, 1.3535533905932737, 0]}}\n"
+      "planes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}, w: {point: [1.3535533905932737, 0, 0], normal: [-1, 0, 0]}}\n"
+      "simulate: {duration: 1e5}\noutput: {}\n");
+  ASSERT_EQ(rim.warnings.size(), 1u) << rim.texts();
+  EXPECT_NE(
+      rim.warnings[0].text.find("leave `c`, at rest, an acceleration of 1e-11 m/s^2, which could move it by 0.05 m"),
+      std::string::npos)
+      << rim.texts();
+}
+
+TEST(RestWarning, IsNoneWhereBodiesAreInBalanceOrHardlyMove) {
+  // 0.5 * 2.9e-12 m/s^2 * (500 s)^2 = 3.6e-7 m, less than a millionth of the radius.
+  EXPECT_EQ(Ended(wedge("1e12", "500")).texts(), "");
+  // A tower, a ball in a groove of obstacles, and a load that hangs on two strings, far from the origin, for a month.
+  EXPECT_EQ(
+      Ended("restitution: 0\nballs:\n  t: {repeat: 8, mass: '= 3 + i', radius: 0.1, position: [700.3, '= 0.1 + 0.2 * "
+            "i', 0]}\n  g: {mass: 3, radius: 0.5, position: [800.1, 1.3660254037844386, 0]}\n"
+            "  h: {mass: 7, radius: 0.1, position: [900.7, 1, 0]}\n"
+            "obstacles: {o: {repeat: 2, radius: 0.5, position: ['= 799.6 + i', 0.5, 0]}}\n"
+            "planes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"
+            "strings: {s: {repeat: 2, from: ['= 900.3 + 0.8 * i', 1.3, 0], to: h, length: 0.5}}\n"
+            "simulate: {duration: 2.6e6}\noutput: {}\n")
+          .texts(),
+      "");
+}
+
 }  // namespace
 }  // namespace carom
