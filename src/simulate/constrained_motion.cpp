@@ -339,41 +339,44 @@ double ConstrainedMotion::surface_speed(const Vec3& normal, Entity e) const {
 /// its impact after that body's, and each takes energy from the velocities that it meets.
 std::vector<AbsorbedImpact> ConstrainedMotion::absorbed_impacts(const Step& step, const std::vector<Vec3>& met) const {
   const std::vector<ContactConstraint>& pairs = step.contacts.pairs;
+  const double errors = tol::drift * step.fastest;  // m/s
+  // A rod may push, which is a pull along the other direction.
+  const auto speed_of = [](const std::vector<Vec3>& v, const ContactConstraint& p) {
+    return p.bilateral ? std::abs(approach(v, p)) : approach(v, p);
+  };
   std::vector<AbsorbedImpact> impacts(pairs.size());
   double all = 0;  // J, lost by all of them
   bool closed_later = false;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const double speed = approach(met, pairs[c]);
-    // A rod may push, which is a pull along the other direction.
-    const double force = pairs[c].bilateral ? std::abs(pairs[c].force) : pairs[c].force;
-    impacts[c].approach = pairs[c].bilateral ? std::abs(speed) : speed;
-    impacts[c].lost = 0.5 * pairs[c].force * speed;
+    impacts[c].approach = speed_of(met, pairs[c]);
+    impacts[c].lost = 0.5 * pairs[c].force * approach(met, pairs[c]);
     all += impacts[c].lost;
-    closed_later = closed_later || (force > 0 && impacts[c].lost < 0);
+    closed_later = closed_later || (pairs[c].force > 0 && impacts[c].approach < -errors);
   }
   if (!closed_later) return impacts;
 
-  // One round after the other, of the pairs that approach by then.
+  // One round after the other, of the pairs that approach by then and of those before.
+  for (AbsorbedImpact& impact : impacts) impact = {};
   double in_rounds = 0;  // J
   std::vector<Vec3> v = met;
   std::vector<std::size_t> which;
   std::vector<std::uint8_t> taken(pairs.size(), 0);
-  for (AbsorbedImpact& impact : impacts) impact = {};
-  for (bool any = true; any;) {
-    any = false;
+  for (;;) {
+    const std::size_t before = which.size();
     for (std::size_t c = 0; c < pairs.size(); ++c) {
-      const double speed = pairs[c].bilateral ? std::abs(approach(v, pairs[c])) : approach(v, pairs[c]);
-      if (taken[c] || !(speed > tol::drift * step.fastest)) continue;
-      taken[c] = any = true;
+      if (taken[c] || !(speed_of(v, pairs[c]) > errors)) continue;
+      taken[c] = 1;
       which.push_back(c);
-      impacts[c].approach = speed;
+      impacts[c].approach = speed_of(v, pairs[c]);
     }
+    if (which.size() == before) break;
+
     std::vector<ContactConstraint> rows;
     for (const std::size_t c : which) rows.push_back(pairs[c]);
-    const std::vector<Vec3> before = v;
-    if (any) solve({step.inverse_mass, v, rows});
-    for (std::size_t k = 0; any && k < which.size(); ++k) {
-      const double lost = std::max(0.5 * rows[k].force * (approach(before, rows[k]) + approach(v, rows[k])), 0.0);
+    const std::vector<Vec3> first = v;
+    solve({step.inverse_mass, v, rows});
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      const double lost = std::max(0.5 * rows[k].force * (approach(first, rows[k]) + approach(v, rows[k])), 0.0);
       impacts[which[k]].lost += lost;
       in_rounds += lost;
     }
