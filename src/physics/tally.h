@@ -60,7 +60,7 @@ struct Tally {
   double greatest_phase = 0;
   double max_overlap = 0;     // m, deepest seen
   double max_speed = 0;       // m/s, greatest seen
-  std::uint64_t resting = 0;  // bodies in resting contact
+  std::uint64_t resting = 0;  // bodies in lasting contact
   // s, summed over bodies: lasting contact in time steps.
   double stepped_contact = 0;
   TakenUp taken_up;
