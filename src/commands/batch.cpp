@@ -12,6 +12,7 @@
 #include "commands/interrupt.h"
 #include "commands/progress.h"
 #include "commands/shared_fractions.h"
+#include "files/failed_run.h"
 #include "files/processors.h"
 #include "scene/scene.h"
 #include "study/workers.h"
@@ -23,9 +24,11 @@ int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Opt
   int code = 0;
   for (PlannedScene& planned : scenes) {
     try {
-      batch.settle(code != 0                      ? without_run(planned, scene_status::not_run)
-                   : batch.is_up_to_date(planned) ? batch.up_to_date(planned)
-                                                  : batch.run(planned, progress_choice(options), nullptr));
+      SceneOutcome outcome = code != 0                      ? without_run(planned, scene_status::not_run)
+                             : batch.is_up_to_date(planned) ? batch.up_to_date(planned)
+                                                            : batch.run(planned, progress_choice(options), nullptr);
+      if (names_full_disk(outcome.complaint)) code = 1;
+      batch.settle(std::move(outcome));
     } catch (const Interrupted& signal) {
       batch.settle(run_interrupted(planned));
       code = signal.exit_code();
@@ -64,18 +67,21 @@ class Together {
     int code = 0;
     try {
       work_off(tasks, jobs);
+      if (disk_is_full_) code = 1;
     } catch (const Interrupted& signal) {
-      for (std::size_t i = settled_; i < outcomes_.size(); ++i)
-        if (!outcomes_[i])
-          outcomes_[i] = i < begun_ ? run_interrupted(scenes_[i]) : without_run(scenes_[i], scene_status::not_run);
+      for (std::size_t i = settled_; i < begun_; ++i)
+        if (!outcomes_[i]) outcomes_[i] = run_interrupted(scenes_[i]);
       code = signal.exit_code();
     }
+    for (std::size_t i = begun_; i < outcomes_.size(); ++i)
+      outcomes_[i] = without_run(scenes_[i], scene_status::not_run);
     settle_in_order();
     return code;
   }
 
  private:
   std::optional<std::size_t> next() {
+    if (disk_is_full_) return std::nullopt;
     for (; begun_ < scenes_.size() && batch_.is_up_to_date(scenes_[begun_]); ++begun_)
       outcomes_[begun_] = batch_.up_to_date(scenes_[begun_]);
     return begun_ < scenes_.size() ? std::optional(begun_++) : std::nullopt;
@@ -84,6 +90,7 @@ class Together {
   void take(const TaskOutcome& outcome) {
     outcomes_[outcome.task] = outcome.kind == TaskOutcome::Kind::done ? unpacked(outcome.text)
                                                                       : run_failed(scenes_[outcome.task], outcome.text);
+    disk_is_full_ = disk_is_full_ || names_full_disk(outcomes_[outcome.task]->complaint);
     if (std::atomic<double>* done = fractions_.at(outcome.task)) *done = 1;
     ++finished_;
     settle_in_order();
@@ -107,6 +114,7 @@ class Together {
   const std::vector<PlannedScene>& scenes_;
   const std::size_t to_do_;  // scenes that are not up to date
   std::size_t begun_ = 0, finished_ = 0, settled_ = 0;
+  bool disk_is_full_ = false;                          // no further scene begins
   std::vector<std::optional<SceneOutcome>> outcomes_;  // by scene
   SharedFractions fractions_;                          // by scene
   Progress progress_;

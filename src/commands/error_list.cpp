@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "files/failed_run.h"
+
 namespace carom {
 
 using Json = nlohmann::ordered_json;
@@ -35,6 +37,10 @@ Json errors_json(const std::vector<ErrorRecord>& errors) {
                     {"remedy", text_or_null(error.remedy)},
                     {"near", text_or_null(error.near)}});
   return list;
+}
+
+std::string with_remedy(const std::string& why) {
+  return names_full_disk(why) ? why + "\n  make room, then the same command runs what is missing" : why;
 }
 
 std::vector<ErrorRecord> error_of_text(std::string_view text, std::string_view file) {

@@ -120,11 +120,7 @@ std::string word_text(const AbsentWord& word, bool is_key, const Palette& palett
   Block block(palette, width);
   block.heading(parts_of(word.words).front(), is_key ? "other meanings" : "no key of the format");
   block.line("instead", word.meaning);
-  if (!word.see.empty()) {
-    std::vector<std::string> commands;
-    for (const std::string_view key : parts_of(word.see)) commands.push_back(fmt::format("carom explain {}", key));
-    block.line("see", joined(commands, ", "));
-  }
+  if (!word.see.empty()) block.line("see", commands_of(word));
   return block.text();
 }
 

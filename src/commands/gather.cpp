@@ -115,8 +115,9 @@ class GatherSession {
     }
     if (!missing.empty()) {
       progress.clear();
-      complain(options_, fmt::format("{}: {} of {} runs are missing: {}\n  run the parts with these runs again",
-                                     printable(folder_), missing.size(), sweep.size(), listed(missing, parts_shown)));
+      complain(options_,
+               fmt::format("{}: {} of {} missing: {}\n  run the parts with these runs again", printable(folder_),
+                           missing.size(), counted(sweep.size(), "run is", "runs are"), listed(missing, parts_shown)));
       show("incomplete", sweep, missing, failed);
       return 1;
     }

@@ -64,8 +64,8 @@ std::string collisions_text(const Summary& summary) {
                             quantity(summary.last_collision, "s"));
 }
 
-std::string rest_text(const Summary& summary) {
-  std::string text = fmt::format("{} of {} in resting contact at the end", grouped(summary.resting),
+std::string contact_text(const Summary& summary) {
+  std::string text = fmt::format("{} of {} in lasting contact at the end", grouped(summary.resting),
                                  counted(summary.bodies, "body", "bodies"));
   if (summary.contact.collapses == 0) return text;
   return text + fmt::format("; {} of accelerating collisions turned into contact",
@@ -162,9 +162,9 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   if (summary.ended_by != "duration")
     block.line("ended", fmt::format("at {}, by {}", quantity(summary.duration, "s"), summary.ended_by));
   block.line("collisions", collisions_text(summary));
-  block.line("rest", rest_text(summary));
+  block.line("contact", contact_text(summary));
   if (summary.stepped_contact > 0)
-    block.line("contact",
+    block.line("stepped",
                fmt::format("{} of lasting contact, summed over bodies, by time stepping: accurate to first order",
                            quantity(summary.stepped_contact, "s")));
   if (const TakenUp& all = summary.contact.taken_up; all.impacts > 0)

@@ -79,7 +79,8 @@ SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
   return outcome;
 }
 
-SceneOutcome run_failed(const PlannedScene& planned, std::string_view text) {
+SceneOutcome run_failed(const PlannedScene& planned, std::string_view why) {
+  const std::string text = with_remedy(std::string(why));
   SceneOutcome outcome = without_run(planned, scene_status::failed);
   outcome.entry["errors"] = errors_json(error_of_text(text, planned.file));
   outcome.complaint = fmt::format("{}: the run failed: {}", printable(planned.file), text);

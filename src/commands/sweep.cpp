@@ -48,8 +48,9 @@ class SweepSession {
       return interrupted.exit_code();
     } catch (const ExportError& error) {
       progress_.reset();
-      complain(options_, error.what());
-      show_failure(options_, "failed", error_of_text(error.what()));
+      const std::string why = with_remedy(error.what());
+      complain(options_, why);
+      show_failure(options_, "failed", error_of_text(why));
       return 1;
     }
   }

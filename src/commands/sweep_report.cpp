@@ -61,7 +61,8 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
     complain(options, fmt::format("{}: the run failed: {}", job.sweep().id(number), why));
   }
   if (outcome.failures.size() > failures_shown && !options.json)
-    complain(options, fmt::format("and {} more runs failed", outcome.failures.size() - failures_shown));
+    complain(options,
+             fmt::format("and {} failed", counted(outcome.failures.size() - failures_shown, "more run", "more runs")));
   if (options.json) {
     Json json = begin_json(options, job, outcome.status);
     json["runs"] = outcome.runs;

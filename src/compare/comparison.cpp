@@ -32,7 +32,7 @@ namespace {
 constexpr const char* usual_measures[] = {"energy_lost_J", "collisions", "max_speed_m_per_s"};
 
 ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
-  if (plan.title.empty()) plan.title = fmt::format("Comparison of {} runs", count);
+  if (plan.title.empty()) plan.title = "Comparison of " + how_many(count, "run", "runs");
   return plan;
 }
 
@@ -125,11 +125,12 @@ class Comparison {
     }
     std::string varied;
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
-    std::string text = fmt::format("{} runs", count_);
+    std::string text = how_many(count_, "run", "runs");
     if (failed_ > 0) text += fmt::format(", {} of them failed", failed_);
     if (doubtful_ > 0) text += fmt::format(", {} of them doubtful", doubtful_);
     if (unrelated_)
-      text += fmt::format(" of scenes with little in common; {} values differ", plan_.parameters.size());
+      text += fmt::format(" of scenes with little in common; {}",
+                          how_many(plan_.parameters.size(), "value differs", "values differ"));
     else if (!varied.empty())
       text += "; varied: " + varied;
     charts_.write(plan_, text, parameters_.differences(), charts, placed, series_.scenarios().all);
@@ -149,8 +150,8 @@ class Comparison {
                                     scenarios.names.size(), scenarios.all, plan_.seed ? "scenarios" : "runs"));
     remarks.push_back(fmt::format("Series: at most {} points of each, evenly chosen.", SeriesGatherer::most_points));
     if (series_.left_out() > 0)
-      remarks.push_back(
-          fmt::format("Series: {} runs left out, for tables that are too long or other instants.", series_.left_out()));
+      remarks.push_back(fmt::format("Series: {} left out, for tables that are too long or other instants.",
+                                    how_many(series_.left_out(), "run", "runs")));
     if (collisions_ && collisions_->full())
       remarks.push_back(fmt::format("Collisions: the first {} of each run; collisions.csv of each run has all.",
                                     collisions_->share()));

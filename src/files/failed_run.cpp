@@ -4,6 +4,9 @@
 
 #include <fcntl.h>
 
+#include <cerrno>
+#include <cstring>
+
 #include "files/open_folder.h"
 #include "files/stored_file.h"
 
@@ -22,6 +25,11 @@ void store_failure(const std::string& path, const std::string& why) {
   file.write("\n");
   file.publish();
   folder.keep();
+}
+
+bool names_full_disk(const std::string& why) {
+  // The text, since a worker process or a program such as ffmpeg reports no more than that.
+  return why.find(std::strerror(ENOSPC)) != std::string::npos || why.find(std::strerror(EDQUOT)) != std::string::npos;
 }
 
 std::string stored_failure(const std::string& path) {

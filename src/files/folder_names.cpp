@@ -54,7 +54,7 @@ bool try_to_remove(int folder, const std::string& name) {
     const auto names = read_names(inner.get());
     if (!names) return false;
     for (const std::string& entry : *names)
-      if (unlinkat(inner.get(), entry.c_str(), 0) != 0 && !is_absent(errno)) return false;
+      if (!try_to_remove(inner.get(), entry)) return false;
     if (unlinkat(folder, name.c_str(), AT_REMOVEDIR) == 0) return true;
     if (errno != ENOTEMPTY && errno != EEXIST) return is_absent(errno);
   }

@@ -88,7 +88,7 @@ struct Tally {
   Doubts doubts;
   double max_overlap = 0;     // m, deepest seen
   Fastest fastest;            // seen
-  std::uint64_t resting = 0;  // bodies in resting contact
+  std::uint64_t resting = 0;  // bodies in lasting contact
   // s, summed over bodies: lasting contact in time steps.
   double stepped_contact = 0;
   TakenUp taken_up;

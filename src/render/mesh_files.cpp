@@ -7,8 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -71,16 +75,87 @@ void drop_names(std::string& text, bool painted) {
   });
 }
 
-/// Makes materials white that give no colour: a texture alone then has its own.
-std::string with_white(const std::string& text, std::set<std::string>& defined) {
-  std::string out;
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> parts;
+  for (std::size_t i = 0; i < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(" \t", i), line.size());
+    if (end > i) parts.push_back(line.substr(i, end - i));
+    i = end + 1;
+  }
+  return parts;
+}
+
+std::optional<float> number_in(std::string_view word) {
+  float x = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+  return error == std::errc() && end == word.data() + word.size() ? std::optional(x) : std::nullopt;
+}
+
+/// A line `map_Kd -s 2 2 1 -clamp on wood.png` in parts.
+struct TextureLine {
+  std::string file;
+  bool clamp = false;
+  WavefrontPlacement placement;
+  std::string unused;  // the first option that is not used, and would change the picture
+};
+
+TextureLine texture_line(std::string_view line) {
+  TextureLine out;
+  const std::vector<std::string_view> parts = split(line);
+  std::size_t i = 1;
+  while (i < parts.size() && parts[i].size() > 1 && parts[i][0] == '-' && !number_in(parts[i])) {
+    const std::string_view option = parts[i++];
+    const std::size_t first = i;
+    // One to three numbers, or a word.
+    std::array<float, 3> numbers = option == "-s" ? std::array<float, 3>{1, 1, 1} : std::array<float, 3>{};
+    for (; i + 1 < parts.size() && i - first < 3 && number_in(parts[i]); ++i) numbers[i - first] = *number_in(parts[i]);
+    const std::string_view word = i == first && i + 1 < parts.size() ? parts[i++] : std::string_view();
+    if (option == "-s") out.placement.scale = {numbers[0], numbers[1]};
+    if (option == "-o") out.placement.offset = {numbers[0], numbers[1]};
+    if (option == "-clamp") out.clamp = word == "on";
+    // These do not change the colours.
+    static constexpr std::string_view harmless[] = {"-s",      "-o",     "-clamp",  "-blendu",
+                                                    "-blendv", "-boost", "-texres", "-bm"};
+    const bool is_known = std::find(std::begin(harmless), std::end(harmless), option) != std::end(harmless);
+    if (!is_known && out.unused.empty()) out.unused = option;
+  }
+  // A name may contain spaces.
+  if (i < parts.size()) out.file = after(line.substr(static_cast<std::size_t>(parts[i].data() - line.data())), "");
+  return out;
+}
+
+/// Makes materials white that give no colour: a texture alone then has its own. Options of textures become placements.
+std::string with_white(const std::string& text, std::set<std::string>& defined,
+                       std::map<std::string, WavefrontPlacement>& placements) {
+  std::string out, material;
   for_lines(text, [&](std::size_t, std::string_view line) {
+    if (opens(line, "map_Kd")) {
+      const TextureLine texture = texture_line(line);
+      placements[material] = texture.placement;
+      out += fmt::format("map_Kd {}{}\n", texture.clamp ? "-clamp on " : "", texture.file);
+      return;
+    }
     out.append(line) += '\n';
     if (!opens(line, "newmtl")) return;
     out += "Kd 1 1 1\n";
-    defined.insert(after(line, "newmtl"));
+    material = after(line, "newmtl");
+    defined.insert(material);
   });
   return out;
+}
+
+/// Throws std::runtime_error if a texture has an option that is not used.
+void check_options(const std::string& name, const std::string& text) {
+  std::size_t number = 1, counted = 0;
+  for_lines(text, [&](std::size_t at, std::string_view line) {
+    number += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(counted),
+                                                  text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    counted = at;
+    const std::string unused = opens(line, "map_Kd") ? texture_line(line).unused : "";
+    if (!unused.empty())
+      throw std::runtime_error(fmt::format("line {} of its material file {}: the option {} of map_Kd is not used. {}",
+                                           number, name, unused, remedy("remove the option")));
+  });
 }
 
 std::string whole(Assimp::IOStream& stream) {
@@ -152,13 +227,12 @@ Assimp::IOStream* MeshFiles::Open(const char* file, const char* mode) {
   std::unique_ptr<Assimp::IOStream> stream(Assimp::DefaultIOSystem::Open(file, mode));
   if (!stream || ending_ != "obj") return stream.release();
   std::string text = whole(*stream);
-  if (file != file_) return stream_of(with_white(text, defined_));
+  if (file != file_) return stream_of(with_white(text, defined_, placements_));
   drop_names(text, painted_);
   return stream_of(text);
 }
 
 bool MeshFiles::mentions_colors() const {
-  if (ending_ == "stl") return false;
   const std::string text = whole(file_);
   if (ending_ != "obj")
     return text.find("\"materials\"") != std::string::npos || text.find("\"COLOR_0\"") != std::string::npos;
@@ -167,7 +241,7 @@ bool MeshFiles::mentions_colors() const {
   if (names.changes > most_changes)
     throw std::runtime_error(fmt::format("it changes its material more than {} times. {}", most_changes,
                                          remedy("sort its faces by material")));
-  for (const std::string& name : names.libraries) found("material file", name);
+  for (const std::string& name : names.libraries) check_options(name, whole(found("material file", name)));
   return true;
 }
 

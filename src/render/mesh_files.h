@@ -3,7 +3,9 @@
 // folder and below. What their text says about materials is found before assimp reads it.
 #include <assimp/DefaultIOSystem.h>
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +19,11 @@ struct WavefrontNames {
   bool vertex_colors = false;
 };
 
+/// How the texture of a material lies on the surface: u' = scale u + offset, with v upwards.
+struct WavefrontPlacement {
+  std::array<float, 2> scale = {1, 1}, offset = {};
+};
+
 class MeshFiles : public Assimp::DefaultIOSystem {
  public:
   /// `painted`: whether assimp sees the names of materials.
@@ -27,10 +34,15 @@ class MeshFiles : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* file, const char* mode) override;
 
   /// Whether the text of the mesh mentions colours or materials. Throws std::runtime_error if it names material files
-  /// that are not there, or changes its material too often.
+  /// that are not there or have options that are not used, or changes its material too often.
   bool mentions_colors() const;
   /// Whether a material file that was opened defines this material.
   bool defines(const std::string& material) const { return defined_.contains(material); }
+  /// By -s and -o of its map_Kd.
+  WavefrontPlacement placement(const std::string& material) const {
+    const auto found = placements_.find(material);
+    return found == placements_.end() ? WavefrontPlacement{} : found->second;
+  }
   /// The bytes of a file by the name that the mesh gives it. `what`: "texture", for the error. Throws
   /// std::runtime_error.
   std::string read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const;
@@ -43,6 +55,7 @@ class MeshFiles : public Assimp::DefaultIOSystem {
   bool painted_;
   std::filesystem::path folder_;
   std::set<std::string> defined_;
+  std::map<std::string, WavefrontPlacement> placements_;  // by material, where it is not the usual one
 };
 
 }  // namespace carom

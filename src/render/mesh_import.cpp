@@ -1,18 +1,25 @@
-// Imports a mesh with assimp, in the child process. Only readers for the file's ending are left, and only files of its
-// own folder can be opened. Vertices and indices are checked here, so that a defect of a reader becomes an error.
-// Normals are made here for files without them, because the smoothing of a shared vertex depends on the angle between
-// faces. Texture coordinates and materials divide vertices: they are imported only for paint.
+// Imports a mesh with assimp, or an STL file without it, in the child process. Only readers for the file's ending are
+// left, and only files of its own folder can be opened. Vertices and indices are checked here, so that a defect of a
+// reader becomes an error. Normals are made here for files without them, because the smoothing of a shared vertex
+// depends on the angle between faces. Texture coordinates and materials divide vertices: they are imported only for
+// paint.
 #include "render/mesh_import.h"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <numeric>
@@ -23,6 +30,7 @@
 #include "numerics/vec3.h"
 #include "render/mesh_files.h"
 #include "render/mesh_materials.h"
+#include "render/stl.h"
 
 namespace carom {
 namespace {
@@ -190,6 +198,48 @@ void append(const aiMesh& part, MeshMaterials* materials, ImportedMesh& mesh, co
   check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
 }
 
+/// The triangles of an STL file, joined where corners are at one place.
+ImportedMesh imported_stl(const std::string& path, const MeshLimits& limits) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::vector<std::array<float, 3>> corners = stl_corners(bytes);
+  check_count(corners.size() / 3, limits.triangles, "triangles");
+  if (corners.empty()) throw std::runtime_error("it has no triangles");
+
+  // By place, with a number each. The first corner of a place comes first.
+  std::vector<std::uint32_t> order(corners.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
+  std::vector<std::uint32_t> first(corners.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && corners[order[i]] == corners[order[i - 1]] ? first[order[i - 1]] : order[i];
+
+  ImportedMesh mesh;
+  std::vector<std::uint32_t> number(corners.size());
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    if (first[i] == i) {
+      number[i] = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+      mesh.vertices.insert(mesh.vertices.end(), corners[i].begin(), corners[i].end());
+    }
+    mesh.triangles.push_back(number[first[i]]);
+  }
+  check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
+  make_normals(mesh, 0, 0);
+  check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
+  return mesh;
+}
+
+/// What assimp only logs: it leaves out triangles that refer to missing vertices.
+class MissingVertices : public Assimp::LogStream {
+ public:
+  void write(const char* text) override { seen_ = seen_ || std::strstr(text, "out-of-range indices") != nullptr; }
+  bool seen() const { return seen_; }
+
+ private:
+  bool seen_ = false;
+};
+
 ImportedMesh imported(const std::string& path, const std::string& ending, bool painted, const MeshLimits& limits) {
   Assimp::Importer importer;
   auto* const files = new MeshFiles(path, ending, painted);
@@ -199,18 +249,23 @@ ImportedMesh imported(const std::string& path, const std::string& ending, bool p
   int unwanted = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                  aiComponent_LIGHTS | aiComponent_CAMERAS;
   if (!painted) unwanted |= aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS;
-  // An STL file has separate triangles with normals of their own. The normals are made anew, to be smooth.
-  if (ending == "stl") unwanted |= aiComponent_NORMALS;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  MissingVertices missing;
+  Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+  Assimp::DefaultLogger::get()->attachStream(&missing, Assimp::Logger::Warn);
   const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure | aiProcess_RemoveComponent |
                                                      aiProcess_Triangulate | aiProcess_SortByPType |
                                                      aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
   if (!scene) {
     const std::string text = importer.GetErrorString();
     if (text == "std::bad_alloc") throw std::bad_alloc();
-    throw std::runtime_error(text);
+    for (const char* empty : {"no faces", "No meshes remaining"})
+      if (text.find(empty) != std::string::npos) throw std::runtime_error("it has no triangles");
+    throw std::runtime_error(fmt::format("it is damaged, or no .{} file: {}. Remedy: export it again", ending, text));
   }
+  Assimp::DefaultLogger::get()->detachStream(&missing, Assimp::Logger::Warn);
+  if (missing.seen()) throw std::runtime_error("a triangle refers to a missing vertex. Remedy: export it again");
   ImportedMesh mesh;
   std::optional<MeshMaterials> materials;
   if (painted) {
@@ -234,6 +289,7 @@ const std::vector<std::string>& mesh_endings() {
 }
 
 ImportedMesh import_mesh(const std::string& path, const std::string& ending, bool painted, const MeshLimits& limits) {
+  if (ending == "stl") return imported_stl(path, limits);
   if (painted && MeshFiles(path, ending, true).mentions_colors()) {
     ImportedMesh mesh = imported(path, ending, true, limits);
     const auto& parts = mesh.paint.parts;

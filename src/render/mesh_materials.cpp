@@ -51,6 +51,12 @@ void add_transform(const aiUVTransform& t, PartSource& source) {
   source.uv = uv;
 }
 
+/// The same for Wavefront, where v is upwards as assimp has it.
+std::array<std::array<float, 3>, 2> uv_of(const WavefrontPlacement& placement) {
+  const auto [scale, offset] = placement;
+  return {{{scale[0], 0, offset[0]}, {0, -scale[1], 1 - offset[1]}}};
+}
+
 }  // namespace
 
 MeshMaterials::MeshMaterials(const aiScene& scene, const MeshFiles& files, const std::string& ending,
@@ -95,6 +101,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
     }
   }
   add_texture(material, part.cutoff == 0, source);
+  if (wavefront_) source.uv = uv_of(files_.placement(material.GetName().C_Str()));
   return source;
 }
 

@@ -51,6 +51,16 @@ std::string near_name(std::string_view word, const std::vector<std::string_view>
   return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
 }
 
+namespace {
+
+/// For names of things of the scene.
+std::string other_names(std::string_view name, const std::vector<std::string_view>& names) {
+  const std::string suggestion = suggest_name(name, names);
+  return suggestion.empty() ? "" : "; " + suggestion;
+}
+
+}  // namespace
+
 bool is_named(std::string_view thing, std::string_view name) {
   return thing == name || (thing.size() > name.size() && thing.starts_with(name) && thing[name.size()] == '.');
 }
@@ -78,7 +88,7 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
     for (const BodyRange& range : scene.roster.bodies)
       if (range.group == groups) names.push_back(range.name);
     throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind,
-                                   in_backticks(measure.body), near_name(measure.body, names)));
+                                   in_backticks(measure.body), other_names(measure.body, names)));
   }
   const BodyRange* whole = find_range(scene, measure.body);
   if (measure.form == MeasureForm::at_end && (whole == nullptr || whole->group))
@@ -109,8 +119,8 @@ std::vector<EntityRange> things_named(std::string_view name, const Measure& meas
   if (dot != std::string_view::npos)
     if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
       return {member_of(*range, name.substr(dot + 1), measure)};
-  throw MeasureError(
-      fmt::format("{}: nothing is named {}{}", in_backticks(measure.name), in_backticks(name), near_name(name, names)));
+  throw MeasureError(fmt::format("{}: nothing is named {}{}", in_backticks(measure.name), in_backticks(name),
+                                 other_names(name, names)));
 }
 
 std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene) {
@@ -123,7 +133,7 @@ std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& sc
   }
   if (regions.empty() && !is_empty(scene, name, [](std::string_view of) { return of == "regions"; }))
     throw MeasureError(fmt::format("{}: no region is named {}{}", in_backticks(measure.name), in_backticks(name),
-                                   near_name(name, names)));
+                                   other_names(name, names)));
   return regions;
 }
 
@@ -178,7 +188,7 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
         std::vector<std::string_view> names;
         for (const auto& [name, number] : scene.measures.numbers) names.push_back(name);
         throw MeasureError(
-            fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), near_name(measure.things[0], names)));
+            fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), other_names(measure.things[0], names)));
       }
       return;
     case MeasureForm::own: {

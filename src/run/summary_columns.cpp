@@ -42,7 +42,7 @@ constexpr std::array<SummaryColumn, 25> columns = {{
      number_of<&Summary::momentum_drift>},
     {"max_overlap_m", "deepest overlap found", number_of<&Summary::max_overlap>},
     {"max_speed_m_per_s", "greatest speed of a body", number_of<&Summary::max_speed>},
-    {"resting", "bodies in resting contact at the end", number_of<&Summary::resting>},
+    {"resting", "bodies in lasting contact at the end", number_of<&Summary::resting>},
     {"frames", "pictures drawn", number_of<&Summary::frames>},
     {"stepped_contact_s", "lasting contact computed by time stepping, summed over bodies; 0: all contact is exact",
      number_of<&Summary::stepped_contact>},

@@ -24,7 +24,9 @@ constexpr double residual_share = 1e-3;
 constexpr double energy_rounding = 0x1p-40;
 /// In rad, of a step. Forces that turn faster are not resolved.
 constexpr double longest_phase = 1;
-constexpr double accurate_phase = 0.1;      // rad, of a step that is proposed
+constexpr double accurate_phase = 0.1;  // rad, of a step that is proposed
+/// A ratio of masses that makes contact problems hard. Below it the advice is another one.
+constexpr double unequal_masses = 100;
 constexpr double place_rounding = 0x1p-53;  // of coordinates
 /// Of the smallest size. The resolution that positions must have.
 constexpr double place_resolution = 1e-6;
@@ -116,8 +118,13 @@ class Warnings {
 
   void check_contact() {
     if (tally_.doubtful == 0) return;
-    add("contact", fmt::format("{} contact problem{} not solved to rounding: make masses less unequal", tally_.doubtful,
-                               tally_.doubtful == 1 ? " was" : "s were"));
+    const auto [least, most] = std::minmax_element(scene_.world.mass.begin(), scene_.world.mass.end());
+    const bool unequal = least != scene_.world.mass.end() && *most > unequal_masses * *least;
+    add("contact",
+        fmt::format("{} contact problem{} not solved to rounding: {}", tally_.doubtful,
+                    tally_.doubtful == 1 ? " was" : "s were",
+                    unequal ? fmt::format("make masses less unequal, which are from {:.3g} to {:.3g} kg", *least, *most)
+                            : "compare dependent figures with those of a start that differs slightly"));
   }
 
   /// Warns of a body that fell asleep in balance although forces would have moved it noticeably.

@@ -2,8 +2,9 @@
 // differ.
 #include "scene/absent_words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <string>
 
 #include "scene/fields.h"
 
@@ -101,7 +102,7 @@ constexpr AbsentWord all_words[] = {
      "contact|restitution"},
     {"collision group|layer|mask|filter|ignore collisions|collision mask",
      "All bodies meet all others. A pair can have a coefficient of restitution of its own.", "pair"},
-    {"material|texture|opacity|transparency|shininess|roughness map|shader",
+    {"material|texture|opacity|transparency|transparent|see through|shininess|roughness map|shader",
      "Things have a colour, or a mesh with its own. `background: none` makes the ground of pictures transparent.",
      "color|mesh|background"},
     {"label|subtitle|annotation|watermark|timestamp|clock|overlay",
@@ -136,6 +137,39 @@ constexpr AbsentWord all_words[] = {
     {"sleep|sleeping|rest|resting|deactivation",
      "Bodies that rest cost nothing until something strikes them. `rest_speed` sets which impacts end in rest.",
      "rest_speed"},
+    {"scale|scaling|scale factor|resize",
+     "A mesh is drawn scaled into its volume, which has the size; with `fit` it keeps its own size. Lengths may be "
+     "expressions of one number of `let`.",
+     "mesh|fit|let"},
+    {"periodic|periodic boundary|periodic boundaries|boundary condition|wrap around|boundary|domain",
+     "There are no periodic boundaries. A `room` has six planes, and a region with `action: remove` takes away what "
+     "leaves or arrives.",
+     "room|region.action"},
+    {"emitter|emit|source|spawn|pour|pouring|insert|insertion|inject|injection|inflow|feed|hopper|nozzle|generator",
+     "All bodies exist from time 0. They can be kept by a fixed thing that `motion` takes away, or start so high that "
+     "they arrive one after another.",
+     "plane.motion|obstacle.motion|groups"},
+    {"delay|postpone|wait|start time|lag|schedule",
+     "Forces and motions begin at their `from` and end at `until`. Bodies exist from time 0.",
+     "force.from|motion.from"},
+    {"momentum|linear momentum|px|py|pz|conservation of momentum",
+     "`output.energy` lists the momentum of all bodies. An `impulse` gives a body momentum at time 0.",
+     "output.energy|impulse"},
+    {"orthographic|orthographic projection|orthogonal|parallel projection|isometric|projection|perspective|ortho",
+     "Pictures are in perspective. A distant `eye` with a small `fov` comes close to a parallel projection.",
+     "camera.eye|camera.fov"},
+    {"python|script|scripting|lua|javascript|plugin|api|library|code|callback|hook",
+     "A scene is data and runs no code. `let`, expressions and `repeat` make its numbers, a sweep varies them, and "
+     "tables are CSV for any program.",
+     "let|ball.repeat|sweep"},
+    {"random|randomness|random position|random velocity|noise|rng|monte carlo|stochastic|jitter|distribution",
+     "`seed` decides all that is random: the places of a group with `arrange: random`, and its velocities with "
+     "`speed`. A sweep may draw its values.",
+     "seed|groups.arrange|groups.speed"},
+    {"pressure|stress|load|weight|normal force|reaction|reaction force|contact force",
+     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. Pressure "
+     "is their sum over an area and a time.",
+     "output.contacts|output.collisions"},
     {"comment|include|import|extends|inherit",
      "A scene is one YAML file; `#` begins a comment. `defaults` holds shared values.", "defaults"},
 };
@@ -149,11 +183,20 @@ std::span<const AbsentWord> absent_words() {
 const AbsentWord* find_absent_word(std::string_view word) {
   std::string plain;
   for (const char c : word) plain += c == '_' || c == '-' ? ' ' : c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  for (const AbsentWord& row : all_words) {
-    const std::vector<std::string_view> words = parts_of(row.words);
-    if (std::find(words.begin(), words.end(), plain) != words.end()) return &row;
-  }
+  const std::string single = plain.ends_with('s') ? plain.substr(0, plain.size() - 1) : plain;
+  for (const std::string& form : {plain, single})
+    for (const AbsentWord& row : all_words) {
+      const std::vector<std::string_view> words = parts_of(row.words);
+      if (std::find(words.begin(), words.end(), form) != words.end()) return &row;
+    }
   return nullptr;
+}
+
+std::string commands_of(const AbsentWord& word) {
+  std::string text;
+  for (const std::string_view key : parts_of(word.see))
+    text += fmt::format("{}carom explain {}", text.empty() ? "" : ", ", key);
+  return text;
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 // Words of the field that the format lacks or names differently, and the keys to use instead.
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +18,10 @@ struct AbsentWord {
 
 std::span<const AbsentWord> absent_words();
 
-/// The row of a word, or null. Case is ignored, and `_` and `-` stand for a space.
+/// The row of a word or of its plural, or null. Case is ignored, and `_` and `-` stand for a space.
 const AbsentWord* find_absent_word(std::string_view word);
+
+/// "carom explain drag, carom explain restitution": the commands that explain what to use. Empty: none.
+std::string commands_of(const AbsentWord& word);
 
 }  // namespace carom

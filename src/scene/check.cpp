@@ -9,9 +9,13 @@
 #include <set>
 #include <tuple>
 
+#include "scene/absent_words.h"
 #include "scene/check_values.h"
 #include "scene/scene.h"
 #include "scene/view.h"
+#include "yaml/joined.h"
+#include "yaml/lookalikes.h"
+#include "yaml/printable.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -166,29 +170,49 @@ class Checker : ValueChecker {
     diagnostics_.add(where, std::move(message), std::move(remedy));
   }
 
+  /// A decimal comma in a flow map: `mass: 1,5` is a 1 and a key 5 without a value. Marks both as one number.
+  bool decimal_comma(const Key& key, const Node& value, Node& map_node) {
+    const auto i = static_cast<std::size_t>(&key - map_node.keys.data());
+    if (i == 0 || !value.is(Node::Kind::null)) return false;
+    Node& whole = map_node.items[i - 1];
+    const bool joined = whole.place.source == key.place.source &&
+                        whole.place.offset + whole.place.length + 1 == key.place.offset;  // the comma
+    const std::string point = whole.text + "." + key.text;
+    if (!joined || !whole.is(Node::Kind::scalar) || key.text.front() < '0' || key.text.front() > '9' ||
+        !parse_number(point))
+      return false;
+    diagnostics_.add({whole.place.source, whole.place.offset, whole.place.length + 1 + key.place.length},
+                     fmt::format("`{},{}` has a comma", whole.text, key.text),
+                     fmt::format("the decimal point is a point: {}", point));
+    whole.bad = true;
+    return true;
+  }
+
   void unknown_key(const Key& key, const Node& value, const Kind& kind, const std::string& what) {
     // In YAML, `radius 0.1` and `radius:0.1` are keys without a value.
     const std::size_t gap = key.text.find_first_of(": ");
     if (value.is(Node::Kind::null) && gap != std::string::npos && gap > 0) {
       const std::string_view head = std::string_view(key.text).substr(0, gap);
-      const std::size_t tail = key.text.find_first_not_of(": ", gap);
+      std::size_t tail = key.text.find_first_not_of(": ", gap);
+      while (const auto found = lookalike_at(key.text, tail)) {
+        char32_t code = 0;
+        tail += static_cast<std::size_t>(utf8_length(key.text, tail, code));
+      }
       const std::string suggestion = find_field(kind, head) != nullptr || is_name(head) ? std::string(head) : "key";
       diagnostics_.add(key.place, fmt::format("{} is a key without a value", in_backticks(key.text)),
-                       tail == std::string::npos
-                           ? "expected `key: value`"
-                           : fmt::format("did you mean {}? A ':' and a space part key and value",
-                                         in_backticks(suggestion + ": " + key.text.substr(tail))));
+                       tail >= key.text.size() ? "expected `key: value`"
+                                               : fmt::format("did you mean {}? A ':' and a space part key and value",
+                                                             in_backticks(suggestion + ": " + key.text.substr(tail))));
       return;
     }
-    diagnostics_.add(key.place, fmt::format("unknown key {} in {}", in_backticks(key.text), what),
-                     suggest_key(key.text, kind));
+    const std::string message = fmt::format("unknown key {} in {}", in_backticks(key.text), what);
+    if (!diagnostics_.add_member(key.place, message)) diagnostics_.add(key.place, message, suggest_key(key.text, kind));
   }
 
-  void entry(const Key& key, Node& value, const Node& map_node, const Kind& kind, const std::string& what,
-             bool partial) {
+  void entry(const Key& key, Node& value, Node& map_node, const Kind& kind, const std::string& what, bool partial) {
     const Field* field = find_field(kind, key.text);
     if (field == nullptr) {
-      unknown_key(key, value, kind, what);
+      if (!decimal_comma(key, value, map_node)) unknown_key(key, value, kind, what);
       return;
     }
     if (value.cancels) return;
@@ -334,11 +358,21 @@ class Checker : ValueChecker {
     if (zero) refuse(value, name + " has no length", required);
   }
 
+  /// A remedy for an entry that stands in place of a list.
+  static std::string list_of_one(const Node& value, const Field& field) {
+    if (value.is(Node::Kind::map)) return field.type == Type::list ? "\na list of one map is [{...}]" : "";
+    const std::vector<std::string_view> words = parts_of(field.type == Type::list ? field.plain : field.of);
+    const bool is_name = field.type == Type::names && words.empty();
+    const bool is_entry = is_name || std::find(words.begin(), words.end(), value.text) != words.end();
+    return value.is(Node::Kind::scalar) && is_entry ? fmt::format("\na list of one is [{}]", printable(value.text))
+                                                    : "";
+  }
+
   void names(Node& value, const Field& field, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::sequence)) {
-      wrong_type(value, name, required);
+      wrong_type(value, name, required + list_of_one(value, field));
     } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
-      refuse(value, fmt::format("{} has {} entries", name, value.items.size()), required);
+      refuse(value, fmt::format("{} has {}", name, how_many(value.items.size(), "entry", "entries")), required);
     } else {
       for (Node& item : value.items) {
         if (!item.is(Node::Kind::scalar))
@@ -360,7 +394,7 @@ class Checker : ValueChecker {
 
   void list(Node& value, const Field& field, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::sequence)) {
-      wrong_type(value, name, required);
+      wrong_type(value, name, required + list_of_one(value, field));
       return;
     }
     if (field.needs_entries && value.items.empty())
@@ -458,7 +492,6 @@ class Checker : ValueChecker {
       return;
     }
     const Kind& kind = kind_named(field.of);
-    std::string_view faulty;  // the repeated thing with an error in a member
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
       if (kind.also != nullptr && key.text == kind.also->key) {
@@ -472,15 +505,7 @@ class Checker : ValueChecker {
       } else if (!family.empty()) {
         in_order(key, family, i == 0 ? std::string_view() : value.keys[i - 1].text);
       }
-      // An error of one member is mostly an error of all. The others are left out, so that nothing reads them.
-      if (!family.empty() && family == faulty) {
-        value.items[i].keys.clear();
-        value.items[i].items.clear();
-        continue;
-      }
-      const std::size_t errors = diagnostics_.count();
       map(value.items[i], kind, fmt::format("{} {}", kind.name, in_backticks(key.text)), key.place, false);
-      if (diagnostics_.count() != errors) faulty = family;
     }
   }
 
@@ -523,6 +548,8 @@ std::string beneath(const std::string& folder, const std::string& path) {
 
 std::string suggest_key(std::string_view wrong, const Kind& kind) {
   const std::vector<std::string_view> keys = keys_of(kind);
+  if (const AbsentWord* word = find_absent_word(wrong))
+    return fmt::format("{}\nsee {}", word->meaning, commands_of(*word));
   const std::string known = "expected " + listed(keys);
   std::vector<std::string_view> owners;
   std::vector<std::string> shown;

@@ -17,6 +17,11 @@ std::string wrong_count(const std::string& name, std::size_t count) {
   return fmt::format("{} has {} number{}", name, count, count == 1 ? "" : "s");
 }
 
+/// Adds Field::without.
+std::string with_other_way(const Field& field, std::string remedy) {
+  return field.without.empty() ? remedy : fmt::format("{}\n{}", remedy, field.without);
+}
+
 bool means_none(std::string_view text) {
   for (const char* word : {"None", "NONE", "transparent", "Transparent", "clear", "no"})
     if (text == word) return true;
@@ -57,11 +62,13 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
   const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
   if (!parsed) {
     Complaint complaint = explain_number(value, expected_number(field));
+    if (is_infinite(value.text)) complaint.remedy = with_other_way(field, std::move(complaint.remedy));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return false;
   }
   if (!contains(field.range, *parsed)) {
-    refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
+    refuse(value, fmt::format("{} is {}", name, value.text),
+           *parsed == 0 ? with_other_way(field, "expected " + expected(field)) : "expected " + expected(field));
     return false;
   }
   if (!contains(limits, *parsed)) {

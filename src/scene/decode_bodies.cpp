@@ -17,6 +17,7 @@
 #include "scene/placement.h"
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "yaml/joined.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -119,8 +120,8 @@ class Bodies {
     if (!list.is(Node::Kind::sequence)) return;
     if (list.items.size() != body.count) {
       diagnostics_.add(view.place("members"),
-                       fmt::format("`members` of {} has {} entries, and `count` is {}", in_backticks(body.key->text),
-                                   list.items.size(), body.count),
+                       fmt::format("`members` of {} has {}, and `count` is {}", in_backticks(body.key->text),
+                                   how_many(list.items.size(), "entry", "entries"), body.count),
                        "expected an entry for each ball");
       return;
     }

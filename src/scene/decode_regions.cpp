@@ -86,11 +86,9 @@ class Regions {
       scene_.world.regions[r].stops = found = true;
     }
     if (found) return;
-    const std::string near = nearest(region->text, std::vector<std::string_view>(names.begin(), names.end()));
+    const std::string suggestion = suggest_name(region->text, {names.begin(), names.end()});
     diagnostics_.add(region->place, fmt::format("no region is named {}", in_backticks(region->text)),
-                     !near.empty()   ? fmt::format("did you mean {}?", in_backticks(near))
-                     : names.empty() ? "expected `regions` with that name"
-                                     : "expected a name of `regions`");
+                     suggestion.empty() ? "expected `regions` with that name" : suggestion);
   }
 
   const Node& root_;

@@ -13,6 +13,7 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "scene/sheet_layout.h"
+#include "yaml/joined.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -271,9 +272,10 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
   const View simulate = scene_part(root, "simulate");
   const bool said = simulate.given("step") != nullptr;
   const Key* forces = root.find_key("forces");
-  const std::string figure = many ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
-                                  : fmt::format("{:.4g} time steps for each of {} bodies; the limit is {} in all",
-                                                *steps, scene.world.body_count(), budget.body_steps);
+  const std::string figure = many
+                                 ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
+                                 : fmt::format("{:.4g} time steps for {}; the limit is {} in all", *steps,
+                                               how_many(scene.world.body_count(), "body", "bodies"), budget.body_steps);
   diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
                   fmt::format("the run would take {}", figure),
                   said ? "expected a longer `step` or a shorter duration, or --force to allow it"

@@ -258,13 +258,15 @@ class Expander {
 
   /// Adds the members of a repeated thing to `made`. False: it has none, and stays as it is.
   bool members(Node& thing, Place where, const Kind& kind, const std::string& path, std::vector<Node>& made) {
-    const std::size_t errors = diagnostics_.count(), before = numbers_.names.size(), first = made.size();
+    const std::size_t errors = diagnostics_.added(), before = numbers_.names.size(), first = made.size();
     note_repeat(path, *thing.find(repeat_key));
     const std::optional<Counts> counts = read_counts(*thing.find(repeat_key), where);
     bool good = counts && counts->members > 0;
     if (good) {
       for (const std::string& name : counts->names) numbers_.add(name, 0);
-      good = make(thing, *counts, kind, path, made) && diagnostics_.count() == errors;
+      diagnostics_.mark_repeated(where);
+      mark_repeated(thing);
+      good = make(thing, *counts, kind, path, made) && diagnostics_.added() == errors;
       numbers_.names.resize(before);
       numbers_.values.resize(before);
       numbers_.known.resize(before);
@@ -275,6 +277,12 @@ class Expander {
     map(thing, kind, path);
     mode_ = Mode::evaluate;
     return false;
+  }
+
+  void mark_repeated(const Node& node) {
+    diagnostics_.mark_repeated(node.place);
+    for (const Key& key : node.keys) diagnostics_.mark_repeated(key.place);
+    for (const Node& item : node.items) mark_repeated(item);
   }
 
   bool make(Node& thing, const Counts& counts, const Kind& kind, const std::string& path, std::vector<Node>& made) {
@@ -323,7 +331,7 @@ class Expander {
 
   /// The value of a count. None: an error was added.
   std::optional<double> read_count(Node& node, const std::string& name) {
-    const std::size_t errors = diagnostics_.count();
+    const std::size_t errors = diagnostics_.added();
     const Place place = node.place;
     if (is_expression(node)) {
       std::optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
@@ -333,7 +341,7 @@ class Expander {
     const std::optional<double> value = is_number ? parse_number(node.text) : std::nullopt;
     if (value && *value >= 0 && std::floor(*value) == *value) return value;
     node.bad = true;
-    if (diagnostics_.count() == errors)
+    if (diagnostics_.added() == errors)
       diagnostics_.add(place,
                        fmt::format("{} is {}", name,
                                    node.is(Node::Kind::null)     ? "empty"
@@ -425,6 +433,30 @@ class Expander {
 
 }  // namespace
 
+namespace {
+
+/// Gives groups without a `ball` an empty one, which then has the values of `defaults: {ball: ..}`.
+void write_out_balls(Node& root) {
+  const Node* defaults = root.find("defaults");
+  const Node* ball = defaults == nullptr ? nullptr : defaults->find("ball");
+  const Node* group = defaults == nullptr ? nullptr : defaults->find("group");
+  const Node* common = group == nullptr ? nullptr : group->find("ball");
+  if (ball == nullptr || ball->keys.empty() || (common != nullptr && common->is(Node::Kind::map))) return;
+
+  Node* groups = root.find("groups");
+  for (std::size_t i = 0; groups != nullptr && i < groups->keys.size(); ++i) {
+    Node& each = groups->items[i];
+    if (!each.is(Node::Kind::map) || each.find("ball") != nullptr) continue;
+    const Place where = groups->keys[i].place;
+    each.keys.push_back({"ball", where});
+    Node& empty = each.items.emplace_back();
+    empty.kind = Node::Kind::map;
+    empty.place = where;
+  }
+}
+
+}  // namespace
+
 void write_out(Node& root) {
   for (const Field& field : kind_named("scene").fields) {
     if (field.plain.empty() || !root.is(Node::Kind::map)) continue;
@@ -453,6 +485,7 @@ const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path
 }
 
 ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics) {
+  write_out_balls(root);
   return has_shorthands(root) ? Expander(budget, diagnostics).run(root) : ExpressionTexts{};
 }
 

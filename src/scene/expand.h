@@ -24,6 +24,7 @@ const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path
 void write_out(Node& root);
 
 /// Replaces each expression by its number, and each repeated thing `name` by its members `name.0`, `name.1`, ...
+/// A group without a ball gets an empty one where `defaults` have a ball.
 /// Adds errors, and marks values bad whose expression has no number. A thing with `repeat: 0` stays as it is.
 /// More values than a file may have, or more members than `budget` has bodies, are refused before they are made.
 ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics);

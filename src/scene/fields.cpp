@@ -79,8 +79,9 @@ constexpr Field defaults_fields[] = {
     {.key = "string", .type = Type::part, .of = "string", .doc = "For every string.", .example = "{restitution: 0.2}"},
 };
 
-constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .member = fills<BodyKeys, &BodyKeys::mass>};
-constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700", .member = fills<BodyKeys, &BodyKeys::density>};
+constexpr std::string_view fixed_things = "what no impact moves has no mass: it stands in `obstacles`, `planes` or `walls`";
+constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .without = fixed_things, .member = fills<BodyKeys, &BodyKeys::mass>};
+constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700", .without = fixed_things, .member = fills<BodyKeys, &BodyKeys::density>};
 constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.11", .member = fills<BodyKeys, &BodyKeys::radius>};
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0.", .example = "[2, 0, 0]", .member = fills<BodyKeys, &BodyKeys::velocity>};
 constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9", .member = fills<BodyKeys, &BodyKeys::restitution>};
@@ -132,7 +133,7 @@ constexpr Field start_fields[] = {
 
 constexpr Field group_fields[] = {
     {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20", .member = fills<GroupKeys, &GroupKeys::count>},
-    {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "A ball of the group, without position.", .example = "{mass: 1, radius: 0.1}"},
+    {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "A ball of the group, without position. Not needed where defaults.ball has all of it.", .example = "{mass: 1, radius: 0.1}"},
     {.key = "in", .type = Type::part, .of = "in", .one_of = "in|members", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls", .member = fills<GroupKeys, &GroupKeys::in>},
     {.key = "arrange", .type = Type::choice, .of = "random|lattice|hexagonal", .one_of = "arrange|members",
      .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal", .member = fills<GroupKeys, &GroupKeys::arrange>},
@@ -254,7 +255,7 @@ constexpr Field simulate_fields[] = {
      .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact", .member = fills<Simulate, &Simulate::engine>},
     {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines stepped and book; with dop853 the longest one. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
     {.key = "as_printed", .type = Type::flag, .doc = "book only: the chapter's listings as printed, errors included.", .example = "true", .engines = "book", .member = fills<Simulate, &Simulate::as_printed>},
-    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface the slowest speed that the clock resolves; among bodies 0.03 sqrt(p L), with p the acceleration by gravity and forces and L the diameter of the smaller body, or its radius on a fixed thing.", .example = "0.01", .member = fills<Simulate, &Simulate::rest_speed>},
+    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in lasting contact. Default: on a flat surface the slowest speed that the clock resolves; among bodies 0.03 sqrt(p L), with p the acceleration by gravity and forces and L the diameter of the smaller body, or its radius on a fixed thing.", .example = "0.01", .member = fills<Simulate, &Simulate::rest_speed>},
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more collisions stops with an error.", .example = "1000000", .title = "Maximum number of collisions", .member = fills<Simulate, &Simulate::max_collisions>},
     {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Integrator of engine stepped. dop853: Dormand-Prince, order 8, chooses its steps; euler: semi-implicit, order 1; verlet: velocity Verlet, order 2; rk4: Runge-Kutta, order 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
     {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},

@@ -50,6 +50,8 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
         count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
     return std::nullopt;
   }
+  const std::string message = fmt::format("nothing is named {}", in_backticks(name.text));
+  if (diagnostics.add_member(name.place, message)) return std::nullopt;
   std::vector<std::string> all;
   const auto add = [&](const std::string& thing) {
     const std::string_view family = family_of(thing);
@@ -65,11 +67,14 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
       if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
     }
   }
-  const std::string near = nearest(name.text, std::vector<std::string_view>(all.begin(), all.end()));
-  diagnostics.add(name.place, fmt::format("nothing is named {}", in_backticks(name.text)),
-                  !near.empty()  ? fmt::format("did you mean {}?", in_backticks(near))
-                  : bodies_alone ? "expected a ball, body, group or member (gas.3)"
-                                 : "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min");
+  const std::string suggestion = suggest_name(name.text, {all.begin(), all.end()});
+  const std::string kinds = bodies_alone
+                                ? "expected a ball, body, group or member (gas.3)"
+                                : "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min";
+  diagnostics.add(name.place, message,
+                  suggestion.starts_with("did") ? suggestion
+                  : suggestion.empty()          ? kinds
+                                                : fmt::format("{}\n{}", kinds, suggestion));
   return std::nullopt;
 }
 

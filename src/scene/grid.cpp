@@ -135,6 +135,25 @@ std::optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, doub
   return std::nullopt;
 }
 
+std::vector<BodyGrid::Overlap> BodyGrid::all_overlaps(const Member& body, double relative) const {
+  std::vector<Overlap> all;
+  const auto look = [&](std::uint32_t i) {
+    if (const auto overlap = overlap_with(members_[i].member, body, relative)) all.push_back(*overlap);
+  };
+  for (std::uint32_t l = 0; l < levels_.size(); ++l) {
+    const Cells cells = cells_about(levels_[l], body);
+    if (cells.count > static_cast<double>(levels_[l].members.size())) {
+      for (const std::uint32_t i : levels_[l].members) look(i);
+      continue;
+    }
+    each_bucket(l, cells, [&](std::size_t at) {
+      for (std::uint32_t i = heads_[at]; i != none; i = members_[i].next) look(i);
+      return true;
+    });
+  }
+  return all;
+}
+
 void BodyGrid::prefetch(const Member& body, Prefetch what) const {
   if (levels_.size() != 1) return;
   const Cells cells = cells_about(levels_[0], body);

@@ -42,6 +42,8 @@ class BodyGrid {
   void insert(const Member& member);
   /// A member that overlaps this body beyond the tolerance of touching, if there is one.
   std::optional<Overlap> find_overlap(const Member& body, double relative = tight) const;
+  /// All such members, some of them more than once.
+  std::vector<Overlap> all_overlaps(const Member& body, double relative) const;
   /// Prefetches the memory that find_overlap will read: first the cells, later the members in them.
   enum class Prefetch { cells, members };
   void prefetch(const Member& body, Prefetch what) const;

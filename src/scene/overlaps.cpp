@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <tuple>
 
 #include "physics/world.h"
@@ -13,9 +15,10 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t max_overlaps_shown = 20;
-// In the grid. A heap of bodies in one place must not cost n^2.
-constexpr std::size_t max_overlapping_kept = 1000;
+/// More overlaps are one error.
+constexpr std::size_t most_shown_singly = 4;
+// Then bodies that overlap leave the grid. A heap of bodies in one place must not cost n^2.
+constexpr std::size_t max_overlaps_kept = 100'000;
 // A share of the smaller reach. Places are decimals that were rounded by hand.
 constexpr double rounding_of_places = 1e-9;
 
@@ -25,18 +28,80 @@ struct Found {
   Place place;   // of the later one's position
 };
 
-void report(const Scene& scene, const Found& found, const std::string& more, Diagnostics& diagnostics) {
-  const World& world = scene.world;
-  const std::string a = in_backticks(scene.roster.name(found.later)), b = in_backticks(scene.roster.name(found.other));
-  if (world.is_plane(found.other) &&
-      found.depth > 2 * world.volume_of(found.later).support(world.plane(found.other).normal)) {
-    diagnostics.add(found.place, fmt::format("{} is behind {} at the start", a, b),
-                    "expected it on the side that the normal points to" + more);
-    return;
+/// The overlaps of a scene, one for each body and thing.
+class Overlaps {
+ public:
+  Overlaps(const Scene& scene, Diagnostics& diagnostics)
+      : scene_(scene), world_(scene.world), diagnostics_(diagnostics) {}
+
+  std::size_t size() const { return found_.size(); }
+  void add(const Found& found) { found_.push_back(found); }
+
+  void report() {
+    std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+      return std::tie(a.later, a.other) < std::tie(b.later, b.other);
+    });
+    if (found_.size() > most_shown_singly) return report_deepest();
+    for (const Found& found : found_)
+      diagnostics_.add(found.place, message(found),
+                       is_behind(found) ? "expected it on the side that the normal points to"
+                                        : "expected bodies apart, or just touching");
   }
-  diagnostics.add(found.place, fmt::format("{} overlaps {} by {:.6g} m at the start", a, b, found.depth),
-                  "expected bodies apart, or just touching" + more);
-}
+
+ private:
+  bool is_behind(const Found& found) const {
+    return world_.is_plane(found.other) &&
+           found.depth > 2 * world_.volume_of(found.later).support(world_.plane(found.other).normal);
+  }
+
+  std::string message(const Found& found) const {
+    const std::string a = in_backticks(scene_.roster.name(found.later));
+    const std::string b = in_backticks(scene_.roster.name(found.other));
+    return is_behind(found) ? fmt::format("{} is behind {} at the start", a, b)
+                            : fmt::format("{} overlaps {} by {:.6g} m at the start", a, b, found.depth);
+  }
+
+  /// One error for all, at the deepest.
+  void report_deepest() {
+    const Found& deepest = *std::max_element(found_.begin(), found_.end(),
+                                             [](const Found& a, const Found& b) { return a.depth < b.depth; });
+    std::set<Entity> bodies;
+    for (const Found& found : found_)
+      for (const Entity entity : {found.later, found.other})
+        if (entity < world_.body_count()) bodies.insert(entity);
+    const bool some_left_out = found_.size() > max_overlaps_kept;
+    std::string remedy =
+        fmt::format("expected bodies apart, or just touching to {} of the smaller one", rounding_of_places);
+    if (const double share = common_share(); share < 1) {
+      // Rounded up to two digits, so that radii with these digits do.
+      const double digit = std::pow(10, std::floor(std::log10(share)) - 1);
+      remedy += fmt::format("\nradii smaller by {:.2g} of their size leave none", std::ceil(share / digit) * digit);
+    }
+    diagnostics_.add(
+        deepest.place,
+        fmt::format("{}, the deepest of {} overlaps of {} bodies", message(deepest),
+                    some_left_out ? fmt::format("more than {}", max_overlaps_kept) : std::to_string(found_.size()),
+                    bodies.size()),
+        remedy);
+  }
+
+  /// The share by which all radii must shrink. 1: a body is no ball, or lies behind a plane.
+  double common_share() const {
+    const auto is_ball = [&](Entity entity) { return world_.volume_of(entity).shape == Shape::sphere; };
+    double share = 0;
+    for (const Found& found : found_) {
+      const bool both = found.other < world_.body_count();
+      if (!is_ball(found.later) || (both && !is_ball(found.other))) return 1;
+      share = std::max(share, found.depth / (world_.radius[found.later] + (both ? world_.radius[found.other] : 0)));
+    }
+    return share;
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  Diagnostics& diagnostics_;
+  std::vector<Found> found_;
+};
 
 }  // namespace
 
@@ -54,13 +119,20 @@ void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGri
   std::stable_sort(singles.begin(), singles.end(), [&](const SingleBody& a, const SingleBody& b) {
     return world.radius[a.body] > world.radius[b.body];
   });
-  std::vector<Found> found;
+  Overlaps found(scene, diagnostics);
   for (const SingleBody& single : singles) {
-    if (const auto overlap = grid.find_overlap(member(single.body), rounding_of_places)) {
-      const bool is_later = single.body > overlap->entity;
-      const Entity later = std::max(overlap->entity, single.body), other = std::min(overlap->entity, single.body);
-      found.push_back({later, other, overlap->depth, is_later ? single.position : place_of(later)});
-      if (found.size() > max_overlapping_kept) continue;
+    if (const auto first = grid.find_overlap(member(single.body), rounding_of_places)) {
+      const bool too_many = found.size() > max_overlaps_kept;
+      std::vector<BodyGrid::Overlap> all{*first};
+      if (!too_many) all = grid.all_overlaps(member(single.body), rounding_of_places);
+      std::set<Entity> others;
+      for (const BodyGrid::Overlap& overlap : all) {
+        if (!others.insert(overlap.entity).second) continue;
+        const bool is_later = single.body > overlap.entity;
+        const Entity later = std::max(overlap.entity, single.body), other = std::min(overlap.entity, single.body);
+        found.add({later, other, overlap.depth, is_later ? single.position : place_of(later)});
+      }
+      if (too_many) continue;
     }
     grid.insert(member(single.body));
   }
@@ -80,28 +152,18 @@ void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGri
   for (const BodyGrid::Member& obstacle : members) obstacles.insert(obstacle);
   for (const SingleBody& single : singles) {
     if (const auto overlap = obstacles.find_overlap(member(single.body), rounding_of_places)) {
-      found.push_back({single.body, overlap->entity, overlap->depth, single.position});
+      found.add({single.body, overlap->entity, overlap->depth, single.position});
     }
     for (Entity surface = world.body_count(); surface < world.body_count() + surfaces; ++surface) {
       const Vec3& center = scene.initial.position[single.body];
       if (const auto depth = overlap_depth(world, single.body, center, surface, rounding_of_places)) {
-        found.push_back({single.body, surface, *depth, single.position});
+        found.add({single.body, surface, *depth, single.position});
       }
     }
   }
   for (const BodyGrid::Member& obstacle : members) grid.insert(obstacle);
 
-  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-    return std::tie(a.later, a.other) < std::tie(b.later, b.other);
-  });
-  for (std::size_t i = 0; i < std::min(found.size(), max_overlaps_shown); ++i) {
-    std::string more;
-    if (i + 1 == max_overlaps_shown && found.size() > max_overlaps_shown) {
-      more = fmt::format("\nand {} more overlaps", found.size() - max_overlaps_shown);
-    }
-    report(scene, found[i], more, diagnostics);
-  }
-  if (found.size() > max_overlaps_shown) diagnostics.add_uncounted(found.size() - max_overlaps_shown);
+  found.report();
 }
 
 }  // namespace carom

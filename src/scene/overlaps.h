@@ -17,7 +17,8 @@ struct SingleBody {
   Place position;
 };
 
-/// Adds an error for each body that overlaps another body, a plane, a wall or an obstacle.
+/// Adds an error for each body that overlaps another body, a plane, a wall or an obstacle. Many are one error, with the
+/// deepest overlap.
 /// The tolerance is 1e-9 of the smaller one's reach. Then the bodies and the obstacles are inserted into `grid`.
 /// `singles`: in the order of their numbers. Their part of the world and of the initial state must be decoded.
 void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics);

@@ -363,10 +363,16 @@ Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
   return whole;
 }
 
+/// A part that need not be there where the defaults of its own kind have all that it needs (add_part_rules).
+bool is_part_with_defaults(const Field& field) {
+  return field.type == Type::part && !kind_named(field.of).defaults.empty();
+}
+
 /// Adds the required keys of a kind that has defaults. `each` wraps a schema of one map into one of the root.
 void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& rules) {
   for (const auto& need : needs_of(kind))
-    rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(kind, need))}});
+    if (!is_part_with_defaults(*find_field(kind, need.front())))
+      rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(kind, need))}});
   for (const Field& field : kind.fields) {
     if (field.with.empty()) continue;
     // The rule holds where the key is present, and where the default takes effect because no rival hides it.
@@ -408,7 +414,7 @@ Json root_rules(const Kind& root) {
     const auto each = [&](Json schema) { return at(field.key, {{"additionalProperties", std::move(schema)}}); };
     add_rules(kind, each, rules);
     for (const Field& part : kind.fields) {
-      if (part.type == Type::part && !kind_named(part.of).defaults.empty()) add_part_rules(kind, part, each, rules);
+      if (is_part_with_defaults(part)) add_part_rules(kind, part, each, rules);
     }
   }
   return rules;

@@ -194,10 +194,12 @@ class Walk {
   }
 
   bool refuse_name(const Step& step, std::string message) {
-    const std::string near = nearest(step.text, names_in(*node_));
+    const std::string suggestion = suggest_name(step.text, names_in(*node_));
+    constexpr std::string_view rule = "--set changes existing entries and adds none";
     return refuse(step, std::move(message),
-                  near.empty() ? "--set changes existing entries and adds none"
-                               : fmt::format("did you mean {}?", in_backticks(near)));
+                  suggestion.starts_with("did") ? suggestion
+                  : suggestion.empty()          ? std::string(rule)
+                                                : fmt::format("{}\n{}", suggestion, rule));
   }
 
   /// Members stand in a file as `row.0`, two steps of the path. The first of them is kept in family_ until the second.

@@ -26,15 +26,8 @@ namespace {
 
 constexpr std::size_t names_shown = 5;
 
-/// "`red`, `blue` and 7 more"
 std::string names_text(const std::vector<std::string>& names) {
-  std::vector<std::string> shown;
-  for (std::size_t i = 0; i < std::min(names.size(), names_shown); ++i) shown.push_back(in_backticks(names[i]));
-  if (names.size() > names_shown) return fmt::format("{} and {} more", joined(shown, ", "), names.size() - names_shown);
-  if (shown.size() == 1) return shown.front();
-  const std::string last = shown.back();
-  shown.pop_back();
-  return fmt::format("{} and {}", joined(shown, ", "), last);
+  return carom::names_text({names.begin(), names.end()}, names_shown);
 }
 
 Node number_node(double value, Place place) {

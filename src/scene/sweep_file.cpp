@@ -15,6 +15,7 @@
 #include "scene/view.h"
 #include "yaml/decimal.h"
 #include "yaml/document.h"
+#include "yaml/joined.h"
 #include "yaml/value_json.h"
 #include "yaml/values.h"
 
@@ -180,15 +181,18 @@ class SweepReader {
       std::vector<SweepValue> column = values(key, zip.items[i]);
       if (i == 0) axis.cases.resize(column.size());
       if (zip.keys.size() * axis.cases.size() > most_values) {
-        diagnostics_.add(key.place, fmt::format("{} values of {} paths", axis.cases.size(), zip.keys.size()),
+        diagnostics_.add(key.place,
+                         fmt::format("{} of {}", how_many(axis.cases.size(), "value", "values"),
+                                     how_many(zip.keys.size(), "path", "paths")),
                          fmt::format("expected at most {} values in all", most_values));
         return {Axis::Kind::zip, {}};
       }
       if (column.size() != axis.cases.size()) {
-        diagnostics_.add(key.place,
-                         fmt::format("{} has {} values, {} has {}", in_backticks(key.text), column.size(),
-                                     in_backticks(zip.keys.front().text), axis.cases.size()),
-                         "expected as many for each path: they vary in step");
+        diagnostics_.add(
+            key.place,
+            fmt::format("{} has {}, {} has {}", in_backticks(key.text), how_many(column.size(), "value", "values"),
+                        in_backticks(zip.keys.front().text), axis.cases.size()),
+            "expected as many for each path: they vary in step");
         column.resize(axis.cases.size());
       }
       for (std::size_t k = 0; k < column.size(); ++k) axis.cases[k].values.emplace_back(path(key.text), column[k]);
@@ -206,7 +210,8 @@ class SweepReader {
     if (number == nullptr || !over.is(Node::Kind::map)) return axis;
     const std::uint64_t count = parse_whole(number->text).value_or(1);
     if (over.keys.size() * count > most_values) {
-      diagnostics_.add(node.find_key(key)->place, fmt::format("{} values of {} paths", count, over.keys.size()),
+      diagnostics_.add(node.find_key(key)->place,
+                       fmt::format("{} values of {}", count, how_many(over.keys.size(), "path", "paths")),
                        fmt::format("expected at most {} values in all", most_values));
       return axis;
     }

@@ -112,9 +112,7 @@ class PathWalk {
     if (entry == nullptr) {
       std::vector<std::string_view> names;
       for (const Key& key : node_->keys) names.push_back(key.text);
-      const std::string near = nearest(step, names);
-      return fail(fmt::format("there is no {} {}", kind.name, in_backticks(step)),
-                  near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near)));
+      return fail(fmt::format("there is no {} {}", kind.name, in_backticks(step)), suggest_name(step, names));
     }
     node_ = entry;
     field_ = nullptr;

@@ -445,7 +445,12 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
   SweepProgress progress{0, 0, runs_in(all)};
   std::size_t next = 0;
   auto synced = std::chrono::steady_clock::now();
+  std::string full_disk;  // the first error that names one
   const auto fail = [&](std::size_t number, std::string why) {
+    if (names_full_disk(why)) {
+      if (full_disk.empty()) full_disk = std::move(why);
+      return;
+    }
     runs_[number].status = RunStatus::failed;
     try {
       store_failure(run_folder(number), why);
@@ -456,7 +461,7 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     failed(number, why);
   };
   Tasks tasks;
-  tasks.next = [&] { return next < all.size() ? std::optional(next++) : std::nullopt; };
+  tasks.next = [&] { return next < all.size() && full_disk.empty() ? std::optional(next++) : std::nullopt; };
   tasks.work = [&](std::size_t task) { return work(all[task]); };
   tasks.done = [&](const TaskOutcome& outcome) {
     const bool whole = outcome.kind == TaskOutcome::Kind::done;
@@ -484,6 +489,7 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     report_progress(progress);
   };
   work_off(tasks, std::min(settings_.jobs, std::max<std::size_t>(all.size(), 1)));
+  if (!full_disk.empty()) throw ExportError(full_disk);
 }
 
 }  // namespace carom

@@ -95,7 +95,8 @@ class SweepJob {
   std::size_t left() const;
 
   /// Does the remaining runs. Scenarios that move alike share one simulation, and equal ones are run once and copied.
-  /// A failed run leaves `error.txt` in its folder, and `failed` is called with it.
+  /// A failed run leaves `error.txt` in its folder, and `failed` is called with it. On a full disk no further run
+  /// begins, and ExportError is thrown.
   /// The last results are not yet synced to disk.
   void run(const std::function<void(const SweepProgress&)>& report_progress,
            const std::function<void(std::size_t number, const std::string& why)>& failed);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "yaml/joined.h"
+#include "yaml/lookalikes.h"
 #include "yaml/printable.h"
 
 namespace carom {
@@ -61,6 +63,18 @@ std::size_t first_whole_character(std::string_view text) {
 
 std::string paint(std::string_view text, std::string_view code, bool color) {
   return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+}
+
+/// The same for messages at one place that differ by numbers alone.
+std::string alike(const Place& place, std::string_view text) {
+  std::string out = fmt::format("{}:{}:", place.source, place.offset);
+  const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  for (std::size_t i = 0; i < text.size();) {
+    const bool begins_number = is_digit(i) || (text[i] == '-' && is_digit(i + 1));
+    if (!begins_number) out += text[i];
+    i = begins_number ? std::min(text.find_first_not_of("0123456789.eE+-", i), text.size()) : i + 1;
+  }
+  return out;
 }
 
 char lower(char c) {
@@ -146,12 +160,67 @@ std::string nearest(std::string_view name, const std::vector<std::string_view>& 
   return std::string(found);
 }
 
+std::string names_text(const std::vector<std::string_view>& names, std::size_t most) {
+  std::vector<std::string_view> shown;
+  for (const std::string_view name : names) {
+    const std::size_t dot = std::min(name.rfind('.'), name.size());
+    const bool is_member = dot + 1 < name.size() && name.find_first_not_of("0123456789", dot + 1) == name.npos;
+    const std::string_view whole = is_member ? name.substr(0, dot) : name;
+    if (shown.empty() || shown.back() != whole) shown.push_back(whole);
+  }
+  const std::size_t count = shown.size() > most ? most : shown.size();
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool last = i + 1 == shown.size();
+    text += (i == 0 ? "" : last ? " and " : ", ") + in_backticks(shown[i]);
+  }
+  return shown.size() > count ? fmt::format("{} and {} more", text, shown.size() - count) : text;
+}
+
+std::string suggest_name(std::string_view name, const std::vector<std::string_view>& candidates) {
+  constexpr std::size_t most = 10;
+  const std::string near = nearest(name, candidates);
+  if (!near.empty()) return fmt::format("did you mean {}?", in_backticks(near));
+  if (candidates.empty()) return {};
+  const std::string names = names_text(candidates, most);
+  const bool one = names.find(" and ") == std::string::npos;
+  return fmt::format("there {} {}", one ? "is" : "are", names);
+}
+
 void Diagnostics::add(Place place, std::string message, std::string remedy) {
+  if (add_member(place, message)) return;
+  ++added_;
+  const std::string_view text = sources_[place.source].text;
+  const std::string lookalike =
+      lookalike_in(text.substr(std::min<std::size_t>(place.offset, text.size()), place.length));
+  if (!lookalike.empty()) remedy = remedy.empty() ? lookalike : fmt::format("{}\n{}", lookalike, remedy);
+
+  if (repeated_.contains({place.source, place.offset})) first_of_alike_.emplace(alike(place, message), errors_.size());
   errors_.push_back({true, place, {}, std::move(message), std::move(remedy)});
 }
 
+bool Diagnostics::add_member(Place place, std::string_view message) {
+  if (!repeated_.contains({place.source, place.offset})) return false;
+  const auto first = first_of_alike_.find(alike(place, message));
+  if (first == first_of_alike_.end()) return false;
+  ++added_;
+  ++errors_[first->second].members;
+  return true;
+}
+
 void Diagnostics::add_unplaced(std::string name, std::string message, std::string remedy) {
+  ++added_;
   errors_.push_back({false, {}, std::move(name), std::move(message), std::move(remedy)});
+}
+
+void Diagnostics::mark_repeated(Place place) {
+  repeated_.insert({place.source, place.offset});
+}
+
+std::string Diagnostics::remedy_of(const Error& error) {
+  if (error.members == 1) return error.remedy;
+  const std::string members = fmt::format("in {} members, of which this is the first", error.members);
+  return error.remedy.empty() ? members : fmt::format("{}\n{}", members, error.remedy);
 }
 
 std::string Diagnostics::show(const Error& error, bool color) const {
@@ -197,9 +266,10 @@ std::string Diagnostics::show(const Error& error, bool color) const {
     out += fmt::format("{:>4} | {}\n", number, shown);
     out += fmt::format("{} | {}{}\n", gutter, under, paint(marks, "1;32", color));
   }
-  for (std::size_t i = 0; i < error.remedy.size();) {
-    const std::size_t end = std::min(error.remedy.find('\n', i), error.remedy.size());
-    out += fmt::format("{} = {}\n", gutter, std::string_view(error.remedy).substr(i, end - i));
+  const std::string remedy = remedy_of(error);
+  for (std::size_t i = 0; i < remedy.size();) {
+    const std::size_t end = std::min(remedy.find('\n', i), remedy.size());
+    out += fmt::format("{} = {}\n", gutter, std::string_view(remedy).substr(i, end - i));
     i = end + 1;
   }
   return out;
@@ -220,7 +290,8 @@ std::string Diagnostics::text(bool color) const {
   const std::vector<const Error*> order = in_order();
   std::string out;
   for (std::size_t i = 0; i < std::min(order.size(), max_shown); ++i) out += show(*order[i], color);
-  if (order.size() > max_shown) out += fmt::format("and {} more errors\n", order.size() - max_shown);
+  if (order.size() > max_shown)
+    out += fmt::format("and {}\n", how_many(order.size() - max_shown, "more error", "more errors"));
   return out;
 }
 
@@ -229,7 +300,7 @@ std::vector<ErrorRecord> Diagnostics::records() const {
   order.resize(std::min(order.size(), max_shown));
   std::vector<ErrorRecord> records;
   for (const Error* error : order) {
-    ErrorRecord record{error->name, 0, 0, error->message, error->remedy, suggestion_in(error->remedy)};
+    ErrorRecord record{error->name, 0, 0, error->message, remedy_of(*error), suggestion_in(error->remedy)};
     if (error->placed) {
       const Source& source = sources_[error->place.source];
       record.file = source.name;

@@ -1,8 +1,12 @@
 #pragma once
 // Errors with places, collected, sorted and shown: place, line, caret, remedy.
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "yaml/source.h"
@@ -35,15 +39,21 @@ class Diagnostics {
   /// `sources`: the texts that places point into, the file first, then one per --set. They must outlive this object.
   explicit Diagnostics(const std::vector<Source>& sources) : sources_(sources) {}
 
-  /// `remedy`: what was expected, or a suggestion. Each of its lines is one remedy.
+  /// `remedy`: what was expected, or a suggestion. Each of its lines is one remedy. A character of the marked text that
+  /// is only like one of ASCII is named there as well. At a place of repeated things, errors that differ by numbers
+  /// alone are one, which has the number of members.
   void add(Place place, std::string message, std::string remedy = {});
   /// An error of a file as a whole: "path: error: message".
   void add_unplaced(std::string name, std::string message, std::string remedy = {});
-  /// Counts errors that are not shown one by one.
-  void add_uncounted(std::size_t more) { more_ += more; }
+  /// A value or key at this place belongs to each member of a repeated thing.
+  void mark_repeated(Place place);
+  /// Adds an error that another member has already. False: none has. It saves the search for a remedy.
+  bool add_member(Place place, std::string_view message);
 
   bool empty() const { return errors_.empty(); }
-  std::size_t count() const { return errors_.size() + more_; }
+  std::size_t count() const { return errors_.size(); }
+  /// Grows with every error, also with those of further members.
+  std::size_t added() const { return added_; }
 
   /// All errors in the order of the file. Each error has this form:
   ///   path:line:column: error: message
@@ -60,13 +70,18 @@ class Diagnostics {
     bool placed;
     Place place;
     std::string name, message, remedy;
+    std::size_t members = 1;
   };
   std::vector<const Error*> in_order() const;
+  static std::string remedy_of(const Error& error);
   std::string show(const Error& error, bool color) const;
 
   const std::vector<Source>& sources_;
   std::vector<Error> errors_;
-  std::size_t more_ = 0;
+  std::size_t added_ = 0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> repeated_;  // sources and offsets
+  /// By place and message without numbers: the number of the error.
+  std::map<std::string, std::size_t> first_of_alike_;
 };
 
 /// The number of UTF-8 characters. A byte that is not part of one counts as one.
@@ -81,5 +96,12 @@ std::string suggestion_in(std::string_view text);
 /// The closest name in `candidates`: few letters differ, and two swapped letters count as one difference.
 /// Empty: none is near. Of equally near names the first is returned.
 std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// "`red`, `blue` and 7 more". Members of a repeated thing are one name.
+std::string names_text(const std::vector<std::string_view>& names, std::size_t most);
+
+/// What to say of a name that is not there: "did you mean `red`?", or "there are `red`, `blue` and 7 more". Empty:
+/// there are no names.
+std::string suggest_name(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace carom

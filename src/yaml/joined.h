@@ -18,4 +18,9 @@ std::string joined(const Texts& texts, std::string_view separator) {
   return all;
 }
 
+/// "1 entry", "2 entries"
+inline std::string how_many(std::size_t count, std::string_view one, std::string_view many) {
+  return std::to_string(count).append(" ").append(count == 1 ? one : many);
+}
+
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "yaml/diagnostics.h"
+#include "yaml/joined.h"
 
 namespace carom {
 namespace {
@@ -207,7 +208,9 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
     i += static_cast<std::size_t>(length);
   }
   if (tab_lines > max_shown_tabs) {
-    diagnostics.add_unplaced(source.name, fmt::format("tabs in {} more lines", tab_lines - max_shown_tabs));
+    diagnostics.add_unplaced(source.name,
+                             fmt::format("tabs in {}", how_many(static_cast<std::size_t>(tab_lines - max_shown_tabs),
+                                                                "more line", "more lines")));
   }
   return can_go_on;
 }

@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "yaml/diagnostics.h"
+#include "yaml/lookalikes.h"
 
 namespace carom {
 namespace {
@@ -114,9 +116,9 @@ class ParseFailure {
         diagnostics_(diagnostics) {}
 
   void explain() {
-    const bool known = explain_by(causes_in_values) || explain_character() || explain_unpaired() ||
-                       explain_by(causes_in_brackets) || explain_map_value() || explain_text_after_bracket() ||
-                       explain_by(causes_in_lines);
+    const bool known = explain_by(causes_in_values) || explain_character() || explain_blank() || explain_comment() ||
+                       explain_unpaired() || explain_by(causes_in_brackets) || explain_map_value() ||
+                       explain_text_after_bracket() || explain_by(causes_in_lines);
     if (!known) add(detected_, fmt::format("this is not YAML: {}", complaint_), "expected `key: value`");
   }
 
@@ -147,6 +149,44 @@ class ParseFailure {
       add(detected_ > 0 ? detected_ - 1 : 0, "an unknown escape in a text in double quotes",
           "in single quotes a backslash is just a backslash", 2);
       return true;
+    }
+    return false;
+  }
+
+  /// What looks like a space, at the start of a line or after a ':', up to the line where the parser stopped.
+  bool explain_blank() {
+    const std::size_t end = line_start(text_, detected_) + line_at(text_, detected_).size();
+    bool structural = true;
+    for (std::size_t i = begin_; i < end; ++i) {
+      const std::optional<Lookalike> found = lookalike_at(text_, i);
+      if (structural && found && is_blank(*found)) {
+        char32_t code = 0;
+        add(i, "this is no space to YAML", "", static_cast<std::size_t>(utf8_length(text_, i, code)));
+        return true;
+      }
+      structural = text_[i] == '\n' || text_[i] == ':' || (structural && text_[i] == ' ');
+    }
+    return false;
+  }
+
+  /// `color: #ff0000` in brackets: the comment hides the rest of the line.
+  bool explain_comment() {
+    std::size_t depth = 0;
+    for (std::size_t i = begin_; i <= std::min(detected_, text_.size() - 1); ++i) {
+      const char c = text_[i];
+      if (c == '[' || c == '{') ++depth;
+      if ((c == ']' || c == '}') && depth > 0) --depth;
+      if (c != '#' || i == 0 || text_[i - 1] != ' ') continue;
+      const std::size_t before = text_.find_last_not_of(' ', i - 1), end = text_.find_first_of(" ,]}\n", i);
+      const std::size_t word = std::min(end, text_.size()) - i;
+      const bool is_value = before != std::string_view::npos && std::string_view(":,[").find(text_[before]) < 3;
+      if (depth > 0 && is_value && word > 1) {
+        add(i,
+            fmt::format("{} begins a comment, which hides the rest of the line", in_backticks(text_.substr(i, word))),
+            fmt::format("a colour that begins with # needs quotes: '{}'", text_.substr(i, word)), word);
+        return true;
+      }
+      i = std::min(text_.find('\n', i), text_.size());
     }
     return false;
   }

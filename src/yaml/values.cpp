@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "yaml/diagnostics.h"
+#include "yaml/lookalikes.h"
 
 namespace carom {
 namespace {
@@ -62,7 +63,18 @@ std::string without(std::string_view text, char unwanted) {
   return out;
 }
 
+std::string in_lower_case(std::string_view text) {
+  std::string lower;
+  for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return lower;
+}
+
 }  // namespace
+
+bool is_infinite(std::string_view text) {
+  const std::string lower = in_lower_case(text);
+  return lower == ".inf" || lower == "inf" || lower == "infinity";
+}
 
 std::optional<double> parse_number(std::string_view text) {
   if (number_prefix(text).size() != text.size() || text.empty() || has_leading_zero(text)) return std::nullopt;
@@ -100,9 +112,8 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   }
   std::string_view bare = text;
   if (bare.starts_with('-') || bare.starts_with('+')) bare.remove_prefix(1);
-  std::string lower;
-  for (const char c : bare) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  if (lower == ".nan" || lower == "nan" || lower == ".inf" || lower == "inf" || lower == "infinity") {
+  const std::string lower = in_lower_case(bare);
+  if (lower == ".nan" || lower == "nan" || is_infinite(bare)) {
     return {fmt::format("{} is not a finite number", shown), wanted};
   }
   if (lower.starts_with("0x") || lower.starts_with("0o") || lower.starts_with("0b")) {
@@ -134,8 +145,9 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
       return {fmt::format("{} has a comma", shown), fmt::format("the decimal point is a point: {}", point)};
   }
   const std::size_t unit = rest.find_first_not_of(' ');
-  const bool letters = unit != std::string_view::npos && (((rest[unit] | 32) >= 'a' && (rest[unit] | 32) <= 'z') ||
-                                                          rest[unit] == '%' || (rest[unit] & 0x80));
+  const bool letters =
+      unit != std::string_view::npos && !lookalike_at(rest, unit) &&
+      (((rest[unit] | 32) >= 'a' && (rest[unit] | 32) <= 'z') || rest[unit] == '%' || (rest[unit] & 0x80));
   if (letters) {
     if (number.unit.empty()) return {fmt::format("{} carries a unit", shown), wanted + ", the number alone"};
     if (rest.substr(unit) == number.unit)

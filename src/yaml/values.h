@@ -18,6 +18,9 @@ std::optional<std::uint64_t> parse_whole(std::string_view text);
 /// The number of a group's member or of a list's entry: digits only, without a leading zero.
 std::optional<std::uint64_t> parse_index(std::string_view text);
 
+/// A word for infinity, without a sign. It is no number of a scene.
+bool is_infinite(std::string_view text);
+
 /// What is wrong with a scalar that is not a number, and what to write instead.
 struct Complaint {
   std::string message, remedy;

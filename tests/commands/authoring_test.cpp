@@ -208,8 +208,11 @@ TEST(Explain, NamesWhatReplacesAnAbsentWord) {
             "  instead     A body on a string is a pendulum; with `rod: true` it may stand above its pivot, too.\n"
             "  see         carom explain strings, carom explain string.rod\n");
   EXPECT_EQ(here.carom({"explain", "slow", "motion"}).out, here.carom({"explain", "Slow-Motion"}).out);
-  for (const char* word : {"friction", "rotation", "spin", "joint", "rope", "hinge", "timestep", "speed", "slow motion",
-                           "bounce", "elasticity", "camera path", "loop", "variable"}) {
+  for (const char* word :
+       {"friction",    "rotation",    "spin",         "joint",      "rope",        "hinge",   "timestep",
+        "speed",       "slow motion", "bounce",       "elasticity", "camera path", "loop",    "variable",
+        "scale",       "periodic",    "filter",       "emitter",    "pour",        "insert",  "delay",
+        "transparent", "momentum",    "orthographic", "python",     "random",      "pressure"}) {
     const Json words = Json::parse(here.carom({"explain", word, "--json"}).out)["words"];
     ASSERT_EQ(words.size(), 1u) << word;
     for (const Json& key : words[0]["see"])
@@ -226,6 +229,37 @@ TEST(Explain, EveryWordThatIsAbsentStandsInOneRowAndPointsAtKeys) {
     }
     for (const std::string_view key : parts_of(row.see))
       EXPECT_TRUE(!find_places(key).empty() || find_kind(key) != nullptr) << key;
+  }
+}
+
+TEST(Explain, WhatAnAbsentWordProposesIsOfTheFormat) {
+  const auto choice_of = [](const FieldPlaces& row, const std::string& value) {
+    const Field& field = *row.field;
+    if (field.type == Type::flag) return value == "true" || value == "false";
+    const std::vector<std::string_view> all = choices(field);
+    return field.type != Type::choice || std::find(all.begin(), all.end(), value) != all.end();
+  };
+  for (const AbsentWord& row : absent_words()) {
+    const std::string text(row.meaning);
+    for (std::size_t open = text.find('`'); open != std::string::npos;) {
+      const std::size_t close = text.find('`', open + 1);
+      ASSERT_NE(close, std::string::npos) << text;
+      const std::string term = text.substr(open + 1, close - open - 1);
+      open = text.find('`', close + 1);
+      const std::size_t colon = std::min(term.find(": "), term.size());
+      const std::string key = term.substr(0, colon), value = colon < term.size() ? term.substr(colon + 2) : "";
+      if (term.starts_with("carom ")) {
+        EXPECT_EQ(Workplace().carom({term.substr(6), "--help"}).code, 0) << term;
+      } else if (term.starts_with("--set ") || term == "#" || term == "1080p") {
+        continue;  // an option, a mark of YAML, a size
+      } else {
+        const std::vector<FieldPlaces> rows = find_places(key);
+        EXPECT_FALSE(rows.empty()) << term;
+        EXPECT_TRUE(value.empty() || std::any_of(rows.begin(), rows.end(),
+                                                 [&](const FieldPlaces& place) { return choice_of(place, value); }))
+            << term;
+      }
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -106,6 +107,82 @@ TEST(Sweep, ThatHadNoRoomForItsBaseGoesOn) {
   // The folder of another sweep is refused.
   here.write("other/sweep.yaml", here.read("whole/sweep.yaml") + "# more\n");
   EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "other"}).code, 2);
+}
+
+/// PATH with bin/ of a workplace in front, while this object lives.
+class OwnPrograms {
+ public:
+  explicit OwnPrograms(const Workplace& here) : path_(std::getenv("PATH")) {
+    setenv("PATH", (here.path("bin") + ":" + path_).c_str(), 1);
+  }
+  ~OwnPrograms() { setenv("PATH", path_.c_str(), 1); }
+  OwnPrograms(const OwnPrograms&) = delete;
+  OwnPrograms& operator=(const OwnPrograms&) = delete;
+
+ private:
+  std::string path_;
+};
+
+// The disk of a test is not full. An ffmpeg that reports one stands for it.
+const char* const full_disk = "echo started >> \"$LOG\"; echo 'cannot write: No space left on device' >&2; exit 1";
+
+TEST(FullDisk, EndsASweepAtItsFirstErrorWithOneRemedy) {
+  for (const char* jobs : {"1", "2"}) {
+    const Workplace here;
+    here.write("balls.yaml", two_balls(film));
+    here.write("sweep.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.mass: {from: 1, to: 12, count: 12}}\n");
+    put_program(here, "ffmpeg", full_disk);
+    setenv("LOG", here.path("log").c_str(), 1);
+    const Finished run = [&] {
+      const OwnPrograms programs(here);
+      return here.carom({"sweep", "sweep.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
+    }();
+    EXPECT_EQ(run.code, 1);
+    EXPECT_TRUE(run.err.starts_with("carom: cannot make the film out/runs/r00")) << run.err;
+    EXPECT_TRUE(
+        run.err.ends_with(": cannot write: No space left on device\n"
+                          "  make room, then the same command runs what is missing\n"))
+        << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+    EXPECT_LE(here.read("log").size(), std::string("started\n").size() * std::stoul(jobs));
+    EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "out"}).code, 0);
+  }
+}
+
+TEST(FullDisk, EndsARunOfSeveralScenes) {
+  for (const char* jobs : {"1", "2"}) {
+    const Workplace here;
+    for (const char* name : {"a.yaml", "b.yaml", "c.yaml", "d.yaml"}) here.write(name, two_balls(film));
+    put_program(here, "ffmpeg", full_disk);
+    setenv("LOG", here.path("log").c_str(), 1);
+    const OwnPrograms programs(here);
+    const Finished run =
+        here.carom({"run", "a.yaml", "b.yaml", "c.yaml", "d.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find("No space left on device\n  make room, then the same command"), std::string::npos)
+        << run.err;
+    EXPECT_LE(here.read("log").size(), std::string("started\n").size() * std::stoul(jobs));
+    EXPECT_EQ(run.err.find("d.yaml: the run failed"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Film, WhatItsProgramLeavesBehindIsRemoved) {
+  const struct {
+    const char *name, *script;
+  } programs[] = {{"ffmpeg", "mkdir -p animation.mp4/inner; touch animation.mp4/inner/x; exit 1"},
+                  {"ffmpeg", "mkdir sub; touch sub/x; ln -s /etc sub/link; cat > /dev/null"},
+                  {"ffprobe", "mkdir -p a/b/c; exit 1"}};
+  for (const auto& [name, script] : programs) {
+    const Workplace here;
+    here.write("balls.yaml", two_balls(film));
+    put_program(here, name, script);
+    {
+      const OwnPrograms own(here);
+      EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out", "--progress", "none"}).code, 1) << script;
+    }
+    EXPECT_FALSE(here.has("out")) << script;
+    EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out"}).code, 0) << script;
+  }
 }
 
 TEST(Film, AFolderInItsPlaceIsNamedBeforeAnythingIsSimulated) {

@@ -32,10 +32,10 @@ std::string lines_of(const RunResult& result) {
 TEST(Report, ReportsMergesAndClustersTakenIntoContact) {
   EXPECT_EQ(lines_of(result_with(0, 0)),
             "  collisions  2 (2 body-body, 0 body-fixed), first at 0.5 s, last at 1 s\n"
-            "  rest        3 of 5 bodies in resting contact at the end\n");
+            "  contact     3 of 5 bodies in lasting contact at the end\n");
   EXPECT_EQ(lines_of(result_with(1, 4)),
             "  collisions  6 (2 body-body, 0 body-fixed, 4 merges), first at 0.5 s, last at 1 s\n"
-            "  rest        3 of 5 bodies in resting contact at the end; 1 cluster of accelerating collisions\n"
+            "  contact     3 of 5 bodies in lasting contact at the end; 1 cluster of accelerating collisions\n"
             "              turned into contact\n");
 }
 

@@ -27,7 +27,7 @@ TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
             "balls: Two balls\n"
             "  engine      exact (auto: every path of this scene has a closed form)\n"
             "  collisions  1 (1 body-body, 0 body-fixed), at 0.445 s\n"
-            "  rest        0 of 2 bodies in resting contact at the end\n"
+            "  contact     0 of 2 bodies in lasting contact at the end\n"
             "  energy      7.6 J lost, 40 J -> 32.4 J\n"
             "  overlap     none\n"
             "  wrote       output/balls: collisions.csv, energy.csv, manifest.json, scene.yaml, summary.csv and\n"

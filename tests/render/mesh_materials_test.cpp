@@ -1,10 +1,12 @@
 // Materials and textures of mesh files: what is read, and errors.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <numbers>
+#include <vector>
 
 #include "render/colored_meshes.h"
 #include "render/mesh.h"
@@ -37,6 +39,26 @@ TEST(ReadPaintedMesh, AloneLooksAtTextures) {
   EXPECT_EQ(read_mesh(file).triangles.size(), 6U);
   EXPECT_EQ(read_mesh_points(file).size(), 4U);
   EXPECT_NE(painted_trouble(file), "");
+}
+
+TEST(ReadPaintedMesh, OptionsOfAWavefrontTextureAreUsedOrNamed) {
+  const MeshFolder folder;
+  folder.write("four.png", test::from_base64(test::four_colors));
+  using Places = std::vector<std::array<float, 2>>;
+  const auto places = [&](const std::string& options) {
+    return read_painted_mesh(test::write_wavefront(folder, "newmtl paper\nmap_Kd " + options + " four.png\n")).paint.uv;
+  };
+  // u' = s u + o with v upwards; the picture's v is 1 - that. Corners: left lower, right lower, right upper, left
+  // upper.
+  EXPECT_EQ(places("-s 2 4 1 -o 0.25 0.5 0"), (Places{{0.25, 0.5}, {2.25, 0.5}, {2.25, -3.5}, {0.25, -3.5}}));
+  EXPECT_EQ(places("-o 0.5 -clamp on -s 2"), (Places{{0.5, 1}, {2.5, 1}, {2.5, 0}, {0.5, 0}}));
+  EXPECT_EQ(places("-blendu on -bm 1.0 -texres 512"), (Places{{0, 1}, {1, 1}, {1, 0}, {0, 0}}));
+  EXPECT_EQ(
+      painted_trouble(test::write_wavefront(folder, "newmtl paper\nKd 1 1 1\nmap_Kd -mm 0 2 four.png\n")),
+      "line 3 of its material file square.mtl: the option -mm of map_Kd is not used. Remedy: remove the option, or "
+      "give the body a `color`");
+  folder.write("my picture.png", test::from_base64(test::four_colors));
+  EXPECT_EQ(painted_trouble(test::write_wavefront(folder, "newmtl paper\nmap_Kd -s 1 1 1 my picture.png\n")), "");
 }
 
 TEST(ReadPaintedMesh, OfEachMaterialIsAPart) {

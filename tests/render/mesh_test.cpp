@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "render/colored_meshes.h"
 #include "render/mesh_folder.h"
 
 namespace carom {
@@ -42,6 +43,76 @@ TEST(ReadMesh, ATetrahedronOfStlHasFourFacesWithNormalsOfTheirOwn) {
                &c = mesh.vertices[mesh.triangles[t + 2]];
     EXPECT_LT((mesh.normals[mesh.triangles[t]] - (b - a).cross(c - a).normalized()).norm(), 1e-7);
   }
+}
+
+/// A tetrahedron as a text.
+std::string stl_text(const std::string& name) {
+  std::string text = "solid " + name + "\n";
+  for (const char* face : {"0 0 0,0 1 0,1 0 0", "0 0 0,1 0 0,0 0 1", "0 0 0,0 0 1,0 1 0", "1 0 0,0 1 0,0 0 1"}) {
+    std::string corners = face;
+    for (std::size_t i = 0; (i = corners.find(',', i)) != std::string::npos;) corners.replace(i, 1, "\n      vertex ");
+    text += "  facet normal 0 0 0\n    outer loop\n      vertex " + corners + "\n    endloop\n  endfacet\n";
+  }
+  return text + "endsolid " + name + "\n";
+}
+
+std::string in_capitals(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return text;
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  return text.replace(text.find(part), part.size(), by);
+}
+
+TEST(ReadMesh, AnStlFileIsReadInAnyCaseWithEmptySolidsAndBytesBehind) {
+  const MeshFolder folder;
+  const Mesh right = read_mesh(folder.write("right.stl", stl_text("t")));
+  ASSERT_EQ(right.triangles.size(), 12U);
+  const std::string binary = bytes_of(data + "tetrahedron.stl");
+  ASSERT_EQ(binary.size(), 84U + 4 * 50);
+  const auto same = [&](const std::string& bytes, const Mesh& as) {
+    const Mesh mesh = read_mesh(folder.write("a.stl", bytes));
+    EXPECT_EQ(mesh.vertices, as.vertices) << bytes.substr(0, 40);
+    EXPECT_EQ(mesh.triangles, as.triangles) << bytes.substr(0, 40);
+  };
+  same(in_capitals(stl_text("t")), right);
+  same(replaced(stl_text("t"), "facet normal", "Facet Normal"), right);
+  same("solid first\nendsolid first\n" + stl_text("second"), right);
+  same(stl_text("first") + "SOLID\nENDSOLID\n", right);
+  same("\n  " + stl_text(""), right);
+  const Mesh as_binary = read_mesh(data + "tetrahedron.stl");
+  same(binary + "made by a program", as_binary);
+  same(binary + std::string(500, '\0'), as_binary);
+  same("solid" + binary.substr(5) + "x", as_binary);
+}
+
+TEST(ReadMesh, AnStlFileThatIsNoneIsRefusedWithItsPlace) {
+  const MeshFolder folder;
+  const auto why = [&](const std::string& bytes) { return trouble(folder.write("a.stl", bytes)); };
+  EXPECT_EQ(why(replaced(stl_text("t"), "1 0 0", "1,5 0 0")), "line 6: `1,5` is not a number. Remedy: export it again");
+  EXPECT_EQ(why(replaced(stl_text("t"), "1 0 0", "nan 0 0")),
+            "line 6: `nan` is not a finite number. Remedy: export it again");
+  EXPECT_EQ(why(replaced(stl_text("t"), "endloop", "vertex 1 1 1\nendloop")),
+            "line 7: `vertex` stands in place of `endloop`. Remedy: export it again");
+  EXPECT_EQ(why("hello\n"), "line 1: `hello` is no word of an STL file. Remedy: export it again");
+  EXPECT_EQ(why(stl_text("t").substr(0, 100)),
+            "line 6: it ends within a triangle: the file is cut off. Remedy: export it again");
+  EXPECT_EQ(why("solid t\nendsolid t\n"), "it has no triangles");
+  const std::string binary = bytes_of(data + "tetrahedron.stl");
+  EXPECT_EQ(why(binary.substr(0, 200)),
+            "it holds 2 of the 4 triangles that its header counts, or it is no STL file. Remedy: export it again");
+  EXPECT_EQ(why(std::string(binary).replace(96, 4, std::string("\0\0\xC0\x7F", 4))),
+            "triangle 1 has a corner that is not finite");
+}
+
+TEST(ReadMesh, ATriangleOfGltfWithAMissingVertexIsRefused) {
+  const MeshFolder folder;
+  const std::string text = test::GltfSquare{""}.text();
+  ASSERT_EQ(trouble(folder.write("a.gltf", text)), "");
+  EXPECT_EQ(trouble(folder.write("a.gltf", replaced(text, R"("count": 4)", R"("count": 3)"))),
+            "a triangle refers to a missing vertex. Remedy: export it again");
 }
 
 TEST(ReadMesh, NodesOfGltfMoveTurnAndScale) {
@@ -95,9 +166,8 @@ TEST(ReadMesh, ReportsErrorsOfFiles) {
   EXPECT_EQ(trouble(folder.write("noending", "x")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
   EXPECT_EQ(trouble(folder.write("empty.stl", "")), "it is empty");
   EXPECT_EQ(trouble(folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "a vertex is not finite");
-  EXPECT_EQ(trouble(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 2 2 2\n")),
-            "Validation failed: Mesh  contains no faces");
-  EXPECT_EQ(trouble(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nl 1 2 3\n")), "No meshes remaining");
+  EXPECT_EQ(trouble(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 2 2 2\n")), "it has no triangles");
+  EXPECT_EQ(trouble(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nl 1 2 3\n")), "it has no triangles");
   std::filesystem::create_directory(folder.path + "folder.obj");
   EXPECT_EQ(trouble(folder.path + "folder.obj"), "it is a folder");
   ASSERT_EQ(mkfifo((folder.path + "queue.obj").c_str(), 0600), 0);

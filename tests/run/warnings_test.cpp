@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "run/account.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
@@ -169,6 +172,27 @@ TEST(RestWarning, IsNoneWhereBodiesAreInBalanceOrHardlyMove) {
             "simulate: {duration: 2.6e6}\noutput: {}\n")
           .texts(),
       "");
+}
+
+/// The warning of a run with contact problems that were not solved to rounding.
+std::string contact_warning(std::vector<double> masses, std::uint64_t problems) {
+  Scene scene;
+  scene.world.mass = std::move(masses);
+  Tally tally;
+  tally.doubtful = problems;
+  const std::vector<Warning> warnings = warnings_of(scene, EngineChoice{}, scene.initial, Summary{}, tally);
+  return warnings.empty() ? "" : warnings.back().text;
+}
+
+TEST(ContactWarning, AdvisesOnMassesOnlyWhereTheyAreUnequal) {
+  EXPECT_EQ(contact_warning({1, 1e6, 3}, 2),
+            "2 contact problems were not solved to rounding: make masses less unequal, which are from 1 to 1e+06 kg");
+  const std::string other =
+      "1 contact problem was not solved to rounding: compare dependent figures with those of a start that differs "
+      "slightly";
+  EXPECT_EQ(contact_warning({2, 2, 2}, 1), other);
+  EXPECT_EQ(contact_warning({1, 5}, 1), other);
+  EXPECT_EQ(contact_warning({1, 5}, 0), "");
 }
 
 }  // namespace

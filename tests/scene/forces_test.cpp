@@ -54,7 +54,8 @@ TEST(ForceErrors, NamesThatMeanNothingOrNothingThatMoves) {
             "scene.yaml:8:50: error: nothing is named `pot`\n"
             "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
             "     |                                                  ^~~\n"
-            "     = expected a ball, body, group or member (gas.3)\n");
+            "     = expected a ball, body, group or member (gas.3)\n"
+            "     = there are `red`, `blue`, `gas` and `none`\n");
   EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: []}\n"),
             "scene.yaml:8:30: error: `on` has 0 entries\n"
             "   8 |   - {uniform: [1, 0, 0], on: []}\n"

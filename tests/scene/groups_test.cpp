@@ -198,6 +198,32 @@ TEST(Random, BelowIsEven) {
   for (const int count : counts) EXPECT_NEAR(count, 10'000, 4 * 93);
 }
 
+TEST(Groups, NeedNoBallWhereDefaultsHaveAllOfIt) {
+  const std::string gas = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
+  const Scene scene = load_text(start + "defaults: {ball: {mass: 2, radius: 0.25}}\n" + gas);
+  EXPECT_EQ(scene.world.mass, (std::vector<double>{2, 2, 2}));
+  EXPECT_EQ(scene.world.radius, (std::vector<double>{0.25, 0.25, 0.25}));
+  // By the same places and values as with a ball of its own.
+  const Scene own = load_text(
+      start + "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}, ball: {mass: 2, radius: 0.25}}}\n");
+  EXPECT_EQ(scene.initial.position, own.initial.position);
+  // An expression, a --set and a repeated group reach that ball, too.
+  LoadOptions options;
+  options.set = {"groups.gas.ball.mass=5"};
+  EXPECT_EQ(load_text(start + "let: {r: 0.5}\ndefaults: {ball: {mass: 2, radius: = r}}\n" + gas, options).world.mass[0],
+            5);
+  EXPECT_EQ(errors_of(start + "defaults: {ball: {mass: 2, radius: 0.1}}\ngroups: {gas: {repeat: 2, count: 1, in: "
+                              "{min: [= i, 0, 0], max: [= i + 1, 1, 1]}}}\n"),
+            "");
+  // What is missing is named.
+  EXPECT_EQ(errors_of(start + "defaults: {ball: {mass: 2}}\n" + gas),
+            "scene.yaml:4:10: error: `ball` has no `radius`\n"
+            "   4 | groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n"
+            "     |          ^~~\n"
+            "     = expected `radius`: a number above 0 in m\n");
+  EXPECT_NE(errors_of(start + gas).find("group `gas` has no `ball`"), std::string::npos);
+}
+
 TEST(Groups, ABallThatComesFromTheDefaultsIsWholeToo) {
   const std::string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
   EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups),

@@ -200,6 +200,25 @@ TEST(RepeatErrors, OfMembersAreReportedOnce) {
   EXPECT_EQ(of("mass: 1, position: [= i, 0, 0]"), (Marked{{"row", "ball `row.0` has no `radius`"}}));
 }
 
+TEST(RepeatErrors, OfOneLineAreOneErrorWithTheNumberOfMembers) {
+  const std::string things = start + "balls:\n  row: {repeat: 30, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
+  EXPECT_EQ(errors_of(things + "strings:\n  s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n"),
+            "scene.yaml:6:40: error: nothing is named `bob.0`\n"
+            "   6 |   s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n"
+            "     |                                        ^~~~~~~~~\n"
+            "     = in 30 members, of which this is the first\n"
+            "     = expected a ball, body, group or member (gas.3)\n"
+            "     = there is `row`\n");
+  // Two wrong places of one thing are two errors; a force and a region are repeated, too.
+  EXPECT_EQ(marked_errors(things + "forces: [{repeat: 9, uniform: [1, 0, 0], on: [x], from: -1}]\n"),
+            (Marked{{"x", "nothing is named `x`"}, {"-1", "`from` is -1"}}));
+  EXPECT_EQ(marked_errors(things + "regions: {r: {repeat: 9, radius: 1, position: [0, 0, 0], on: [x]}}\n"),
+            (Marked{{"x", "nothing is named `x`"}}));
+  // So many members take no time: measured 0.1 s.
+  EXPECT_EQ(marked_errors(start + "balls: {row: {repeat: 20000, mas: 1, radius: 1, position: [= 3 * i, 0, 0]}}\n"),
+            (Marked{{"mas", "unknown key `mas` in ball `row.0`"}}));
+}
+
 TEST(RepeatErrors, OfNames) {
   const std::string row = start + "balls:\n  row: {repeat: 3, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
   EXPECT_EQ(marked_errors(row + "forces: [{drag: {linear: 1}, on: [row.3]}]\n"),

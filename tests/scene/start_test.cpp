@@ -233,7 +233,7 @@ TEST(ListedBalls, AreCheckedOneByOne) {
            {two, "`gas.1` overlaps `gas.0` by 0.05 m at the start"},
            {two + ", in: {min: [0, 0, 0], max: [1, 1, 1]}", "has both `members` and `in`"},
            {"arrange: lattice, " + two, "has both `arrange` and `members`"},
-           {"members: [{position: [0, 0, 0]}]", "`members` of `gas` has 1 entries, and `count` is 2"},
+           {"members: [{position: [0, 0, 0]}]", "`members` of `gas` has 1 entry, and `count` is 2"},
            {"members: [{}, {position: [0, 0, 0]}]", "has no `position`"},
            {"members: [{position: [0, 0, 0]}, {position: [1e25, 0, 0]}]", "`gas.1` is 1e+25 m from the origin"},
            {"members: [{position: [0, 0, 0]}, {position: [1, 0, 0], velocity: [1e20, 0, 0]}]", "`gas.1` "},

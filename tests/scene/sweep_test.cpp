@@ -212,7 +212,7 @@ TEST(SweepErrors, AreAllShownWithPlaceAndRemedy) {
             "   3 | grd: {a: [1]}\n"
             "     | ^~~\n"
             "     = did you mean `grid`?\n"
-            "falls.yaml:4:18: error: `b` has 1 values, `a` has 2\n"
+            "falls.yaml:4:18: error: `b` has 1 value, `a` has 2\n"
             "   4 | zip: {a: [1, 2], b: [3]}\n"
             "     |                  ^\n"
             "     = expected as many for each path: they vary in step\n"
