@@ -149,8 +149,8 @@ void FlightsFile::end(const Tally& tally) {
                                     tally.collapses, tally.resting, tally.taken_up.impacts})
     writer.put(count);
   for (const double value :
-       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.fastest.speed,
-        tally.stepped_contact, tally.taken_up.fastest, tally.taken_up.energy})
+       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap,
+        tally.fastest.speed, tally.stepped_contact, tally.taken_up.fastest, tally.taken_up.energy})
     writer.put(value);
   file_->written(writer.end());
 }

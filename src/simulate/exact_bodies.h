@@ -87,9 +87,7 @@ struct ExactBodies {
   /// Whether body i's present flight is a curve of its own. A path of constrained motion is not.
   bool flies_on_curve(Entity i) const { return flights.curve(i) != nullptr && !is_constrained(i); }
   /// The same, also where such a flight has just ended.
-  bool path_bends(Entity i) const {
-    return flies_on_curve(i) || (flies_in_steps(i) && !in_lasting_contact(i));
-  }
+  bool path_bends(Entity i) const { return flies_on_curve(i) || (flies_in_steps(i) && !in_lasting_contact(i)); }
   /// What Verlet's method adds to the velocity (m/s) in `t` s of body i's flight: the accelerations of its two ends
   /// count alike.
   Vec3 verlet_change(Entity i, const Flight& f, double t) const {

@@ -24,7 +24,10 @@ TEST(Doubtful, RunsAreMarkedInTheReportTheManifestJsonAndSummary) {
   const Finished run = here.carom({"run", "damped.yaml"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("\n  doubtful    the method lost "), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("\n  doubtful    forces turned by 1.2 rad in a step of 0.012 s, most by forces.0.spring on `a`"), std::string::npos) << run.out;
+  EXPECT_NE(
+      run.out.find("\n  doubtful    forces turned by 1.2 rad in a step of 0.012 s, most by forces.0.spring on `a`"),
+      std::string::npos)
+      << run.out;
   EXPECT_NE(here.read("output/damped/summary.csv").find(",stepped,doubtful,2,"), std::string::npos);
   const Json manifest = Json::parse(here.read("output/damped/manifest.json"));
   EXPECT_EQ(manifest.at("status"), "doubtful");

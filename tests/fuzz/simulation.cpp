@@ -199,9 +199,9 @@ class Run {
   const std::clock_t begin_ = std::clock();
   std::unique_ptr<Simulator> simulator_;
   bool exact_ = false, book_ = false;
-  double last_ = 0;    // s, of the last record
-  double extent_ = 0;  // m, of the farthest place
-  double size_ = 0;    // J, without signs
+  double last_ = 0;       // s, of the last record
+  double extent_ = 0;     // m, of the farthest place
+  double size_ = 0;       // J, without signs
   long double lost_ = 0;  // J, by the records
   double turned_ = 0;     // J, the same without signs
   std::uint64_t counted_ = 0;

@@ -133,7 +133,8 @@ TEST(CurvedFlights, ThroughTheAnchorOfASpringWithARestLengthAreOscillationsPutTo
         const Outcome outcome = run_exact(problem);
         EXPECT_LT((outcome.end.position[0] - problem.initial.position[0]).norm(), 2e-6) << line << stiffness;
         EXPECT_NEAR(energy(problem, outcome.end) / energy(problem, problem.initial), 1, 2e-9) << line << stiffness;
-        EXPECT_NEAR(outcome.tally.fastest.speed / ((start - length) * std::sqrt(stiffness)), 1, 1e-9) << line << stiffness;
+        EXPECT_NEAR(outcome.tally.fastest.speed / ((start - length) * std::sqrt(stiffness)), 1, 1e-9)
+            << line << stiffness;
       }
 }
 
