@@ -14,16 +14,15 @@
 #include <string>
 #include <system_error>
 
-#include "yaml/letters.h"
-#include "yaml/printable.h"
-
 namespace carom {
 namespace {
 
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
 
-std::string shown(const std::string& word) {
-  return fmt::format("`{}`", shortened(printable(word), 40));
+/// For a message: at most 40 bytes, and none that a terminal may obey.
+std::string shown(std::string word) {
+  for (char& c : word) c = c > ' ' && c <= '~' ? c : '?';
+  return fmt::format("`{}`", word.substr(0, 40));
 }
 
 /// The words of a text STL, in order.

@@ -17,9 +17,10 @@ std::string wrong_count(const std::string& name, std::size_t count) {
   return fmt::format("{} has {} number{}", name, count, count == 1 ? "" : "s");
 }
 
-/// Adds Field::without.
-std::string with_other_way(const Field& field, std::string remedy) {
-  return field.without.empty() ? remedy : fmt::format("{}\n{}", remedy, field.without);
+/// Adds what stands for a mass of 0 or infinity in other programs.
+std::string with_fixed_things(const Field& field, std::string remedy) {
+  if (field.key != "mass" && field.key != "density") return remedy;
+  return remedy + "\nwhat no impact moves has no mass: it stands in `obstacles`, `planes` or `walls`";
 }
 
 bool means_none(std::string_view text) {
@@ -62,13 +63,13 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
   const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
   if (!parsed) {
     Complaint complaint = explain_number(value, expected_number(field));
-    if (is_infinite(value.text)) complaint.remedy = with_other_way(field, std::move(complaint.remedy));
+    if (is_infinite(value.text)) complaint.remedy = with_fixed_things(field, std::move(complaint.remedy));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return false;
   }
   if (!contains(field.range, *parsed)) {
     refuse(value, fmt::format("{} is {}", name, value.text),
-           *parsed == 0 ? with_other_way(field, "expected " + expected(field)) : "expected " + expected(field));
+           *parsed == 0 ? with_fixed_things(field, "expected " + expected(field)) : "expected " + expected(field));
     return false;
   }
   if (!contains(limits, *parsed)) {

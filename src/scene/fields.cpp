@@ -79,9 +79,8 @@ constexpr Field defaults_fields[] = {
     {.key = "string", .type = Type::part, .of = "string", .doc = "For every string.", .example = "{restitution: 0.2}"},
 };
 
-constexpr std::string_view fixed_things = "what no impact moves has no mass: it stands in `obstacles`, `planes` or `walls`";
-constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .without = fixed_things, .member = fills<BodyKeys, &BodyKeys::mass>};
-constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700", .without = fixed_things, .member = fills<BodyKeys, &BodyKeys::density>};
+constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .member = fills<BodyKeys, &BodyKeys::mass>};
+constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700", .member = fills<BodyKeys, &BodyKeys::density>};
 constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.11", .member = fills<BodyKeys, &BodyKeys::radius>};
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0.", .example = "[2, 0, 0]", .member = fills<BodyKeys, &BodyKeys::velocity>};
 constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9", .member = fills<BodyKeys, &BodyKeys::restitution>};

@@ -97,8 +97,6 @@ struct Field {
   /// What may stand in place of a map. For a map: a plain value, that of this key. For the maps of a list: these words,
   /// separated by |.
   std::string_view plain = {};
-  /// A remedy where the number is 0 or infinite, which the range excludes.
-  std::string_view without = {};
   bool needs_entries = false;  // a list must not be empty
   bool own = false;            // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
