@@ -396,7 +396,10 @@ void add_part_rules(const Kind& owner, const Field& field, const std::function<J
       kind, [&](Json schema) { return each(at(field.key, std::move(schema))); }, rules);
   for (const auto& need : needs_of(kind)) {
     Json part = required({owner.defaults}), owned = required({field.key});
-    owned.update(at(field.key, one_required(kind, need)));
+    // `none` is no map, and brings nothing.
+    Json own = one_required(kind, need);
+    own["type"] = "object";
+    owned.update(at(field.key, std::move(own)));
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));

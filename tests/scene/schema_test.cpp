@@ -107,7 +107,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"an MP4 has no transparency", "two keys against one another"},
       {"the run has none of the bodies of this scene", "what a run holds"},
       {"begin where a former run had them", "a default that a former run cannot give"},
-      {"entries, and `count` is", "two keys against one another"},
+      {"and `count` is", "two keys against one another"},
       {"is taken", "names of two kinds of things against one another"},
       {"there is no file", "what files there are"},
       {"at the start", "where things are"},
