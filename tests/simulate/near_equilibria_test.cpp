@@ -136,8 +136,8 @@ TEST(NearEquilibria, ALadderSlidesDownInTime) {
        {std::pair(1.0, 1.0), std::pair(1e6, 1.0), std::pair(1e8, 1.0), std::pair(1.0, 1e3)})
     for (const double q0 : {1e-5, 1e-6, 1e-7}) {
       Problem problem = ladder(q0, upper, lower);
-      const auto inertia = [&](double q) {
-        return (upper * std::sin(q) * std::sin(q) + lower * std::cos(q) * std::cos(q)) / upper;
+      const auto inertia = [m1 = upper, m2 = lower](double q) {
+        return (m1 * std::sin(q) * std::sin(q) + m2 * std::cos(q) * std::cos(q)) / m1;
       };
       const double first = problem.initial.position[1].x() - 0.1;
       // Later a light end is pulled along, and the heavy one off the wall.
