@@ -10,7 +10,6 @@ Ties::Ties(const World& world) : world_(world), any_(!world.strings.empty()) {
   of_.resize(world.body_count());
   for (std::size_t k = 0; k < world.strings.size(); ++k) {
     of_[world.strings[k].body].push_back(world.string_number(k));
-    anchored_ = anchored_ || world.strings[k].other == no_entity;
     if (world.strings[k].other != no_entity) of_[world.strings[k].other].push_back(world.string_number(k));
   }
 }

@@ -14,8 +14,6 @@ class Ties {
 
   /// Whether there are any. Where there are none, no other function need be called.
   bool any() const { return any_; }
-  /// Whether one of them has an anchor.
-  bool anchored() const { return anchored_; }
   /// The strings of body i, ascending.
   std::span<const Entity> of(Entity i) const {
     return any_ ? std::span<const Entity>(of_[i]) : std::span<const Entity>();
@@ -29,7 +27,6 @@ class Ties {
   const World& world_;
   const bool any_;
   std::vector<std::vector<Entity>> of_;  // by body; empty: there are none
-  bool anchored_ = false;
 };
 
 }  // namespace carom
