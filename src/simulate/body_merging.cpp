@@ -8,11 +8,10 @@
 
 #include "physics/impact.h"
 #include "physics/world.h"
-#include "simulate/event_predictor.h"
-#include "simulate/event_queue.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/flight_changes.h"
 #include "simulate/path_log.h"
+#include "simulate/region_exit.h"
 
 namespace carom {
 
@@ -25,7 +24,7 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   met.energy_lost += join(whole, part);
   bodies_.log.lose(met.energy_lost);
   bodies_.log.record(met);
-  predictor_.renew_region(whole);
+  renew_region(bodies_, whole, bodies_.body[whole].event.time.hi);
   move_out(whole);
   for (const Entity e : bodies_.neighbours_of(whole)) {
     if (!world.is_body(e)) continue;
@@ -33,7 +32,7 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
     const Touch next = touch(world, first, bodies_.position(first), second, bodies_.position(second));
     if (next.gap < 0) return merge(first, second, next);
   }
-  predictor_.predict(whole);
+  flights_.note_changed(whole);
 }
 
 /// The record of bodies a and b, without what forces on them lose.
@@ -70,8 +69,7 @@ double BodyMerging::join(Entity whole, Entity part) {
   }
   bodies_.neighbours.remove(part);
   flights_.count(part);
-  bodies_.body[part].event = {};
-  queue_.remove(part);
+  flights_.note_changed(part);
   bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
   const double lost = bodies_.world.forces.empty() ? 0 : before - bodies_.merged.potential(whole, x);
   bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, x, v), bodies_.fade[whole]});

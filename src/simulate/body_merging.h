@@ -13,15 +13,12 @@ class FlatContacts;
 class PathLog;
 struct Touch;
 
-class EventPredictor;
-class EventQueue;
 class FlightChanges;
 
 class BodyMerging {
  public:
-  BodyMerging(ExactBodies& bodies, FlatContacts& flat, FlightChanges& flights, EventQueue& queue,
-              EventPredictor& predictor, PathLog& paths)
-      : bodies_(bodies), flat_(flat), flights_(flights), queue_(queue), predictor_(predictor), paths_(paths) {}
+  BodyMerging(ExactBodies& bodies, FlatContacts& flat, FlightChanges& flights, PathLog& paths)
+      : bodies_(bodies), flat_(flat), flights_(flights), paths_(paths) {}
 
   /// Merges bodies a and b, which touch as `there` describes.
   void merge(Entity a, Entity b, const Touch& there);
@@ -34,8 +31,6 @@ class BodyMerging {
   ExactBodies& bodies_;
   FlatContacts& flat_;
   FlightChanges& flights_;
-  EventQueue& queue_;
-  EventPredictor& predictor_;
   PathLog& paths_;
 };
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "physics/world.h"
-#include "simulate/event_queue.h"
 #include "simulate/exact_group.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/flight_changes.h"
@@ -27,8 +26,6 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
   bodies_.ties.untie(i);
   bodies_.neighbours.remove(i);
   flights_.take_out(i, x);
-  bodies_.body[i].event = {};
-  queue_.remove(i);
   return left;
 }
 

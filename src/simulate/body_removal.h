@@ -6,7 +6,6 @@
 
 namespace carom {
 
-class EventQueue;
 struct ExactBodies;
 class ExactGroup;
 class FlatContacts;
@@ -14,8 +13,8 @@ class FlightChanges;
 
 class BodyRemoval {
  public:
-  BodyRemoval(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, FlightChanges& flights, EventQueue& queue)
-      : bodies_(bodies), group_(group), flat_(flat), flights_(flights), queue_(queue) {}
+  BodyRemoval(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, FlightChanges& flights)
+      : bodies_(bodies), group_(group), flat_(flat), flights_(flights) {}
 
   /// Removes body i at the present instant, and books its energy and momentum. It stays at its position, out of the
   /// world. Returns bodies in lasting contact, one of each island that has lost it: their forces are to be found anew.
@@ -28,7 +27,6 @@ class BodyRemoval {
   ExactGroup& group_;
   FlatContacts& flat_;
   FlightChanges& flights_;
-  EventQueue& queue_;
 };
 
 }  // namespace carom

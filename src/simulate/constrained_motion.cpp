@@ -16,7 +16,6 @@
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/collapse_detector.h"
-#include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/flight_changes.h"
@@ -38,13 +37,12 @@ double at_least_tiny(double fastest) {
 }  // namespace
 
 ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat,
-                                     CollapseDetector& collapses, FlightChanges& flights, EventPredictor& predictor)
+                                     CollapseDetector& collapses, FlightChanges& flights)
     : bodies_(bodies),
       group_(group),
       flat_(flat),
       collapses_(collapses),
       flights_(flights),
-      predictor_(predictor),
       following_(bodies.body.size()) {}
 
 Vec3 ConstrainedMotion::at(const std::vector<Vec3>& x, Entity e) const {
@@ -766,7 +764,6 @@ void ConstrainedMotion::begin_flights(const Step& step) {
       return forces->work(*path->motion, std::min(seconds, path->motion->length()));
     });
   bodies_.islands.retain(step.members.front(), std::move(stay));
-  for (const Entity i : step.members) predictor_.predict(i);
 }
 
 /// Body i, member k of the step, leaves its island, falls asleep or continues. Returns whether it stays.

@@ -19,14 +19,13 @@ namespace carom {
 
 class CollapseDetector;
 
-class EventPredictor;
 class ExactGroup;
 class FlightChanges;
 
 class ConstrainedMotion {
  public:
   ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, CollapseDetector& collapses,
-                    FlightChanges& flights, EventPredictor& predictor);
+                    FlightChanges& flights);
 
   /// Takes the next step of member i's island, or of the parts into which it has split. False: its contacts change too
   /// often, and nothing else has changed.
@@ -124,7 +123,6 @@ class ConstrainedMotion {
   FlatContacts& flat_;
   CollapseDetector& collapses_;
   FlightChanges& flights_;
-  EventPredictor& predictor_;
   LazyArray<Following> following_;  // by body
   std::uint64_t inexact_steps_ = 0;
 };

@@ -4,7 +4,6 @@
 #include "simulate/event_predictor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -186,20 +185,7 @@ void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) con
 }
 
 void EventPredictor::renew_region(Entity i) {
-  const Flight f = bodies_.flights[i];
-  const double since = bodies_.now - f.start, until = std::min(bodies_.body[i].event.time.hi, bodies_.options.duration);
-  // Half of the time to the next event, or to the instant at which the acceleration has reversed the motion.
-  double half = 0.5 * std::max(until - bodies_.now.hi, 0.0);
-  if (const double a2 = f.a.squaredNorm(); a2 > 0) {
-    const Vec3 v = f.velocity(since);
-    const double size = std::sqrt(a2);
-    half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies_.neighbours.room(i))) / size);
-  }
-  const Vec3 here = f.position(since);
-  const Vec3 ahead =
-      f.is_straight() ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
-  bodies_.hold_to_bounds(i, bodies_.now.hi, here, f.velocity(since));
-  const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
+  const std::span<const Entity> came = carom::renew_region(bodies_, i, bodies_.body[i].event.time.hi);
   ExactEvent best = bodies_.body[i].event;
   meet_bodies(i, came, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);

@@ -13,7 +13,6 @@
 #include "physics/world.h"
 #include "simulate/body_merging.h"
 #include "simulate/collapse_detector.h"
-#include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/flight_changes.h"
@@ -77,7 +76,6 @@ void ExactImpacts::bounce_off(Entity striker, Entity struck, std::uint8_t featur
   const Vec3 away = striker < struck ? Vec3(-there.normal) : there.normal;
   const Vec3 after = bodies_.velocity(striker) + (approach + separation) * away;
   parts_.flights.begin(striker, bodies_.position(striker), parts_.flat.keep_at(striker, after), {struck, feature});
-  parts_.predictor.predict(striker);
 }
 
 /// The acceleration (m/s^2) that drives together two bodies that have met here at the relative velocity w (m/s), after
@@ -203,8 +201,6 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   for (const Entity i : {a, b})
     if (parts_.group.opens(i)) release(i);
   if (ends) hold_together(a, b, n);
-  parts_.predictor.predict(a);
-  parts_.predictor.predict(b);
   if (!ends) return;
   parts_.simultaneous.count_impact(a);
   parts_.simultaneous.count_impact(b);
@@ -392,7 +388,6 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     if (closing > 0) parts_.flights.push(i, -closing * n);
     if (closing > 0 && bodies_.moving.any()) parts_.group.carry(i, closing, n.dot(impact.u));
   }
-  parts_.predictor.predict(i);
   if (ends) parts_.simultaneous.count_impact(i);
 }
 

@@ -17,7 +17,6 @@ struct Flight;
 
 class BodyMerging;
 class CollapseDetector;
-class EventPredictor;
 class ExactGroup;
 class FlightChanges;
 class SimultaneousImpacts;
@@ -31,7 +30,6 @@ struct ImpactParts {
   FlatContacts& flat;
   ExactGroup& group;
   FlightChanges& flights;
-  EventPredictor& predictor;
   SimultaneousImpacts& simultaneous;
   BodyMerging& merging;
   StallGuard& guard;

@@ -39,14 +39,32 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       queue_(bodies_),
       prefetch_(bodies_, queue_),
       predictor_(bodies_, queue_, flat_, group_),
-      simultaneous_(bodies_, group_, flights_, predictor_),
-      stepping_(bodies_, group_, flights_, predictor_),
-      constrained_(bodies_, group_, flat_, collapses_, flights_, predictor_),
-      merging_(bodies_, flat_, flights_, queue_, predictor_, paths_),
+      simultaneous_(bodies_, group_, flights_),
+      stepping_(bodies_, group_, flights_),
+      constrained_(bodies_, group_, flat_, collapses_, flights_),
+      merging_(bodies_, flat_, flights_, paths_),
       guard_(world.body_count(), options.duration),
-      impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}),
+      impacts_(bodies_, {collapses_, flat_, group_, flights_, simultaneous_, merging_, guard_}),
       attends_(watches() || world.body_count() > cached_bodies) {
   start(initial);
+}
+
+/// Predicts the next events of the bodies that have changed. Those that are out of the world have none.
+inline void ExactSimulator::predict_changed() {
+  std::span<Entity> changed = flights_.take_changed();
+  if (changed.size() > 2) [[unlikely]] {
+    std::sort(changed.begin(), changed.end());
+    changed = changed.first(static_cast<std::size_t>(std::unique(changed.begin(), changed.end()) - changed.begin()));
+  }
+
+  for (const Entity i : changed) {
+    if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) [[unlikely]] {
+      bodies_.body[i].event = {};
+      queue_.remove(i);
+    } else {
+      predictor_.predict(i);
+    }
+  }
 }
 
 void ExactSimulator::start(const State& initial) {
@@ -77,6 +95,7 @@ void ExactSimulator::start(const State& initial) {
   if (bodies_.islands.any())
     for (Entity i = 0; i < n; ++i)
       if (bodies_.in_group(i) && bodies_.islands.of(i).fresh) begin_island(i);
+  predict_changed();
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
 }
@@ -87,7 +106,7 @@ void ExactSimulator::begin_island(Entity i) {
   const std::vector<Entity>& members = bodies_.islands.of(i).members;
   if (!bodies_.ties.any() || !bodies_.any_meets(members)) return step_island(i);
   bodies_.islands.of(i).end = bodies_.now;
-  for (const Entity k : members) predictor_.predict(k);
+  for (const Entity k : members) flights_.note_changed(k);
 }
 
 void ExactSimulator::advance_to(double time) {
@@ -156,7 +175,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
         impacts_.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
       } else {
         // The partner's path has changed since.
-        predictor_.predict(i);
+        flights_.note_changed(i);
       }
       break;
     case Kind::body_fixed:
@@ -171,7 +190,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
       break;
     case Kind::rest:
       flat_.end_bounces(i);
-      predictor_.predict(i);
+      flights_.note_changed(i);
       break;
     case Kind::release:
       release(i, event.partner, event.feature);
@@ -187,6 +206,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
     case Kind::none:
       break;
   }
+  predict_changed();
   const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
   return weight;
@@ -195,7 +215,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
 /// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.
 void ExactSimulator::go_taut(Entity i, const ExactEvent& event) {
   const Entity other = bodies_.ties.other(event.partner, i);
-  if (other != no_entity && bodies_.body[other].version != event.partner_version) return predictor_.predict(i);
+  if (other != no_entity && bodies_.body[other].version != event.partner_version) return flights_.note_changed(i);
   for (const Entity k : {i, other})
     if (k != no_entity) flights_.end_step(k);
   impacts_.tighten(event.partner);
@@ -207,7 +227,7 @@ void ExactSimulator::take_switch(Entity i) {
   if (bodies_.moving.any()) {
     const bool forced = !bodies_.world.forces.empty() &&
                         bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
-    if (!forced && !flat_.switches(i) && !group_.switches(i)) return predictor_.predict(i);
+    if (!forced && !flat_.switches(i) && !group_.switches(i)) return flights_.note_changed(i);
   }
   flights_.end_step(i);
   switch_forces(i);
@@ -232,7 +252,6 @@ void ExactSimulator::switch_forces(Entity i) {
   bodies_.apply_forces(i, x, v);
   if (bodies_.bent[i]) flat_.clear(i);
   flights_.begin(i, x, flat_.keep_at(i, v), {});
-  predictor_.predict(i);
 }
 
 /// Body i slides over the rim of the face that carries it: onto a level face, or off. In the second case the rim's edge
@@ -241,14 +260,13 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   const FlightOrigin next = flat_.hand_over(i, surface);
   flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
                  next.partner == no_entity ? FlightOrigin{surface, edge} : next);
-  predictor_.predict(i);
 }
 
 /// Ends a step of body i's own flight, or discards it if another flight has begun since.
 void ExactSimulator::end_flight(Entity i) {
   const PolynomialPath* const curve = bodies_.flights.curve(i);
   if (curve != nullptr && bodies_.flights[i].start + curve->length <= bodies_.now) flights_.take_step(i);
-  predictor_.predict(i);
+  flights_.note_changed(i);
 }
 
 bool ExactSimulator::watches() const {
@@ -291,8 +309,9 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
     }
     if (bodies_.now < taken.at) bodies_.now = taken.at;
     paths_.note_change(crossing.body);
-    for (const Entity k : BodyRemoval(bodies_, group_, flat_, flights_, queue_).remove(crossing.body))
+    for (const Entity k : BodyRemoval(bodies_, group_, flat_, flights_).remove(crossing.body))
       if (bodies_.in_group(k)) step_island(k);
+    predict_changed();
     paths_.delay(taken.sure);
     guard_.count(StallGuard::Happened::other, bodies_.now.hi);
   }

@@ -52,6 +52,7 @@ class ExactSimulator final : public Simulator {
   void begin_island(Entity i);
   std::uint32_t take_event(Entity i);
   std::uint32_t process(Entity i);
+  [[gnu::always_inline]] void predict_changed();
   void go_taut(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);

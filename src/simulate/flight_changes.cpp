@@ -63,6 +63,7 @@ inline void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
   bodies_.body[i].set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
+  note_changed(i);
 }
 
 /// Stores the power of moving surfaces that carry body i by itself. That of islands is stored with their steps.
@@ -299,6 +300,7 @@ void FlightChanges::take_out(Entity i, const Vec3& x) {
   bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
   bodies_.body[i].set_origin({});
   count(i);
+  note_changed(i);
 }
 
 Vec3 FlightChanges::book_until(Entity i, const Instant& at) {

@@ -1,5 +1,9 @@
 #pragma once
 // Begins flights, and books the effect of forces on those that end.
+#include <span>
+#include <utility>
+#include <vector>
+
 #include "simulate/curved_flights.h"
 #include "simulate/exact_bodies.h"
 
@@ -30,7 +34,7 @@ class FlightChanges {
   Vec3 velocity_of_method(Entity i, const Instant& at) const;
   /// Ends body i's step at an impact. A motion in closed form has its own position and velocity.
   /// Verlet's method changes the velocity where its step ends, at an impact or not.
-  void end_step(Entity i) {
+  [[gnu::always_inline]] void end_step(Entity i) {
     if (curved_.follows_closed_form(i)) [[unlikely]]
       return end_closed(i);
     if (bodies_.options.integrator == Integrator::verlet) [[unlikely]]
@@ -76,6 +80,17 @@ class FlightChanges {
   void book_last(double time);
   /// Makes all events with body i stale.
   void count(Entity i);
+  /// Notes that body i's next event is to be predicted. The event loop does so at the end of the present event. Bodies
+  /// that begin a flight are noted.
+  [[gnu::always_inline]] void note_changed(Entity i) {
+    if (changed_count_ == changed_.size()) [[unlikely]]
+      changed_.resize(2 * changed_count_ + 2);
+    changed_[changed_count_++] = i;
+  }
+  /// The bodies noted since the last call, in no order, some of them more than once. Valid until the next note.
+  [[gnu::always_inline]] std::span<Entity> take_changed() {
+    return {changed_.data(), std::exchange(changed_count_, 0)};
+  }
 
  private:
   [[gnu::noinline]] void count_anew(Entity i);
@@ -102,6 +117,8 @@ class FlightChanges {
   enum class Contact : std::uint8_t { none, stepped, followed };
   LazyArray<Contact> in_contact_;  // by body
   LazyArray<double> taking_;       // W, by body: power taken by impacts within its time step
+  std::vector<Entity> changed_;    // longer than the list of noted bodies
+  std::size_t changed_count_ = 0;  // in that list
   bool ended_ = false;             // the last flights are booked
 };
 

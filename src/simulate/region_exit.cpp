@@ -64,4 +64,23 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   return (bodies.now.hi + t) * (1 - 0x1p-52);
 }
 
+std::span<const Entity> renew_region(ExactBodies& bodies, Entity i, double until) {
+  const Flight f = bodies.flights[i];
+  const double since = bodies.now - f.start;
+
+  // Half of the time to that instant, or to the one at which the acceleration has reversed the motion.
+  double half = 0.5 * std::max(std::min(until, bodies.options.duration) - bodies.now.hi, 0.0);
+  if (const double a2 = f.a.squaredNorm(); a2 > 0) {
+    const Vec3 v = f.velocity(since);
+    const double size = std::sqrt(a2);
+    half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies.neighbours.room(i))) / size);
+  }
+
+  const Vec3 here = f.position(since);
+  const Vec3 ahead =
+      f.is_straight() ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
+  bodies.hold_to_bounds(i, bodies.now.hi, here, f.velocity(since));
+  return bodies.neighbours.renew(i, here, ahead);
+}
+
 }  // namespace carom

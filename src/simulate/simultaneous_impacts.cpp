@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "physics/world.h"
-#include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
 #include "simulate/tolerances.h"
@@ -22,16 +21,15 @@ void SimultaneousImpacts::count_impact(Entity i) {
       ++group_.impacts.write(i) <= tol::few_impacts)
     return;
   const Struck set = strike(i);
-  std::vector<Entity> changed = begin_flights(set);
+  begin_flights(set);
   // These impacts have cost as much as a time step. The next one is due, because this one was too long.
   Island& island = bodies_.islands.of(i);
   island.impact_pairs += set.pairs.size();
   if (island.impact_pairs > tol::pairs_of_a_step * island.members.size() && bodies_.now < island.end) {
     island.step_length -= island.end - bodies_.now;
     island.end = bodies_.now;
-    changed.push_back(i);
+    flights_.note_changed(i);
   }
-  for (const Entity a : changed) predictor_.predict(a);
 }
 
 /// The set of member `first` and the things that it touches. Bodies that these would meet before the next step join it,
@@ -235,9 +233,8 @@ void SimultaneousImpacts::note_forces(const Struck& set) {
   for (const Entity i : set.members) group_.renew_power(i);
 }
 
-/// Begins the flights. Returns the bodies with changed velocities.
-std::vector<Entity> SimultaneousImpacts::begin_flights(const Struck& set) {
-  std::vector<Entity> changed;
+/// Begins the flights of the bodies with changed velocities.
+void SimultaneousImpacts::begin_flights(const Struck& set) {
   bodies_.log.take_up(set.inverse_mass, set.before, set.struck, set.impacts);
   std::vector<std::uint8_t> pressed(set.members.size());
   for (std::size_t c = 0; c < set.pairs.size(); ++c) {
@@ -252,7 +249,6 @@ std::vector<Entity> SimultaneousImpacts::begin_flights(const Struck& set) {
     const Entity a = set.members[k];
     group_.impacts.write(a) = 1;
     if (!pressed[k]) continue;
-    changed.push_back(a);
     const Vec3 before = bodies_.velocity(a), &after = set.after[k];
     bodies_.log.deviate(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));
     if (!(bodies_.now < islands.kicked_until[a])) islands.kicked_until.write(a) = bodies_.now + set.rest;
@@ -261,7 +257,6 @@ std::vector<Entity> SimultaneousImpacts::begin_flights(const Struck& set) {
     flights_.begin(a, bodies_.position(a), after, {});
     bodies_.flights.accelerate(a, Vec3::Zero());
   }
-  return changed;
 }
 
 }  // namespace carom

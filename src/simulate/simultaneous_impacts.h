@@ -14,14 +14,13 @@ namespace carom {
 
 struct ExactBodies;
 
-class EventPredictor;
 class ExactGroup;
 class FlightChanges;
 
 class SimultaneousImpacts {
  public:
-  SimultaneousImpacts(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
-      : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
+  SimultaneousImpacts(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights)
+      : bodies_(bodies), group_(group), flights_(flights) {}
 
   /// Counts an impact of body i that has ended in contact. After some of them since the last time step, the body is
   /// struck together with others.
@@ -64,12 +63,11 @@ class SimultaneousImpacts {
   void solve(Struck& set) const;
   static bool makes_energy(const Struck& set);
   void note_forces(const Struck& set);
-  std::vector<Entity> begin_flights(const Struck& set);
+  void begin_flights(const Struck& set);
 
   ExactBodies& bodies_;
   ExactGroup& group_;
   FlightChanges& flights_;
-  EventPredictor& predictor_;
 };
 
 }  // namespace carom

@@ -10,7 +10,6 @@
 #include "physics/world.h"
 #include "simulate/collapse_detector.h"
 #include "simulate/contact_list.h"
-#include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/flight_changes.h"
@@ -85,7 +84,6 @@ void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) const
     if (i == a || i == b) continue;
     bodies_.note_speed(i, bodies_.velocity(i));
     parts_.flights.begin(i, bodies_.position(i), passed.v[k], {});
-    parts_.predictor.predict(i);
   }
 }
 
@@ -146,8 +144,6 @@ void StringImpacts::tighten(Entity string) {
   begin_beyond(passed, a, b);
   if (ends && !anchored) parts_.group.unite(a, b);
   if (ends) bodies_.islands.of(a).end = bodies_.now;
-  for (const Entity i : {a, b})
-    if (i != no_entity) parts_.predictor.predict(i);
 }
 
 }  // namespace carom

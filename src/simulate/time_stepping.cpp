@@ -11,7 +11,6 @@
 #include "physics/force.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
-#include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
 #include "simulate/tolerances.h"
@@ -435,7 +434,6 @@ void TimeStepping::begin_flights(Step& step) {
     group_.unite(i, e);
   }
   for (const Entity i : step.members) group_.index.write(i) = ContactConstraint::fixed;
-  for (const Entity i : step.members) predictor_.predict(i);
 }
 
 /// Counts steps in which the same pairs press. After some of them constrained motion can follow the island again.

@@ -23,14 +23,13 @@ namespace carom {
 struct ExactBodies;
 struct Island;
 
-class EventPredictor;
 class ExactGroup;
 class FlightChanges;
 
 class TimeStepping {
  public:
-  TimeStepping(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
-      : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
+  TimeStepping(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights)
+      : bodies_(bodies), group_(group), flights_(flights) {}
 
   /// Takes the next step of member i's island. Islands that it may press on before the step ends are united with it.
   /// False: one of them has taut strings, and no step is taken. It would let these lengthen.
@@ -89,7 +88,6 @@ class TimeStepping {
   ExactBodies& bodies_;
   ExactGroup& group_;
   FlightChanges& flights_;
-  EventPredictor& predictor_;
 };
 
 }  // namespace carom

@@ -32,12 +32,12 @@ struct ExactParts {
         queue(bodies),
         prefetch(bodies, queue),
         predictor(bodies, queue, flat, group),
-        simultaneous(bodies, group, flights, predictor),
-        stepping(bodies, group, flights, predictor),
-        constrained(bodies, group, flat, collapses, flights, predictor),
-        merging(bodies, flat, flights, queue, predictor, paths),
+        simultaneous(bodies, group, flights),
+        stepping(bodies, group, flights),
+        constrained(bodies, group, flat, collapses, flights),
+        merging(bodies, flat, flights, paths),
         guard(problem.world.body_count(), problem.options.duration),
-        impacts(bodies, {collapses, flat, group, flights, predictor, simultaneous, merging, guard}) {
+        impacts(bodies, {collapses, flat, group, flights, simultaneous, merging, guard}) {
     for (Entity i = 0; i < bodies.world.body_count(); ++i)
       bodies.flights.set(i, {{}, problem.initial.position[i], problem.initial.velocity[i], problem.world.gravity});
     bodies.neighbours.start(problem.initial.position);
