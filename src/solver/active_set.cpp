@@ -128,17 +128,24 @@ double DualActiveSet::blocking(std::size_t& first) const {
 bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double shortfall) {
   double force = 0;
   transform(island, c);
+
   for (;;) {
     const bool full = factors_.rank() == factors_.columns();
     const double tail = full ? 0 : factors_.tail(row_.data());
     const bool free = tail > dependent_;
+
     // The change of the active rows' forces for each unit of this one's.
     std::copy(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(active_.size()), step_.begin());
     factors_.solve(step_.data());
+
+    // The force grows until the row is satisfied, or until an active row loses its force.
     std::size_t first = none;
-    const double most = blocking(first), enough = free ? std::max(shortfall, 0.0) / (tail * tail) : infinite;
+    const double most = blocking(first);
+    const double enough = free ? std::max(shortfall, 0.0) / (tail * tail) : infinite;
     if (!free && first == none) return false;
     const double step = std::min(most, enough);
+
+    // The active rows' forces and the motion change with it.
     for (std::size_t k = 0; k < active_.size(); ++k) {
       force_[k] -= step * step_[k];
       if (!fixed_[k]) force_[k] = std::max(force_[k], 0.0);
@@ -149,6 +156,8 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
       for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += step * work_[i];
       shortfall -= step * tail * tail;
     }
+
+    // The row is satisfied, and becomes active.
     if (enough <= most) {
       factors_.append(row_.data());
       place_[c] = static_cast<std::uint32_t>(active_.size());
@@ -157,6 +166,7 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
       fixed_.push_back(0);
       return true;
     }
+
     // A value is not finite.
     if (first == none) return false;
     drop(first);
@@ -171,6 +181,7 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
   // By body: the sum of the speeds that single forces give it.
   std::vector<double>& load = load_;
   load.resize(island.free.size());
+
   for (;;) {
     std::fill(load.begin(), load.end(), 0.0);
     for (std::size_t k = 0; k < active_.size(); ++k) {
@@ -178,6 +189,8 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
       load[r.a] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.a];
       if (r.moves_b()) load[r.b] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.b];
     }
+
+    // Finds the row that is violated most, by more than rounding.
     std::uint32_t worst = none;
     double least = 0;
     for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
@@ -190,12 +203,15 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
       least = w;
       worst = c;
     }
+
     if (worst == none) return;
+    // A row that cannot be satisfied is set aside.
     if (!take_in(island, worst, -least)) {
       aside_[worst] = 1;
       settle(island);
       continue;
     }
+
     // A lower bound, for rows of unit length.
     const double more = 0.5 * least * least;
     idle = more > 0x1p-50 * energy ? 0 : idle + 1;
@@ -206,32 +222,45 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
 
 /// Newton's method on the active rows (iterative refinement): the factors are rounded, the residuals are not.
 void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solution) {
-  const std::size_t n = island.unknowns(), k = active_.size();
+  const std::size_t n = island.unknowns();
+  const std::size_t k = active_.size();
   solution.motion.resize(n);
   solution.force.assign(island.rows.size(), DoubleDouble{0, 0});
+
+  // Without active rows the motion is the free one.
   if (k == 0) {
     for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
     y_ = free_;
     return;
   }
+
+  // The start is the solution in double precision.
   for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island.root[i / 3] * y_[i], 0};
   for (std::size_t j = 0; j < k; ++j) solution.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
   double all = 0;
   for (const double y : y_) all = std::max(all, std::abs(y));
+
   // The rows' errors and the imbalance of forces. Each is reduced as long as it at least halves.
-  double off = infinite, unbalanced = infinite;
-  std::vector<double>&p = row_, &g = step_, &dy = work_;
+  double off = infinite;
+  double unbalanced = infinite;
+  std::vector<double>& p = row_;
+  std::vector<double>& g = step_;
+  std::vector<double>& dy = work_;
   const auto greatest = [](const std::vector<double>& v) {
     double most = 0;
     for (const double x : v) most = std::max(most, std::abs(x));
     return most;
   };
+
   // A pass leaves the share of an error that the factors' rounding makes. Where that is small enough, no further pass
   // is needed.
-  const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal()), enough = 0x1p-92 * all;
+  const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal());
+  const double enough = 0x1p-92 * all;
   while (off > 0 || unbalanced > 0) {
     std::fill(g.begin(), g.end(), 0.0);
     std::fill(p.begin(), p.end(), 0.0);
+
+    // The correction that removes the rows' errors.
     if (off > 0) {
       for (std::size_t j = 0; j < k; ++j) {
         const ContactIsland::Row& r = island.rows[active_[j]];
@@ -242,6 +271,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
       if (!(now < 0.5 * off)) std::fill(g.begin(), g.end(), 0.0);
       off = now < 0.5 * off && left * now > enough ? now : 0;
     }
+
+    // The correction that removes the imbalance of forces.
     if (unbalanced > 0) {
       find_imbalance(island, solution);
       std::vector<double>& lacking = solution.lacking;
@@ -250,6 +281,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
       if (now < 0.5 * unbalanced) factors_.to_q(lacking.data(), p.data());
       unbalanced = now < 0.5 * unbalanced && left * now > enough ? now : 0;
     }
+
+    // Both corrections together, for the motion and for the forces.
     std::copy(p.begin() + static_cast<std::ptrdiff_t>(k), p.end(), g.begin() + static_cast<std::ptrdiff_t>(k));
     factors_.from_q(g.data(), dy.data());
     for (std::size_t j = 0; j < k; ++j) g[j] -= p[j];
@@ -261,6 +294,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
       x = x + DoubleDouble{island.rows[active_[j]].scale * g[j], 0};
     }
   }
+
+  // The refined values, in double precision.
   for (std::size_t i = 0; i < n; ++i) y_[i] = solution.motion[i].hi / island.root[i / 3];
   for (std::size_t j = 0; j < k; ++j) force_[j] = solution.force[active_[j]].hi / island.rows[active_[j]].scale;
 }
@@ -270,9 +305,11 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
                                                   double& shortfall) const {
   std::uint32_t worst = none;
   shortfall = 0;
+
   for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
     if (place_[c] != none || aside_[c] > 1) continue;
     const ContactIsland::Row& r = island.rows[c];
+
     // Surely satisfied.
     if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;
     const double w = r.scale * excess(r, solution.motion);
@@ -302,9 +339,12 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
   std::fill(aside_.begin(), aside_.end(), 0);
   settle(island);
   take_in_violated(island);
+
   for (;;) {
     refine(island, solution);
     double shortfall = 0;
+
+    // A row that pulls is removed first.
     if (drop_one_that_pulls(pulling)) {
       const std::uint64_t now = signature();
       if (std::find(seen.begin(), seen.end(), now) != seen.end()) return;
@@ -313,8 +353,11 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
       take_in_violated(island);
       continue;
     }
+
+    // Then the row that is violated most becomes active.
     const std::uint32_t worst = worst_after_refining(island, solution, shortfall);
     if (worst == none) return;
+    // A row that cannot be satisfied is set aside.
     if (!take_in(island, worst, shortfall)) {
       infeasible_ = true;
       aside_[worst] = 2;
@@ -322,6 +365,8 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
       take_in_violated(island);
       continue;
     }
+
+    // The method ends where a set of active rows returns.
     const std::uint64_t now = signature();
     if (std::find(seen.begin(), seen.end(), now) != seen.end()) return;
     seen.push_back(now);
@@ -352,12 +397,16 @@ DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactS
 DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, std::span<const std::uint32_t> now,
                                                  ContactSolution& solution) {
   prepare(island);
+
+  // Active rows that no longer exist are removed.
   for (std::size_t k = active_.size(); k-- > 0;) {
     active_[k] = now[active_[k]];
     if (active_[k] != none) continue;
     factors_.remove(k, row_.data());
     active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(k));
   }
+
+  // The others stay active, with their factors and without forces.
   force_.assign(active_.size(), 0);
   fixed_.resize(active_.size());
   place_.assign(island.rows.size(), none);
@@ -365,6 +414,8 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, st
     place_[active_[k]] = static_cast<std::uint32_t>(k);
     fixed_[k] = island.rows[active_[k]].bilateral;
   }
+
+  // New bilateral rows become active.
   for (std::uint32_t c = 0; c < island.rows.size(); ++c)
     if (island.rows[c].bilateral && place_[c] == none) append(island, c);
   return finish(island, solution);
@@ -375,20 +426,25 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
   Result best;
   best.judgement = {infinite, false};
   ContactSolution& attempt = attempt_;
+
   for (const double looser : {1.0, 32.0, 1.0 / 16, 1024.0}) {
+    // Later attempts start from the active rows, the strongest first.
     if (looser != 1) {
       dependent_ = looser * dependent;
       std::vector<std::uint32_t> rows(active_);
       std::sort(rows.begin(), rows.end(), [&](std::uint32_t p, std::uint32_t q) {
-        const double fp = solution.force[p].hi / island.rows[p].scale, fq = solution.force[q].hi / island.rows[q].scale;
+        const double fp = solution.force[p].hi / island.rows[p].scale;
+        const double fq = solution.force[q].hi / island.rows[q].scale;
         return fp != fq ? fp > fq : p < q;
       });
       rebuild(island, rows);
     }
+
     run(island, attempt);
     // These are negative by rounding alone.
     for (std::size_t c = 0; c < island.rows.size(); ++c)
       if (!island.rows[c].bilateral && attempt.force[c].hi < 0) attempt.force[c] = {0, 0};
+
     const Result result{judge(island, attempt), infeasible_};
     if (looser == 1 || result.judgement.change < best.judgement.change) {
       best = result;
@@ -396,6 +452,7 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
     }
     if (best.judgement.within_slack) break;
   }
+
   best.infeasible = best.infeasible && !best.judgement.within_slack;
   return best;
 }

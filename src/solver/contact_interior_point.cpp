@@ -37,16 +37,22 @@ class ContactMatrix {
   explicit ContactMatrix(const ContactIsland& island) : island_(island), places_(island.rows.size()) {
     const auto n = static_cast<int>(island.unknowns());
     std::vector<Eigen::Triplet<double>> entries;
+
+    // Adds the entries of a block that are in the matrix's lower half.
     const auto block = [&](std::uint32_t i, std::uint32_t j) {
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
           if (i > j || k >= l) entries.emplace_back(3 * static_cast<int>(i) + k, 3 * static_cast<int>(j) + l, 0.0);
     };
+
+    // The pattern: a block for each body, and one for each pair that a row connects.
     for (std::uint32_t i = 0; i < island.free.size(); ++i) block(i, i);
     for (const Row& r : island.rows)
       if (r.moves_b()) block(std::max(r.a, r.b), std::min(r.a, r.b));
     matrix_.resize(n, n);
     matrix_.setFromTriplets(entries.begin(), entries.end());
+
+    // The positions of entries among the matrix's values.
     diagonal_.resize(island.free.size());
     for (std::uint32_t i = 0; i < diagonal_.size(); ++i)
       for (int k = 0, m = 0; k < 3; ++k)
@@ -58,6 +64,7 @@ class ContactMatrix {
         for (int l = 0; l < 3; ++l)
           places_[c][static_cast<std::size_t>(3 * k + l)] = place(std::max(r.a, r.b), k, std::min(r.a, r.b), l);
     }
+
     factors_.analyzePattern(matrix_);
   }
 
@@ -68,19 +75,26 @@ class ContactMatrix {
   bool factorise(const Vector& weight) {
     double* value = matrix_.valuePtr();
     std::fill(value, value + matrix_.nonZeros(), 0.0);
+
+    // Starts from the unit matrix.
     for (const auto& d : diagonal_)
       for (std::size_t k : {0u, 2u, 5u}) value[d[k]] = 1;
+
+    // Adds the share of each row.
     for (std::size_t c = 0; c < weight.size(); ++c) {
       if (weight[c] == 0) continue;
       const Row& r = island_.rows[c];
       add_square(value, r.a, weight[c], r.left);
       if (!r.moves_b()) continue;
       add_square(value, r.b, weight[c], r.right);
-      const Vec3 &high = r.a > r.b ? r.left : r.right, &low = r.a > r.b ? r.right : r.left;
+
+      const Vec3& high = r.a > r.b ? r.left : r.right;
+      const Vec3& low = r.a > r.b ? r.right : r.left;
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
           value[places_[c][static_cast<std::size_t>(3 * k + l)]] -= weight[c] * high[k] * low[l];
     }
+
     ++count_;
     factors_.factorize(matrix_);
     return factors_.info() == Eigen::Success;
@@ -154,6 +168,7 @@ class ContactInteriorPoint::Method {
       z_[c] = r.bilateral ? 0 : r.force / r.scale;
       guessed = guessed || z_[c] > 0;
     }
+
     if (guessed) {
       y_ = image(z_);
       if (find_pressing(tightest, guess_worth)) {
@@ -163,9 +178,12 @@ class ContactInteriorPoint::Method {
       std::fill(z_.begin(), z_.end(), 0.0);
       y_ = free_;
     }
+
+    // Otherwise the interior point comes near the solution. Contacts then yield less and less.
     if (!approach()) std::fill(z_.begin(), z_.end(), 0.0);
     for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
       if (!find_pressing(rho)) break;
+
     refine(solution);
     return judge(island_, solution);
   }
@@ -181,27 +199,40 @@ class ContactInteriorPoint::Method {
   /// when progress ends. False: it got nowhere.
   bool approach() {
     const std::size_t m = rows();
-    double worst = 0, size = greatest(free_);
+    double worst = 0;
+    double size = greatest(free_);
+
+    // The greatest violation at the start.
     for (std::size_t c = 0; c < m; ++c) {
       const double e = excess_of(y_, c);
       worst = std::max(worst, island_.rows[c].bilateral ? std::abs(e) : -e);
     }
     if (worst == 0) return true;
     size = std::max(size, worst);
-    Vector w(m), weight(m);
+
+    // Every row that is not bilateral starts with a positive force and excess.
+    Vector w(m);
+    Vector weight(m);
     for (std::size_t c = 0; c < m; ++c) {
       w[c] = std::max(excess_of(y_, c), worst);
       z_[c] = island_.rows[c].bilateral ? 0 : worst;
     }
-    double least_mean = no_limit, least_off = no_limit;
+
+    double least_mean = no_limit;
+    double least_off = no_limit;
     for (int idle = 0;;) {
-      double gap = 0, off = 0;
+      double gap = 0;
+      double off = 0;
       std::size_t count = 0;
+
+      // What the motion lacks of free + J^T z.
       Vector lacking = image(z_);
       for (std::size_t i = 0; i < y_.size(); ++i) {
         lacking[i] -= y_[i];
         off = std::max(off, std::abs(lacking[i]));
       }
+
+      // The rows' weights, errors and products of force and excess.
       for (std::size_t c = 0; c < m; ++c) {
         if (island_.rows[c].bilateral) {
           weight[c] = 1 / tightest;
@@ -212,15 +243,21 @@ class ContactInteriorPoint::Method {
         off = std::max(off, std::abs(excess_of(y_, c) - w[c]));
         ++count;
       }
+
+      // It ends near the solution.
       if (count == 0) return true;
       const double mean = gap / static_cast<double>(count);
       if (mean <= handed_over * handed_over * size * size && off <= handed_over * size) return true;
+
       // Forces grow through a stack, and the mean with them, while the motion approaches what they imply.
       idle = mean < 0.9 * least_mean || off < 0.9 * least_off ? 0 : idle + 1;
       least_mean = std::min(least_mean, mean);
       least_off = std::min(least_off, off);
       if (idle > 4) return true;
-      const Vector before_y = y_, before_z = z_;
+
+      // A step that fails is undone.
+      const Vector before_y = y_;
+      const Vector before_z = z_;
       if (!matrix_.factorise(weight) || !step(lacking, w, gap, count)) {
         y_ = before_y;
         z_ = before_z;
@@ -237,6 +274,8 @@ class ContactInteriorPoint::Method {
       missing[c] = excess_of(y_, c) - (island_.rows[c].bilateral ? 0 : w[c]);
       product[c] = -z_[c] * w[c];
     }
+
+    // Newton's direction for the present `product`.
     const auto solve = [&] {
       dy = lacking;
       for (std::size_t c = 0; c < m; ++c) {
@@ -244,6 +283,7 @@ class ContactInteriorPoint::Method {
         r.add_to(dy.data(), r.bilateral ? -missing[c] / tightest : (product[c] - z_[c] * missing[c]) / w[c]);
       }
       matrix_.solve(dy);
+
       for (std::size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
         const double rate = r.dot(dy.data()) + missing[c];
@@ -251,6 +291,8 @@ class ContactInteriorPoint::Method {
         dw[c] = rate;
       }
     };
+
+    // The step length at which the first force or excess would be zero.
     const auto room = [&] {
       double length = no_limit;
       for (std::size_t c = 0; c < m; ++c) {
@@ -260,22 +302,30 @@ class ContactInteriorPoint::Method {
       }
       return length;
     };
+
     // The predictor step goes straight for the solution. Its length sets the corrector's aim.
     solve();
-    double length = std::min(1.0, room()), left = 0;
+    double length = std::min(1.0, room());
+    double left = 0;
     for (std::size_t c = 0; c < m; ++c)
       if (!island_.rows[c].bilateral) left += (z_[c] + length * dz[c]) * (w[c] + length * dw[c]);
-    const double ratio = left / gap, aim = ratio * ratio * ratio * gap / static_cast<double>(count);
+
+    // The corrector aims at equal products, and includes the predictor's second-order term.
+    const double ratio = left / gap;
+    const double aim = ratio * ratio * ratio * gap / static_cast<double>(count);
     for (std::size_t c = 0; c < m; ++c) product[c] += aim - dz[c] * dw[c];
     solve();
     length = std::min(1.0, 0.9995 * room());
     if (!(length > 0)) return false;
+
+    // Takes the step, which must leave forces and excesses positive.
     for (std::size_t c = 0; c < m; ++c) {
       z_[c] += length * dz[c];
       if (island_.rows[c].bilateral) continue;
       w[c] += length * dw[c];
       if (!(z_[c] > 0) || !(w[c] > 0)) return false;
     }
+
     for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += length * dy[i];
     return true;
   }
@@ -295,7 +345,9 @@ class ContactInteriorPoint::Method {
   bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
     const std::size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
+
     for (double last = no_limit; matrix_.factorisations() < most;) {
+      // The forces that this motion implies, and its merit.
       Vector forces(m);
       double merit = 0;
       for (std::size_t c = 0; c < m; ++c) {
@@ -306,12 +358,17 @@ class ContactInteriorPoint::Method {
         merit += t[c] * forces[c];
       }
       for (std::size_t i = 0; i < y_.size(); ++i) merit += (y_[i] - free_[i]) * (y_[i] - free_[i]);
+
+      // The gradient, with its sign reversed.
       dy = image(forces);
       for (std::size_t i = 0; i < dy.size(); ++i) dy[i] -= y_[i];
       const double off = greatest(dy);
+
       if (former == weight && off <= 1e-9 * (greatest(y_) + greatest(free_))) break;
       if (!(merit < last)) break;
       last = merit;
+
+      // Newton's step, with the best length along it.
       if (former != weight && !matrix_.factorise(weight)) return false;
       former = weight;
       matrix_.solve(dy);
@@ -320,6 +377,8 @@ class ContactInteriorPoint::Method {
       if (!std::isfinite(length)) return false;
       for (std::size_t i = 0; i < dy.size(); ++i) y_[i] += length * dy[i];
     }
+
+    // The forces of the last motion.
     for (std::size_t c = 0; c < m; ++c) {
       const double force = z_[c] - excess_of(y_, c) / rho;
       z_[c] = island_.rows[c].bilateral ? force : std::max(force, 0.0);
@@ -330,15 +389,19 @@ class ContactInteriorPoint::Method {
   /// The minimum along dy. The derivative is linear between the points where a row starts or ceases to press.
   double best_length(const Vector& dy, const Vector& t, const Vector& slope, double rho) const {
     // The derivative at 0, and its rate of growth.
-    double at = 0, rise = 0;
+    double at = 0;
+    double rise = 0;
     for (std::size_t i = 0; i < dy.size(); ++i) {
       at += dy[i] * (y_[i] - free_[i]);
       rise += dy[i] * dy[i];
     }
+
+    // The points where a row starts or ceases to press.
     std::vector<std::pair<double, std::size_t>> turns;
     const auto presses = [&](std::size_t c) {
       return t[c] > 0 || (t[c] == 0 && slope[c] < 0) || island_.rows[c].bilateral;
     };
+
     for (std::size_t c = 0; c < t.size(); ++c) {
       if (presses(c)) {
         at -= t[c] * slope[c] / rho;
@@ -347,6 +410,8 @@ class ContactInteriorPoint::Method {
       if (island_.rows[c].bilateral || slope[c] == 0) continue;
       if (const double turn = t[c] / slope[c]; turn > 0) turns.emplace_back(turn, c);
     }
+
+    // Goes from turn to turn as long as the derivative is negative.
     std::sort(turns.begin(), turns.end());
     double from = 0;
     for (const auto& [turn, c] : turns) {
@@ -356,6 +421,7 @@ class ContactInteriorPoint::Method {
       from = turn;
       rise += (t[c] > 0 ? -1 : 1) * slope[c] * slope[c] / rho;
     }
+
     return from - at / rise;
   }
 
@@ -364,14 +430,22 @@ class ContactInteriorPoint::Method {
   /// Where the first limits progress, contacts are made to yield less.
   void refine(ContactSolution& solution) {
     constexpr double stiffest = 1e-13;
-    const std::size_t n = y_.size(), m = rows();
+    const std::size_t n = y_.size();
+    const std::size_t m = rows();
     solution.motion.resize(n);
     solution.force.resize(m);
     for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island_.root[i / 3] * y_[i], 0};
     for (std::size_t c = 0; c < m; ++c) solution.force[c] = {island_.rows[c].scale * z_[c], 0};
-    Vector weight(m), former, lacking, short_by(m);
-    double last = no_limit, rho = tightest;
+
+    Vector weight(m);
+    Vector former;
+    Vector lacking;
+    Vector short_by(m);
+    double last = no_limit;
+    double rho = tightest;
+
     for (int idle = 0;;) {
+      // What each row is short by, and whether it presses.
       for (std::size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
         short_by[c] = -r.scale * excess(r, solution.motion);
@@ -379,25 +453,33 @@ class ContactInteriorPoint::Method {
         weight[c] = presses ? 1 / rho : 0;
         if (!presses) solution.force[c] = {0, 0};
       }
+
+      // The right-hand side: the imbalance of forces, and what rows are short by.
       find_imbalance(island_, solution);
       lacking = solution.lacking;
       for (std::size_t i = 0; i < n; ++i) lacking[i] /= island_.root[i / 3];
       for (std::size_t c = 0; c < m; ++c)
         if (weight[c] != 0) island_.rows[c].add_to(lacking.data(), short_by[c] / rho);
+
+      // The correction of the motion.
       const bool same = former == weight;
       if (!same && !matrix_.factorise(weight)) return;
       former = weight;
       matrix_.solve(lacking);
       const double size = greatest(lacking);
       if (!std::isfinite(size)) return;
+
       idle = size < 0.5 * last ? 0 : idle + 1;
       const double used = weight_of(weight);
+      // Where progress is slow, contacts are made to yield less.
       if (!(size < 0.1 * last) && rho > stiffest) {
         rho *= 1e-1;
         idle = 0;
       }
       if (idle > (same ? 2 : 8)) return;
       last = std::min(last, size);
+
+      // Adds the correction to the motion and to the forces.
       for (std::size_t i = 0; i < n; ++i)
         solution.motion[i] = solution.motion[i] + DoubleDouble{island_.root[i / 3] * lacking[i], 0};
       for (std::size_t c = 0; c < m; ++c) {
@@ -407,13 +489,16 @@ class ContactInteriorPoint::Method {
         solution.force[c] = solution.force[c] + DoubleDouble{r.scale * dz, 0};
         if (!r.bilateral && solution.force[c].hi < 0) solution.force[c] = {0, 0};
       }
+
       if (size <= 0x1p-92 * greatest(y_)) return;
     }
   }
 
   const ContactIsland& island_;
   ContactMatrix matrix_;
-  Vector free_, y_, z_;
+  Vector free_;  // the free motion, over the roots of inverse masses
+  Vector y_;     // the motion, over the same
+  Vector z_;     // by row: its force, over its scale
 };
 
 ContactInteriorPoint::ContactInteriorPoint(const ContactIsland& island) : method_(std::make_unique<Method>(island)) {}

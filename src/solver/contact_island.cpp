@@ -30,17 +30,26 @@ void add_product(DoubleDouble& sum, double a, const DoubleDouble& b) {
 }  // namespace
 
 void ContactIsland::scale() {
-  double most = 0, lightest = 0, heaviest = std::numeric_limits<double>::infinity();
+  double most = 0;
+  double lightest = 0;
+  double heaviest = std::numeric_limits<double>::infinity();
   for (const Vec3& u : free) most = std::max(most, u.cwiseAbs().maxCoeff());
   for (const Row& r : rows) most = std::max(most, std::abs(r.target));
+
   for (const double w : inverse_mass) {
     lightest = std::max(lightest, w);
     heaviest = std::min(heaviest, w);
   }
+
+  // The units are powers of two, so that scaling does not round.
   mass_ratio = lightest / heaviest;
   motion_exponent = exponent_of(most);
   mass_exponent = exponent_of(lightest);
-  const PowerOfTwo motion(-motion_exponent), mass(-mass_exponent), force(mass_exponent - motion_exponent);
+  const PowerOfTwo motion(-motion_exponent);
+  const PowerOfTwo mass(-mass_exponent);
+  const PowerOfTwo force(mass_exponent - motion_exponent);
+
+  // The bodies, in these units.
   speed = 0;
   root.resize(inverse_mass.size());
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -49,6 +58,8 @@ void ContactIsland::scale() {
     free[i] = motion * free[i];
     speed = std::max(speed, free[i].norm());
   }
+
+  // The rows, each scaled to unit length.
   unilateral = true;
   for (Row& r : rows) {
     r.target = motion * r.target;
@@ -65,6 +76,7 @@ void ContactIsland::scale() {
 void ContactIsland::close_mass_gaps() {
   // Beyond it a light body has no effect on a heavy one.
   constexpr int widest = 60;
+
   heavier.clear();
   const auto [least, most] = std::minmax_element(inverse_mass.begin(), inverse_mass.end());
   if (exponent_of(*most) - exponent_of(*least) <= widest) return;
@@ -73,8 +85,11 @@ void ContactIsland::close_mass_gaps() {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return inverse_mass[i] < inverse_mass[j]; });
+
+  // Bodies beyond a gap are made heavier, until the gap has the greatest width allowed.
   heavier.assign(inverse_mass.size(), 0);
-  int shift = 0, last = exponent_of(inverse_mass[order.front()]);
+  int shift = 0;
+  int last = exponent_of(inverse_mass[order.front()]);
   for (const std::size_t k : order) {
     const int exponent = exponent_of(inverse_mass[k]);
     shift += std::max(exponent - last - widest, 0);
@@ -100,22 +115,28 @@ std::vector<int> ContactIsland::force_exponents(const std::vector<DoubleDouble>&
 
 std::size_t ContactIsland::reach() const {
   // The rows of each body, one body after the other.
-  std::vector<std::uint32_t> first(free.size() + 1, 0), of;
+  std::vector<std::uint32_t> first(free.size() + 1, 0);
+  std::vector<std::uint32_t> of;
   for (const Row& r : rows) {
     ++first[r.a];
     if (r.moves_b()) ++first[r.b];
   }
+
   std::partial_sum(first.begin(), first.end(), first.begin());
   of.resize(first.back());
   for (std::uint32_t c = 0; c < rows.size(); ++c) {
     of[--first[rows[c].a]] = c;
     if (rows[c].moves_b()) of[--first[rows[c].b]] = c;
   }
-  std::vector<std::uint32_t> order, distance;
+
+  // The last row that a breadth-first search from `start` comes to.
+  std::vector<std::uint32_t> order;
+  std::vector<std::uint32_t> distance;
   const auto search_from = [&](std::uint32_t start) {
     distance.assign(rows.size(), ContactConstraint::fixed);
     order.assign(1, start);
     distance[start] = 0;
+
     for (std::size_t k = 0; k < order.size(); ++k) {
       const Row& r = rows[order[k]];
       for (const std::uint32_t body : {r.a, r.moves_b() ? r.b : r.a})
@@ -127,6 +148,8 @@ std::size_t ContactIsland::reach() const {
     }
     return order.back();
   };
+
+  // A second search, from the farthest row, finds about the greatest distance of all.
   return distance[search_from(search_from(0))];
 }
 
@@ -145,10 +168,13 @@ double excess(const ContactIsland::Row& r, const std::vector<DoubleDouble>& moti
 void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
   std::vector<DoubleDouble>& push = solution.push;
   push.assign(island.unknowns(), DoubleDouble{0, 0});
+
+  // The sum of forces on each body, by axis.
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
     const DoubleDouble& x = solution.force[c];
     if (x.hi == 0) continue;
     const ContactIsland::Row& r = island.rows[c];
+
     for (std::uint32_t k = 0; k < 3; ++k) {
       const double n = r.normal[static_cast<int>(k)];
       if (n == 0) continue;
@@ -156,6 +182,8 @@ void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
       if (r.moves_b()) add_product(push[3 * r.b + k], n, x);
     }
   }
+
+  // What the motion lacks: free motion and the effect of the forces, less the motion itself.
   solution.lacking.resize(island.unknowns());
   for (std::size_t i = 0; i < push.size(); ++i) {
     DoubleDouble sum{island.free[i / 3][static_cast<int>(i % 3)], 0};
@@ -168,6 +196,8 @@ void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
 Judgement judge(const ContactIsland& island, ContactSolution& solution) {
   Judgement judgement;
   const auto differ = [&](double change) { judgement.change = std::max(judgement.change, change); };
+
+  // By how much rows are violated, or off where they press.
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
     const double w = excess(r, solution.motion);
@@ -177,6 +207,8 @@ Judgement judge(const ContactIsland& island, ContactSolution& solution) {
     if (std::isnan(change)) judgement.change = std::numeric_limits<double>::infinity();
     differ(change);
   }
+
+  // The imbalance of forces, as a share of the speed.
   find_imbalance(island, solution);
   const std::vector<double>& lacking = solution.lacking;
   for (std::size_t i = 0; i < lacking.size(); ++i) {
@@ -187,6 +219,7 @@ Judgement judge(const ContactIsland& island, ContactSolution& solution) {
     if (!(change <= accepted_change)) judgement.within_slack = false;
     differ(change);
   }
+
   return judgement;
 }
 

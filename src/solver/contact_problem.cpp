@@ -30,6 +30,7 @@ struct ContactIslands {
     DisjointSets sets(bodies);
     for (const ContactConstraint& c : all)
       if (c.b != ContactConstraint::fixed) sets.join(c.a, c.b);
+
     // A counting sort by root: first the number of contacts of each, then the position of the next one.
     next_.assign(bodies, 0);
     for (const ContactConstraint& c : all) ++next_[sets.root(c.a)];
@@ -39,6 +40,7 @@ struct ContactIslands {
       next = first.back();
       if (count > 0) first.push_back(next + count);
     }
+
     contacts.resize(all.size());
     for (std::uint32_t k = 0; k < all.size(); ++k) contacts[next_[sets.root(all[k].a)]++] = k;
   }
@@ -62,16 +64,21 @@ bool CachedIsland::resembles(const ContactIsland& island) {
   // One row in so many may differ.
   constexpr std::size_t few = 16;
   if (island.inverse_mass != inverse_mass || rows.empty()) return false;
+
+  // The rows of the present island, by their bodies.
   const auto key = [](const ContactIsland::Row& r) { return std::uint64_t{r.a} << 32 | r.b; };
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   for (std::uint32_t c = 0; c < island.rows.size(); ++c) order.emplace_back(key(island.rows[c]), c);
   std::sort(order.begin(), order.end());
+
+  // Each former row takes the first equal one that is not taken.
   now.assign(rows.size(), DualActiveSet::gone());
   std::vector<std::uint8_t> taken(island.rows.size(), 0);
   std::size_t found = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ContactIsland::Row& r = rows[k];
     auto it = std::lower_bound(order.begin(), order.end(), std::pair(key(r), std::uint32_t{0}));
+
     for (; it != order.end() && it->first == key(r); ++it) {
       const ContactIsland::Row& is = island.rows[it->second];
       if (taken[it->second] || is.bilateral != r.bilateral || is.left != r.left || is.right != r.right) continue;
@@ -81,6 +88,7 @@ bool CachedIsland::resembles(const ContactIsland& island) {
       break;
     }
   }
+
   const std::size_t others = (rows.size() - found) + (island.rows.size() - found);
   return others <= 1 + rows.size() / few;
 }
@@ -90,13 +98,18 @@ bool CachedIsland::resembles(const ContactIsland& island) {
 bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certificate& certificate) {
   const bool fixed = c.b == ContactConstraint::fixed;
   const Vec3 none = Vec3::Zero();
-  const double of_a = problem.inverse_mass[c.a], of_b = fixed ? 0 : problem.inverse_mass[c.b];
+  const double of_a = problem.inverse_mass[c.a];
+  const double of_b = fixed ? 0 : problem.inverse_mass[c.b];
   const double per_force = c.normal.squaredNorm() * (of_a + of_b);
-  Vec3 a = problem.motion[c.a], b = fixed ? none : problem.motion[c.b];
+
+  Vec3 a = problem.motion[c.a];
+  Vec3 b = fixed ? none : problem.motion[c.b];
   const double target = c.target - c.surface;
   const double scale = std::abs(target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
+
   const auto excess = [&] { return c.normal.dot(b - a) - target; };
-  double w = excess(), force = 0;
+  double w = excess();
+  double force = 0;
   if (c.bilateral || !(w >= 0))
     for (int pass = 0; pass < 2; ++pass) {
       const double more = -w / per_force;
@@ -105,8 +118,11 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
       b += of_b * more * c.normal;
       w = excess();
     }
+
+  // A change above the accepted one is left to a method.
   const double change = force == 0 ? 0 : std::abs(w) / scale;
   if (!(change <= accepted_change)) return false;
+
   certificate = {Certificate::Verdict::solved, change};
   c.force = force;
   problem.motion[c.a] = a;
@@ -154,7 +170,8 @@ class ExactCost {
   static constexpr double factorisations = 35;
   const ContactIsland& island_;
   std::optional<ContactInteriorPoint> method_;
-  double dense_, least_sparse_;
+  double dense_;         // ns
+  double least_sparse_;  // ns
 };
 
 }  // namespace
@@ -165,7 +182,8 @@ struct ContactSolver::Workspace {
   ContactIslands islands;
   ContactIsland island;
   ContactProjectedGradients gradients;
-  ContactSolution solution, attempt;
+  ContactSolution solution;
+  ContactSolution attempt;
   std::vector<std::uint32_t> place;   // by body: its number in the island
   std::vector<std::uint32_t> bodies;  // by number in the island
   bool caches = true;
@@ -183,6 +201,8 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
   island.free.clear();
   island.rows.clear();
   bodies.clear();
+
+  // The bodies, in ascending order.
   for (const std::uint32_t c : contacts)
     for (const std::uint32_t body : {problem.contacts[c].a, problem.contacts[c].b})
       if (body != ContactConstraint::fixed && place[body] == ContactConstraint::fixed) {
@@ -190,11 +210,14 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
         bodies.push_back(body);
       }
   std::sort(bodies.begin(), bodies.end());
+
   for (std::uint32_t k = 0; k < bodies.size(); ++k) {
     place[bodies[k]] = k;
     island.inverse_mass.push_back(problem.inverse_mass[bodies[k]]);
     island.free.push_back(problem.motion[bodies[k]]);
   }
+
+  // The rows, with bodies by their number in the island.
   for (const std::uint32_t c : contacts) {
     const ContactConstraint& from = problem.contacts[c];
     ContactIsland::Row& row = island.rows.emplace_back();
@@ -206,6 +229,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.slack = problem.accuracy == ContactAccuracy::rounding && !from.bilateral ? 0 : from.slack;
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }
+
   for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;
   island.close_mass_gaps();
   island.scale();
@@ -214,13 +238,16 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
 /// A speed that contact leaves is zero if double-double precision does not resolve it.
 void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
   const double nothing = 0x1p-96 * island.speed;
-  const PowerOfTwo unit(island.motion_exponent), unit_of_force(island.motion_exponent - island.mass_exponent);
+  const PowerOfTwo unit(island.motion_exponent);
+  const PowerOfTwo unit_of_force(island.motion_exponent - island.mass_exponent);
+
   for (std::size_t k = 0; k < bodies.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       const double u = solution.motion[3 * k + static_cast<std::size_t>(axis)].value();
       const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
       problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
     }
+
   const std::vector<int> exponents = island.force_exponents(solution.force);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double force = unit_of_force * solution.force[k].value();
@@ -234,6 +261,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
   // Solutions for which factors are reused: factors may cost so many times more.
   constexpr double worth_while = 8;
   Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
+
   // Keeps the better solution. Returns whether it is accepted.
   const auto take = [&](const Judgement& judgement, bool infeasible) {
     if (solution.motion.empty() || judgement.within_slack || judgement.change < best.change) {
@@ -244,11 +272,14 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
     if (judgement.within_slack) best.verdict = Certificate::Verdict::solved;
     return judgement.within_slack;
   };
+
   const auto by_active_set = [&] {
     const DualActiveSet::Result result = last.method.solve(island, attempt);
     return take(result.judgement, result.infeasible);
   };
+
   solution.motion.clear();
+  // Where the island resembles the last one, its factors are the start, or else its forces.
   const bool alike = caches && last.resembles(island);
   if (alike && last.method.has_factors()) {
     const DualActiveSet::Result result = last.method.solve_again(island, last.now, attempt);
@@ -258,15 +289,21 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
     for (std::size_t k = 0; k < last.rows.size(); ++k)
       if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
         island.rows[last.now[k]].force = last.rows[k].force;
+
+  // Orthogonal factors where they are cheaper, or where masses are too unequal.
   const bool unequal = island.mass_ratio > 1e6 && island.unknowns() <= 1500;
   const double times = alike ? worth_while : 1;
   const bool dense = unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
   if (dense && by_active_set()) return best;
+
+  // Sparse factors.
   last.method.clear();
   if (take(cost.method().solve(attempt), false)) return best;
+  // Orthogonal factors, from the forces of the best solution so far.
   for (std::size_t c = 0; c < island.rows.size(); ++c)
     island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(solution.force[c].hi, 0.0);
   if (by_active_set()) return best;
+  // Orthogonal factors from nothing.
   for (ContactIsland::Row& r : island.rows) r.force = 0;
   by_active_set();
   return best;
@@ -288,29 +325,35 @@ Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
 Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem,
                                                    std::span<const std::uint32_t> contacts) {
   Certificate certificate;
+
+  // An island without pressing contacts needs no method, and one of a single contact seldom does.
   if (nothing_presses(problem, contacts)) {
     for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
     return certificate;
   }
   if (contacts.size() == 1 && solve_single(problem, problem.contacts[contacts.front()], certificate))
     return certificate;
+
   take_island(problem, contacts);
   if (island.speed == 0) {
     for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
     return certificate;
   }
+
   if (problem.accuracy != ContactAccuracy::rounding && island.unilateral) {
     certificate = solve_to_slack(problem.accuracy);
   } else {
     CachedIsland& last = caches ? cached[bodies.front()] : uncached;
     ExactCost cost(island);
     certificate = solve_exactly(cost, last);
+    // A later solution may start from this one.
     if (caches) {
       last.inverse_mass = island.inverse_mass;
       last.rows = island.rows;
       for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = solution.force[c].hi;
     }
   }
+
   give_back(problem, contacts);
   return certificate;
 }
