@@ -64,8 +64,10 @@ class BookSimulator final : public Simulator {
   const Bounds bounds_;
   // Frames done. The bodies are at frame_time(frames_).
   std::uint64_t frames_ = 0;
-  double time_ = 0;  // s, requested time: within the last frame done
-  std::vector<Vec3> x_, v_, force_;
+  double time_ = 0;          // s, requested time: within the last frame done
+  std::vector<Vec3> x_;      // m
+  std::vector<Vec3> v_;      // m/s
+  std::vector<Vec3> force_;  // N
   State state_;
   EventLog log_;
   // By region and body: whether it is inside, as of the last frame.
@@ -87,6 +89,7 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       extremes_(options.watch.size()) {
   if (!world.strings.empty())
     throw SimulationError("the engine `book` has no strings: use `engine: exact`, or remove `strings`");
+
   for (Entity i = 0; i < world.body_count(); ++i) log_.note_speed(i, v_[i].norm());
   take_extremes();
 }
@@ -114,11 +117,16 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
                     "simulate.step, or "
                     "engine: exact",
                     frame_time(frames_)));
+
   const Vec3 n = d / distance;
-  const double ua = v_[a].dot(n), ub = v_[b].dot(n);
+  const double ua = v_[a].dot(n);
+  const double ub = v_[b].dot(n);
   log_.note_overlap(world_.radius[a] + world_.radius[b] - distance);
   if (ua <= ub && !options_.as_printed) return;
-  const double ma = world_.mass[a], mb = world_.mass[b];
+
+  // The speeds along the line of centres after the impact.
+  const double ma = world_.mass[a];
+  const double mb = world_.mass[b];
   const double e = options_.as_printed
                        ? combine_restitution(Combine::book, world_.restitution[a], ma, world_.restitution[b], mb)
                        : pair_restitution(world_, a, b);
@@ -126,11 +134,15 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
   const double after_b = ((mb - e * ma) * ub + (1 + e) * ma * ua) / (ma + mb);
   v_[a] += (after_a - ua) * n;
   v_[b] += (after_b - ub) * n;
+
+  // As printed, the acceleration becomes v'/dt.
   if (options_.as_printed) {
     force_[a] = v_[a] / options_.step * ma;
     force_[b] = v_[b] / options_.step * mb;
   }
-  const double approach = ua - ub, separation = after_b - after_a;
+
+  const double approach = ua - ub;
+  const double separation = after_b - after_a;
   record(make_collision(world_, CollisionKind::body_body, frame_time(frames_), a, b, x_[a] + world_.radius[a] * n, n,
                         approach, separation, e));
 }
@@ -244,15 +256,19 @@ bool BookSimulator::end_until(double time) {
 void BookSimulator::advance_to(double time) {
   log_.begin_advance();
   crossings_.clear();
+
   if (log_.tally().end) {
     time_ = std::max(time, time_);
     return;
   }
+
+  // Bodies may be in regions, or rest, at the start.
   if (frames_ == 0 && time_ == 0) {
     find_crossings();
     if (options_.stop_at_rest && rests()) end_at(0, EndReason::rest);
   }
   if (end_until(time)) return;
+
   // A time within rounding of a frame's time belongs to that frame.
   for (int frames = 1; frame_time(frames_) < time - stepped_tolerance::frame_rounding * options_.step; ++frames) {
     do_frame();
@@ -261,11 +277,13 @@ void BookSimulator::advance_to(double time) {
       end_ = RunEnd{log_.tally().last_collision, EndReason::collisions, 0};
     if (options_.stop_at_rest && rests()) end_at(frame_time(frames_), EndReason::rest);
     if (end_until(time)) return;
+
     if (!log_.has_room(room_for_frame) || frames == frames_at_a_time) {
       time_ = std::min(frame_time(frames_), time);
       return;
     }
   }
+
   time_ = std::max(time, time_);
 }
 

@@ -23,7 +23,8 @@ namespace {
 
 /// Gauss's rule of six points on [0, 1], exact to degree 11.
 struct WorkPoint {
-  double at, weight;
+  double at;      // in [0, 1]
+  double weight;  // of a sum of 1
 };
 constexpr WorkPoint work_points[] = {
     {0.033765242898423986, 0.085662246189585178}, {0.16939530676686774, 0.18038078652406931},
@@ -37,6 +38,8 @@ constexpr int samples = 6;
 /// A cylinder's rim is sharp. A sphere makes it as round as the sphere.
 double bend_radius(const World& world, Entity i, Entity e) {
   if (world.is_string(e)) return world.string(e).length;
+
+  // The sum of the sizes of those that are of this shape.
   const auto round = [&](Shape shape) {
     double sum = 0;
     for (const Entity k : {i, e}) {
@@ -46,6 +49,7 @@ double bend_radius(const World& world, Entity i, Entity e) {
     }
     return sum;
   };
+
   if (const double r = round(Shape::sphere); r > 0) return r;
   if (const double r = round(Shape::cylinder); r > 0) return r;
   return world.radius[i];
@@ -139,11 +143,13 @@ void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
 std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
   std::vector<Vec3> a;
   a.reserve(v.size());
+
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (k >= applied_.size()) {
       a.push_back(Vec3::Zero());
       continue;
     }
+
     const auto& [at_rest, fade, bent] = applied_[k];
     if (bent)
       a.push_back(free_acceleration(world_, members_[k], time_, x[k], v[k]));
@@ -200,6 +206,7 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
   for (std::size_t c = 0; c < rows.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
+
     ContactConstraint& row = rows[c];
     const Vec3 xe = place_of(x, row.b, e);
     // Also beyond its rim.
@@ -208,6 +215,7 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
     if (is_rod(world_, e)) rods = true;
     row.target = -bending(world_, i, x[row.a], e, xe, there, relative_velocity(v, row, e));
   }
+
   if (rods) allow_contradictions(a, rows);
   certificate.merge(solve({inverse_mass_, a, rows}));
   return a;
@@ -241,9 +249,11 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   double farthest = 0;
   for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
   for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
+
   s.acceleration = greatest_norm(forces_at(x, v));
   for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
   s.speed = std::max(relative_speed(v), std::sqrt(s.acceleration * s.length));
+
   // The greatest term of the forces' sum.
   double strongest = s.acceleration;
   for (std::size_t k = 0; k < v.size(); ++k)
@@ -304,6 +314,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::v
   double h = never;
   const double fade = std::max(common_fade(), 0.0);
   const std::vector<double> roundings = place_roundings(x, v, a);
+
   const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& [i, e, feature] = contacts[c];
@@ -313,6 +324,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::v
       const double room = step_error_ * smaller_radius(world_, contacts[c]) * bend;
       const double w = relative_velocity(v, rows[c], e).norm();
       const double pull = relative(a, rows[c]).norm();
+
       const double bent = pull + w * w / bend;
       if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
       if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
@@ -321,6 +333,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::v
       if (fade * w > 0) h = std::min(h, std::max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
     }
   };
+
   keep(closed_, rows_);
   keep(opened_, opened_rows_);
   if (any_bent()) return 0;
@@ -341,11 +354,13 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<V
   double rate = 0;     // 1/s, at which accelerations change
   double fastest = 0;  // m/s, along what bends paths
   double rounded = 0;  // m/s, by the rounding of what turns forces
+
   const auto take = [&](double of_rate, double speed, double rounding) {
     rate = std::max(rate, of_rate);
     fastest = std::max(fastest, speed);
     rounded = std::max(rounded, of_rate * rounding);
   };
+
   for (std::size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
@@ -422,15 +437,19 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
     Certificate of_stage;
     return solve_rows(at, speed, rows, of_stage);
   };
+
   Followed followed;
   std::vector<Vec3> start = a;
   start.resize(a.size() + carriers_.size(), Vec3::Zero());
   auto motion =
       std::make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
+
   const double rounded = rounding_ * greatest_norm(v);  // m/s
   const auto step = [&](double length) {
     return motion->step(length, smooth, std::max(allowed_.place, length * rounded), allowed_.speed);
   };
+
+  // Shorter steps follow until the error is allowed.
   bool rejected = false;
   for (;;) {
     const double error = step(h);
@@ -439,14 +458,17 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
     rejected = true;
     h = followed.next;
   }
+
   motion->interpolate(smooth);
   followed.stuck = rejected && greatest_norm(v) > 0 && !moves(*motion);
+  // The step ends at the first change in it.
   const double change = first_change(*motion);
   followed.changes = change < never;
   if (change < h) {
     step(change);
     motion->interpolate(smooth);
   }
+
   followed.motion = std::move(motion);
   return followed;
 }
@@ -457,6 +479,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
   std::vector<RadauCollocation::Forces> forces;
   for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
   forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
+
   std::vector<ContactConstraint> rows = held_;
   std::vector<double> inverse_mass(members_.size());
   const auto hold = [&](const std::vector<Vec3>& at, double s, std::vector<Vec3>& u) {
@@ -470,9 +493,12 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
     }
     solve({inverse_mass, u, rows});
   };
+
   Followed followed;
   auto motion = std::make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
   const auto step = [&](double length) { return motion->step(length, forces, hold, allowed_.place, allowed_.speed); };
+
+  // Shorter steps follow until the error is allowed.
   for (;;) {
     const double error = step(h);
     followed.next = DormandPrince::next_length(h, error);
@@ -480,6 +506,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
     h = followed.next;
     if (greatest_fade() * h < 1) return {};
   }
+
   const double change = first_change(*motion);
   followed.changes = change < never;
   if (change < h) step(change);
@@ -491,17 +518,21 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
 double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
   std::vector<ContactConstraint> rows = held_;
   double work = 0;
-  std::vector<Vec3> x, v;
+  std::vector<Vec3> x;
+  std::vector<Vec3> v;
   for (const WorkPoint& point : work_points) {
     motion.at(point.at * length, x, v);
     Certificate certificate;
     solve_rows(x, v, rows, certificate);
+
+    // The power of moving things on members that are not left out.
     double power = 0;
     for (std::size_t c = 0; c < rows.size(); ++c)
       if (const Carrier* carrier = carrier_of(closed_[c].e); carrier != nullptr && !left_[rows[c].a])
         power -= rows[c].force * rows[c].normal.dot(carrier->v);
     work += point.weight * length * power;
   }
+
   return work;
 }
 
@@ -515,18 +546,25 @@ double ConstrainedSystem::greatest_fade() const {
 double ConstrainedSystem::first_change(const DenseMotion& motion) {
   const double h = motion.length();
   double first = never;
+
+  // Openings are searched in the first half, and then in the second.
   const double middle = opens(motion, 0.5 * h);
   if (middle > tol::opened) {
     first = find_opening(motion, 0, 0.5 * h, middle);
   } else if (const double end = opens(motion, h); end > tol::opened) {
     first = find_opening(motion, 0.5 * h, h, end);
   }
+
+  // Rims and opened contacts are examined at samples.
   const auto rim = [&](const std::vector<Vec3>& at) { return over_rim(motion, at); };
   const auto back = [&](const std::vector<Vec3>& at) { return classify_opened(motion, at) == Opened::back; };
-  std::vector<Vec3> x, v;
+  std::vector<Vec3> x;
+  std::vector<Vec3> v;
   for (int k = 1; k <= samples; ++k) {
-    const double from = h * (k - 1) / samples, to = k == samples ? h : h * k / samples;
+    const double from = h * (k - 1) / samples;
+    const double to = k == samples ? h : h * k / samples;
     if (from >= first) break;
+
     motion.at(to, x, v);
     if (rim(x)) first = std::min(first, first_time(motion, from, to, rim));
     const Opened opened = classify_opened(motion, x);
@@ -552,14 +590,18 @@ double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
 double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, double to, double at_end) {
   const double aim = std::sqrt(tol::opened * tol::wide_open);
   // A second point at which contacts are open.
-  double beyond = to, at_beyond = at_end;
+  double beyond = to;
+  double at_beyond = at_end;
+
   for (int pass = 0; pass < 100 && to - from > tol::time_precision * motion.length(); ++pass) {
     if (at_end <= tol::wide_open) break;
+    // The middle, or the secant's point where that lies between `from` and `to`.
     double t = 0.5 * (from + to);
     if (beyond > to && at_beyond > at_end) {
       const double secant = to - (at_end - aim) * (beyond - to) / (at_beyond - at_end);
       if (secant > from && secant < to) t = secant;
     }
+
     const double at_t = opens(motion, t);
     if (at_t > tol::opened) {
       beyond = std::exchange(to, t);
@@ -595,10 +637,13 @@ ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& 
     const double least = smaller_radius(world_, opened_[c]);
     const Vec3 xe = place_of(x, row.b, e);
     const double gap = touch(world_, i, x[row.a], e, xe).gap;
+
+    // The place of the second thing at the start.
     const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
     const Vec3 xe_first = row.b != ContactConstraint::fixed ? motion.start(row.b)
                           : carrier != nullptr              ? carrier->x
                                                             : xe;
+
     const double rounding = tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum());
     if (gap < -std::max(tol::step_error * least, rounding) &&
         gap < touch(world_, i, motion.start(row.a), e, xe_first).gap - tol::step_error * least)

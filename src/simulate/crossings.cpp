@@ -67,10 +67,13 @@ void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
   const double horizon = end - f.start;
   const double margin =
       tol::position_rounding * (f.x.cwiseAbs().sum() + where.position.cwiseAbs().sum() + where.volume.half.maxCoeff());
+
+  // Follows the flight in spans for which one polynomial is accurate, or at once to its end.
   double t = std::max(from - f.start, 0.0);
   while (t < horizon) {
     std::optional<CrossingTime> found;
-    double start = 0, length = horizon;
+    double start = 0;
+    double length = horizon;
     if (f.is_straight()) {
       found = next_crossing(where, CenterPath::along(f.x, f.v, f.a, horizon), t, standing(region, i) == inside, margin);
     } else {
@@ -79,6 +82,7 @@ void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
       found = next_crossing(where, CenterPath::along(f.position(t), f.displacement_from(t, length), length), 0,
                             standing(region, i) == inside, margin);
     }
+
     if (found) {
       // The clock rounds too.
       const double sure = (start + found->sure) * (1 + tol::crossing_rounding);
@@ -86,6 +90,7 @@ void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
       next_.write(i).push_back({region, f.start + (start + found->at), f.start + sure});
       return;
     }
+
     t = start + length;
   }
 }

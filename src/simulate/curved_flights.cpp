@@ -28,7 +28,8 @@ namespace {
 /// Gauss's rule of ten points on [0, 1], exact to degree 19.
 /// Power is a velocity to the second or third power, which may fall by decades within a step.
 struct GaussPoint {
-  double at, weight;
+  double at;      // in [0, 1]
+  double weight;  // of a sum of 1
 };
 constexpr GaussPoint gauss[] = {
     {0.013046735741414140, 0.033335672154344069}, {0.067468316655507745, 0.074725674575290297},
@@ -88,19 +89,25 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
   if (closed_.empty()) closed_.resize(bodies_.body.size());
   Closed& closed = closed_[i];
   const Instant now = bodies_.now;
+
+  // A flight that does not continue the last one starts a motion of its own.
   if (closed.next != now || closed.forces != forces || closed.end.x != x || closed.end.v != v) {
     closed.forces = forces;
     closed.motion = ClosedMotion(forces, x, v, free_acceleration(bodies_.world, i, now.hi, x, Vec3::Zero()));
     closed.start = now;
   }
+
   const ClosedMotion& motion = closed.motion;
   const DoubleDouble since = seconds(closed.start, now);
   const ClosedMotion::Point start = motion.at(since);
   const double radius = bodies_.world.radius[i];
   const double room =
       tol::closed_place * std::max({radius, x.cwiseAbs().maxCoeff(), start.place.cwiseAbs().maxCoeff()});
+
   // Outputs and impacts start from the motion itself. Polynomials only serve to find the times of impacts.
   const double speed = std::max({tol::closed_speed * start.velocity.norm(), room * motion.rate(start), 0x1p-900});
+
+  // The longest step that is allowed, or the one that the last error suggests.
   double h = std::min(longest_step(force_reach(bodies_.world, i, x), start.velocity, start.acceleration),
                       motion.longest_step(start, room));
   if (next_[i] > 0) h = std::min(h, next_[i]);
@@ -110,6 +117,7 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
     const ClosedMotion::Point end = motion.at(seconds(closed.start, next));
     const PolynomialPath path =
         PolynomialPath::through(h, point(start), point(motion.at(since + DoubleDouble{0.5 * h, 0})), point(end));
+
     // The velocity's error is greatest at a quarter of the step. The displacement's error at the end is 0.4816 of that,
     // times the whole step.
     const Vec3 quarter = motion.at(since + DoubleDouble{0.25 * h, 0}).velocity;
@@ -117,6 +125,7 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
     const double error = std::max(off / speed, 0.4816 * h * off / room);
     const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
     next_.write(i) = h * std::clamp(0.9 / std::max(eighth_root, 0x1p-10), 0.2, 4.0);
+
     if (error <= 1) {
       closed.next = next;
       closed.end = {motion.origin() + end.place, end.velocity};
@@ -159,9 +168,13 @@ void cut(PolynomialPath& path, double length) {
 
 PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3& v) {
   const World& world = bodies_.world;
-  const double now = bodies_.now.hi, radius = world.radius[i], share = bodies_.options.step_error;
+  const double now = bodies_.now.hi;
+  const double radius = world.radius[i];
+  const double share = bodies_.options.step_error;
   const Vec3 whole = free_acceleration(world, i, now, x, v);
   const SpringsInLine springs(world, i, now, x, v, whole);
+
+  // The accelerations and slopes that the two methods evaluate.
   const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
     const Vec3 there = free_acceleration(world, i, now, at, speed);
     return springs.any() ? springs.without_turn(at, there) : there;
@@ -170,31 +183,41 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
     return std::vector<Vec3>{acceleration(at[0], speed[0])};
   };
   const auto jacobian = [&](const Vec3& at, const Vec3& speed) { return force_jacobian(world, i, now, at, speed); };
+
   const Vec3 a = springs.any() ? springs.without_turn(x, whole) : whole;
   const ForceJacobian slopes = jacobian(x, v);
-  const double damping = slopes.by_velocity.norm(), reach = force_reach(world, i, x);
+  const double damping = slopes.by_velocity.norm();
+  const double reach = force_reach(world, i, x);
   const double longest = longest_step(reach, v, a);
+
   // The allowed error of a position: a share of the radius, or of a smaller distance in which forces change. It is
   // never below the rounding of positions.
   const double width = std::min(radius, reach);
   const double left = left_of_speed(world, i, now, x, v);
   const double place = std::max(share * left * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
+
   // The allowed error of a velocity: a share of itself, of the speed gained over a width, or of that at which drag
   // balances forces. It is never below the speed of a swing as wide as a position's error or rounding, because forces
   // that balance are rounding.
   const double swing = std::max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
   const double gained = std::min(std::sqrt(a.norm() * width), a.norm() / std::max(damping, 0x1p-900));
+
   // Across a spring that is nearly at its anchor the slope is unbounded. Damping is not a swing.
   const double swings = std::min(std::sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
   const double fine = std::max(share * left, tol::velocity_rounding);
   const double speed = std::max({fine * v.norm(), fine * gained, left * swing * swings, 0x1p-900});
+
+  // The first length to try, and its method.
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
   bool implicit = is_implicit(i, h, damping);
   h = std::min(h, longest);
   for (;;) {
     check_clock(i, h);
+
     PolynomialPath path;
-    double error, next;
+    double error;
+    double next;
+
     if (implicit) {
       ImplicitStep motion;
       error = motion.step(h, x, v, acceleration, jacobian, place, speed);
@@ -209,12 +232,15 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
         path = motion.path(0);
       }
     }
+
+    // A step that is accurate enough is taken.
     if (error <= 1) {
       next_.write(i) = next;
       note_method(i, implicit);
       if (const double arrival = springs.arrival(x, path); arrival < path.length) cut(path, arrival);
       return path;
     }
+
     if (implicit && next * damping < 0.1) implicit = false;
     h = next;
   }
@@ -237,15 +263,20 @@ double CurvedFlights::step_length() const {
 PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) {
   const Integrator method = bodies_.options.integrator;
   if (method == Integrator::dop853) return step_of_its_own(i, x, v);
+
   const double h = step_length();
   const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
     return free_acceleration(bodies_.world, i, bodies_.now.hi, at, speed);
   };
+
+  // The body's own velocity is without that by which the method is ahead.
   const PolynomialPath* const last = bodies_.flights.curve(i);
   Vec3 ahead = last == nullptr ? Vec3(Vec3::Zero()) : last->ahead;
-  const Vec3 own = v - ahead, a = acceleration(x, own);
+  const Vec3 own = v - ahead;
+  const Vec3 a = acceleration(x, own);
   if (bodies_.bent[i] || bodies_.fade[i] != 0)
     bodies_.log.note_step({h * force_rate(bodies_.world, i, x, own), h, bodies_.now.hi, i, x, own});
+
   if (method == Integrator::rk4) {
     const auto [bend, change] = runge_kutta(h, x, v, a, acceleration);
     return PolynomialPath::through(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));
@@ -254,6 +285,7 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
     ahead = (0.5 * h) * a;
     v = own + ahead;
   }
+
   PolynomialPath path = PolynomialPath::parabola(h, v, a);
   path.ahead = ahead;
   return path;
@@ -271,12 +303,16 @@ double CurvedFlights::book_work(Entity i, const Flight& flight, double length) {
   for (std::size_t k = 0; k < world.forces.size(); ++k) {
     const Force& force = world.forces[k];
     if (!acts(force, i, flight.start.hi)) continue;
+
+    // The mean power for each unit of mass, by Gauss's rule.
     double sum = 0;
     for (const GaussPoint& node : gauss) {
       const double t = node.at * length;
-      const Vec3 x = flight.position(t), v = flight.velocity(t);
+      const Vec3 x = flight.position(t);
+      const Vec3 v = flight.velocity(t);
       sum += node.weight * working_acceleration(world, force, i, x, v).dot(v);
     }
+
     const double work = world.mass[i] * length * sum;
     if (work != 0) bodies_.log.add_work(k, work);
     all += work;

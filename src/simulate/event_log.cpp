@@ -45,12 +45,16 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
                        std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts) {
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
-  bool any = false, any_recorded = false;
-  double of_recorded = 0, work = 0;  // J
+
+  bool any = false;
+  bool any_recorded = false;
+  double of_recorded = 0;  // J
+  double work = 0;         // J
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
     if (!(p.force > 0 || (p.bilateral && p.force < 0))) continue;
     work += p.work();
+
     const double met = p.bilateral ? std::abs(approach(before, p)) : approach(before, p);
     const double speed = impacts.empty() ? met : impacts[c].approach;
     if (!impacts.empty() && impacts[c].recorded) {
@@ -61,8 +65,11 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
       any = true;
     }
   }
+
   if (work != 0) carry(work);
   if (!any && !any_recorded) return;
+
+  // The energy lost: the work of moving things, and what the motion loses.
   double lost = work;  // J
   for (std::size_t k = 0; k < before.size(); ++k)
     lost += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);

@@ -24,16 +24,21 @@ void EventPrefetch::find_due(double now) {
   from_ = now;
   events_ = 0;
   next_ = 0;
+
+  // The time is extended, a few times at most, until enough events are due in it.
   for (int attempt = 0; attempt < 8; ++attempt) {
     due_.clear();
     queue_.due_until(now + reach_, due_);
     if (due_.size() >= far_ahead) break;
     reach_ = 2 * reach_ + 0x1p-40 * now;
   }
+
+  // Of many events only the earliest are kept.
   if (due_.size() > 4 * far_ahead) {
     std::nth_element(due_.begin(), due_.begin() + 4 * far_ahead, due_.end(), earlier);
     due_.resize(4 * far_ahead);
   }
+
   std::sort(due_.begin(), due_.end(), earlier);
 }
 
@@ -70,14 +75,18 @@ void EventPrefetch::prefetch_flights(Entity i) const {
 void EventPrefetch::look_ahead() {
   const double now = queue_.first_time();
   while (next_ < due_.size() && due_[next_].time <= now) ++next_;
+
   // The search is repeated after many events only. Where few are due at all, it never finds that many.
   if (events_ >= far_ahead / 2 && next_ + far_ahead / 2 >= due_.size()) find_due(now);
   ++events_;
+
+  // One step for each of the events that are four, three, two and one steps ahead.
   if (const Entity i = due_in(4); i != no_entity) prefetch_body(i);
   if (const Entity i = due_in(3); i != no_entity) {
     bodies_.neighbours.prefetch_list(i);
     prefetch_body(partner_of(i));
   }
+
   if (const Entity i = due_in(2); i != no_entity) {
     if (queue_.leaves_first(i)) {
       for (const Entity k : bodies_.neighbours.bodies(i)) {
@@ -89,6 +98,7 @@ void EventPrefetch::look_ahead() {
       bodies_.neighbours.prefetch_list(partner_of(i));
     }
   }
+
   if (const Entity i = due_in(1); i != no_entity && partner_of(i) != i) prefetch_flights(partner_of(i));
 }
 

@@ -24,29 +24,38 @@ double sum_of_speeds(const Vec3& v) {
 
 Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) const {
   const World& world = bodies_.world;
-  const Entity a = std::min(i, j), b = std::max(i, j);
-  const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
+  const Entity a = std::min(i, j);
+  const Entity b = std::max(i, j);
+  const Flight& p = bodies_.flights[a];
+  const Flight& q = bodies_.flights[b];
   const bool p_earlier = p.start < q.start;
   const Instant base = p_earlier ? q.start : p.start;
   // One of the two is zero.
-  const double tp = base - p.start, tq = base - q.start;
+  const double tp = base - p.start;
+  const double tq = base - q.start;
+
+  // The motion of b relative to a, at the later start.
   RelativeMotion m;
   m.w = q.velocity(tq) - p.velocity(tp);
   m.d = q.position(tq) - p.position(tp);
   m.a = q.acceleration(tq) - p.acceleration(tp);
   const bool balls = world.volume.empty();
   if (balls && m.a.isZero(0) && p.fade == q.fade && m.d.dot(m.w) >= 0) return {never, 0};
+
   const double s = world.radius[a] + world.radius[b];
-  const bool curved = p.curve != nullptr || q.curve != nullptr, parabolas = p.is_parabola() && q.is_parabola();
+  const bool curved = p.curve != nullptr || q.curve != nullptr;
+  const bool parabolas = p.is_parabola() && q.is_parabola();
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
   const double horizon =
       (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
+
   // Most pairs end here: they are too far apart for the rest of the step.
   if ((step || curved) && (parabolas || !curved)) {
     if (curved && !(horizon > 0)) return {never, 0};
     const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
     if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
+
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
   if (curved && !parabolas) [[unlikely]]
@@ -55,6 +64,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
     const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
   }
+
   double t;
   if (!parabolas) {
     const FeatureTime first = time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
@@ -69,6 +79,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
     t = first.time;
     feature = first.feature;
   }
+
   return t == never ? Instant{never, 0} : base + t;
 }
 
@@ -76,10 +87,15 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
 Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                                        std::uint8_t& feature) const {
   const Instant base = std::max(p.start, q.start);
-  const double horizon = std::min(end_of(a), end_of(b)) - base, tp = base - p.start, tq = base - q.start;
+  const double horizon = std::min(end_of(a), end_of(b)) - base;
+  const double tp = base - p.start;
+  const double tq = base - q.start;
   if (!(horizon > 0)) return {never, 0};
+
   const double speeds = m.speeds + noise_in_contact(a) + noise_in_contact(b);
   std::uint8_t left = m.just_separated ? bodies_.body[a].origin_feature : no_feature;
+
+  // Searches piece by piece. One polynomial is accurate in each.
   for (double t = 0; t < horizon;) {
     const double length = std::min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
     const FeatureTime first = of_piece(a, p, tp + t, b, q, tq + t, length, speeds, left);
@@ -87,6 +103,7 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
       feature = first.feature;
       return base + (t + first.time);
     }
+
     if (!(t + length > t)) break;
     t += length;
     left = no_feature;
@@ -126,20 +143,27 @@ Instant ExactCollisionTimes::of_string(Entity string) const {
   const bool anchored = s.other == no_entity;
   const Flight p = bodies_.flights[s.body];
   const Flight q = anchored ? Flight{p.start, s.anchor, Vec3::Zero(), Vec3::Zero()} : bodies_.flights[s.other];
+
   const Instant base = std::max(p.start, q.start);
-  const double tp = base - p.start, tq = base - q.start;
+  const double tp = base - p.start;
+  const double tq = base - q.start;
   const double horizon = std::min(end_of(s.body), anchored ? Instant{never, 0} : end_of(s.other)) - base;
   if (!(horizon > 0)) return {never, 0};
+
+  // The motion of the second end relative to the first, at the later start.
   RelativeMotion m{q.position(tq) - p.position(tp), q.velocity(tq) - p.velocity(tp),
                    q.acceleration(tq) - p.acceleration(tp),
                    sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a),
                    p.start == q.start && bodies_.body[s.body].origin_partner == string &&
                        (anchored || bodies_.body[s.other].origin_partner == string)};
   m.speeds += noise_in_contact(s.body) + (anchored ? 0 : noise_in_contact(s.other));
+
   if (p.is_parabola() && q.is_parabola()) {
     const double t = taut_time(m, s.length, horizon);
     return t == never ? Instant{never, 0} : base + t;
   }
+
+  // Other paths are searched piece by piece.
   for (double t = 0; t < horizon;) {
     const double length = std::min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
     const double first =
@@ -165,13 +189,21 @@ Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& f
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
   const Instant base = std::max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
-  const double since = base - f.start, horizon = end_of(i) - base;
+  const double since = base - f.start;
+  const double horizon = end_of(i) - base;
   if (!(horizon > 0)) return {never, 0};
-  const Vec3 x = f.position(since), v = f.velocity(since);
-  const Vec3 xs = bodies_.moving.position(surface, base), u = bodies_.moving.velocity(surface, base);
+
+  // The body and the thing at `base`.
+  const Vec3 x = f.position(since);
+  const Vec3 v = f.velocity(since);
+  const Vec3 xs = bodies_.moving.position(surface, base);
+  const Vec3 u = bodies_.moving.velocity(surface, base);
+
   const double speeds = sum_of_speeds(v) + sum_of_speeds(u) + noise_in_contact(i);
   const bool just_left = since == 0 && bodies_.body[i].origin_partner == surface;
   const std::uint8_t left = just_left ? bodies_.body[i].origin_feature : no_feature;
+
+  // Each kind of flight has a search of its own.
   FeatureTime first{never, 0};
   if (f.curve != nullptr && !f.curve->is_parabola) {
     PolynomialPath::Terms displacement = f.displacement_from(since, horizon);
@@ -182,6 +214,7 @@ Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& f
     const FadingPath fixed{xs, u, Vec3::Zero(), 0};
     first = time_of_impact(world, i, f.path().from(since), surface, fixed, speeds, left, horizon);
   } else if (world.is_plane(surface)) {
+    // A parabola meets a plane in closed form.
     const Vec3& n = world.plane(surface).normal;
     const double noise = exact_tolerance::plane_rounding * speeds;
     const double gap = plane_gap(x, xs, n, world.volume_of(i).support(n));
@@ -191,6 +224,7 @@ Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& f
     const RelativeMotion m{xs - x, u - v, -f.acceleration(since), speeds, just_left, moved};
     first = time_of_impact(world, i, surface, m, left, horizon);
   }
+
   feature = first.feature;
   return first.time == never ? Instant{never, 0} : base + first.time;
 }
@@ -199,16 +233,20 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
   const World& world = bodies_.world;
   if (world.moves(surface)) [[unlikely]]
     return of_moving(i, surface, feature);
+
   const Flight& f = bodies_.flights[i];
   const Instant end = end_of(i);
   const bool step = end.hi < bodies_.options.duration;
   const double horizon = end - f.start;
   const bool left = bodies_.body[i].origin_partner == surface;
+
   double t;
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
   const double steps = noise_in_contact(i);
+
   if (f.curve != nullptr && !(horizon > 0)) return {never, 0};
   if (f.curve != nullptr && !f.curve->is_parabola) {
+    // The displacement of the surface relative to the body.
     PolynomialPath::Terms displacement = f.displacement_from(0, horizon);
     for (Vec3& term : displacement) term = -term;
     const FeatureTime first =
@@ -217,19 +255,23 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
     t = first.time;
     feature = first.feature;
   } else if (!f.is_parabola()) {
+    // A path under drag, and a surface at rest.
     const FadingPath fixed{world.fixed_position(surface), Vec3::Zero(), Vec3::Zero(), 0};
     const FeatureTime first = time_of_impact(world, i, f.path(), surface, fixed, sum_of_speeds(f.v) + steps,
                                              left ? bodies_.body[i].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
   } else if (ball && world.is_plane(surface)) {
+    // A ball's parabola meets a plane in closed form.
     const Plane& plane = world.plane(surface);
     const double noise = exact_tolerance::plane_rounding * (sum_of_speeds(f.v) + steps);
     t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world.radius[i]), plane.normal.dot(f.v),
                            plane.normal.dot(f.a), noise, left, horizon);
   } else if (ball && world.is_wall(surface)) {
+    // Within a step most walls are out of reach.
     const double reach = world.radius[i] + horizon * (sum_of_speeds(f.v) + horizon * sum_of_speeds(f.a));
     if (step && (f.x - nearest_on_wall(world.wall(surface), f.x)).squaredNorm() > reach * reach) return {never, 0};
+
     const WallContact contact = wall_contact_time(world.wall(surface), f.x, f.v, f.a, world.radius[i],
                                                   left ? bodies_.body[i].origin_feature : no_feature, horizon);
     t = contact.time;
@@ -241,6 +283,7 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
     t = first.time;
     feature = first.feature;
   }
+
   return t == never ? Instant{never, 0} : f.start + t;
 }
 

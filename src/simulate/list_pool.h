@@ -79,7 +79,8 @@ class ListPool {
 
  private:
   static constexpr std::size_t granule = 4;  // entries
-  static constexpr std::uint32_t page_bits = 16, page_mask = (1u << page_bits) - 1;
+  static constexpr std::uint32_t page_bits = 16;
+  static constexpr std::uint32_t page_mask = (1u << page_bits) - 1;
   static constexpr std::size_t page_granules = std::size_t{1} << page_bits;
   // Kinds 1 to 16 have as many granules. Each later kind has twice as many as the one before.
   static constexpr std::uint8_t in_steps = 16;
@@ -99,13 +100,18 @@ class ListPool {
     while (room(kind) < count) ++kind;
     list.capacity = kind;
     used_ += granules_of(kind);
+
+    // A free block of this kind.
     if (kind < free_.size() && !free_[kind].empty()) {
       unused_ -= granules_of(kind);
       list.at = free_[kind].back();
       free_[kind].pop_back();
       return;
     }
-    const std::size_t granules = granules_of(kind), page = page_granules;
+
+    // A block from the present page, or from new ones.
+    const std::size_t granules = granules_of(kind);
+    const std::size_t page = page_granules;
     if (left_ < granules) {
       // The rest of the page.
       for (; left_ > 0; ++next_, --left_) put_away(1, next_);
@@ -114,6 +120,7 @@ class ListPool {
       memory_.emplace_back(LargePages<std::uint32_t>().allocate(entries_in(left_)));
       for (std::size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
     }
+
     list.at = next_;
     next_ += static_cast<std::uint32_t>(granules);
     left_ -= granules;
@@ -136,7 +143,8 @@ class ListPool {
   std::vector<std::unique_ptr<std::uint32_t[], Free>> memory_;
   std::vector<std::uint32_t*> page_;
   std::vector<std::vector<std::uint32_t>> free_;  // by kind
-  std::size_t used_ = 0, unused_ = 0;             // granules, in the blocks of lists and in free ones
+  std::size_t used_ = 0;                          // granules, in the blocks of lists
+  std::size_t unused_ = 0;                        // granules, in free blocks
   std::uint32_t next_ = 0;
   std::size_t left_ = 0;  // granules from next_ on
 };

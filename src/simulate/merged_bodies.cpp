@@ -25,9 +25,11 @@ void MergedBodies::begin() {
 AppliedAcceleration MergedBodies::applied(Entity i, double time) const {
   // Position and velocity have no effect.
   const Vec3 any = Vec3::Zero();
+
   const auto on = [&](const World& world, Entity body) {
     return AppliedAcceleration{free_acceleration(world, body, time, any, any), fade_of(world, body, time)};
   };
+
   if (parts_.empty() || parts_[i].empty()) return on(world(), i);
   AppliedAcceleration sum{Vec3::Zero(), 0};
   for (const Entity part : parts_[i]) {
@@ -55,13 +57,20 @@ double MergedBodies::potential(Entity i, const Vec3& x) const {
 void MergedBodies::join(Entity whole, Entity part) {
   if (whole_of_.empty()) begin();
   World& world = *joint_;
-  const double mw = world.mass[whole], mp = world.mass[part], mass = mw + mp;
+
+  const double mw = world.mass[whole];
+  const double mp = world.mass[part];
+  const double mass = mw + mp;
+
+  // Volumes add up, in the shape of `whole`.
   Volume volume = world.volume_of(whole);
   volume.half *= cube_root((volume.size() + world.volume_of(part).size()) / volume.size());
   if (!world.volume.empty()) world.volume[whole] = volume;
   world.radius[whole] = volume.reach();
   world.restitution[whole] = (mw * world.restitution[whole] + mp * world.restitution[part]) / mass;
   world.mass[whole] = mass;
+
+  // The parts of both, and their shares of the mass.
   for (const Entity i : {whole, part})
     if (parts_[i].empty()) parts_[i].push_back(i);
   for (const Entity i : parts_[part]) parts_[whole].push_back(i);

@@ -36,11 +36,13 @@ Neighbours::Neighbours(const World& world)
 void Neighbours::start(const std::vector<Vec3>& x) {
   const Entity n = world_.body_count();
   if (n == 0) return;
-  Vec3 low = x[0], high = x[0];
+  Vec3 low = x[0];
+  Vec3 high = x[0];
   for (const Vec3& at : x) {
     low = low.cwiseMin(at);
     high = high.cwiseMax(at);
   }
+
   // Most regions are then the widest of an octave.
   unit_ = (1 + first_room) * (1 + 0x1p-18) * median_radius(world_);
   origin_ = 0.5 * low + 0.5 * high;
@@ -54,12 +56,16 @@ void Neighbours::start(const std::vector<Vec3>& x) {
     const auto known = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == level; });
     known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
   }
+
+  // All regions enter the grid before the first list is written.
   for (const auto& [level, regions] : expected) grid_.expect(level, regions);
   for (Entity i = 0; i < n; ++i) grid_.put(i, region_, lists_[i].level);
   for (Entity i = 0; i < n; ++i) {
     find(i, region_[i]);
     write(i);
   }
+
+  // Crowded regions shrink.
   for (Entity i = 0; i < n; ++i)
     if (bodies(i).size() > 2 * many_neighbours) shrink(i, x[i]);
 }
@@ -131,14 +137,19 @@ void Neighbours::drop(Entity j, Entity i) {
 void Neighbours::settle(Entity i, const Region& region, int level) {
   const Region old = region_[i];
   const std::span<const Entity> known = bodies(i);
+
+  // Bodies that are no longer near lose body i from their lists.
   gone_.resize(std::max(gone_.size(), known.size() + select_slack));
   const std::size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
   for (std::size_t k = 0; k < gone; ++k) prefetch(pool_.data(lists_[gone_[k]]));
   for (std::size_t k = 0; k < gone; ++k) drop(gone_[k], i);
+
+  // Bodies that were not near before receive it.
   came_.resize(std::max(came_.size(), found_count_ + select_slack));
   came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
   for (std::size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(lists_[came_[k]]) + lists_[came_[k]].count);
   for (std::size_t k = 0; k < came_count_; ++k) add(came_[k], i);
+
   region_[i] = region;
   grid_.move(i, old, lists_[i].level, region_, level);
   lists_[i].level = static_cast<std::int16_t>(level);
@@ -149,6 +160,7 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
 void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int level) {
   const double enough = std::max(least_room * world_.radius[i], rounding_at(i, x));
   const double far = ahead.norm();
+
   for (;; level -= wider) {
     double room = unit_ * sure(half_of_level(level)) - world_.radius[i];
     const bool least = !(room >= enough);
@@ -156,6 +168,8 @@ void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int lev
       level = level_for(i, x, 0);
       room = unit_ * sure(half_of_level(level)) - world_.radius[i];
     }
+
+    // The region lies ahead, as far as its room allows.
     const double share = far > 0 && room > 0 ? std::min(1.0, 0.9 * room / far) : 0;
     const Region region = around(x + share * ahead, level);
     find(i, region);

@@ -155,7 +155,9 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
   if (until < since || (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i)) return before;
 
   // The velocity by the method, up to this instant.
-  const double from = since - f.start, to = until - f.start, mass = bodies_.world.mass[i];
+  const double from = since - f.start;
+  const double to = until - f.start;
+  const double mass = bodies_.world.mass[i];
   Part part{f, {}};
   if (bodies_.is_stepped(i) && !bodies_.islands.kick[i].isZero(0)) {
     part.more.terms[0] = -(bodies_.islands.kicked_until[i] - f.start) * bodies_.islands.kick[i];
@@ -163,6 +165,7 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
   } else if (f.curve != nullptr) {
     part.more = bodies_.beyond_curve(i, f, to);
   }
+
   const PathPoint start = part.point(from);
   Seen seen{true, until, part.point(to), before.place, before.speed};
   add_errors(i, f, start, seen.end, seen);
@@ -172,7 +175,10 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
     if (!watched.has(i)) continue;
     const Quantity quantity = watched.quantity;
     const double here = quantity_of(quantity, start.x, start.v, mass);
-    const double rises = slope_of(quantity, start), rose = before.any ? slope_of(quantity, before.end) : 0;
+
+    // Whether the flight continues the one before.
+    const double rises = slope_of(quantity, start);
+    const double rose = before.any ? slope_of(quantity, before.end) : 0;
     const bool goes_on = ((rises > 0 && rose > 0) || (rises < 0 && rose < 0)) &&
                          std::abs(here - quantity_of(quantity, before.end.x, before.end.v, mass)) <=
                              rounding_of(quantity, start, mass, seen);
@@ -180,6 +186,7 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
       if (before.any) offer(k, i, before.end, before.until.hi, before, found[k]);
       offer(k, i, start, since.hi, seen, found[k]);
     }
+
     turns_of(part, quantity, from, to, [&](double t) { offer(k, i, part.point(t), (f.start + t).hi, seen, found[k]); });
   }
   return seen;

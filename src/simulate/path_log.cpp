@@ -63,19 +63,23 @@ void PathLog::end(double time) {
 
 PathPiece PathLog::piece_of(Entity i, double from) const {
   const Flight f = bodies_.flights[i];
-  const World &world = bodies_.world, &given = bodies_.merged.given();
+  const World& world = bodies_.world;
+  const World& given = bodies_.merged.given();
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
+
   if (bodies_.is_stepped(i)) {
     const Instant until = bodies_.islands.kicked_until[i];
     piece.kicked = true;
     piece.until = {until.hi, until.lo};
     piece.kick = bodies_.islands.kick[i];
   }
+
   if (f.curve != nullptr) piece.curve = std::make_shared<PolynomialPath>(*f.curve);
   if (bodies_.merged.any()) {
     const Entity whole = bodies_.merged.whole_of()[i];
     piece.removed = whole == no_entity;
     if (whole != i && !piece.removed) piece.part_of = whole;
+
     piece.joint = world.mass[i] != given.mass[i] || world.radius[i] != given.radius[i];
     piece.mass = world.mass[i];
     piece.radius = world.radius[i];

@@ -13,32 +13,42 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   const Vec3& a = bodies.flights.acceleration(i);
   const double fade = bodies.flights.fade(i);
   const PolynomialPath* const curve = bodies.flights.curve(i);
-  const double since = bodies.now - f.start, room = bodies.neighbours.room(i);
+  const double since = bodies.now - f.start;
+  const double room = bodies.neighbours.room(i);
   const Vec3 center = bodies.neighbours.center(i);
+
   // The time on a straight path from `off` (m, from the region's centre) at v (m/s) until the distance from there is
   // `radius` (m).
   const auto straight_exit = [](const Vec3& off, const Vec3& v, double radius) {
-    const double speed2 = v.squaredNorm(), outward = off.dot(v), left = radius * radius - off.squaredNorm();
+    const double speed2 = v.squaredNorm();
+    const double outward = off.dot(v);
+    const double left = radius * radius - off.squaredNorm();
     if (!(left > 0)) return 0.0;
     const double root = std::sqrt(outward * outward + speed2 * left);
     return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
   };
+
+  // The position from the region's centre and the velocity, at t (s) of the flight.
   const auto start_of = [&](double t, Vec3& off, Vec3& v) {
     if (curve != nullptr) [[unlikely]] {
       v = f.v + curve->change_at(t);
       off = f.x + curve->displacement_at(t) - center;
       return;
     }
+
     if (fade != 0) [[unlikely]] {
       const FadingPath now = FadingPath{f.x - center, f.v, a, fade}.from(t);
       v = now.v;
       off = now.x;
       return;
     }
+
     v = f.v + t * a;
     off = f.x + t * (f.v + (0.5 * t) * a) - center;
   };
-  Vec3 off, v;
+
+  Vec3 off;
+  Vec3 v;
   start_of(since, off, v);
   double t = straight_exit(off, v, room);
   // Drag never increases an acceleration.
@@ -47,11 +57,13 @@ double region_exit(const ExactBodies& bodies, Entity i) {
     // possible speed. It continues from there as long as that gains time.
     const double end = bodies.body[i].event.time.hi - bodies.now.hi;
     const auto bound = [&](double straight) {
-      const double narrowed = room - 0.5 * size * straight * straight, left = room - off.norm();
+      const double narrowed = room - 0.5 * size * straight * straight;
+      const double left = room - off.norm();
       if (!(left > 0)) return 0.0;
       const double surely = 2 * left / (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * left));
       return narrowed > 0 ? std::max(surely, straight_exit(off, v, narrowed)) : surely;
     };
+
     const double straight = t;
     t = bound(straight);
     for (double step = t < 0.75 * straight ? t : 0; t < end && step > 0x1p-5 * t;) {
@@ -60,6 +72,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
       t += step;
     }
   }
+
   // The bound errs on the early side.
   return (bodies.now.hi + t) * (1 - 0x1p-52);
 }

@@ -48,13 +48,16 @@ RegionGrid::Octave& RegionGrid::octave_of(int level) {
 
 /// Gives a grid as many cells as the space in use has, but no more than these regions need.
 void RegionGrid::shape(Octave& grid, std::size_t regions) {
-  const float low[3] = {low_.x, low_.y, low_.z}, high[3] = {high_.x, high_.y, high_.z};
+  const float low[3] = {low_.x, low_.y, low_.z};
+  const float high[3] = {high_.x, high_.y, high_.z};
   int axis[3] = {0, 1, 2};
   double extent[3];
+
   for (int k = 0; k < 3; ++k) {
     grid.low[k] = cell_of(low[k], grid.per_width);
     extent[k] = static_cast<double>(cell_of(high[k], grid.per_width)) - static_cast<double>(grid.low[k]) + 1;
   }
+
   // The shortest axis comes first. The others share what it leaves.
   std::sort(axis, axis + 3, [&](int k, int l) { return extent[k] < extent[l]; });
   auto left = static_cast<double>(regions / regions_a_cell + 1);
@@ -66,6 +69,7 @@ void RegionGrid::shape(Octave& grid, std::size_t regions) {
     grid.cells[axis[k]] = static_cast<std::int64_t>(cells);
     left /= cells;
   }
+
   grid.buckets.assign(static_cast<std::size_t>(grid.cells[0] * grid.cells[1] * grid.cells[2]), {});
   grid.most = all ? ~std::size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
 }
@@ -83,6 +87,8 @@ void RegionGrid::link(Bucket& first, Entity i) {
     if (bucket->next == 0) {
       const bool in_overflow = bucket != &first;
       const std::size_t own = in_overflow ? static_cast<std::size_t>(bucket - overflow_.data()) : 0;
+
+      // A new overflow bucket, or one that is free again.
       std::uint32_t number;
       if (free_.empty()) {
         overflow_.emplace_back();
@@ -91,19 +97,23 @@ void RegionGrid::link(Bucket& first, Entity i) {
         number = free_.back();
         free_.pop_back();
       }
+
       (in_overflow ? overflow_[own] : first).next = number;
       bucket = &overflow_[number - 1];
       break;
     }
     bucket = &overflow_[bucket->next - 1];
   }
+
   bucket->body[bucket->count++] = i;
 }
 
 void RegionGrid::unlink(Bucket& first, Entity i) {
   // All but the last of a cell's buckets are full.
-  Bucket *at = &first, *before = nullptr;
+  Bucket* at = &first;
+  Bucket* before = nullptr;
   Entity* place = nullptr;
+
   for (;;) {
     Entity* const end = at->body + at->count;
     if (place == nullptr) {
@@ -114,6 +124,7 @@ void RegionGrid::unlink(Bucket& first, Entity i) {
     before = at;
     at = &overflow_[at->next - 1];
   }
+
   *place = at->body[--at->count];
   if (at->count == 0 && before != nullptr) {
     free_.push_back(before->next);
@@ -124,6 +135,7 @@ void RegionGrid::unlink(Bucket& first, Entity i) {
 void RegionGrid::grow(Octave& grid, std::span<const Region> regions) {
   std::vector<Entity> all;
   all.reserve(grid.regions);
+
   for (Bucket& first : grid.buckets) {
     for (const Bucket* bucket = &first;; bucket = &overflow_[bucket->next - 1]) {
       all.insert(all.end(), bucket->body, bucket->body + bucket->count);
@@ -131,6 +143,7 @@ void RegionGrid::grow(Octave& grid, std::span<const Region> regions) {
       free_.push_back(bucket->next);
     }
   }
+
   for (const std::uint32_t number : free_) overflow_[number - 1] = {};
   LargeVector<Bucket>().swap(grid.buckets);
   shape(grid, 2 * grid.regions);
@@ -171,11 +184,14 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
 void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t most, std::size_t& count,
                       std::vector<Entity>& found) const {
   Entity* to = found.data() + count;
+
   for (; from != end; ++from) {
     std::memcpy(to, from->body, sizeof(from->body));
     to += from->count;
     if (from->next == 0) [[likely]]
       continue;
+
+    // The rest of a crowded cell is in overflow buckets.
     count = static_cast<std::size_t>(to - found.data());
     for (const Bucket* bucket = from; bucket->next != 0;) {
       bucket = &overflow_[bucket->next - 1];
@@ -195,19 +211,27 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
   for (const Octave& grid : octaves_) {
     if (grid.regions == 0) continue;
     const float reach = (region.half + grid.half) * (1 + 0x1p-20F);
-    std::int64_t from[3], cells[3];
+
+    // The cells within reach, by axis.
+    std::int64_t from[3];
+    std::int64_t cells[3];
     for (int k = 0; k < 3; ++k) {
-      const Cell low = cell_of(middle[k] - reach, grid.per_width), high = cell_of(middle[k] + reach, grid.per_width);
+      const Cell low = cell_of(middle[k] - reach, grid.per_width);
+      const Cell high = cell_of(middle[k] + reach, grid.per_width);
       const bool all = high - low + 1 >= grid.cells[k] || !(reach < 0x1p126F);
       from[k] = all ? 0 : wrap(low, grid.low[k], grid.cells[k]);
       cells[k] = all ? grid.cells[k] : high - low + 1;
     }
+
     const auto most = static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
     const std::size_t room = count + most + slack;
     if (found.size() < room) found.resize(2 * room);
+
     // The cells of a row are contiguous, except for those beyond the grid's last one.
-    const std::int64_t first = std::min(cells[0], grid.cells[0] - from[0]), rest = cells[0] - first;
+    const std::int64_t first = std::min(cells[0], grid.cells[0] - from[0]);
+    const std::int64_t rest = cells[0] - first;
     const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
+
     std::int64_t z = from[2];
     for (std::int64_t dz = 0; dz < cells[2]; ++dz, z = next(z, 2)) {
       std::int64_t y = from[1];

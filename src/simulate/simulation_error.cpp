@@ -42,12 +42,14 @@ void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Ve
                         const Remedies& remedies) {
   const std::string when = fmt::format("at t = {} s ", time);
   const double speed = v.norm();
+
   if (!std::isfinite(speed))
     throw SimulationError(when, body, fmt::format("'s speed is no longer finite: {}", remedies.speed));
   if (speed > bounds.speed)
     throw SimulationError(when, body,
                           fmt::format("'s speed is {:.4g} m/s, more than the limit of {:g} m/s: {}", speed,
                                       bounds.speed, remedies.speed));
+
   throw SimulationError(
       when, body,
       fmt::format(" is {:.4g} m from the origin, more than {:g} times the smallest size of the scene, where doubles no "

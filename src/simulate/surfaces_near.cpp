@@ -48,6 +48,8 @@ void SurfacesNear::sweep(Entity e) {
   const Vec3& start = world_.fixed_position(e);
   Places& places = places_.emplace_back(Places{start, start});
   if (!world_.moves(e)) return;
+
+  // Includes a place of the centre, and for a plane the offset there.
   const auto include = [&](const Vec3& x) {
     places.low = places.low.cwiseMin(x);
     places.high = places.high.cwiseMax(x);
@@ -56,8 +58,11 @@ void SurfacesNear::sweep(Entity e) {
     plane.offset = std::max(plane.offset, plane.normal.dot(x));
     plane.rounding = std::max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
   };
+
   const std::vector<MotionLeg>& legs = world_.legs(e);
   for (const MotionLeg& leg : legs) include(place_on(start, leg, {leg.from, 0}));
+
+  // The last leg has no end.
   const Vec3& last = legs.back().velocity;
   if (world_.is_plane(e)) {
     HalfSpace& plane = planes_[e - world_.body_count()];
@@ -100,11 +105,14 @@ void SurfacesNear::take_ever_near(const std::vector<Entity>& from, const Vec3& c
 void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
   found.clear();
   const std::vector<Entity>* candidates = &all_;
+
   // Cells are two to four times as wide as the reach, so that one serves many searches.
   int size;
   std::frexp(2 * reach, &size);
   const double width = std::ldexp(1.0, size);
   const Vec3 at = center / width;
+
+  // With many surfaces the candidates are those near the whole cell, which are kept.
   if (all_.size() > few && (at.array().abs() < 0x1p40).all() && width > 0 && width < 0x1p1000) {
     const Cell cell{whole_below(at.x()), whole_below(at.y()), whole_below(at.z()), size};
     auto known = cells_.find(cell);
@@ -119,6 +127,7 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
     }
     candidates = &known->second;
   }
+
   if (world_.moves()) [[unlikely]]
     return take_ever_near(*candidates, center, reach, found);
   for (const Entity e : *candidates)

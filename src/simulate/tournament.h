@@ -25,14 +25,17 @@ class Tournament {
  public:
   Tournament(std::uint32_t entries, Before before) : before_(before) {
     std::vector<std::size_t> sizes;
-    std::size_t nodes = entries, all = 0;
+    std::size_t nodes = entries;
+    std::size_t all = 0;
     do {
       nodes = (nodes + width - 1) / width;
       sizes.push_back(nodes * width);
       all += sizes.back();
     } while (nodes > 1);
+
     times_.assign(all, never);
     winners_.assign(all - sizes[0], none);
+
     double* time = times_.data();
     std::uint32_t* winner = winners_.data();
     for (std::size_t l = 0; l < sizes.size(); ++l) {
@@ -56,6 +59,7 @@ class Tournament {
     for (std::size_t l = 1; l < levels_.size(); ++l) {
       at /= width;
       Level& up = levels_[l];
+
       // An entry that did not win before, and that comes later than the winner, changes nothing.
       if (up.winner[at] != i && up.time[at] < time) return;
       play(l - 1, at, winner, time);
@@ -64,6 +68,7 @@ class Tournament {
       up.winner[at] = winner;
       up.time[at] = time;
     }
+
     play(levels_.size() - 1, 0, first_, first_time_);
   }
 
@@ -112,6 +117,8 @@ class Tournament {
   [[gnu::always_inline]] void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
     const double* t = level.time + game * width;
+
+    // The least time of the game, and a bit for each entry that has it.
 #ifdef __SSE2__
     __m128d pair[4];
     for (int k = 0; k < 4; ++k) pair[k] = _mm_loadu_pd(t + 2 * k);
@@ -125,11 +132,14 @@ class Tournament {
     unsigned ties = 0;
     for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] == time) << k;
 #endif
+
     const auto entry = [&](unsigned k) {
       return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
     };
     winner = time < never ? entry(static_cast<unsigned>(std::countr_zero(ties))) : none;
     if (time == never) return;
+
+    // Of several with that time, the one before all others wins.
     for (ties &= ties - 1; ties != 0; ties &= ties - 1) {
       const std::uint32_t other = entry(static_cast<unsigned>(std::countr_zero(ties)));
       if (before_(other, winner)) winner = other;
