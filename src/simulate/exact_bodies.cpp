@@ -142,7 +142,7 @@ Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, 
 
 Touch ExactBodies::string_now(Entity string) const {
   const String& s = world.string(string);
-  return touch(world, s.body, position(s.body), string, s.other == no_entity ? s.anchor : position(s.other));
+  return touch(world, s.body, position(s.body), string, position_of(string));
 }
 
 bool ExactBodies::holds(Entity string) const {
@@ -153,8 +153,10 @@ bool ExactBodies::holds(Entity string) const {
 bool ExactBodies::keeps_length(Entity string, double near) const {
   const String& s = world.string(string);
   if (s.rod) return true;
-  const Vec3 x = position(s.body), xe = s.other == no_entity ? s.anchor : position(s.other);
-  const Vec3 v = velocity(s.body), ve = s.other == no_entity ? Vec3(Vec3::Zero()) : velocity(s.other);
+  const Vec3 x = position(s.body);
+  const Vec3 v = velocity(s.body);
+  const Vec3 xe = position_of(string);
+  const Vec3 ve = velocity_of(string);
   const Touch there = touch(world, s.body, x, string, xe);
   return there.gap <= std::max(near, contact_gap(s.body, x, xe)) &&
          std::abs(there.normal.dot(ve - v)) <= drift_of(s.body, v, ve);
@@ -162,8 +164,7 @@ bool ExactBodies::keeps_length(Entity string, double near) const {
 
 bool ExactBodies::is_taut(Entity string) const {
   const String& s = world.string(string);
-  const Vec3 xe = s.other == no_entity ? s.anchor : position(s.other);
-  return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), xe);
+  return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), position_of(string));
 }
 
 bool ExactBodies::any_taut(std::span<const Entity> those) const {
@@ -174,18 +175,15 @@ bool ExactBodies::any_taut(std::span<const Entity> those) const {
 }
 
 bool ExactBodies::any_meets(std::span<const Entity> those) const {
-  // Whether body i and e, at velocity ve (m/s), approach. The length of a rod must not change either way.
-  const auto meets = [&](Entity i, Entity e, const Touch& there, const Vec3& ve) {
+  // Whether body i and e approach. The length of a rod must not change either way.
+  const auto meets = [&](Entity i, Entity e, const Touch& there) {
     const Vec3 v = velocity(i);
+    const Vec3 ve = velocity_of(e);
     const double approach = there.normal.dot(v - ve);
     const bool both_ways = world.is_string(e) && world.string(e).rod;
     return (both_ways ? std::abs(approach) : approach) > exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
   };
-  const auto string_meets = [&](Entity e) {
-    const Entity other = world.string(e).other;
-    const Vec3 ve = other == no_entity ? Vec3(Vec3::Zero()) : velocity(other);
-    return is_taut(e) && meets(world.string(e).body, e, string_now(e), ve);
-  };
+  const auto string_meets = [&](Entity e) { return is_taut(e) && meets(world.string(e).body, e, string_now(e)); };
   return std::any_of(those.begin(), those.end(), [&](Entity i) {
     const std::span<const Entity> strings = ties.of(i);
     const std::vector<Entity> near = neighbours_of(i);
@@ -193,8 +191,7 @@ bool ExactBodies::any_meets(std::span<const Entity> those) const {
     const auto neighbour_meets = [&](Entity e) {
       const Vec3 xe = position_of(e);
       const Touch there = touch(world, i, x, e, xe);
-      return there.gap <= contact_gap(i, x, xe) &&
-             meets(i, e, there, world.is_body(e) ? velocity(e) : fixed_velocity(e));
+      return there.gap <= contact_gap(i, x, xe) && meets(i, e, there);
     };
     return std::any_of(strings.begin(), strings.end(), string_meets) ||
            std::any_of(near.begin(), near.end(), neighbour_meets);

@@ -113,8 +113,26 @@ struct ExactBodies {
     if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
     return end;
   }
-  /// The present position of a body or a fixed thing (m).
-  Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : fixed_position(e); }
+  // A thing is what a body meets: another body, a fixed thing, or a string. A string is at its other end: a body, or an
+  // anchor, which is as a fixed thing.
+  /// The present position (m) and velocity (m/s) of a thing, and the acceleration of its path (m/s^2).
+  Vec3 position_of(Entity thing) const {
+    const Entity body = world.second_body(thing);
+    return body != no_entity ? position(body) : fixed_position(thing);
+  }
+  Vec3 velocity_of(Entity thing) const {
+    const Entity body = world.second_body(thing);
+    return body != no_entity ? velocity(body) : fixed_velocity(thing);
+  }
+  Vec3 pull_of(Entity thing) const {
+    const Entity body = world.second_body(thing);
+    return body != no_entity ? flights[body].acceleration(now - flights[body].start) : Vec3(Vec3::Zero());
+  }
+  /// The present velocity of a thing (m/s), without the effect of forces later in a step.
+  Vec3 unkicked_velocity_of(Entity thing) const {
+    const Entity body = world.second_body(thing);
+    return body != no_entity ? velocity_without_kick(body, now) : fixed_velocity(thing);
+  }
   /// The position (m) and velocity (m/s) of a fixed thing, at present or at an instant.
   Vec3 fixed_position(Entity e) const { return fixed_position(e, now); }
   Vec3 fixed_velocity(Entity e) const { return fixed_velocity(e, now); }

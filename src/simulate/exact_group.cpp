@@ -129,9 +129,8 @@ void ExactGroup::join_initial(Entity first) {
       const bool body = world.is_body(e);
       const bool i_in = bodies_.in_lasting_contact(i), e_in = bodies_.in_lasting_contact(e);
       if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
-      const Vec3 xe = body ? bodies_.flights[e].x : bodies_.fixed_position(e);
-      const Vec3 ve = body ? bodies_.flights[e].v : bodies_.fixed_velocity(e);
-      const Vec3 ae = body ? bodies_.flights[e].a : Vec3(Vec3::Zero());
+      const Vec3 xe = bodies_.position_of(e);
+      const Vec3 ve = bodies_.velocity_of(e);
       // A run may begin with the state of another one, in which contacts hold within the method's error.
       const double near =
           std::max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
@@ -141,7 +140,7 @@ void ExactGroup::join_initial(Entity first) {
       if (std::abs(there.gap) > near) continue;
       const Vec3 w = ve - f.v;
       if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, f.v, ve)) continue;
-      const double press = -(there.normal.dot(ae - f.a) + bending(world, i, f.x, e, xe, there, w));
+      const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
       for (const Entity k : {i, e}) {
         if (!world.is_body(k) || bodies_.in_lasting_contact(k)) continue;
@@ -178,8 +177,8 @@ void ExactGroup::join_by_strings() {
     // A run may begin with the state of another one, in which strings hold within the method's error.
     if (!bodies_.keeps_length(string, initial_rounding(string))) continue;
     const bool anchored = s.other == no_entity;
-    const Vec3 w = (anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(s.other)) - bodies_.velocity(s.body);
-    const Vec3 other = anchored ? s.anchor : bodies_.position(s.other);
+    const Vec3 w = bodies_.velocity_of(string) - bodies_.velocity(s.body);
+    const Vec3 other = bodies_.position_of(string);
     // Bodies in lasting contact with other things have these accelerations.
     double known = bending(world, s.body, bodies_.position(s.body), string, other, there, w);
     const bool free = !bodies_.in_lasting_contact(s.body),
@@ -225,9 +224,8 @@ void ExactGroup::check_length(Entity string, double gap) const {
 /// The rounding of a string's gap (m).
 double ExactGroup::initial_rounding(Entity string) const {
   const String& s = bodies_.world.string(string);
-  const Vec3 other = s.other == no_entity ? s.anchor : bodies_.position(s.other);
   return exact_tolerance::initial_rounding *
-         (bodies_.position(s.body).cwiseAbs().sum() + other.cwiseAbs().sum() + s.length);
+         (bodies_.position(s.body).cwiseAbs().sum() + bodies_.position_of(string).cwiseAbs().sum() + s.length);
 }
 
 void ExactGroup::widen_margin(Entity i, double approach) {
@@ -240,9 +238,8 @@ void ExactGroup::widen_margin(Entity i, double approach) {
 double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
   const bool body = bodies_.world.is_body(e);
   if (approach == 0 || !(bodies_.is_stepped(i) || (body && bodies_.is_stepped(e)))) return approach;
-  const Instant& now = bodies_.now;
-  const Vec3 vi = bodies_.velocity_without_kick(i, now);
-  const Vec3 ve = body ? bodies_.velocity_without_kick(e, now) : bodies_.fixed_velocity(e);
+  const Vec3 vi = bodies_.unkicked_velocity_of(i);
+  const Vec3 ve = bodies_.unkicked_velocity_of(e);
   const double met = n.dot(vi - ve);
   // A difference that is only rounding is no impact. It would be one for ever, because the kick brings the two
   // together.
@@ -253,8 +250,7 @@ bool ExactGroup::opens(Entity i) const {
   if (!bodies_.is_stepped(i) || !(bodies_.now < bodies_.islands.kicked_until[i])) return false;
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
   const auto parts_from = [&](Entity e) {
-    const bool body = bodies_.world.is_body(e);
-    const Vec3 ve = body ? bodies_.velocity(e) : bodies_.fixed_velocity(e);
+    const Vec3 ve = bodies_.velocity_of(e);
     const Vec3 n = touch(bodies_.world, i, x, e, bodies_.position_of(e)).normal;
     return n.dot(ve - v) > bodies_.slow_speed(bodies_.applied[i].norm(), bodies_.smaller_length(i, e));
   };

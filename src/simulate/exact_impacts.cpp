@@ -42,10 +42,7 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double approa
   // At least three forces that are not in one plane.
   std::vector<Vec3> normals;
   const Vec3 x = bodies_.flights[struck].x;
-  const auto hold = [&](Entity e) {
-    const bool body = world.is_body(e);
-    normals.push_back(touch(world, struck, x, e, body ? bodies_.flights[e].x : bodies_.fixed_position(e)).normal);
-  };
+  const auto hold = [&](Entity e) { normals.push_back(touch(world, struck, x, e, bodies_.position_of(e)).normal); };
   for (const PressingContact& p : parts_.group.pressing[struck])
     if (p.force > 0) hold(p.partner);
   for (const Entity e : bodies_.neighbours_of(struck))

@@ -99,8 +99,8 @@ void StringImpacts::tighten(Entity string) {
     parts_.flights.release(i);
     parts_.group.let_go(i);
   }
-  const Vec3 xa = bodies_.position(a), xb = anchored ? s.anchor : bodies_.position(b);
-  const Vec3 va = bodies_.velocity(a), vb = anchored ? Vec3(Vec3::Zero()) : bodies_.velocity(b);
+  const Vec3 xa = bodies_.position(a), xb = bodies_.position_of(string);
+  const Vec3 va = bodies_.velocity(a), vb = bodies_.velocity_of(string);
   const Touch there = touch(world, a, xa, string, xb);
   const Vec3 &n = there.normal, w = vb - va;
   for (const Entity i : {a, b})
@@ -109,13 +109,9 @@ void StringImpacts::tighten(Entity string) {
   const double approach = -w.dot(n) > std::max(bodies_.negligible_speed(), rounding) ? -w.dot(n) : 0;
   const double e = s.restitution;
   parts_.guard.note_restitution(e);
-  const auto pull = [&](Entity i) {
-    const Flight f = bodies_.flights[i];
-    return f.acceleration(bodies_.now - f.start);
-  };
-  const Vec3 apart = (anchored ? Vec3(Vec3::Zero()) : pull(b)) - pull(a);
+  const Vec3 apart = bodies_.pull_of(string) - bodies_.pull_of(a);
   const double press = -(n.dot(apart) + bending(world, a, xa, string, xb, there, w));  // m/s^2
-  const double length = anchored ? world.radius[a] : 2 * std::min(world.radius[a], world.radius[b]);
+  const double length = bodies_.smaller_length(a, string);
   const auto fades = [&](Entity i) { return i != no_entity && bodies_.hops_fade(i, approach, press); };
   const auto collapses = [&](Entity i) {
     return i != no_entity && parts_.collapses.count_impact(i, string, e, approach, press, length, false);

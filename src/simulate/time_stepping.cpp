@@ -153,10 +153,8 @@ void TimeStepping::find_pairs(Step& step) const {
       const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
       const bool of_other_island = body && other == ContactConstraint::fixed;
       if (body && !of_other_island && e < i) continue;
-      const Vec3 xe = asleep ? bodies_.flights[e].x : bodies_.position_of(e);
-      const Touch there = touch(world, i, step.x[k], e, xe);
-      const Vec3 still = asleep ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(e);
-      const Vec3 ve = !body ? still : of_other_island ? bodies_.velocity(e) : step.v[other];
+      const Touch there = touch(world, i, step.x[k], e, bodies_.position_of(e));
+      const Vec3 ve = other != ContactConstraint::fixed ? step.v[other] : bodies_.velocity_of(e);
       const double rate = there.normal.dot(ve - step.v[k]);
       const double slow = step.greatest > 0 ? bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)) : never;
       if (group_.strikes(i, e, -rate / tol::fast_impact, slow)) continue;
