@@ -67,6 +67,7 @@ double BodyMerging::join(Entity whole, Entity part) {
     flat_.clear(i);
     bodies_.contact_work.change(i, bodies_.now, 0);
   }
+  modes_.merge(part);
   bodies_.neighbours.remove(part);
   flights_.count(part);
   flights_.note_changed(part);

@@ -14,11 +14,12 @@ class PathLog;
 struct Touch;
 
 class FlightChanges;
+class Modes;
 
 class BodyMerging {
  public:
-  BodyMerging(ExactBodies& bodies, FlatContacts& flat, FlightChanges& flights, PathLog& paths)
-      : bodies_(bodies), flat_(flat), flights_(flights), paths_(paths) {}
+  BodyMerging(ExactBodies& bodies, Modes& modes, FlatContacts& flat, FlightChanges& flights, PathLog& paths)
+      : bodies_(bodies), modes_(modes), flat_(flat), flights_(flights), paths_(paths) {}
 
   /// Merges bodies a and b, which touch as `there` describes.
   void merge(Entity a, Entity b, const Touch& there);
@@ -29,6 +30,7 @@ class BodyMerging {
   void move_out(Entity whole);
 
   ExactBodies& bodies_;
+  Modes& modes_;
   FlatContacts& flat_;
   FlightChanges& flights_;
   PathLog& paths_;

@@ -18,9 +18,10 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
   const Vec3 v = flights_.velocity_of_method(i, now);
   flights_.end_step(i);
   flights_.book_until(i, now);
-  if (bodies_.in_group(i)) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, now);
+  if (is_member(bodies_.mode(i))) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, now);
   bodies_.contact_work.change(i, now, 0);
   std::vector<Entity> left = release(i);
+  modes_.remove(i);
   bodies_.log.remove(0.5 * mass * v.squaredNorm() + bodies_.merged.potential(i, x), mass * v);
   bodies_.merged.remove(i);
   bodies_.ties.untie(i);
@@ -32,20 +33,20 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
 /// Ends the contacts of body i. Returns one member of each island that it was in contact with.
 std::vector<Entity> BodyRemoval::release(Entity i) {
   flat_.clear(i);
-  if (!bodies_.in_lasting_contact(i)) return {};
+  if (!in_lasting_contact(bodies_.mode(i))) return {};
   // What sleeps beside it may rest on it.
   const Vec3 x = bodies_.position(i);
   std::vector<Entity> left;
-  if (bodies_.body[i].state == ContactState::asleep) group_.wake(i);
+  if (bodies_.mode(i) == Mode::asleep) group_.wake(i);
   for (const Entity e : bodies_.neighbours_of(i)) {
-    if (!bodies_.world.is_body(e) || bodies_.body[e].state != ContactState::asleep) continue;
+    if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
     const double gap = touch(bodies_.world, i, x, e, bodies_.position(e)).gap;
     if (gap > exact_tolerance::waking_gap * bodies_.world.radius[i]) continue;
     group_.wake(e);
     left.push_back(e);
   }
   for (const Entity e : group_.asleep_on_strings(i)) {
-    if (bodies_.body[e].state != ContactState::asleep) continue;
+    if (bodies_.mode(e) != Mode::asleep) continue;
     group_.wake(e);
     left.push_back(e);
   }
@@ -55,7 +56,6 @@ std::vector<Entity> BodyRemoval::release(Entity i) {
     if (k != i) stay.push_back(k);
   if (!stay.empty()) left.push_back(stay.front());
   bodies_.islands.retain(i, std::move(stay));
-  bodies_.body[i].state = ContactState::free;
   return left;
 }
 

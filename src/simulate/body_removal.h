@@ -10,11 +10,12 @@ struct ExactBodies;
 class ExactGroup;
 class FlatContacts;
 class FlightChanges;
+class Modes;
 
 class BodyRemoval {
  public:
-  BodyRemoval(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, FlightChanges& flights)
-      : bodies_(bodies), group_(group), flat_(flat), flights_(flights) {}
+  BodyRemoval(ExactBodies& bodies, Modes& modes, ExactGroup& group, FlatContacts& flat, FlightChanges& flights)
+      : bodies_(bodies), modes_(modes), group_(group), flat_(flat), flights_(flights) {}
 
   /// Removes body i at the present instant, and books its energy and momentum. It stays at its position, out of the
   /// world. Returns bodies in lasting contact, one of each island that has lost it: their forces are to be found anew.
@@ -24,6 +25,7 @@ class BodyRemoval {
   std::vector<Entity> release(Entity i);
 
   ExactBodies& bodies_;
+  Modes& modes_;
   ExactGroup& group_;
   FlatContacts& flat_;
   FlightChanges& flights_;

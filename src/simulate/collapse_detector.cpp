@@ -45,7 +45,7 @@ bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approac
 
   const double slow = bodies_.slow_speed(press, length);
   if (approach >= slow) return false;
-  if (bodies_.in_lasting_contact(a) || bodies_.in_lasting_contact(b)) return true;
+  if (in_lasting_contact(bodies_.mode(a)) || (body && in_lasting_contact(bodies_.mode(b)))) return true;
 
   // Alone on flat surfaces a body comes to rest on each of them in closed form. Only between several of them can it
   // continue for ever.

@@ -36,9 +36,10 @@ double at_least_tiny(double fastest) {
 
 }  // namespace
 
-ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat,
+ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, Modes& modes, ExactGroup& group, FlatContacts& flat,
                                      CollapseDetector& collapses, FlightChanges& flights)
     : bodies_(bodies),
+      modes_(modes),
       group_(group),
       flat_(flat),
       collapses_(collapses),
@@ -97,7 +98,7 @@ double ConstrainedMotion::step_share() const {
 
 bool ConstrainedMotion::advance(Entity i) {
   const Island& island = bodies_.islands.of(i);
-  const bool undisturbed = island.constrained && bodies_.now == island.planned;
+  const bool undisturbed = bodies_.mode(i) == Mode::held && bodies_.now == island.planned;
   const bool may_be_busy = !undisturbed && !bodies_.any_taut(island.members);
   if (!undisturbed) take_in_touching(i);
   std::vector<Entity>& all = bodies_.islands.of(i).members;
@@ -139,7 +140,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
     if (!bodies_.falls_freely(k)) continue;
     const Vec3 x = bodies_.position(k), v = bodies_.velocity(k);
     for (const Entity e : bodies_.neighbours_of(k)) {
-      if (!world.is_body(e) || bodies_.body[e].state != ContactState::free) continue;
+      if (!world.is_body(e) || !is_free(bodies_.mode(e))) continue;
       if (!bodies_.falls_freely(e) || bodies_.applied[e] != bodies_.applied[k]) continue;
       const Vec3 xe = bodies_.position(e), ve = bodies_.velocity(e);
       const Touch there = touch(world, k, x, e, xe);
@@ -195,7 +196,7 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
       const double t = bodies_.now - path.start;
       step.x.back() = path.motion->start(place) + path.motion->displacement(place, t);
       v = path.motion->velocity(place, t);
-    } else if (!bodies_.is_constrained(i) && bodies_.now < islands.kicked_until[i]) {
+    } else if (bodies_.mode(i) != Mode::held && bodies_.now < islands.kicked_until[i]) {
       v -= (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
     }
     step.v.push_back(v);
@@ -725,17 +726,13 @@ bool ConstrainedMotion::leaves(const Step& step, std::size_t k) const {
 
 void ConstrainedMotion::note_contacts(const Step& step) {
   for (const Entity i : step.members) {
-    group_.partners.write(i).clear();
+    modes_.clear_partners(i);
     group_.pressing.write(i).clear();
     group_.floors.write(i).clear();
   }
   for (std::size_t c = 0; c < step.contacts.names.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
-    group_.partners.write(i).push_back(e);
-    if (bodies_.world.is_body(e)) group_.partners.write(e).push_back(i);
-    if (bodies_.world.is_string(e))
-      if (const Entity other = bodies_.world.string(e).other; other != no_entity)
-        group_.partners.write(other).push_back(e);
+    modes_.add_partner(i, e);
     if (!(step.contacts.pairs[c].force > 0 || step.contacts.pairs[c].bilateral)) continue;
     const ContactConstraint& p = step.contacts.pairs[c];
     group_.pressing.write(i).push_back({e, p.force, p.surface});
@@ -750,9 +747,8 @@ void ConstrainedMotion::note_contacts(const Step& step) {
 /// Starts the members' flights until the step's end.
 void ConstrainedMotion::begin_flights(const Step& step) {
   Island& island = bodies_.islands.of(step.members.front());
-  island.fresh = false;
-  island.constrained = true;
   island.end = island.planned = bodies_.now + step.length;
+  for (const Entity i : step.members) modes_.hold(i);
   std::vector<Entity> stay;
   for (std::size_t k = 0; k < step.members.size(); ++k)
     if (begin_flight(step, k, step.members[k]))
@@ -774,20 +770,17 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   const bool was_bound = following_[i].version == bodies_.body[i].version && following_[i].bound;
   if (step.bound[k] || was_bound) group_.needed.write(i) = bodies_.now;
   if (leaves(step, k) && bodies_.now - group_.needed[i] >= step.grace) {
-    bodies_.body[i].state = ContactState::free;
-    group_.set_carried(i, false);
-    group_.part(i);
+    modes_.leave(i);
     for (std::size_t c = 0; c < step.flats[k].count; ++c) flat_.add(i, step.flats[k].at[c]);
     flights_.begin(i, x + step.down[k], flat_.keep_at(i, v), {});
     return false;
   }
   if (step.rests[k]) {
-    bodies_.body[i].state = ContactState::asleep;
-    group_.set_carried(i, true);
+    modes_.fall_asleep(i);
     flights_.begin(i, x, Vec3::Zero(), {});
     return false;
   }
-  group_.set_carried(i, step.held[k]);
+  modes_.press(i, step.held[k] != 0);
   bodies_.islands.kicked_until.write(i) = bodies_.now;
   // A thing that it has just struck stays its origin, if nothing has changed since.
   const Flight f = bodies_.flights[i];
@@ -817,7 +810,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
   std::vector<ContactConstraint> pairs;
   std::vector<std::pair<Entity, Entity>> names;
   for (const Entity i : island.members) {
-    for (const Entity e : group_.partners[i]) {
+    for (const Entity e : modes_.partners(i)) {
       // Each contact once, from its first body.
       const bool string = world.is_string(e);
       const Entity second = world.second_body(e);

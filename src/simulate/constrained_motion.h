@@ -24,8 +24,8 @@ class FlightChanges;
 
 class ConstrainedMotion {
  public:
-  ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, CollapseDetector& collapses,
-                    FlightChanges& flights);
+  ConstrainedMotion(ExactBodies& bodies, Modes& modes, ExactGroup& group, FlatContacts& flat,
+                    CollapseDetector& collapses, FlightChanges& flights);
 
   /// Takes the next step of member i's island, or of the parts into which it has split. False: its contacts change too
   /// often, and nothing else has changed.
@@ -119,6 +119,7 @@ class ConstrainedMotion {
   Vec3 acceleration(const std::vector<Vec3>& a, Entity e) const;  // m/s^2
 
   ExactBodies& bodies_;
+  Modes& modes_;
   ExactGroup& group_;
   FlatContacts& flat_;
   CollapseDetector& collapses_;

@@ -45,7 +45,7 @@ bool Crossings::before(Entity i, Entity j) const {
 }
 
 void Crossings::follow(Entity i, const Instant& from) {
-  if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) return forget(i);
+  if (!is_in_world(bodies_.mode(i))) return forget(i);
   if (!next_[i].empty()) next_.write(i).clear();
   for (std::uint32_t r = 0; r < bodies_.world.regions.size(); ++r)
     if (standing(r, i) != apart) find(i, r, from);

@@ -39,7 +39,7 @@ class CurvedFlights {
   }
   /// Whether body i's present flight is a step of a motion in closed form, which may have ended.
   bool follows_closed_form(Entity i) const {
-    if (closed_.empty() || bodies_.in_group(i)) [[likely]]
+    if (closed_.empty() || is_member(bodies_.mode(i))) [[likely]]
       return false;
     const PolynomialPath* const curve = bodies_.flights.curve(i);
     return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next;

@@ -16,10 +16,11 @@
 
 namespace carom {
 
-EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat,
+EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const Modes& modes, const FlatContacts& flat,
                                const ExactGroup& group)
     : bodies_(bodies),
       queue_(queue),
+      modes_(modes),
       flat_(flat),
       group_(group),
       times_(bodies),
@@ -56,9 +57,9 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   ExactEvent best;
   meet_bodies(i, bodies, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
-  if (flat_.of(i).count > 0) offer_flat_contacts(i, best);
+  if (lies_on_flat(bodies_.mode(i))) offer_flat_contacts(i, best);
   if (!plain_) offer_beside_contacts(i, best);
-  if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
+  if (is_member(bodies_.mode(i)) || bodies_.flights.curve(i) != nullptr)
     offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
@@ -77,9 +78,9 @@ void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
 
 /// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.
 void EventPredictor::offer_strings(Entity i, ExactEvent& best) {
-  const bool constrained = bodies_.is_constrained(i);
+  const bool constrained = bodies_.mode(i) == Mode::held;
   for (const Entity string : bodies_.ties.of(i)) {
-    if (bodies_.world.string(string).rod || (constrained && group_.are_partners(i, string))) continue;
+    if (bodies_.world.string(string).rod || (constrained && modes_.are_partners(i, string))) continue;
     ++surface_tests_;
     const Entity other = bodies_.ties.other(string, i);
     const std::uint16_t version = other == no_entity ? std::uint16_t{0} : bodies_.body[other].version;
@@ -105,10 +106,10 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
 
 /// Offers the collisions of body i with each of the others.
 void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  const bool constrained = bodies_.is_constrained(i), carried = flat_.of(i).count > 0;
+  const bool constrained = bodies_.mode(i) == Mode::held, carried = lies_on_flat(bodies_.mode(i));
   for (const Entity e : others) {
     // They cannot meet.
-    if (constrained && group_.are_partners(i, e)) continue;
+    if (constrained && modes_.are_partners(i, e)) continue;
     std::uint8_t feature = no_feature;
     if (bodies_.world.is_body(e)) {
       feature = 0;
@@ -125,13 +126,13 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 
 /// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.fade(i) != 0)
+  if (!bodies_.world.volume.empty() || is_member(bodies_.mode(i)) || bodies_.flights.fade(i) != 0)
     return meet_each(i, others, best);
   const Vec3& a = bodies_.flights.acceleration(i);
   if (bodies_.islands.any() || !bodies_.flights.alike() || bodies_.flights.any_fades()) {
     alike_.clear();
     for (const Entity& e : others)
-      if (bodies_.in_group(e) || bodies_.flights.acceleration(e) != a || bodies_.flights.fade(e) != 0)
+      if (is_member(bodies_.mode(e)) || bodies_.flights.acceleration(e) != a || bodies_.flights.fade(e) != 0)
         meet_each(i, {&e, 1}, best);
       else
         alike_.push_back(e);

@@ -20,7 +20,8 @@ class FlatContacts;
 
 class EventPredictor {
  public:
-  EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat, const ExactGroup& group);
+  EventPredictor(ExactBodies& bodies, EventQueue& queue, const Modes& modes, const FlatContacts& flat,
+                 const ExactGroup& group);
 
   /// Predicts body i's next event among its neighbours. The events of other bodies stay.
   /// The body of a pair that was predicted last holds the pair's collision. Neither holds it while one of them has an
@@ -48,6 +49,7 @@ class EventPredictor {
 
   ExactBodies& bodies_;
   EventQueue& queue_;
+  const Modes& modes_;
   const FlatContacts& flat_;
   const ExactGroup& group_;
   ExactCollisionTimes times_;

@@ -41,7 +41,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
   const Vec3 v = flights[i].velocity(t);
-  if (!is_stepped(i)) return v;
+  if (!may_be_kicked(mode(i))) return v;
   return without_kick(v, at, islands.kicked_until[i], islands.kick[i]);
 }
 
@@ -147,7 +147,8 @@ Touch ExactBodies::string_now(Entity string) const {
 
 bool ExactBodies::holds(Entity string) const {
   const String& s = world.string(string);
-  return in_lasting_contact(s.body) && (s.other == no_entity || in_lasting_contact(s.other)) && keeps_length(string, 0);
+  return in_lasting_contact(mode(s.body)) && (s.other == no_entity || in_lasting_contact(mode(s.other))) &&
+         keeps_length(string, 0);
 }
 
 bool ExactBodies::keeps_length(Entity string, double near) const {

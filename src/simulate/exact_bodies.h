@@ -85,9 +85,9 @@ struct ExactBodies {
   /// Whether body i's flights, when free, are steps of a method.
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
   /// Whether body i's present flight is a curve of its own. A path of constrained motion is not.
-  bool flies_on_curve(Entity i) const { return flights.curve(i) != nullptr && !is_constrained(i); }
+  bool flies_on_curve(Entity i) const { return flights.curve(i) != nullptr && mode(i) != Mode::held; }
   /// The same, also where such a flight has just ended.
-  bool path_bends(Entity i) const { return flies_on_curve(i) || (flies_in_steps(i) && !in_lasting_contact(i)); }
+  bool path_bends(Entity i) const { return flies_on_curve(i) || (flies_in_steps(i) && is_free(mode(i))); }
   /// What Verlet's method adds to the velocity (m/s) in `t` s of body i's flight: the accelerations of its two ends
   /// count alike.
   Vec3 verlet_change(Entity i, const Flight& f, double t) const {
@@ -109,7 +109,7 @@ struct ExactBodies {
   /// The latest end of body i's flight: the end of a step of its own or of its island.
   [[gnu::always_inline]] Instant flight_end(Entity i) const {
     Instant end{never, 0};
-    if (in_group(i)) end = islands.of(i).end;
+    if (is_member(mode(i))) end = islands.of(i).end;
     if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
     return end;
   }
@@ -149,12 +149,8 @@ struct ExactBodies {
     return lies_behind(world, i, x, fixed, fixed_position(fixed), n);
   }
 
-  bool in_group(Entity i) const { return body[i].state == ContactState::group; }
-  /// Whether body i's island moves by constrained motion, or by time stepping.
-  bool is_constrained(Entity i) const { return in_group(i) && islands.of(i).constrained; }
-  bool is_stepped(Entity i) const { return in_group(i) && !islands.of(i).constrained; }
-  /// Whether e is a body of the contact group, or asleep.
-  bool in_lasting_contact(Entity e) const { return world.is_body(e) && body[e].state != ContactState::free; }
+  /// What moves body i now.
+  [[gnu::always_inline]] Mode mode(Entity i) const { return body[i].mode(); }
 
   /// Present positions and velocities of two bodies.
   struct PairState {

@@ -45,7 +45,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   const double s = world.radius[a] + world.radius[b];
   const bool curved = p.curve != nullptr || q.curve != nullptr;
   const bool parabolas = p.is_parabola() && q.is_parabola();
-  const bool step = bodies_.in_group(a) || bodies_.in_group(b);
+  const bool step = is_member(bodies_.mode(a)) || is_member(bodies_.mode(b));
   const double horizon =
       (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
 
@@ -178,7 +178,7 @@ Instant ExactCollisionTimes::of_string(Entity string) const {
 
 /// The rounding of body i's speed by steps in contact (m/s).
 double ExactCollisionTimes::noise_in_contact(Entity i) const {
-  return bodies_.in_lasting_contact(i)
+  return in_lasting_contact(bodies_.mode(i))
              ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * bodies_.world.radius[i])
              : 0;
 }

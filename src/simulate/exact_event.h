@@ -5,6 +5,7 @@
 #include "geometry/contact_time.h"
 #include "physics/entity.h"
 #include "simulate/instant.h"
+#include "simulate/modes.h"
 
 namespace carom {
 
@@ -36,17 +37,21 @@ struct FlightOrigin {
   std::uint8_t feature = no_feature;
 };
 
-/// free: by itself or on flat surfaces; group: a member of the contact group; asleep: at rest in contact.
-enum class ContactState : std::uint8_t { free, group, asleep };
-
 /// The data of a body that events need, apart from its flight. It takes half a cache line.
-struct ExactBody {
+class ExactBody {
+ public:
   ExactEvent event;           // its next one
   std::uint16_t version = 1;  // counts its flights; never 0
-  ContactState state = ContactState::free;
+
+ private:
+  friend class Modes;
+  Mode mode_ = Mode::flying;
+
+ public:
   std::uint8_t origin_feature = no_feature;
   Entity origin_partner = no_entity;
 
+  Mode mode() const { return mode_; }
   FlightOrigin origin() const { return {origin_partner, origin_feature}; }
   void set_origin(const FlightOrigin& origin) {
     origin_partner = origin.partner;

@@ -20,9 +20,9 @@
 
 namespace carom {
 
-ExactGroup::ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths)
+ExactGroup::ExactGroup(ExactBodies& bodies, Modes& modes, FlatContacts& flat, const CollapseDetector& collapses,
+                       PathLog& paths)
     : pressing(bodies.body.size()),
-      partners(bodies.body.size()),
       floors(bodies.body.size()),
       index(bodies.body.size(), ContactConstraint::fixed),
       impacts(bodies.body.size()),
@@ -30,67 +30,80 @@ ExactGroup::ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDe
       margin(bodies.body.size()),
       needed(bodies.body.size()),
       bodies_(bodies),
+      modes_(modes),
       flat_(flat),
       collapses_(collapses),
-      paths_(paths),
-      carried_(bodies.body.size()) {}
-
-void ExactGroup::set_carried(Entity i, bool carried) {
-  if (carried == (carried_[i] != 0)) return;
-  carried_.write(i) = carried;
-  carried ? bodies_.log.add_resting(1) : bodies_.log.remove_resting(1);
-}
+      paths_(paths) {}
 
 void ExactGroup::join(Entity i) {
-  if (bodies_.body[i].state == ContactState::asleep) wake(i);
-  if (bodies_.in_group(i)) return;
+  if (bodies_.mode(i) == Mode::asleep) wake(i);
+  if (!is_member(bodies_.mode(i))) enlist(i);
+}
+
+/// Makes an island of body i, which is free or asleep.
+void ExactGroup::enlist(Entity i) {
   paths_.note_change(i);
-  bodies_.body[i].state = ContactState::group;
+  modes_.join(i);
+  flat_.clear(i);
+
   Islands& islands = bodies_.islands;
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
   margin.write(i) = 0;
   impacts.write(i) = 0;
-  flat_.clear(i);
-  bodies_.contact_work.change(i, bodies_.now, 0);
-  if (!islands.any()) bodies_.log.count_collapse();
-  islands.create(i, bodies_.now);
   idle.write(i) = 0;
   needed.write(i) = bodies_.now;
+
+  if (!islands.any()) bodies_.log.count_collapse();
+  islands.create(i, bodies_.now);
 }
 
 void ExactGroup::unite(Entity a, Entity b) {
-  if (bodies_.moving.any() && !bodies_.islands.same(a, b))
-    for (const Entity i : {a, b}) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
-  bodies_.islands.merge(a, b, bodies_.now);
+  Islands& islands = bodies_.islands;
+  if (!islands.same(a, b)) {
+    if (bodies_.moving.any())
+      for (const Entity i : {a, b}) bodies_.contact_work.end_paths(islands.of(i).members, bodies_.now);
+
+    // A time step of one goes on if the other has not taken a step.
+    const Mode of_a = bodies_.mode(a);
+    const Mode of_b = bodies_.mode(b);
+    const Mode united = std::max(of_a, of_b);
+    Instant end = bodies_.now;
+    if (united == Mode::stepped && std::min(of_a, of_b) == Mode::fresh)
+      end = islands.of(of_a == Mode::stepped ? a : b).end;
+    for (const Entity i : {a, b}) {
+      if (bodies_.mode(i) == united) continue;
+      for (const Entity k : islands.of(i).members) united == Mode::held ? modes_.hold(k) : modes_.step(k);
+    }
+    islands.merge(a, b, end);
+  }
+
   // Time steps would let strings lengthen.
-  if (Island& island = bodies_.islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
+  if (Island& island = islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
 }
 
 bool ExactGroup::wake(Entity i) {
   bool stepped = false;
-  std::vector<Entity> todo{i};
-  bodies_.body[i].state = ContactState::free;
+  std::vector<Entity> todo;
+  const auto rouse = [&](Entity k) {
+    // Constrained motion rests on its partners.
+    stepped = stepped || modes_.partners(k).empty();
+    enlist(k);
+    todo.push_back(k);
+  };
+  rouse(i);
+
   while (!todo.empty()) {
     const Entity k = todo.back();
     todo.pop_back();
-    // Constrained motion rests on its partners.
-    stepped = stepped || partners[k].empty();
-    set_carried(k, false);
-    join(k);
     unite(i, k);
     const Vec3 x = bodies_.flights[k].x;
     for (const Entity e : bodies_.neighbours_of(k)) {
-      if (!bodies_.world.is_body(e) || bodies_.body[e].state != ContactState::asleep) continue;
+      if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
       const double gap = touch(bodies_.world, k, x, e, bodies_.flights[e].x).gap;
-      if (gap > exact_tolerance::waking_gap * bodies_.world.radius[k]) continue;
-      bodies_.body[e].state = ContactState::free;
-      todo.push_back(e);
+      if (gap <= exact_tolerance::waking_gap * bodies_.world.radius[k]) rouse(e);
     }
-    for (const Entity e : asleep_on_strings(k)) {
-      bodies_.body[e].state = ContactState::free;
-      todo.push_back(e);
-    }
+    for (const Entity e : asleep_on_strings(k)) rouse(e);
   }
   return stepped;
 }
@@ -106,7 +119,7 @@ std::vector<Entity> ExactGroup::asleep_on_strings(Entity i) const {
   std::vector<Entity> asleep;
   for (const Entity string : bodies_.ties.of(i)) {
     const Entity other = bodies_.ties.other(string, i);
-    if (other == no_entity || bodies_.body[other].state != ContactState::asleep) continue;
+    if (other == no_entity || bodies_.mode(other) != Mode::asleep) continue;
     const bool taut = bodies_.string_now(string).gap <= exact_tolerance::waking_gap * bodies_.world.radius[i];
     if (taut || bodies_.world.string(string).rod) asleep.push_back(other);
   }
@@ -127,7 +140,8 @@ void ExactGroup::join_initial(Entity first) {
     for (const Entity e : bodies_.neighbours_of(i)) {
       const Flight f = bodies_.flights[i];
       const bool body = world.is_body(e);
-      const bool i_in = bodies_.in_lasting_contact(i), e_in = bodies_.in_lasting_contact(e);
+      const bool i_in = in_lasting_contact(bodies_.mode(i));
+      const bool e_in = body && in_lasting_contact(bodies_.mode(e));
       if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
       const Vec3 xe = bodies_.position_of(e);
       const Vec3 ve = bodies_.velocity_of(e);
@@ -143,7 +157,7 @@ void ExactGroup::join_initial(Entity first) {
       const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
       for (const Entity k : {i, e}) {
-        if (!world.is_body(k) || bodies_.in_lasting_contact(k)) continue;
+        if (!world.is_body(k) || in_lasting_contact(bodies_.mode(k))) continue;
         join_at_rest(k);
         todo.push_back(k);
       }
@@ -181,8 +195,8 @@ void ExactGroup::join_by_strings() {
     const Vec3 other = bodies_.position_of(string);
     // Bodies in lasting contact with other things have these accelerations.
     double known = bending(world, s.body, bodies_.position(s.body), string, other, there, w);
-    const bool free = !bodies_.in_lasting_contact(s.body),
-               other_free = !anchored && !bodies_.in_lasting_contact(s.other);
+    const bool free = !in_lasting_contact(bodies_.mode(s.body)),
+               other_free = !anchored && !in_lasting_contact(bodies_.mode(s.other));
     if (!free) known -= there.normal.dot(bodies_.flights[s.body].a);
     if (!anchored && !other_free) known += there.normal.dot(bodies_.flights[s.other].a);
     if (s.rod || (!free && !other_free && known < 0)) held.push_back(string);
@@ -229,7 +243,7 @@ double ExactGroup::initial_rounding(Entity string) const {
 }
 
 void ExactGroup::widen_margin(Entity i, double approach) {
-  if (!bodies_.in_group(i)) return;
+  if (!is_member(bodies_.mode(i))) return;
   needed.write(i) = bodies_.now;
   margin.write(i) = std::max(margin[i], std::min(0.5 * approach * bodies_.islands.of(i).step_length,
                                                  exact_tolerance::widest_margin * bodies_.world.radius[i]));
@@ -237,7 +251,7 @@ void ExactGroup::widen_margin(Entity i, double approach) {
 
 double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
   const bool body = bodies_.world.is_body(e);
-  if (approach == 0 || !(bodies_.is_stepped(i) || (body && bodies_.is_stepped(e)))) return approach;
+  if (approach == 0 || !(may_be_kicked(bodies_.mode(i)) || (body && may_be_kicked(bodies_.mode(e))))) return approach;
   const Vec3 vi = bodies_.unkicked_velocity_of(i);
   const Vec3 ve = bodies_.unkicked_velocity_of(e);
   const double met = n.dot(vi - ve);
@@ -247,7 +261,7 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
 }
 
 bool ExactGroup::opens(Entity i) const {
-  if (!bodies_.is_stepped(i) || !(bodies_.now < bodies_.islands.kicked_until[i])) return false;
+  if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.islands.kicked_until[i])) return false;
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
   const auto parts_from = [&](Entity e) {
     const Vec3 ve = bodies_.velocity_of(e);
@@ -277,18 +291,7 @@ double ExactGroup::pressing_force(Entity i, Entity e) const {
   return 0;
 }
 
-void ExactGroup::part(Entity i) {
-  for (const Entity e : partners[i])
-    if (bodies_.world.is_body(e)) std::erase(partners.write(e), i);
-  for (const Entity string : bodies_.ties.of(i))
-    if (const Entity other = bodies_.ties.other(string, i); other != no_entity)
-      if (!partners[other].empty()) std::erase(partners.write(other), string);
-  partners.write(i).clear();
-}
-
 void ExactGroup::leave(Entity i) {
-  part(i);
-  set_carried(i, false);
   if (!pressing[i].empty()) pressing.write(i).clear();
   for (const Entity e : bodies_.neighbours_of(i))
     if (bodies_.world.is_body(e) && !pressing[e].empty())
@@ -296,10 +299,6 @@ void ExactGroup::leave(Entity i) {
   for (const Entity string : bodies_.ties.of(i))
     if (const Entity other = bodies_.ties.other(string, i); other != no_entity && !pressing[other].empty())
       std::erase_if(pressing.write(other), [&](const PressingContact& contact) { return contact.partner == string; });
-}
-
-bool ExactGroup::are_partners(Entity i, Entity e) const {
-  return std::find(partners[i].begin(), partners[i].end(), e) != partners[i].end();
 }
 
 bool ExactGroup::hides(Entity i, Entity fixed) const {
@@ -310,7 +309,7 @@ bool ExactGroup::hides(Entity i, Entity fixed) const {
 
 bool ExactGroup::switches(Entity i) const {
   const auto now = [&](Entity e) { return bodies_.moving.switches(e, bodies_.now); };
-  return std::any_of(partners[i].begin(), partners[i].end(), now) ||
+  return std::ranges::any_of(modes_.partners(i), now) ||
          std::any_of(pressing[i].begin(), pressing[i].end(), [&](const PressingContact& p) { return now(p.partner); });
 }
 
@@ -336,14 +335,14 @@ void ExactGroup::let_go(Entity i) {
 void ExactGroup::carry(Entity i, double approach, double surface) {
   const double work = -bodies_.world.mass[i] * approach * surface;
   const Instant& until = bodies_.islands.kicked_until[i];
-  if (bodies_.is_stepped(i) && bodies_.now < until)
+  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < until)
     bodies_.contact_work.push(i, bodies_.now, work / (until - bodies_.now));
   else
     bodies_.log.carry(work);
 }
 
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
-  if (bodies_.body[i].state == ContactState::free || bodies_.is_constrained(i)) return;
+  if (bodies_.mode(i) != Mode::asleep && !may_be_kicked(bodies_.mode(i))) return;
   for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
 }
 

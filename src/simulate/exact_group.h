@@ -28,10 +28,9 @@ struct Floor {
 
 class ExactGroup {
  public:
-  ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths);
+  ExactGroup(ExactBodies& bodies, Modes& modes, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths);
 
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what pressed on it in the last step
-  LazyArray<std::vector<Entity>> partners;           // by body: things that constrained motion keeps it in contact with
   LazyArray<std::vector<Floor>> floors;              // by body: the flat fixed things that carry it
   // Scratch of a step: a member's index in it, or ContactConstraint::fixed.
   LazyArray<std::uint32_t> index;
@@ -47,7 +46,7 @@ class ExactGroup {
   void unite(Entity a, Entity b);
   /// The same, if one of them has only just joined. A time step of the other one continues.
   void unite_fresh(Entity a, Entity b) {
-    if (bodies_.islands.of(a).fresh || bodies_.islands.of(b).fresh) unite(a, b);
+    if (bodies_.mode(a) == Mode::fresh || bodies_.mode(b) == Mode::fresh) unite(a, b);
   }
   /// Wakes a sleeping body and all that rest in contact with it. They make up an island. Returns whether time steps
   /// have put one of them to rest.
@@ -63,8 +62,6 @@ class ExactGroup {
   void join_by_strings();
   /// The sleeping bodies at the other ends of body i's taut strings and of its rods.
   std::vector<Entity> asleep_on_strings(Entity i) const;
-  /// Sets whether body i, a member or asleep, rests on a thing. The tally counts such bodies.
-  void set_carried(Entity i, bool carried);
   /// Widens the margin of member i after an impact at this speed (m/s).
   /// For a while, bodies keep about the distance that they could move at that speed until the next step.
   void widen_margin(Entity i, double approach);
@@ -79,12 +76,8 @@ class ExactGroup {
 
   /// The force between member i and a thing in the last step (N).
   double pressing_force(Entity i, Entity e) const;
-  /// Ends the contacts of body i, which leaves its island. It may meet all these things again.
-  void part(Entity i);
-  /// The same for member i, which leaves the world: nothing presses on it, and it on nothing.
+  /// Nothing presses on member i, which leaves the world, and it on nothing.
   void leave(Entity i);
-  /// Whether constrained motion keeps bodies i and e in contact, so that they cannot meet.
-  bool are_partners(Entity i, Entity e) const;
 
   /// Whether body i cannot strike this fixed thing, because it lies behind one that constrained motion keeps the body
   /// on.
@@ -106,16 +99,17 @@ class ExactGroup {
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:
+  void enlist(Entity i);
   void join_at_rest(Entity i);
   void check_length(Entity string, double gap) const;
   double initial_rounding(Entity string) const;
   double power(Entity i) const;
 
   ExactBodies& bodies_;
+  Modes& modes_;
   FlatContacts& flat_;
   const CollapseDetector& collapses_;
   PathLog& paths_;
-  LazyArray<std::uint8_t> carried_;  // by body: a member or asleep, and a thing presses on it
 };
 
 }  // namespace carom

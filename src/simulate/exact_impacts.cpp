@@ -46,7 +46,7 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double approa
   for (const PressingContact& p : parts_.group.pressing[struck])
     if (p.force > 0) hold(p.partner);
   for (const Entity e : bodies_.neighbours_of(struck))
-    if (world.is_body(e) && bodies_.body[e].state == ContactState::asleep)
+    if (world.is_body(e) && bodies_.mode(e) == Mode::asleep)
       for (const PressingContact& p : parts_.group.pressing[e])
         if (p.partner == struck && p.force > 0) hold(e);
   for (std::size_t i = 0; i < normals.size(); ++i)
@@ -111,7 +111,7 @@ double ExactImpacts::holding(double press, Entity i, Entity e) const {
   for (const Entity k : {i, e}) {
     if (!bodies_.world.is_body(k)) continue;
     loads = std::max(loads, bodies_.applied[k].norm());
-    stepped = stepped || bodies_.is_stepped(k);
+    stepped = stepped || may_be_kicked(bodies_.mode(k));
   }
   if (stepped) return std::max(press, loads);
   return press > exact_tolerance::curve_rounding * loads ? press : 0;
@@ -120,7 +120,7 @@ double ExactImpacts::holding(double press, Entity i, Entity e) const {
 /// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
 /// rounding.
 bool ExactImpacts::move_as_one(Entity a, Entity b, double approach) const {
-  return bodies_.is_constrained(a) && bodies_.is_constrained(b) &&
+  return bodies_.mode(a) == Mode::held && bodies_.mode(b) == Mode::held &&
          approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
 }
 
@@ -152,7 +152,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double press = p.a == q.a && p.fade == q.fade ? 0 : press_of(a, xa, b, xb, there, w);
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
-      if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, approach))
+      if (bodies_.mode(struck) == Mode::asleep && too_slow_to_wake(striker, struck, approach))
         return bounce_off(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is only rounding ends with this impact.
   const double held = press > 0 || bodies_.islands.any() ? holding(press, a, b) : 0;
@@ -160,7 +160,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   // The approach begins by a change of forces, out of a motion side by side.
   const auto side_by_side = [&] { return exact_tolerance::velocity_rounding * (va.norm() + vb.norm()); };
   const bool enters = met == 0 && w.dot(n) <= side_by_side() && (bodies_.path_bends(a) || bodies_.path_bends(b));
-  const bool ends = (approach > 0 && met == 0) || enters || (bodies_.in_group(a) && move_as_one(a, b, approach)) ||
+  const bool ends = (approach > 0 && met == 0) || enters ||
+                    (is_member(bodies_.mode(a)) && move_as_one(a, b, approach)) ||
                     (real && parts_.collapses.count_impact(a, b, e, met, held, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
                                    (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));
@@ -186,7 +187,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   else if (met > 0)
     bodies_.log.take_up(met, collision.energy_lost);
   for (const Entity i : {a, b}) {
-    if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+    if (ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
     parts_.group.widen_margin(i, approach);
   }
   if (ends) parts_.group.unite_fresh(a, b);
@@ -239,7 +240,7 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
   bodies_.refresh(i, x, v - approach * n);
   const double bend = flat ? 0 : bending(world, i, x, surface, point, there, u - v);
   // In constrained motion other contacts are part of the flight. Drag then acts on the velocity after the impact.
-  const double pull = bodies_.is_constrained(i)
+  const double pull = bodies_.mode(i) == Mode::held
                           ? f.acceleration(t).dot(n) + bodies_.fade[i] * approach
                           : parts_.flat.acceleration_without(i, surface).dot(n) + parts_.flat.drag_along(i, n, surface);
   return {i,
@@ -266,7 +267,7 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
   const std::size_t carrying = parts_.flat.of(i).count;
   // A surface nearly level with one that carries the body takes over. Hops that rounding hides do not count.
   const double weight = bodies_.applied[i].dot(there.normal);
-  if (carrying > 0 && flat && carrying < FlatContactList::most && !bodies_.in_lasting_contact(i) && e <= 1 &&
+  if (carrying > 0 && flat && carrying < FlatContactList::most && !in_lasting_contact(bodies_.mode(i)) && e <= 1 &&
       weight > 0 &&
       approach * approach <
           weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
@@ -278,7 +279,7 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
   if (bodies_.bent[i]) return false;
   const bool ends = e < 1 || approach == 0 ||
                     (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
-  if (!(press > 0) || !flat || bodies_.in_lasting_contact(i) || carrying >= FlatContactList::most || !ends)
+  if (!(press > 0) || !flat || in_lasting_contact(bodies_.mode(i)) || carrying >= FlatContactList::most || !ends)
     return false;
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
   // The body does not hop on this surface alone. Other bodies, or the surfaces that carry it, throw it back at once.
@@ -301,10 +302,10 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   if (parts_.collapses.count_impact(i, surface, e, unkicked, held, bodies_.world.radius[i], alone)) return true;
   const double separation = e * unkicked;
   if (!(press > 0)) return false;
-  if (flat && bodies_.bent[i] && !bodies_.in_lasting_contact(i) && e < 1)
+  if (flat && bodies_.bent[i] && !in_lasting_contact(bodies_.mode(i)) && e < 1)
     return over_at_once(impact, 2 * separation / (press * (1 - e)));
   if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
-  return (!flat || bodies_.in_lasting_contact(i)) && (separation == 0 || bodies_.too_low(x, separation, press));
+  return (!flat || in_lasting_contact(bodies_.mode(i))) && (separation == 0 || bodies_.too_low(x, separation, press));
 }
 
 /// Throws SimulationError where the thing that body i strikes and a surface opposite to it certainly leave the body no
@@ -343,7 +344,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   const bool taken_over = rests && !contact.settling;
   const bool ends = !rests && ends_in_contact(impact), leaves_nothing = ends || taken_over;
   const double separation = leaves_nothing ? 0 : impact.e * met;
-  if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+  if (ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   const StringImpacts::Passed* const passed =
       bodies_.ties.any() && !rests ? strings_->pass_on({i, surface, n, approach, met + separation, n.dot(impact.u)})

@@ -33,16 +33,17 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       crossings_(bodies_),
       paths_(bodies_, crossings_),
       collapses_(bodies_),
-      flat_(bodies_, collapses_),
-      group_(bodies_, flat_, collapses_, paths_),
+      modes_(bodies_),
+      flat_(bodies_, modes_, collapses_),
+      group_(bodies_, modes_, flat_, collapses_, paths_),
       flights_(bodies_, flat_, paths_),
       queue_(bodies_),
       prefetch_(bodies_, queue_),
-      predictor_(bodies_, queue_, flat_, group_),
+      predictor_(bodies_, queue_, modes_, flat_, group_),
       simultaneous_(bodies_, group_, flights_),
-      stepping_(bodies_, group_, flights_),
-      constrained_(bodies_, group_, flat_, collapses_, flights_),
-      merging_(bodies_, flat_, flights_, paths_),
+      stepping_(bodies_, modes_, group_, flights_),
+      constrained_(bodies_, modes_, group_, flat_, collapses_, flights_),
+      merging_(bodies_, modes_, flat_, flights_, paths_),
       guard_(world.body_count(), options.duration),
       impacts_(bodies_, {collapses_, flat_, group_, flights_, simultaneous_, merging_, guard_}),
       attends_(watches() || world.body_count() > cached_bodies) {
@@ -58,7 +59,7 @@ inline void ExactSimulator::predict_changed() {
   }
 
   for (const Entity i : changed) {
-    if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) [[unlikely]] {
+    if (!is_in_world(bodies_.mode(i))) [[unlikely]] {
       bodies_.body[i].event = {};
       queue_.remove(i);
     } else {
@@ -90,11 +91,11 @@ void ExactSimulator::start(const State& initial) {
     if (bodies_.ties.any()) group_.join_by_strings();
   }
   for (Entity i = 0; i < n; ++i)
-    if (bodies_.flies_in_steps(i) && !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0) flights_.let_fall(i);
+    if (bodies_.flies_in_steps(i) && bodies_.mode(i) == Mode::flying) flights_.let_fall(i);
   predictor_.predict_all();
   if (bodies_.islands.any())
     for (Entity i = 0; i < n; ++i)
-      if (bodies_.in_group(i) && bodies_.islands.of(i).fresh) begin_island(i);
+      if (bodies_.mode(i) == Mode::fresh) begin_island(i);
   predict_changed();
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
@@ -196,7 +197,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
       release(i, event.partner, event.feature);
       break;
     case Kind::step:
-      if (bodies_.in_group(i) && event.time == bodies_.islands.of(i).end) {
+      if (is_member(bodies_.mode(i)) && event.time == bodies_.islands.of(i).end) {
         weight = events_of_a_step * static_cast<std::uint32_t>(bodies_.islands.of(i).members.size());
         step_island(i);
       } else {
@@ -240,9 +241,9 @@ void ExactSimulator::switch_forces(Entity i) {
   paths_.note_change(i);
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
-  if (bodies_.body[i].state == ContactState::asleep) group_.stir(i);
+  if (bodies_.mode(i) == Mode::asleep) group_.stir(i);
   // The last step contained the old forces until its end.
-  if (bodies_.in_group(i)) {
+  if (is_member(bodies_.mode(i))) {
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
     bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
     v = slower;
@@ -309,8 +310,8 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
     }
     if (bodies_.now < taken.at) bodies_.now = taken.at;
     paths_.note_change(crossing.body);
-    for (const Entity k : BodyRemoval(bodies_, group_, flat_, flights_).remove(crossing.body))
-      if (bodies_.in_group(k)) step_island(k);
+    for (const Entity k : BodyRemoval(bodies_, modes_, group_, flat_, flights_).remove(crossing.body))
+      if (is_member(bodies_.mode(k))) step_island(k);
     predict_changed();
     paths_.delay(taken.sure);
     guard_.count(StallGuard::Happened::other, bodies_.now.hi);
@@ -335,7 +336,7 @@ void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region
 
 /// Whether body i stays where it is until another body comes.
 bool ExactSimulator::rests(Entity i) const {
-  if (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i) return true;
+  if (!is_in_world(bodies_.mode(i))) return true;
   const double past = bodies_.now.floor(), end = bodies_.options.duration;
   if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, past) < end) return false;
   if (bodies_.moving.any()) {
@@ -343,11 +344,10 @@ bool ExactSimulator::rests(Entity i) const {
     if (bodies_.moving.next_switch(past) < end || (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end))
       return false;
   }
-  if (bodies_.body[i].state == ContactState::asleep) return true;
-  for (std::size_t k = 0; k < flat_.of(i).count; ++k)
-    if (flat_.of(i).at[k].settling) return false;
+  if (bodies_.mode(i) == Mode::asleep) return true;
+  if (bodies_.mode(i) == Mode::settling) return false;
   const Flight f = bodies_.flights[i];
-  if (!f.v.isZero(0) || bodies_.is_stepped(i)) return false;
+  if (!f.v.isZero(0) || may_be_kicked(bodies_.mode(i))) return false;
   if (f.curve == nullptr) return f.a.isZero(0);
   return std::all_of(f.curve->displacement.begin(), f.curve->displacement.end(),
                      [](const Vec3& term) { return term.isZero(0); });
@@ -407,11 +407,11 @@ const State& ExactSimulator::state() {
 std::span<const ContactForce> ExactSimulator::contacts() {
   answers_.contact_forces.clear();
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
-    if (flat_.of(i).count > 0) flat_.report(i, answers_.contact_forces);
+    if (lies_on_flat(bodies_.mode(i))) flat_.report(i, answers_.contact_forces);
     group_.report(i, answers_.contact_forces);
   }
   bodies_.islands.for_each([&](const Island& island) {
-    if (island.constrained) constrained_.report(island, time_, answers_.contact_forces);
+    if (bodies_.mode(island.members.front()) == Mode::held) constrained_.report(island, time_, answers_.contact_forces);
   });
   std::sort(answers_.contact_forces.begin(), answers_.contact_forces.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });

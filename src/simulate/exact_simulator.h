@@ -38,6 +38,7 @@ class ExactSimulator final : public Simulator {
   }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
+  const Modes& modes() const { return modes_; }
 
  private:
   /// What queries have found.
@@ -72,6 +73,7 @@ class ExactSimulator final : public Simulator {
   Crossings crossings_;
   PathLog paths_;
   CollapseDetector collapses_;
+  Modes modes_;
   FlatContacts flat_;
   ExactGroup group_;
   FlightChanges flights_;

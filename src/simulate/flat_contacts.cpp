@@ -146,8 +146,17 @@ void FlatContacts::add(Entity i, const FlatContact& contact) {
   // The record of the rest, when bounces are over, has that energy.
   bodies_.log.absorb(impact_loss(bodies_.world.mass[i], ExactBodies::immovable, contact.residual_speed, 0));
   FlatContactList& contacts = contacts_.write(i);
-  if (contacts.count == 0) bodies_.log.add_resting(1);
   contacts.at[contacts.count++] = contact;
+  note_mode(i);
+}
+
+/// Body i's mode follows its contacts, if it is free.
+void FlatContacts::note_mode(Entity i) {
+  const FlatContactList& contacts = contacts_[i];
+  if (!is_free(bodies_.mode(i))) return;
+  if (contacts.count == 0) return modes_.fly(i);
+  modes_.carry(i, std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count,
+                              [](const FlatContact& contact) { return contact.settling; }));
 }
 
 void FlatContacts::remove(Entity i, Entity surface) {
@@ -155,15 +164,15 @@ void FlatContacts::remove(Entity i, Entity surface) {
   for (std::size_t k = 0; k < contacts.count; ++k) {
     if (contacts.at[k].surface != surface) continue;
     contacts.at[k] = contacts.at[--contacts.count];
-    if (contacts.count == 0) bodies_.log.remove_resting(1);
     break;
   }
+  note_mode(i);
 }
 
 void FlatContacts::clear(Entity i) {
   if (contacts_[i].count == 0) return;
   contacts_.write(i).count = 0;
-  bodies_.log.remove_resting(1);
+  note_mode(i);
 }
 
 void FlatContacts::find_initial(Entity i) {
@@ -194,6 +203,7 @@ void FlatContacts::end_bounces(Entity i) {
     FlatContact& contact = contacts_.write(i).at[k];
     if (!contact.settling || bodies_.now < contact.rest_time) continue;
     contact.settling = false;
+    note_mode(i);
     const World& world = bodies_.world;
     const Vec3 point =
         bodies_
@@ -274,7 +284,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   n = surfaces_of(contacts, no_entity, 1, surfaces);
   solution = allow(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
   const Vec3& allowed = solution.u;
-  if (contacts.count == 0) bodies_.log.remove_resting(1);
+  note_mode(i);
 
   // Bounces are in turn with the impact that threw the body at the surfaces.
   lost += 0.5 * mass * (v - allowed).dot(v + allowed);
@@ -298,7 +308,7 @@ Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
   std::array<bool, most> presses;
   for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
   keep(contacts, presses);
-  if (contacts.count == 0) bodies_.log.remove_resting(1);
+  note_mode(i);
   return solution.u;
 }
 

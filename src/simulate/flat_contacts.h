@@ -36,8 +36,8 @@ struct FlatContactList {
 
 class FlatContacts {
  public:
-  FlatContacts(ExactBodies& bodies, CollapseDetector& collapses)
-      : bodies_(bodies), collapses_(collapses), contacts_(bodies.body.size()) {}
+  FlatContacts(ExactBodies& bodies, Modes& modes, CollapseDetector& collapses)
+      : bodies_(bodies), modes_(modes), collapses_(collapses), contacts_(bodies.body.size()) {}
 
   [[gnu::always_inline]] const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carry(Entity i, Entity surface) const;
@@ -68,12 +68,12 @@ class FlatContacts {
 
   /// Changes body i's velocity to v (m/s). Contacts that it leaves or strikes end. The strike follows as an event.
   /// They stay where rounding hides the hop or the bounce. Returns the velocity that the remaining contacts allow.
-  Vec3 keep_at(Entity i, const Vec3& v) { return contacts_[i].count == 0 ? v : keep_at_surfaces(i, v); }
+  Vec3 keep_at(Entity i, const Vec3& v) { return lies_on_flat(bodies_.mode(i)) ? keep_at_surfaces(i, v) : v; }
   /// Ends contacts that do not press. Returns the acceleration (m/s^2) by forces and reactions, without drag.
   /// It is zero in lasting contact, where steps contain the forces.
   Vec3 keep_pressing(Entity i) {
-    if (bodies_.in_lasting_contact(i)) return Vec3::Zero();
-    return contacts_[i].count == 0 ? bodies_.applied[i] : keep_pressing_surfaces(i);
+    if (in_lasting_contact(bodies_.mode(i))) return Vec3::Zero();
+    return lies_on_flat(bodies_.mode(i)) ? keep_pressing_surfaces(i) : bodies_.applied[i];
   }
   /// The same without one surface, and without any change: the acceleration that would press body i against that
   /// surface (m/s^2).
@@ -88,6 +88,7 @@ class FlatContacts {
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:
+  void note_mode(Entity i);
   using Surfaces = std::array<FlatSurface, FlatContactList::most>;
   std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
   FlatSolution allow(Entity i, const FlatSolution& solution, double& lost) const;
@@ -99,6 +100,7 @@ class FlatContacts {
   static void keep(FlatContactList& contacts, const std::array<bool, FlatContactList::most>& which);
 
   ExactBodies& bodies_;
+  Modes& modes_;
   CollapseDetector& collapses_;
   SparseArray<FlatContactList> contacts_;
 };

@@ -17,7 +17,7 @@ namespace carom {
 
 void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
   go_on(i, x, v, origin);
-  if (bodies_.is_constrained(i)) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
+  if (bodies_.mode(i) == Mode::held) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
 }
 
 void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
@@ -26,7 +26,8 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
   bodies_.note_speed(i, v);
   book(i, x, bodies_.now);
-  const Contact contact = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh ? Contact::stepped : Contact::none;
+  const Mode mode = bodies_.mode(i);
+  const Contact contact = mode == Mode::stepped ? Contact::stepped : Contact::none;
   if (contact != in_contact_[i]) {
     // The next step of its own does not continue one of contact.
     if (in_contact_[i] == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
@@ -35,22 +36,22 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   }
   // The body falls through a time step.
   const bool falls =
-      bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
+      may_be_kicked(mode) && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
   const double negligible = bodies_.negligible_speed();
   const bool still = speed <= negligible ||
-                     (flat_.of(i).count > 0 && speed * speed < exact_tolerance::negligible_hop *
-                                                                   bodies_.applied[i].norm() * bodies_.world.radius[i]);
+                     (lies_on_flat(mode) && speed * speed < exact_tolerance::negligible_hop *
+                                                                bodies_.applied[i].norm() * bodies_.world.radius[i]);
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
   bodies_.refresh(i, x, kept);
-  if (const bool free = !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0;
+  if (const bool free = mode == Mode::flying;
       bodies_.in_steps && (free ? bodies_.flies_in_steps(i) : falls && bodies_.bent[i])) [[unlikely]] {
     curve(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, free);
     return end_change(i, origin);
   }
   const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
-  if (bodies_.fade.empty() || (!falls && bodies_.in_lasting_contact(i))) [[likely]]
+  if (bodies_.fade.empty() || (!falls && in_lasting_contact(mode))) [[likely]]
     bodies_.flights.set(i, {bodies_.now, x, kept, pull});
   else
     bodies_.flights.set(i, {bodies_.now, x, kept, pull - bodies_.fade[i] * kept, bodies_.fade[i]});
@@ -68,8 +69,8 @@ inline void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
 
 /// Stores the power of moving surfaces that carry body i by itself. That of islands is stored with their steps.
 void FlightChanges::note_power(Entity i) {
-  if (!bodies_.in_group(i))
-    bodies_.contact_work.change(i, bodies_.now, bodies_.in_lasting_contact(i) ? 0 : flat_.power(i));
+  if (!is_member(bodies_.mode(i)))
+    bodies_.contact_work.change(i, bodies_.now, in_lasting_contact(bodies_.mode(i)) ? 0 : flat_.power(i));
 }
 
 /// Starts a step of body i's flight: by the scene's method if it is free, otherwise by that of contact.
@@ -95,13 +96,13 @@ Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
     return curved_.closed_place(i, at).v;
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   const Flight f = bodies_.flights[i];
-  if (f.curve == nullptr || bodies_.in_lasting_contact(i)) return v;
+  if (f.curve == nullptr || in_lasting_contact(bodies_.mode(i))) return v;
   if (bodies_.options.integrator != Integrator::verlet) return v - f.curve->ahead;
   return v + bodies_.verlet_change(i, f, at - f.start);
 }
 
 void FlightChanges::end_verlets(Entity i) {
-  if (bodies_.in_lasting_contact(i) || bodies_.flights.curve(i) == nullptr) return;
+  if (in_lasting_contact(bodies_.mode(i)) || bodies_.flights.curve(i) == nullptr) return;
   paths_.note_change(i);
   const Vec3 x = bodies_.position(i), v = velocity_of_method(i, bodies_.now);
   book(i, x, bodies_.now);
@@ -127,7 +128,7 @@ void FlightChanges::take_step(Entity i) {
 void FlightChanges::let_fall(Entity i) {
   const Flight f = bodies_.flights[i];
   bodies_.refresh(i, f.x, f.v);
-  const bool free = !bodies_.in_lasting_contact(i);
+  const bool free = !in_lasting_contact(bodies_.mode(i));
   if (free ? bodies_.flies_in_steps(i) : bodies_.bent[i] != 0)
     curve(i, {f.start, f.x, f.v, bodies_.force_at(i, f.x, f.v)}, free);
   else
@@ -154,7 +155,8 @@ void FlightChanges::release(Entity i) {
 void FlightChanges::hold(Entity i) {
   bodies_.flights.accelerate(i, Vec3::Zero());
   Islands& islands = bodies_.islands;
-  if (!bodies_.is_stepped(i) || bodies_.now < islands.kicked_until[i] || !(bodies_.now < islands.of(i).end)) return;
+  if (!may_be_kicked(bodies_.mode(i)) || bodies_.now < islands.kicked_until[i] || !(bodies_.now < islands.of(i).end))
+    return;
   islands.kicked_until.write(i) = islands.of(i).end;
   islands.kick.write(i).setZero();
   push(i, by_forces(i, islands.of(i).end - bodies_.now));
@@ -168,7 +170,7 @@ Vec3 FlightChanges::by_forces(Entity i, double seconds) const {
 void FlightChanges::push(Entity i, const Vec3& dv) {
   Islands& islands = bodies_.islands;
   change(i, dv);
-  if (bodies_.is_stepped(i) && bodies_.now < islands.kicked_until[i])
+  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < islands.kicked_until[i])
     islands.kick.write(i) += dv / (islands.kicked_until[i] - bodies_.now);
 }
 

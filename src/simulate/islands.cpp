@@ -32,17 +32,14 @@ void Islands::create(Entity i, const Instant& end) {
   island_.write(i) = place;
 }
 
-void Islands::merge(Entity a, Entity b, const Instant& now) {
+void Islands::merge(Entity a, Entity b, const Instant& end) {
   std::uint32_t into = island_[a], from = island_[b];
   if (into == from) return;
   if (islands_[into].members.size() < islands_[from].members.size()) std::swap(into, from);
   Island &one = islands_[into], &other = islands_[from];
   for (const Entity i : other.members) island_.write(i) = into;
   one.members.insert(one.members.end(), other.members.begin(), other.members.end());
-  const bool goes_on = other.fresh ? !one.fresh && !one.constrained : one.fresh && !other.constrained;
-  one.end = goes_on ? (one.fresh ? other.end : one.end) : now;
-  one.constrained = (one.constrained || one.fresh) && (other.constrained || other.fresh) && !(one.fresh && other.fresh);
-  one.fresh = one.fresh && other.fresh;
+  one.end = end;
   one.busy = one.busy || other.busy;
   one.planned = {never, 0};
   one.next_length = std::min(one.next_length, other.next_length);

@@ -19,8 +19,6 @@ namespace carom {
 struct Island {
   std::vector<Entity> members;  // ascending after each step
   Instant end{never, 0};        // time of the next step
-  bool fresh = true;            // no step has been taken
-  bool constrained = false;     // moves by constrained motion (constrained_motion.h), otherwise by time stepping
   bool busy = false;            // its contacts change too often for constrained motion
   // Constrained: the end of the step if nothing happens before.
   Instant planned{never, 0};
@@ -64,9 +62,8 @@ class Islands {
 
   /// Makes an island of body i, which is in none. Its step is due at `end`.
   void create(Entity i, const Instant& end);
-  /// Unites the islands of two members. Its next step is due at `now`, unless a fresh island joins a time step, which
-  /// then continues. If either moves by time stepping, the union does.
-  void merge(Entity a, Entity b, const Instant& now);
+  /// Unites the islands of two members. Its next step is due at `end`.
+  void merge(Entity a, Entity b, const Instant& end);
   /// Reduces an island to the members in `stay`.
   void retain(Entity member, std::vector<Entity> stay);
   /// Splits an island. Members with another label become islands of their own, equal in all other data.

@@ -152,14 +152,14 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
   if (before.any && until < before.until) return before;
   const Flight f = bodies_.flights[i];
   const Instant since = std::max(before.until, f.start);
-  if (until < since || (bodies_.merged.any() && bodies_.merged.whole_of()[i] != i)) return before;
+  if (until < since || !is_in_world(bodies_.mode(i))) return before;
 
   // The velocity by the method, up to this instant.
   const double from = since - f.start;
   const double to = until - f.start;
   const double mass = bodies_.world.mass[i];
   Part part{f, {}};
-  if (bodies_.is_stepped(i) && !bodies_.islands.kick[i].isZero(0)) {
+  if (may_be_kicked(bodies_.mode(i)) && !bodies_.islands.kick[i].isZero(0)) {
     part.more.terms[0] = -(bodies_.islands.kicked_until[i] - f.start) * bodies_.islands.kick[i];
     part.more.terms[1] = bodies_.islands.kick[i];
   } else if (f.curve != nullptr) {

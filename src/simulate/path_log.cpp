@@ -67,7 +67,7 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
   const World& given = bodies_.merged.given();
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
 
-  if (bodies_.is_stepped(i)) {
+  if (may_be_kicked(bodies_.mode(i))) {
     const Instant until = bodies_.islands.kicked_until[i];
     piece.kicked = true;
     piece.until = {until.hi, until.lo};

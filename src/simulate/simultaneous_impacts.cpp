@@ -17,7 +17,7 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 void SimultaneousImpacts::count_impact(Entity i) {
-  if (!bodies_.is_stepped(i) || bodies_.any_taut(bodies_.islands.of(i).members) ||
+  if (!may_be_kicked(bodies_.mode(i)) || bodies_.any_taut(bodies_.islands.of(i).members) ||
       ++group_.impacts.write(i) <= tol::few_impacts)
     return;
   const Struck set = strike(i);
@@ -68,7 +68,8 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   for (const Entity e : bodies_.neighbours_of(i)) {
     const bool body = world.is_body(e);
     // The pair belongs to the body that was added first.
-    if (body && (index[e] != ContactConstraint::fixed || !bodies_.in_group(e) || !bodies_.islands.same(e, i))) continue;
+    if (body && (index[e] != ContactConstraint::fixed || !is_member(bodies_.mode(e)) || !bodies_.islands.same(e, i)))
+      continue;
     const Touch there = touch(world, i, x, e, bodies_.position_of(e));
     ContactConstraint pair{k, ContactConstraint::fixed, there.normal};
     if (!body) pair.surface = there.normal.dot(bodies_.fixed_velocity(e));

@@ -27,7 +27,7 @@ const StringImpacts::Passed* StringImpacts::pass_on(const Strike& strike) {
   if (!held(strike.a) && !(b != no_entity && held(b))) return nullptr;
   solve_with_strings(strike);
   for (const Entity i : passed_.bodies)
-    if (bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+    if (bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
   return &passed_;
 }
 
@@ -94,7 +94,7 @@ void StringImpacts::tighten(Entity string) {
   const bool anchored = b == no_entity;
   // The rest of a time step is not to come: a step with the string follows at once.
   for (const Entity i : {a, b}) {
-    if (i == no_entity || !bodies_.is_stepped(i)) continue;
+    if (i == no_entity || !may_be_kicked(bodies_.mode(i))) continue;
     parts_.flights.begin(i, bodies_.position(i), bodies_.velocity(i), {});
     parts_.flights.release(i);
     parts_.group.let_go(i);
@@ -133,7 +133,7 @@ void StringImpacts::tighten(Entity string) {
     bodies_.log.take_up(approach, lost);
   }
   for (const Entity i : passed.bodies)
-    if (bodies_.body[i].state == ContactState::asleep || (ends && (i == a || i == b))) parts_.group.join(i);
+    if (bodies_.mode(i) == Mode::asleep || (ends && (i == a || i == b))) parts_.group.join(i);
   for (std::size_t k = 0; k < passed.bodies.size(); ++k)
     if (const Entity i = passed.bodies[k]; i == a || i == b)
       parts_.flights.begin(i, bodies_.position(i), parts_.flat.keep_at(i, passed.v[k]), {string, 0});

@@ -147,9 +147,9 @@ void TimeStepping::find_pairs(Step& step) const {
     const std::size_t first = step.contacts.pairs.size();
     for (const Entity e : bodies_.neighbours_of(i)) {
       // A sleeping body acts as a fixed one. If pressed on, it wakes.
-      const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
+      const bool asleep = world.is_body(e) && bodies_.mode(e) == Mode::asleep;
       const bool body = world.is_body(e) && !asleep;
-      if (body && !bodies_.in_group(e)) continue;
+      if (body && !is_member(bodies_.mode(e))) continue;
       const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
       const bool of_other_island = body && other == ContactConstraint::fixed;
       if (body && !of_other_island && e < i) continue;
@@ -410,14 +410,16 @@ void TimeStepping::begin_flights(Step& step) {
   if (bodies_.moving.any())
     for (const Entity i : step.members) group_.note_power(i);
   Island& island = bodies_.islands.of(step.members.front());
-  island.fresh = island.constrained = false;
   island.step_length = h;
   island.shortest_step = step.shortest;
   island.short_steps = step.short_steps;
   island.impact_pairs = 0;
   island.end = bodies_.now + h;
   count_calm(step, island);
-  for (const Entity i : step.members) group_.partners.write(i).clear();
+  for (const Entity i : step.members) {
+    modes_.clear_partners(i);
+    modes_.step(i);
+  }
   std::vector<Entity> stay;
   for (std::size_t k = 0; k < step.members.size(); ++k)
     if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
@@ -425,9 +427,9 @@ void TimeStepping::begin_flights(Step& step) {
   split(step);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
-    const bool asleep = bodies_.world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
+    const bool asleep = bodies_.world.is_body(e) && bodies_.mode(e) == Mode::asleep;
     if (step.contacts.pairs[c].b != ContactConstraint::fixed || !asleep) continue;
-    if (!(step.contacts.pairs[c].force > 0 && bodies_.in_group(i))) continue;
+    if (!(step.contacts.pairs[c].force > 0 && is_member(bodies_.mode(i)))) continue;
     group_.wake(e);
     group_.unite(i, e);
   }
@@ -453,12 +455,13 @@ void TimeStepping::count_calm(const Step& step, Island& island) {
 void TimeStepping::split(const Step& step) {
   DisjointSets sets(step.members.size());
   for (const ContactConstraint& p : step.contacts.pairs)
-    if (p.b != ContactConstraint::fixed && bodies_.in_group(step.members[p.a]) && bodies_.in_group(step.members[p.b]))
+    if (p.b != ContactConstraint::fixed && is_member(bodies_.mode(step.members[p.a])) &&
+        is_member(bodies_.mode(step.members[p.b])))
       sets.join(p.a, p.b);
   std::vector<std::uint32_t> label, first(step.members.size(), ContactConstraint::fixed);
   Entity one = no_entity;
   for (std::uint32_t k = 0; k < step.members.size(); ++k) {
-    if (!bodies_.in_group(step.members[k])) continue;
+    if (!is_member(bodies_.mode(step.members[k]))) continue;
     one = step.members[k];
     std::uint32_t& of_part = first[sets.root(k)];
     of_part = std::min(of_part, static_cast<std::uint32_t>(label.size()));
@@ -475,23 +478,21 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   const auto begin = [&](const Vec3& velocity) {
     bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - velocity).dot(before + velocity));
     flights_.begin(i, step.x[k], velocity, {});
-    if (bodies_.is_stepped(i)) flights_.take(i, step.taking[k]);
+    if (may_be_kicked(bodies_.mode(i))) flights_.take(i, step.taking[k]);
   };
   if (step.rests[k]) {
-    bodies_.body[i].state = ContactState::asleep;
-    group_.set_carried(i, true);
+    modes_.fall_asleep(i);
     begin(Vec3::Zero());
     return false;
   }
   const std::uint8_t idle = step.carried[k] ? std::uint8_t{0} : static_cast<std::uint8_t>(group_.idle[i] + 1);
   group_.idle.write(i) = idle;
   if (idle >= tol::idle_steps) {
-    bodies_.body[i].state = ContactState::free;
-    group_.set_carried(i, false);
+    modes_.leave(i);
     begin(v);
     return false;
   }
-  group_.set_carried(i, step.carried[k]);
+  modes_.press(i, step.carried[k] != 0);
   group_.impacts.write(i) = 0;
   if (step.carried[k]) {
     islands.kicked_until.write(i) = islands.of(i).end;

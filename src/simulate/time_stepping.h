@@ -25,11 +25,12 @@ struct Island;
 
 class ExactGroup;
 class FlightChanges;
+class Modes;
 
 class TimeStepping {
  public:
-  TimeStepping(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights)
-      : bodies_(bodies), group_(group), flights_(flights) {}
+  TimeStepping(ExactBodies& bodies, Modes& modes, ExactGroup& group, FlightChanges& flights)
+      : bodies_(bodies), modes_(modes), group_(group), flights_(flights) {}
 
   /// Takes the next step of member i's island. Islands that it may press on before the step ends are united with it.
   /// False: one of them has taut strings, and no step is taken. It would let these lengthen.
@@ -86,6 +87,7 @@ class TimeStepping {
   bool begin_flight(const Step& step, std::size_t k, Entity i);
 
   ExactBodies& bodies_;
+  Modes& modes_;
   ExactGroup& group_;
   FlightChanges& flights_;
 };

@@ -12,6 +12,7 @@
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/scene.h"
+#include "simulate/exact_simulator.h"
 
 namespace carom::fuzz {
 
@@ -46,6 +47,7 @@ class Run {
       if (counted_ != tally.collisions())
         fail(fmt::format("{} collisions are recorded and {} counted", counted_, tally.collisions()));
       rows(tally);
+      transitions();
       if (exact_) books(static_cast<double>(energy() - before), tally);
       if (exact_) overlaps(tally);
     } catch (const SimulationError& error) {
@@ -55,6 +57,16 @@ class Run {
   }
 
  private:
+  /// Bodies change their modes only as the table of modes says.
+  void transitions() {
+    const auto* const exact = dynamic_cast<const ExactSimulator*>(simulator_.get());
+    if (exact == nullptr) return;
+    for (std::size_t from = 0; from < modes; ++from)
+      for (std::size_t to = 0; to < modes; ++to)
+        if (exact->modes().changes()[from][to] > 0 && !may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
+          fail(fmt::format("a body changes from mode {} to {}", from, to));
+  }
+
   void fail(std::string what) {
     if (outcome_.violations.size() < 12) outcome_.violations.push_back(std::move(what));
   }

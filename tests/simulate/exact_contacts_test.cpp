@@ -120,10 +120,7 @@ TEST(ExactImpacts, ExchangeVelocitiesOfEqualMasses) {
 
 TEST(ExactGroup, WakesAllThatTouch) {
   ExactParts parts(three_in_a_row(0.5));
-  for (Entity i = 0; i < 3; ++i) {
-    parts.bodies.body[i].state = ContactState::asleep;
-    parts.group.set_carried(i, true);
-  }
+  for (Entity i = 0; i < 3; ++i) parts.modes.fall_asleep(i);
   EXPECT_EQ(parts.bodies.log.tally().resting, 3u);
   parts.group.join(0);
   EXPECT_EQ(parts.bodies.islands.of(0).members.size(), 3u);
@@ -204,7 +201,7 @@ TEST(TimeStepping, PutsToRestWhatForcesHold) {
   ExactParts parts(ball_on_floor());
   parts.group.join(0);
   parts.stepping.advance(0);
-  EXPECT_EQ(parts.bodies.body[0].state, ContactState::asleep);
+  EXPECT_EQ(parts.bodies.mode(0), Mode::asleep);
   ASSERT_EQ(parts.group.pressing[0].size(), 1u);
   EXPECT_NEAR(parts.group.pressing[0][0].force, 2 * pull, 1e-9);
   EXPECT_FALSE(parts.bodies.islands.any());
@@ -232,7 +229,7 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   parts.group.join(0);
   ASSERT_TRUE(parts.constrained.advance(0));
   const Island& island = parts.bodies.islands.of(0);
-  EXPECT_TRUE(island.constrained);
+  EXPECT_EQ(parts.bodies.mode(0), Mode::held);
   const double end = island.end.hi;
   ASSERT_GT(end, 0);
   for (const double t : {0.5 * end, end}) EXPECT_NEAR(parts.bodies.flights[0].position(t).norm(), 1.5, 1e-10);
@@ -363,7 +360,7 @@ TEST(TimeStepping, CarriesABodyThatFellWithoutLettingItFallOn) {
   parts.group.join(0);
   EXPECT_EQ(parts.bodies.flights[0].a, Vec3(0, -pull, 0));
   parts.stepping.advance(0);
-  EXPECT_TRUE(parts.bodies.is_stepped(0) || parts.bodies.body[0].state == ContactState::asleep);
+  EXPECT_TRUE(parts.bodies.mode(0) == Mode::stepped || parts.bodies.mode(0) == Mode::asleep);
   EXPECT_TRUE(parts.bodies.flights[0].a.isZero(0));
   EXPECT_TRUE(parts.bodies.flights[0].v.isZero(1e-12));
 }
@@ -379,7 +376,7 @@ TEST(TimeStepping, BooksWhatImpactsWithinAStepTakeAsItGoesOn) {
     ExactParts parts(p);
     parts.group.join(0);
     parts.stepping.advance(0);
-    ASSERT_TRUE(parts.bodies.is_stepped(0));
+    ASSERT_TRUE(parts.bodies.mode(0) == Mode::stepped);
     const double h = parts.bodies.islands.of(0).step_length, end = -parts.bodies.flights[0].v.y();
     const double at_once = parts.bodies.log.tally().energy_lost;
     parts.flights.book_last(part * h);
@@ -398,7 +395,7 @@ TEST(TimeStepping, SlidesABodyOverTilesAsOverOneFloor) {
     ExactParts parts(p);
     parts.group.join(0);
     parts.stepping.advance(0);
-    EXPECT_TRUE(parts.bodies.is_stepped(0));
+    EXPECT_TRUE(parts.bodies.mode(0) == Mode::stepped);
     EXPECT_EQ(parts.bodies.flights[0].v.x(), speed);
     EXPECT_NEAR(parts.bodies.flights[0].v.y(), 0, 1e-3 * speed);
   }

@@ -26,16 +26,17 @@ struct ExactParts {
         crossings(bodies),
         paths(bodies, crossings),
         collapses(bodies),
-        flat(bodies, collapses),
-        group(bodies, flat, collapses, paths),
+        modes(bodies),
+        flat(bodies, modes, collapses),
+        group(bodies, modes, flat, collapses, paths),
         flights(bodies, flat, paths),
         queue(bodies),
         prefetch(bodies, queue),
-        predictor(bodies, queue, flat, group),
+        predictor(bodies, queue, modes, flat, group),
         simultaneous(bodies, group, flights),
-        stepping(bodies, group, flights),
-        constrained(bodies, group, flat, collapses, flights),
-        merging(bodies, flat, flights, paths),
+        stepping(bodies, modes, group, flights),
+        constrained(bodies, modes, group, flat, collapses, flights),
+        merging(bodies, modes, flat, flights, paths),
         guard(problem.world.body_count(), problem.options.duration),
         impacts(bodies, {collapses, flat, group, flights, simultaneous, merging, guard}) {
     for (Entity i = 0; i < bodies.world.body_count(); ++i)
@@ -48,6 +49,7 @@ struct ExactParts {
   Crossings crossings;
   PathLog paths;
   CollapseDetector collapses;
+  Modes modes;
   FlatContacts flat;
   ExactGroup group;
   FlightChanges flights;

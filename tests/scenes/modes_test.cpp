@@ -1,0 +1,43 @@
+// What moves bodies in every scene, against the table of modes (modes.h).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "run/engine.h"
+#include "scenes/play.h"
+#include "simulate/exact_simulator.h"
+
+namespace carom::testing {
+namespace {
+
+/// How often bodies change from one mode to another one in a scene. All zero: it is for the book's engine.
+Modes::Changes changes_in(const std::string& name) {
+  const Scene scene = load(name);
+  const std::unique_ptr<Simulator> simulator = make_simulator(scene);
+  while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
+  const auto* const exact = dynamic_cast<const ExactSimulator*>(simulator.get());
+  return exact == nullptr ? Modes::Changes{} : exact->modes().changes();
+}
+
+TEST(ModesOfScenes, NoOtherTransitionHappens) {
+  Modes::Changes all{};
+  for (const std::string& name : scene_names()) {
+    const Modes::Changes changes = changes_in(name);
+    for (std::size_t from = 0; from < modes; ++from)
+      for (std::size_t to = 0; to < modes; ++to) {
+        all[from][to] += changes[from][to];
+        EXPECT_TRUE(changes[from][to] == 0 || may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
+            << name << ": from mode " << from << " to " << to;
+      }
+  }
+
+  // The scenes make most changes of the table. Single bodies make the others (simulate/modes_test.cpp).
+  std::size_t seen = 0;
+  for (const auto& from : all)
+    seen += static_cast<std::size_t>(std::ranges::count_if(from, [](auto n) { return n > 0; }));
+  EXPECT_GE(seen, 19u);
+}
+
+}  // namespace
+}  // namespace carom::testing
