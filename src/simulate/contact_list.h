@@ -1,10 +1,13 @@
 #pragma once
 // Contacts of an island: the things that touch, beside the solver's constraints for them.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/touch.h"
+#include "numerics/disjoint_sets.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
@@ -16,6 +19,24 @@ struct Contact {
   Entity i, e;           // i a body; in steps i < e. A string between two bodies is the e of one of them.
   std::uint8_t feature;  // as in Touch
 };
+
+/// By body: the first of the bodies that pairs connect with it. `connects`: whether pair number c does.
+template <typename Connects>
+std::vector<std::uint32_t> connected_parts(std::size_t bodies, std::span<const ContactConstraint> pairs,
+                                           const Connects& connects) {
+  DisjointSets sets(bodies);
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    if (pairs[c].b != ContactConstraint::fixed && connects(c)) sets.join(pairs[c].a, pairs[c].b);
+
+  std::vector<std::uint32_t> part(bodies);
+  std::vector<std::uint32_t> first(bodies, ContactConstraint::fixed);
+  for (std::uint32_t k = 0; k < bodies; ++k) {
+    std::uint32_t& of_part = first[sets.root(k)];
+    of_part = std::min(of_part, k);
+    part[k] = of_part;
+  }
+  return part;
+}
 
 struct ContactList {
   std::vector<ContactConstraint> pairs;

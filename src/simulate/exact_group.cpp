@@ -23,12 +23,8 @@ namespace carom {
 ExactGroup::ExactGroup(ExactBodies& bodies, Modes& modes, FlatContacts& flat, const CollapseDetector& collapses,
                        PathLog& paths)
     : pressing(bodies.body.size()),
-      floors(bodies.body.size()),
-      index(bodies.body.size(), ContactConstraint::fixed),
-      impacts(bodies.body.size()),
-      idle(bodies.body.size()),
-      margin(bodies.body.size()),
-      needed(bodies.body.size()),
+      numbers(bodies.body.size(), Numbering::none),
+      member(bodies.body.size()),
       bodies_(bodies),
       modes_(modes),
       flat_(flat),
@@ -49,10 +45,11 @@ void ExactGroup::enlist(Entity i) {
   Islands& islands = bodies_.islands;
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
-  margin.write(i) = 0;
-  impacts.write(i) = 0;
-  idle.write(i) = 0;
-  needed.write(i) = bodies_.now;
+  IslandMember& kept = member.write(i);
+  kept.margin = 0;
+  kept.impacts = 0;
+  kept.idle = 0;
+  kept.needed = bodies_.now;
 
   if (!islands.any()) bodies_.log.count_collapse();
   islands.create(i, bodies_.now);
@@ -168,19 +165,17 @@ void ExactGroup::join_initial(Entity first) {
 
 void ExactGroup::join_by_strings() {
   const World& world = bodies_.world;
-  std::vector<Entity> moved;  // bodies that only strings hold, in the problem's order
-  std::vector<Vec3> a;        // m/s^2, of these
+  Numbering moved(numbers);  // bodies that only strings hold
+  std::vector<Vec3> a;       // m/s^2, of these
   std::vector<double> inverse_mass;
   std::vector<ContactConstraint> rows;
   std::vector<Entity> strings;  // of the rows
   const auto place = [&](Entity i) {
-    if (index[i] == ContactConstraint::fixed) {
-      index.write(i) = static_cast<std::uint32_t>(moved.size());
-      moved.push_back(i);
+    if (moved.add(i)) {
       a.push_back(bodies_.flights[i].a);
       inverse_mass.push_back(1 / world.mass[i]);
     }
-    return index[i];
+    return moved.number(i);
   };
   std::vector<Entity> held;
   for (std::size_t k = 0; k < world.strings.size(); ++k) {
@@ -213,7 +208,6 @@ void ExactGroup::join_by_strings() {
   for (ContactConstraint& row : rows)
     if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
   solve({inverse_mass, a, rows});
-  for (const Entity i : moved) index.write(i) = ContactConstraint::fixed;
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!rows[k].bilateral && rows[k].force > 0) held.push_back(strings[k]);
   for (const Entity string : held) {
@@ -244,9 +238,10 @@ double ExactGroup::initial_rounding(Entity string) const {
 
 void ExactGroup::widen_margin(Entity i, double approach) {
   if (!is_member(bodies_.mode(i))) return;
-  needed.write(i) = bodies_.now;
-  margin.write(i) = std::max(margin[i], std::min(0.5 * approach * bodies_.islands.of(i).step_length,
-                                                 exact_tolerance::widest_margin * bodies_.world.radius[i]));
+  IslandMember& kept = member.write(i);
+  kept.needed = bodies_.now;
+  kept.margin = std::max(kept.margin, std::min(0.5 * approach * bodies_.islands.of(i).step_length,
+                                               exact_tolerance::widest_margin * bodies_.world.radius[i]));
 }
 
 double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
@@ -302,7 +297,7 @@ void ExactGroup::leave(Entity i) {
 }
 
 bool ExactGroup::hides(Entity i, Entity fixed) const {
-  return std::any_of(floors[i].begin(), floors[i].end(), [&](const Floor& floor) {
+  return std::ranges::any_of(member[i].floors, [&](const Floor& floor) {
     return bodies_.hidden(i, bodies_.position(i), fixed, floor.normal, floor.velocity);
   });
 }

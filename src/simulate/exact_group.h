@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulate/exact_bodies.h"
+#include "simulate/numbering.h"
 
 namespace carom {
 
@@ -26,19 +27,23 @@ struct Floor {
   Vec3 velocity;  // m/s
 };
 
+/// What an island keeps of a member from step to step.
+struct IslandMember {
+  // The last time at which it was struck, or pressed on by things other than flat surfaces.
+  Instant needed;
+  std::vector<Floor> floors;  // the flat fixed things that carry it
+  double margin = 0;          // m, the gap that time stepping leaves around it
+  std::uint32_t impacts = 0;  // impacts that ended in contact since the last step
+  std::uint8_t idle = 0;      // time steps since a thing last pressed on it
+};
+
 class ExactGroup {
  public:
   ExactGroup(ExactBodies& bodies, Modes& modes, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths);
 
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what pressed on it in the last step
-  LazyArray<std::vector<Floor>> floors;              // by body: the flat fixed things that carry it
-  // Scratch of a step: a member's index in it, or ContactConstraint::fixed.
-  LazyArray<std::uint32_t> index;
-  LazyArray<std::uint32_t> impacts;  // by member: impacts that ended in contact since the last step
-  LazyArray<std::uint8_t> idle;      // by member: steps since a thing last pressed on it
-  LazyArray<double> margin;          // m, by member: the gap that time stepping leaves around it
-  // By member: the last time at which it was struck, or pressed on by things other than flat surfaces.
-  LazyArray<Instant> needed;
+  Numbering::Numbers numbers;
+  LazyArray<IslandMember> member;  // by body
 
   /// Puts body i into an island. If it sleeps, all that rest in contact with it wake too.
   void join(Entity i);

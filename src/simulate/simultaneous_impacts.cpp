@@ -18,7 +18,7 @@ namespace tol = exact_tolerance;
 
 void SimultaneousImpacts::count_impact(Entity i) {
   if (!may_be_kicked(bodies_.mode(i)) || bodies_.any_taut(bodies_.islands.of(i).members) ||
-      ++group_.impacts.write(i) <= tol::few_impacts)
+      ++group_.member.write(i).impacts <= tol::few_impacts)
     return;
   const Struck set = strike(i);
   begin_flights(set);
@@ -36,28 +36,25 @@ void SimultaneousImpacts::count_impact(Entity i) {
 /// as far as impacts reach.
 SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   const Instant& end = bodies_.islands.of(first).end;
-  Struck set;
+  Struck set(Numbering(group_.numbers));
   set.rest = bodies_.now < end ? end - bodies_.now : 0;
   take_in(set, first);
   for (std::size_t c = 0, count = set.near.pairs.size(); c < count; ++c)
     if (set.near.gaps[c] <= margin(set, c)) add(set, c);
   // The next step separates them by itself.
-  set.part = set.rest > 0 && group_.margin[first] > tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
+  set.part =
+      set.rest > 0 && group_.member[first].margin > tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
   do {
     solve(set);
   } while (add_meeting(set));
-  for (const Entity i : set.members) group_.index.write(i) = ContactConstraint::fixed;
   return set;
 }
 
 /// Adds member i and the things near it, unless they are in the set.
 void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   const World& world = bodies_.world;
-  LazyArray<std::uint32_t>& index = group_.index;
-  if (index[i] != ContactConstraint::fixed) return;
-  const auto k = static_cast<std::uint32_t>(set.members.size());
-  index.write(i) = k;
-  set.members.push_back(i);
+  if (!set.members.add(i)) return;
+  const std::uint32_t k = set.members.number(i);
   set.inverse_mass.push_back(1 / world.mass[i]);
   set.before.push_back(bodies_.velocity_without_kick(i, bodies_.now));
   set.forced.push_back(forced(set, i));
@@ -68,14 +65,15 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   for (const Entity e : bodies_.neighbours_of(i)) {
     const bool body = world.is_body(e);
     // The pair belongs to the body that was added first.
-    if (body && (index[e] != ContactConstraint::fixed || !is_member(bodies_.mode(e)) || !bodies_.islands.same(e, i)))
+    if (body &&
+        (set.members.number(e) != Numbering::none || !is_member(bodies_.mode(e)) || !bodies_.islands.same(e, i)))
       continue;
     const Touch there = touch(world, i, x, e, bodies_.position_of(e));
     ContactConstraint pair{k, ContactConstraint::fixed, there.normal};
     if (!body) pair.surface = there.normal.dot(bodies_.fixed_velocity(e));
     set.near.add(pair, {i, e, there.feature}, there.gap);
   }
-  set.near.drop_hidden(bodies_, x, first, group_.margin[i]);
+  set.near.drop_hidden(bodies_, x, first, group_.member[i].margin);
   set.added.resize(set.near.pairs.size(), 0);
   for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
     const Entity e = set.near.names[c].e;
@@ -105,7 +103,7 @@ Vec3 SimultaneousImpacts::forced(const Struck& set, Entity i) const {
 /// The distance that time stepping keeps between the two (m).
 double SimultaneousImpacts::margin(const Struck& set, std::size_t near) const {
   const auto& [i, e, feature] = set.near.names[near];
-  return std::max(group_.margin[i], bodies_.world.is_body(e) ? group_.margin[e] : 0);
+  return std::max(group_.member[i].margin, bodies_.world.is_body(e) ? group_.member[e].margin : 0);
 }
 
 /// The speed of approach of a near pair (m/s), with these velocities of the set's members.
@@ -113,7 +111,7 @@ double SimultaneousImpacts::approach(const Struck& set, const std::vector<Vec3>&
   const Entity e = set.near.names[near].e;
   Vec3 v = Vec3::Zero();
   if (bodies_.world.is_body(e))
-    v = group_.index[e] == ContactConstraint::fixed ? bodies_.velocity(e) : velocities[group_.index[e]];
+    v = set.members.number(e) == ContactConstraint::fixed ? bodies_.velocity(e) : velocities[set.members.number(e)];
   const ContactConstraint& p = set.near.pairs[near];
   return p.normal.dot(velocities[p.a] - v) - p.surface;
 }
@@ -138,7 +136,7 @@ void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
   ContactConstraint pair = set.near.pairs[near];
   if (bodies_.world.is_body(e)) {
     take_in(set, e);
-    pair.b = group_.index[e];
+    pair.b = set.members.number(e);
   }
   // The rows of a problem need one scale. These bodies cannot approach faster than at several times their speeds.
   double speeds = set.before[pair.a].norm() + set.forced[pair.a].norm();
@@ -248,7 +246,7 @@ void SimultaneousImpacts::begin_flights(const Struck& set) {
   Islands& islands = bodies_.islands;
   for (std::size_t k = 0; k < set.members.size(); ++k) {
     const Entity a = set.members[k];
-    group_.impacts.write(a) = 1;
+    group_.member.write(a).impacts = 1;
     if (!pressed[k]) continue;
     const Vec3 before = bodies_.velocity(a), &after = set.after[k];
     bodies_.log.deviate(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));

@@ -5,9 +5,11 @@
 // No contact then continues to press on a body that was struck off it, which would make energy. Time stepping keeps a
 // margin between bodies. Those within it count as touching. Where margins are wide they separate a little, so that the
 // next rounding does not make them strike again.
+#include <utility>
 #include <vector>
 
 #include "simulate/contact_list.h"
+#include "simulate/numbering.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
@@ -29,11 +31,13 @@ class SimultaneousImpacts {
  private:
   /// Members that are struck together, in numbers of their own.
   struct Struck {
-    double rest = 0;   // s, until the next step
-    double slack = 0;  // m/s, allowed approach of any pair
+    explicit Struck(Numbering of_members) : members(std::move(of_members)) {}
+
+    Numbering members;  // of the members
+    double rest = 0;    // s, until the next step
+    double slack = 0;   // m/s, allowed approach of any pair
     // Touching pairs separate, if that is possible and makes no energy.
     bool part = false;
-    std::vector<Entity> members;
     ContactList near;                 // things near the members; a of its pairs: the member's number
     std::vector<std::uint8_t> added;  // by near thing: whether it is among the pairs
     std::vector<double> held;         // kg m/s, by near thing: impulse of its force in the rest of the step

@@ -33,30 +33,29 @@ const StringImpacts::Passed* StringImpacts::pass_on(const Strike& strike) {
 
 /// The velocities after a strike, of its bodies and of all that strings connect with them.
 void StringImpacts::solve_with_strings(const Strike& strike) {
-  LazyArray<std::uint32_t>& index = parts_.group.index;
+  Numbering reached(parts_.group.numbers);
   Passed& passed = passed_;
-  passed.bodies.clear();
   passed.v.clear();
   const auto take_in = [&](Entity i) {
-    if (index[i] != ContactConstraint::fixed) return;
-    index.write(i) = static_cast<std::uint32_t>(passed.bodies.size());
-    passed.bodies.push_back(i);
-    passed.v.push_back(bodies_.velocity(i));
+    if (reached.add(i)) passed.v.push_back(bodies_.velocity(i));
   };
   const Entity b = bodies_.world.second_body(strike.thing);
   take_in(strike.a);
   if (b != no_entity) take_in(b);
   std::vector<Entity> strings;
-  for (std::size_t k = 0; k < passed.bodies.size(); ++k)
-    for (const Entity string : bodies_.ties.of(passed.bodies[k])) {
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Entity i = reached[k];
+    for (const Entity string : bodies_.ties.of(i)) {
       if (!bodies_.holds(string)) continue;
       strings.push_back(string);
-      if (const Entity other = bodies_.ties.other(string, passed.bodies[k]); other != no_entity) take_in(other);
+      if (const Entity other = bodies_.ties.other(string, i); other != no_entity) take_in(other);
     }
+  }
   std::sort(strings.begin(), strings.end());
   strings.erase(std::unique(strings.begin(), strings.end()), strings.end());
   const auto row = [&](Entity i, Entity other, const Vec3& normal, double target) {
-    return ContactConstraint{index[i], other == no_entity ? ContactConstraint::fixed : index[other], normal, target};
+    return ContactConstraint{reached.number(i), other == no_entity ? Numbering::none : reached.number(other), normal,
+                             target};
   };
   ContactList rows;
   ContactConstraint struck = row(strike.a, b, strike.normal, strike.change - strike.approach);
@@ -70,11 +69,11 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
     rows.add(held, {s.body, string, no_feature}, 0);
   }
   std::vector<double> inverse_mass;
-  for (const Entity i : passed.bodies) inverse_mass.push_back(1 / bodies_.world.mass[i]);
+  for (const Entity i : reached) inverse_mass.push_back(1 / bodies_.world.mass[i]);
   const Certificate certificate = solve({inverse_mass, passed.v, rows.pairs});
   if (certificate.verdict == Certificate::Verdict::infeasible) rows.check_room(bodies_, passed.v);
   bodies_.log.note(certificate);
-  for (const Entity i : passed.bodies) index.write(i) = ContactConstraint::fixed;
+  passed.bodies = reached.bodies();
   passed.impulse = rows.pairs.front().force;
 }
 

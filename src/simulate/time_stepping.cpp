@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/disjoint_sets.h"
 #include "physics/force.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -31,19 +30,17 @@ bool approaching(const std::vector<Vec3>& v, const std::vector<ContactConstraint
 }  // namespace
 
 bool TimeStepping::advance(Entity i) {
-  Step step = begin_step(i);
-  while (!solve_step(step)) {
-    for (const Entity e : step.near) group_.unite(i, e);
-    if (bodies_.any_taut(bodies_.islands.of(i).members)) {
-      for (const Entity k : step.members) group_.index.write(k) = ContactConstraint::fixed;
-      return false;
+  for (;;) {
+    Step step = begin_step(i);
+    if (solve_step(step)) {
+      find_parts(step);
+      put_to_rest(step);
+      begin_flights(step);
+      return true;
     }
-    step = begin_step(i);
+    for (const Entity e : step.near) group_.unite(i, e);
+    if (bodies_.any_taut(bodies_.islands.of(i).members)) return false;
   }
-  find_parts(step);
-  put_to_rest(step);
-  begin_flights(step);
-  return true;
 }
 
 /// Solves the step, with the length that speeds allow. False: bodies of other islands are near.
@@ -83,11 +80,10 @@ double TimeStepping::shortest_step(const Step& step) const {
 /// it.
 TimeStepping::Step TimeStepping::begin_step(Entity one) const {
   const Islands& islands = bodies_.islands;
-  Step step;
-  step.members = islands.of(one).members;
-  std::sort(step.members.begin(), step.members.end());
-  for (const Entity i : step.members) {
-    group_.index.write(i) = static_cast<std::uint32_t>(step.x.size());
+  std::vector<Entity> members = islands.of(one).members;
+  std::sort(members.begin(), members.end());
+  Step step(Numbering(group_.numbers, members));
+  for (const Entity i : members) {
     Vec3 v = bodies_.velocity(i);
     const Instant& until = islands.kicked_until[i];
     if (bodies_.now < until) v -= (until - bodies_.now) * islands.kick[i];
@@ -130,7 +126,7 @@ void TimeStepping::find_pairs(Step& step) const {
   const World& world = bodies_.world;
   const double h = step.length;
   const auto margin_of = [&](std::size_t k) {
-    return std::max({group_.margin[step.members[k]], tol::margin_of_displacement * h * step.v[k].norm(),
+    return std::max({group_.member[step.members[k]].margin, tol::margin_of_displacement * h * step.v[k].norm(),
                      tol::least_margin * step.smallest});
   };
   const auto reach_of = [&](double expected) {  // m
@@ -150,7 +146,7 @@ void TimeStepping::find_pairs(Step& step) const {
       const bool asleep = world.is_body(e) && bodies_.mode(e) == Mode::asleep;
       const bool body = world.is_body(e) && !asleep;
       if (body && !is_member(bodies_.mode(e))) continue;
-      const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
+      const std::uint32_t other = body ? step.members.number(e) : ContactConstraint::fixed;
       const bool of_other_island = body && other == ContactConstraint::fixed;
       if (body && !of_other_island && e < i) continue;
       const Touch there = touch(world, i, step.x[k], e, bodies_.position_of(e));
@@ -158,7 +154,7 @@ void TimeStepping::find_pairs(Step& step) const {
       const double rate = there.normal.dot(ve - step.v[k]);
       const double slow = step.greatest > 0 ? bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)) : never;
       if (group_.strikes(i, e, -rate / tol::fast_impact, slow)) continue;
-      const double margin_e = !body ? 0 : of_other_island ? group_.margin[e] : margin_of(other);
+      const double margin_e = !body ? 0 : of_other_island ? group_.member[e].margin : margin_of(other);
       const double margin = std::max(margin_of(k), margin_e);
       const double expected = step.expected[k] + (!body ? 0 : of_other_island ? ve.norm() : step.expected[other]);
       if (there.gap + h * std::min(rate, 0.0) > margin + reach_of(expected)) continue;
@@ -275,30 +271,29 @@ bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free)
 /// is.
 void TimeStepping::find_parts(Step& step) {
   const std::size_t n = step.x.size();
-  DisjointSets sets(n);
+  const auto presses = [&](std::size_t c) {
+    return step.contacts.pairs[c].force > 0 || (!step.impacts.empty() && step.impacts[c].force > 0);
+  };
   step.carried.assign(n, 0);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
-    if (p.force <= 0 && (step.impacts.empty() || step.impacts[c].force <= 0)) continue;
+    if (!presses(c)) continue;
     step.carried[p.a] = 1;
-    if (p.b == ContactConstraint::fixed) continue;
-    step.carried[p.b] = 1;
-    sets.join(p.a, p.b);
+    if (p.b != ContactConstraint::fixed) step.carried[p.b] = 1;
   }
-  std::vector<std::uint32_t>& island = step.island;
-  island.resize(n);
-  for (std::uint32_t k = 0; k < n; ++k) island[k] = sets.root(k);
+
+  const std::vector<std::uint32_t>& island = step.island = connected_parts(n, step.contacts.pairs, presses);
   std::vector<double> margin(n, tol::least_margin * step.smallest);  // m, by island
   const auto widen = [&](std::uint32_t k, double gap) { margin[island[k]] = std::max(margin[island[k]], gap); };
   for (std::uint32_t k = 0; k < n; ++k) {
-    widen(k, tol::margin_decay * group_.margin[step.members[k]]);
+    widen(k, tol::margin_decay * group_.member[step.members[k]].margin);
     widen(k, tol::margin_of_displacement * step.length * step.solved[k].norm());
   }
   for (const ContactConstraint& p : step.contacts.pairs) {
     const double missing = step.length * (p.target + approach(step.solved, p));  // m
     if (missing > 0) widen(p.a, std::min(2 * missing, tol::widest_margin * step.smallest));
   }
-  for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(step.members[k]) = margin[island[k]];
+  for (std::uint32_t k = 0; k < n; ++k) group_.member.write(step.members[k]).margin = margin[island[k]];
 }
 
 /// By island: whether all its bodies are carried and hardly move. In a jam, slow bodies are stopped.
@@ -433,7 +428,6 @@ void TimeStepping::begin_flights(Step& step) {
     group_.wake(e);
     group_.unite(i, e);
   }
-  for (const Entity i : step.members) group_.index.write(i) = ContactConstraint::fixed;
 }
 
 /// Counts steps in which the same pairs press. After some of them constrained motion can follow the island again.
@@ -453,21 +447,22 @@ void TimeStepping::count_calm(const Step& step, Island& island) {
 
 /// Splits off the remaining members that no pair connects. They become islands of their own.
 void TimeStepping::split(const Step& step) {
-  DisjointSets sets(step.members.size());
-  for (const ContactConstraint& p : step.contacts.pairs)
-    if (p.b != ContactConstraint::fixed && is_member(bodies_.mode(step.members[p.a])) &&
-        is_member(bodies_.mode(step.members[p.b])))
-      sets.join(p.a, p.b);
-  std::vector<std::uint32_t> label, first(step.members.size(), ContactConstraint::fixed);
-  Entity one = no_entity;
-  for (std::uint32_t k = 0; k < step.members.size(); ++k) {
-    if (!is_member(bodies_.mode(step.members[k]))) continue;
-    one = step.members[k];
-    std::uint32_t& of_part = first[sets.root(k)];
-    of_part = std::min(of_part, static_cast<std::uint32_t>(label.size()));
-    label.push_back(of_part);
+  const Numbering& members = step.members;
+  const auto stays = [&](std::uint32_t k) { return is_member(bodies_.mode(members[k])); };
+  const std::vector<std::uint32_t> part = connected_parts(members.size(), step.contacts.pairs, [&](std::size_t c) {
+    return stays(step.contacts.pairs[c].a) && stays(step.contacts.pairs[c].b);
+  });
+
+  // Labels count the members that stay.
+  std::vector<std::uint32_t> label;
+  std::vector<std::uint32_t> number(members.size());
+  for (std::uint32_t k = 0; k < members.size(); ++k) {
+    if (!stays(k)) continue;
+    number[k] = static_cast<std::uint32_t>(label.size());
+    label.push_back(number[part[k]]);
   }
-  if (one != no_entity) bodies_.islands.split(one, label);
+  for (std::uint32_t k = 0; k < members.size(); ++k)
+    if (stays(k)) return void(bodies_.islands.split(members[k], label));
 }
 
 /// Body i, member k of the step, falls asleep, leaves its island or continues. Returns whether it stays.
@@ -485,15 +480,15 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
     begin(Vec3::Zero());
     return false;
   }
-  const std::uint8_t idle = step.carried[k] ? std::uint8_t{0} : static_cast<std::uint8_t>(group_.idle[i] + 1);
-  group_.idle.write(i) = idle;
+  const std::uint8_t idle = step.carried[k] ? std::uint8_t{0} : static_cast<std::uint8_t>(group_.member[i].idle + 1);
+  group_.member.write(i).idle = idle;
   if (idle >= tol::idle_steps) {
     modes_.leave(i);
     begin(v);
     return false;
   }
   modes_.press(i, step.carried[k] != 0);
-  group_.impacts.write(i) = 0;
+  group_.member.write(i).impacts = 0;
   if (step.carried[k]) {
     islands.kicked_until.write(i) = islands.of(i).end;
     islands.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());

@@ -13,9 +13,11 @@
 // making thousands of impacts at one instant. The margin shrinks as the group slows down. Bodies that touch within
 // their margin separate a little, as far as the loss of slow approaches pays for it. An island that forces hold in
 // balance is put to rest: its velocities are exactly zero, and it takes no steps until it is struck.
+#include <utility>
 #include <vector>
 
 #include "simulate/contact_list.h"
+#include "simulate/numbering.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
@@ -39,7 +41,9 @@ class TimeStepping {
  private:
   /// A step, in numbers of its own.
   struct Step {
-    std::vector<Entity> members;      // ascending
+    explicit Step(Numbering of_members) : members(std::move(of_members)) {}
+
+    Numbering members;                // of the members, ascending
     double length = 0, shortest = 0;  // s
     // Consecutive steps that simultaneous impacts ended at once.
     std::uint32_t short_steps = 0;
