@@ -84,7 +84,7 @@ const State& Replay::state() {
     const double t = at - flight.start;
     state_.position[i] = flight.position(t);
     state_.velocity[i] = flight.velocity(t);
-    if (piece.kicked) state_.velocity[i] = without_kick(state_.velocity[i], at, instant(piece.until), piece.kick);
+    if (piece.kicked) state_.velocity[i] -= Kick{instant(piece.until), piece.kick}.rest(at);
   }
   if (!part_of_.empty()) {
     state_.mass = mass_;

@@ -111,9 +111,7 @@ std::pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
   }
 
   Vec3 v = bodies_.velocity(i);
-  const Islands& islands = bodies_.islands;
-  if (bodies_.mode(i) != Mode::held && bodies_.now < islands.kicked_until[i])
-    v -= (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
+  if (bodies_.mode(i) != Mode::held && bodies_.now < bodies_.kick[i].until) v -= bodies_.kick[i].rest(bodies_.now);
   return {bodies_.position(i), v};
 }
 
@@ -228,7 +226,7 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
   }
 
   modes_.press(i, fate.pressed);
-  bodies_.islands.kicked_until.write(i) = bodies_.now;
+  bodies_.kick.write(i) = {bodies_.now};
   // A thing that it has just struck stays its origin, if nothing has changed since.
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;

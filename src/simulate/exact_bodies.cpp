@@ -32,6 +32,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       fade(given.body_count()),
       bent(given.body_count()),
       flights(given.body_count(), given.gravity),
+      kick(given.body_count()),
       body(given.body_count()),
       neighbours(world),
       islands(given.body_count()),
@@ -42,7 +43,7 @@ Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
   const Vec3 v = flights[i].velocity(t);
   if (!may_be_kicked(mode(i))) return v;
-  return without_kick(v, at, islands.kicked_until[i], islands.kick[i]);
+  return v - kick[i].rest(at);
 }
 
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {

@@ -52,6 +52,7 @@ struct ExactBodies {
   // By body: whether forces that bend paths act on it. All three are values of the last evaluation.
   LazyArray<std::uint8_t> bent;
   Flights flights;
+  LazyArray<Kick> kick;  // by body, in its velocity while it is fresh or stepped
   LargeVector<ExactBody> body;
   Neighbours neighbours;
   Islands islands;

@@ -43,8 +43,7 @@ void ExactGroup::enlist(Entity i) {
   flat_.clear(i);
 
   Islands& islands = bodies_.islands;
-  islands.kicked_until.write(i) = bodies_.now;
-  islands.kick.write(i).setZero();
+  bodies_.kick.write(i) = {bodies_.now};
   IslandMember& kept = member.write(i);
   kept.margin = 0;
   kept.impacts = 0;
@@ -256,7 +255,7 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
 }
 
 bool ExactGroup::opens(Entity i) const {
-  if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.islands.kicked_until[i])) return false;
+  if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.kick[i].until)) return false;
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
   const auto parts_from = [&](Entity e) {
     const Vec3 ve = bodies_.velocity_of(e);
@@ -329,7 +328,7 @@ void ExactGroup::let_go(Entity i) {
 
 void ExactGroup::carry(Entity i, double approach, double surface) {
   const double work = -bodies_.world.mass[i] * approach * surface;
-  const Instant& until = bodies_.islands.kicked_until[i];
+  const Instant& until = bodies_.kick[i].until;
   if (may_be_kicked(bodies_.mode(i)) && bodies_.now < until)
     bodies_.contact_work.push(i, bodies_.now, work / (until - bodies_.now));
   else

@@ -247,7 +247,7 @@ void ExactSimulator::switch_forces(Entity i) {
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
     bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
     v = slower;
-    bodies_.islands.kicked_until.write(i) = bodies_.now;
+    bodies_.kick.write(i).until = bodies_.now;
     bodies_.islands.of(i).end = bodies_.now;
   }
   bodies_.apply_forces(i, x, v);

@@ -74,11 +74,14 @@ struct VelocityBeyond {
   Vec3 slope(double t) const { return terms[1] + 2 * t * terms[2]; }
 };
 
-/// The velocity v (m/s) at `at` without a kick. The kick is the effect of forces until `until`, `kick` (m/s^2) on
-/// average, and the part from `at` on is removed.
-inline Vec3 without_kick(const Vec3& v, const Instant& at, const Instant& until, const Vec3& kick) {
-  return v - (until - at) * kick;
-}
+/// What time stepping adds to a velocity in advance: the effect of forces until an instant.
+struct Kick {
+  Instant until;
+  Vec3 a = Vec3::Zero();  // m/s^2: the average of these forces
+
+  /// Its part from `at` on (m/s).
+  Vec3 rest(const Instant& at) const { return (until - at) * a; }
+};
 
 /// The flights of all bodies. The data of pair tests take one cache line for each body.
 /// Accelerations are stored only after bodies differ in them.

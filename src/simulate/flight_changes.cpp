@@ -28,11 +28,10 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   book(i, x, bodies_.now);
   const Mode mode = bodies_.mode(i);
   const Contact contact = mode == Mode::stepped ? Contact::stepped : Contact::none;
-  if (contact != in_contact_[i]) {
+  if (contact != in_contact_[i].by) {
     // The next step of its own does not continue one of contact.
-    if (in_contact_[i] == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
-    in_contact_.write(i) = contact;
-    take(i, 0);
+    if (in_contact_[i].by == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
+    in_contact_.write(i) = {contact};
   }
   // The body falls through a time step.
   const bool falls =
@@ -140,9 +139,8 @@ void FlightChanges::release(Entity i) {
   book_taking(i, bodies_.now);
   take(i, 0);
   bodies_.contact_work.change(i, bodies_.now, 0);
-  const Vec3 pending = (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
-  islands.kicked_until.write(i) = bodies_.now;
-  islands.kick.write(i).setZero();
+  const Vec3 pending = bodies_.kick[i].rest(bodies_.now);
+  bodies_.kick.write(i) = {bodies_.now};
   change(i, -pending);
   let_fall(i);
   Island& island = islands.of(i);
@@ -155,10 +153,9 @@ void FlightChanges::release(Entity i) {
 void FlightChanges::hold(Entity i) {
   bodies_.flights.accelerate(i, Vec3::Zero());
   Islands& islands = bodies_.islands;
-  if (!may_be_kicked(bodies_.mode(i)) || bodies_.now < islands.kicked_until[i] || !(bodies_.now < islands.of(i).end))
+  if (!may_be_kicked(bodies_.mode(i)) || bodies_.now < bodies_.kick[i].until || !(bodies_.now < islands.of(i).end))
     return;
-  islands.kicked_until.write(i) = islands.of(i).end;
-  islands.kick.write(i).setZero();
+  bodies_.kick.write(i) = {islands.of(i).end};
   push(i, by_forces(i, islands.of(i).end - bodies_.now));
 }
 
@@ -168,10 +165,9 @@ Vec3 FlightChanges::by_forces(Entity i, double seconds) const {
 }
 
 void FlightChanges::push(Entity i, const Vec3& dv) {
-  Islands& islands = bodies_.islands;
   change(i, dv);
-  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < islands.kicked_until[i])
-    islands.kick.write(i) += dv / (islands.kicked_until[i] - bodies_.now);
+  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < bodies_.kick[i].until)
+    bodies_.kick.write(i).a += dv / (bodies_.kick[i].until - bodies_.now);
 }
 
 void FlightChanges::change(Entity i, const Vec3& dv) {
@@ -186,7 +182,7 @@ void FlightChanges::follow(Entity i, const PolynomialPath& path) {
   Flight f = bodies_.flights[i];
   f.a = path.acceleration(0);
   bodies_.flights.set(i, f, path);
-  in_contact_.write(i) = Contact::followed;
+  in_contact_.write(i).by = Contact::followed;
 }
 
 void FlightChanges::count(Entity i) {
@@ -207,7 +203,7 @@ void FlightChanges::count_anew(Entity i) {
 
 /// Books what contact does to body i besides its forces. Returns whether these are booked too.
 bool FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
-  if (in_contact_[i] == Contact::followed) {
+  if (in_contact_[i].by == Contact::followed) {
     bodies_.bent[i] ? book_varying(i, x, end) : book_followed(i, x, end);
     return true;
   }
@@ -217,7 +213,8 @@ bool FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
 }
 
 void FlightChanges::book_taking(Entity i, const Instant& end) {
-  if (taking_[i] != 0) bodies_.log.go_on_taking(taking_[i] * (end - bodies_.flights[i].start));
+  const double power = in_contact_[i].taking;
+  if (power != 0) bodies_.log.go_on_taking(power * (end - bodies_.flights[i].start));
 }
 
 void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
@@ -273,7 +270,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   if (!(length > 0)) return;
   const double work = curved_.book_work(i, f, length);
   if (f.curve != nullptr) bodies_.log.note_speed(i, greatest_speed(i, f, length));
-  if (f.curve != nullptr && in_contact_[i] != Contact::followed) return;
+  if (f.curve != nullptr && in_contact_[i].by != Contact::followed) return;
   bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
                       work);
 }
@@ -297,8 +294,7 @@ double FlightChanges::kinetic_loss(Entity i, const Flight& f, double length) con
 }
 
 void FlightChanges::take_out(Entity i, const Vec3& x) {
-  if (in_contact_[i] != Contact::none) in_contact_.write(i) = Contact::none;
-  take(i, 0);
+  if (in_contact_[i].by != Contact::none) in_contact_.write(i) = {};
   bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
   bodies_.body[i].set_origin({});
   count(i);

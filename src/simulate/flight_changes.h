@@ -15,12 +15,7 @@ class PathLog;
 class FlightChanges {
  public:
   FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
-      : bodies_(bodies),
-        flat_(flat),
-        paths_(paths),
-        curved_(bodies),
-        in_contact_(bodies.body.size()),
-        taking_(bodies.body.size()) {}
+      : bodies_(bodies), flat_(flat), paths_(paths), curved_(bodies), in_contact_(bodies.body.size()) {}
 
   /// Begins a new flight of body i at the present instant, at x (m) with velocity v (m/s). A step of constrained motion
   /// ends with it.
@@ -56,7 +51,7 @@ class FlightChanges {
   void push(Entity i, const Vec3& dv);
   /// From this instant on, impacts within member i's time step take energy at this rate (W), until the step ends.
   void take(Entity i, double power) {
-    if (power != taking_[i]) taking_.write(i) = power;
+    if (power != in_contact_[i].taking) in_contact_.write(i).taking = power;
   }
   /// Lets the flight of member i, which has just begun, follow this path of constrained motion.
   void follow(Entity i, const PolynomialPath& path);
@@ -64,7 +59,7 @@ class FlightChanges {
   /// These are the World's forces, and contact forces against them.
   [[gnu::always_inline]] void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
-    if (in_contact_[i] != Contact::none && book_contact(i, x, end)) [[unlikely]]
+    if (in_contact_[i].by != Contact::none && book_contact(i, x, end)) [[unlikely]]
       return;
     if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]
       return book_varying(i, x, end);
@@ -115,11 +110,14 @@ class FlightChanges {
   CurvedFlights curved_;
   // What moves a body in its flight: parabolas or free motion, time stepping, or a path of constrained motion.
   enum class Contact : std::uint8_t { none, stepped, followed };
-  LazyArray<Contact> in_contact_;  // by body
-  LazyArray<double> taking_;       // W, by body: power taken by impacts within its time step
-  std::vector<Entity> changed_;    // longer than the list of noted bodies
-  std::size_t changed_count_ = 0;  // in that list
-  bool ended_ = false;             // the last flights are booked
+  struct InContact {
+    Contact by = Contact::none;
+    double taking = 0;  // W, taken by impacts within its time step
+  };
+  LazyArray<InContact> in_contact_;  // by body, of its present flight
+  std::vector<Entity> changed_;      // longer than the list of noted bodies
+  std::size_t changed_count_ = 0;    // in that list
+  bool ended_ = false;               // the last flights are booked
 };
 
 }  // namespace carom

@@ -41,11 +41,7 @@ struct Island {
 
 class Islands {
  public:
-  explicit Islands(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()), island_(bodies, none) {}
-
-  // By member, in time stepping: its velocity contains forces up to this instant.
-  LazyArray<Instant> kicked_until;
-  LazyArray<Vec3> kick;  // m/s^2: the average of these forces, from the start of the flight
+  explicit Islands(Entity bodies) : island_(bodies, none) {}
 
   /// The island of a member. References stay valid until it is merged with another one.
   Island& of(Entity i) { return islands_[island_[i]]; }

@@ -159,9 +159,9 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
   const double to = until - f.start;
   const double mass = bodies_.world.mass[i];
   Part part{f, {}};
-  if (may_be_kicked(bodies_.mode(i)) && !bodies_.islands.kick[i].isZero(0)) {
-    part.more.terms[0] = -(bodies_.islands.kicked_until[i] - f.start) * bodies_.islands.kick[i];
-    part.more.terms[1] = bodies_.islands.kick[i];
+  if (may_be_kicked(bodies_.mode(i)) && !bodies_.kick[i].a.isZero(0)) {
+    part.more.terms[0] = -bodies_.kick[i].rest(f.start);
+    part.more.terms[1] = bodies_.kick[i].a;
   } else if (f.curve != nullptr) {
     part.more = bodies_.beyond_curve(i, f, to);
   }

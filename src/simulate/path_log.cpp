@@ -68,10 +68,10 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
 
   if (may_be_kicked(bodies_.mode(i))) {
-    const Instant until = bodies_.islands.kicked_until[i];
+    const Instant until = bodies_.kick[i].until;
     piece.kicked = true;
     piece.until = {until.hi, until.lo};
-    piece.kick = bodies_.islands.kick[i];
+    piece.kick = bodies_.kick[i].a;
   }
 
   if (f.curve != nullptr) piece.curve = std::make_shared<PolynomialPath>(*f.curve);

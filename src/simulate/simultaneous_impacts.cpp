@@ -84,7 +84,7 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
 
 /// The time (s) for which member i's velocity contains forces, or will.
 double SimultaneousImpacts::remaining(const Struck& set, Entity i) const {
-  const Instant& until = bodies_.islands.kicked_until[i];
+  const Instant& until = bodies_.kick[i].until;
   return bodies_.now < until ? until - bodies_.now : set.rest;
 }
 
@@ -96,8 +96,7 @@ double SimultaneousImpacts::remaining(const Struck& set, Entity i, Entity e) con
 /// The change of member i's velocity by forces in that time (m/s), as far as it is determined.
 Vec3 SimultaneousImpacts::forced(const Struck& set, Entity i) const {
   const double rest = remaining(set, i);
-  return bodies_.now < bodies_.islands.kicked_until[i] ? Vec3(rest * bodies_.islands.kick[i])
-                                                       : flights_.by_forces(i, rest);
+  return bodies_.now < bodies_.kick[i].until ? Vec3(rest * bodies_.kick[i].a) : flights_.by_forces(i, rest);
 }
 
 /// The distance that time stepping keeps between the two (m).
@@ -243,16 +242,15 @@ void SimultaneousImpacts::begin_flights(const Struck& set) {
     if (p.b != ContactConstraint::fixed) pressed[p.b] = 1;
   }
   note_forces(set);
-  Islands& islands = bodies_.islands;
   for (std::size_t k = 0; k < set.members.size(); ++k) {
     const Entity a = set.members[k];
     group_.member.write(a).impacts = 1;
     if (!pressed[k]) continue;
     const Vec3 before = bodies_.velocity(a), &after = set.after[k];
     bodies_.log.deviate(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));
-    if (!(bodies_.now < islands.kicked_until[a])) islands.kicked_until.write(a) = bodies_.now + set.rest;
-    const double rest = islands.kicked_until[a] - bodies_.now;
-    islands.kick.write(a) = rest > 0 ? Vec3((after - set.struck[k]) / rest) : Vec3(Vec3::Zero());
+    if (!(bodies_.now < bodies_.kick[a].until)) bodies_.kick.write(a).until = bodies_.now + set.rest;
+    const double rest = bodies_.kick[a].until - bodies_.now;
+    bodies_.kick.write(a).a = rest > 0 ? Vec3((after - set.struck[k]) / rest) : Vec3(Vec3::Zero());
     flights_.begin(a, bodies_.position(a), after, {});
     bodies_.flights.accelerate(a, Vec3::Zero());
   }

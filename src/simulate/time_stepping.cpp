@@ -85,8 +85,7 @@ TimeStepping::Step TimeStepping::begin_step(Entity one) const {
   Step step(Numbering(group_.numbers, members));
   for (const Entity i : members) {
     Vec3 v = bodies_.velocity(i);
-    const Instant& until = islands.kicked_until[i];
-    if (bodies_.now < until) v -= (until - bodies_.now) * islands.kick[i];
+    if (bodies_.now < bodies_.kick[i].until) v -= bodies_.kick[i].rest(bodies_.now);
     step.x.push_back(bodies_.position(i));
     step.v.push_back(v);
     bodies_.refresh(i, step.x.back(), v);
@@ -490,14 +489,13 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   modes_.press(i, step.carried[k] != 0);
   group_.member.write(i).impacts = 0;
   if (step.carried[k]) {
-    islands.kicked_until.write(i) = islands.of(i).end;
-    islands.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());
+    bodies_.kick.write(i) = {islands.of(i).end,
+                             step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero())};
     begin(solved);
     // The kick contains the effect of forces.
     bodies_.flights.accelerate(i, Vec3::Zero());
   } else {  // flies as free bodies do
-    islands.kicked_until.write(i) = bodies_.now;
-    islands.kick.write(i).setZero();
+    bodies_.kick.write(i) = {bodies_.now};
     begin(v);
     flights_.let_fall(i);
   }

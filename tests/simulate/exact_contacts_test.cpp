@@ -131,7 +131,7 @@ TEST(FlightChanges, TakeAPushOutOfAVelocity) {
   ExactParts parts(three_in_a_row(0.5));
   parts.group.join(0);
   parts.bodies.islands.of(0).end = {2, 0};
-  parts.bodies.islands.kicked_until.write(0) = {2, 0};
+  parts.bodies.kick.write(0).until = {2, 0};
   parts.flights.push(0, Vec3(3, 0, 0));  // in two seconds
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {0, 0}), Vec3::Zero());
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {1, 0}), Vec3(1.5, 0, 0));
@@ -163,8 +163,8 @@ TEST(ExactGroup, TakesWhatRoundingLeavesOfAKickedApproachForNone) {
   parts.bodies.islands.of(0).end = {3, 0};
   const Vec3 n(1, 0, 0);
   const auto approach_beyond_kick = [&](double speed) {
-    parts.bodies.islands.kicked_until.write(0) = {3, 0};
-    parts.bodies.islands.kick.write(0) = Vec3(0.1, 0, 0) / 3;
+    parts.bodies.kick.write(0).until = {3, 0};
+    parts.bodies.kick.write(0).a = Vec3(0.1, 0, 0) / 3;
     parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(0.1 + speed, 2, 0), Vec3::Zero()});
     return parts.group.approach_without_kick(0.1 + speed, n, 0, 1);
   };
