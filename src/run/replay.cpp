@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "physics/world.h"
-#include "simulate/flight.h"
+#include "simulate/path/flight.h"
 
 namespace carom {
 

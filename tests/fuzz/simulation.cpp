@@ -12,7 +12,7 @@
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/scene.h"
-#include "simulate/exact_simulator.h"
+#include "simulate/loop/exact_simulator.h"
 
 namespace carom::fuzz {
 
@@ -61,9 +61,9 @@ class Run {
   void transitions() {
     const auto* const exact = dynamic_cast<const ExactSimulator*>(simulator_.get());
     if (exact == nullptr) return;
-    for (std::size_t from = 0; from < modes; ++from)
-      for (std::size_t to = 0; to < modes; ++to)
-        if (exact->modes().changes()[from][to] > 0 && !may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
+    for (std::size_t from = 0; from < number_of_modes; ++from)
+      for (std::size_t to = 0; to < number_of_modes; ++to)
+        if (exact->modes().counts()[from][to] > 0 && !may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
           fail(fmt::format("a body changes from mode {} to {}", from, to));
   }
 

@@ -6,26 +6,26 @@
 
 #include "run/engine.h"
 #include "scenes/play.h"
-#include "simulate/exact_simulator.h"
+#include "simulate/loop/exact_simulator.h"
 
 namespace carom::testing {
 namespace {
 
 /// How often bodies change from one mode to another one in a scene. All zero: it is for the book's engine.
-Modes::Changes changes_in(const std::string& name) {
+ModeChanges::Counts changes_in(const std::string& name) {
   const Scene scene = load(name);
   const std::unique_ptr<Simulator> simulator = make_simulator(scene);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
   const auto* const exact = dynamic_cast<const ExactSimulator*>(simulator.get());
-  return exact == nullptr ? Modes::Changes{} : exact->modes().changes();
+  return exact == nullptr ? ModeChanges::Counts{} : exact->modes().counts();
 }
 
 TEST(ModesOfScenes, NoOtherTransitionHappens) {
-  Modes::Changes all{};
+  ModeChanges::Counts all{};
   for (const std::string& name : scene_names()) {
-    const Modes::Changes changes = changes_in(name);
-    for (std::size_t from = 0; from < modes; ++from)
-      for (std::size_t to = 0; to < modes; ++to) {
+    const ModeChanges::Counts changes = changes_in(name);
+    for (std::size_t from = 0; from < number_of_modes; ++from)
+      for (std::size_t to = 0; to < number_of_modes; ++to) {
         all[from][to] += changes[from][to];
         EXPECT_TRUE(changes[from][to] == 0 || may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
             << name << ": from mode " << from << " to " << to;

@@ -7,7 +7,7 @@
 #include "physics/force_law.h"
 #include "physics/world.h"
 #include "simulate/build.h"
-#include "simulate/constrained_motion.h"
+#include "simulate/island/constrained_motion.h"
 
 namespace carom {
 namespace {

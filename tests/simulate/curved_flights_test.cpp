@@ -7,7 +7,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
-#include "simulate/curved_flights.h"
+#include "simulate/path/curved_flights.h"
 
 namespace carom {
 namespace {

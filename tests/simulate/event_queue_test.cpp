@@ -1,13 +1,13 @@
 // The exact simulator's events: their order, their prediction, and prefetching.
-#include "simulate/event_queue.h"
+#include "simulate/loop/event_queue.h"
 
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
-#include "simulate/event_predictor.h"
-#include "simulate/exact_collision_times.h"
+#include "simulate/contact/region_exit.h"
 #include "simulate/exact_parts.h"
-#include "simulate/region_exit.h"
+#include "simulate/loop/event_predictor.h"
+#include "simulate/loop/exact_collision_times.h"
 
 namespace carom {
 namespace {

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
-#include "simulate/collapse_detector.h"
-#include "simulate/exact_group.h"
+#include "simulate/contact/collapse_detector.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flight_changes.h"
 #include "simulate/exact_parts.h"
-#include "simulate/exact_simulator.h"
-#include "simulate/flight_changes.h"
-#include "simulate/path_log.h"
-#include "simulate/simultaneous_impacts.h"
+#include "simulate/impact/simultaneous_impacts.h"
+#include "simulate/loop/exact_simulator.h"
+#include "simulate/path/path_log.h"
 
 namespace carom {
 namespace {

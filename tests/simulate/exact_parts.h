@@ -2,20 +2,20 @@
 // The exact simulator's parts, put together without its loop.
 #include <utility>
 
-#include "simulate/body_merging.h"
 #include "simulate/build.h"
-#include "simulate/collapse_detector.h"
-#include "simulate/constrained_motion.h"
-#include "simulate/crossings.h"
-#include "simulate/event_predictor.h"
-#include "simulate/event_prefetch.h"
-#include "simulate/exact_group.h"
-#include "simulate/exact_impacts.h"
-#include "simulate/flight_changes.h"
-#include "simulate/path_log.h"
-#include "simulate/simultaneous_impacts.h"
-#include "simulate/stall_guard.h"
-#include "simulate/time_stepping.h"
+#include "simulate/contact/collapse_detector.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flight_changes.h"
+#include "simulate/impact/body_merging.h"
+#include "simulate/impact/exact_impacts.h"
+#include "simulate/impact/simultaneous_impacts.h"
+#include "simulate/impact/stall_guard.h"
+#include "simulate/island/constrained_motion.h"
+#include "simulate/island/time_stepping.h"
+#include "simulate/loop/event_predictor.h"
+#include "simulate/loop/event_prefetch.h"
+#include "simulate/path/crossings.h"
+#include "simulate/path/path_log.h"
 
 namespace carom {
 
@@ -23,7 +23,7 @@ struct ExactParts {
   explicit ExactParts(Problem given)
       : problem(std::move(given)),
         bodies(problem.world, problem.options),
-        crossings(bodies),
+        crossings(bodies, [this](Entity i) { return bodies.flight_end(i); }),
         paths(bodies, crossings),
         collapses(bodies),
         modes(bodies),
@@ -49,7 +49,7 @@ struct ExactParts {
   Crossings crossings;
   PathLog paths;
   CollapseDetector collapses;
-  Modes modes;
+  ModeChanges modes;
   FlatContacts flat;
   ExactGroup group;
   FlightChanges flights;

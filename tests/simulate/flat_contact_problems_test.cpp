@@ -1,5 +1,5 @@
 // The contact problems of one body on flat surfaces.
-#include "simulate/flat_contact_problems.h"
+#include "simulate/contact/flat_contact_problems.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "geometry/contact_time.h"
+#include "simulate/loop/straight_times.h"
 #include "simulate/random.h"
-#include "simulate/straight_times.h"
-#include "simulate/touching.h"
+#include "simulate/space/touching.h"
 
 namespace carom {
 namespace {

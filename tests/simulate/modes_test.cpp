@@ -1,9 +1,9 @@
 // The modes of bodies (modes.h): what moves a body now, and what hangs on it.
 #include <gtest/gtest.h>
 
-#include "simulate/body_removal.h"
 #include "simulate/exact_parts.h"
-#include "simulate/exact_simulator.h"
+#include "simulate/impact/body_removal.h"
+#include "simulate/loop/exact_simulator.h"
 
 namespace carom {
 namespace {
@@ -18,8 +18,8 @@ Problem two_on_a_floor(double height = 0, double e = 0.5) {
   return p;
 }
 
-std::uint64_t changes_of(const Modes& modes, Mode from, Mode to) {
-  return modes.changes()[static_cast<std::size_t>(from)][static_cast<std::size_t>(to)];
+std::uint64_t changes_of(const ModeChanges& modes, Mode from, Mode to) {
+  return modes.counts()[static_cast<std::size_t>(from)][static_cast<std::size_t>(to)];
 }
 
 /// Brings body 0 into a mode, by the function that does so in a run.
@@ -58,7 +58,7 @@ TEST(Modes, OfABallThatFallsOnAnotherEndAsleep) {
   p.options.duration = 1;
   ExactSimulator simulator(p.world, p.initial, p.options);
   simulator.advance_to(1);
-  const Modes& modes = simulator.modes();
+  const ModeChanges& modes = simulator.modes();
   EXPECT_EQ(changes_of(modes, Mode::held, Mode::asleep), 2u);
   EXPECT_EQ(changes_of(modes, Mode::asleep, Mode::fresh), 0u);
   EXPECT_EQ(simulator.tally().resting, 2u);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <set>
 
+#include "numerics/tournament.h"
 #include "physics/world.h"
-#include "simulate/neighbours.h"
 #include "simulate/random.h"
-#include "simulate/tournament.h"
+#include "simulate/space/neighbours.h"
 
 namespace carom {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulate/stall_guard.h"
+#include "simulate/impact/stall_guard.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,157 @@
+#pragma once
+// A priority queue with one entry for each body: a tournament with games of eight. Each node keeps its winner and the
+// winner's time. The eight times of a game are contiguous, and only equal times need more data. A changed entry replays
+// its games up to the first one with the same result.
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "numerics/prefetch.h"
+#include "numerics/large_pages.h"
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+namespace carom {
+
+/// Before(i, j): whether entry i comes before entry j, for two entries with the same time. Together with the time it is
+/// a total order.
+template <typename Before>
+class Tournament {
+ public:
+  Tournament(std::uint32_t entries, Before before) : before_(before) {
+    std::vector<std::size_t> sizes;
+    std::size_t nodes = entries;
+    std::size_t all = 0;
+    do {
+      nodes = (nodes + width - 1) / width;
+      sizes.push_back(nodes * width);
+      all += sizes.back();
+    } while (nodes > 1);
+
+    times_.assign(all, never);
+    winners_.assign(all - sizes[0], none);
+
+    double* time = times_.data();
+    std::uint32_t* winner = winners_.data();
+    for (std::size_t l = 0; l < sizes.size(); ++l) {
+      levels_.push_back({time, l == 0 ? nullptr : winner});
+      time += sizes[l];
+      if (l > 0) winner += sizes[l];
+    }
+  }
+  Tournament(const Tournament&) = delete;
+  Tournament& operator=(const Tournament&) = delete;
+
+  std::uint32_t first() const { return first_; }  // none: no entry is due
+  double first_time() const { return first_time_; }
+  double time(std::uint32_t i) const { return levels_[0].time[i]; }  // as of the last update
+
+  /// Call this after entry i has changed. Its time (s) may be infinite: it is then never due.
+  void update(std::uint32_t i, double time) {
+    std::size_t at = i;
+    std::uint32_t winner = i;
+    levels_[0].time[i] = time;
+    for (std::size_t l = 1; l < levels_.size(); ++l) {
+      at /= width;
+      Level& up = levels_[l];
+
+      // An entry that did not win before, and that comes later than the winner, changes nothing.
+      if (up.winner[at] != i && up.time[at] < time) return;
+      play(l - 1, at, winner, time);
+      // Entry i itself may have changed in more than its time.
+      if (up.winner[at] == winner && up.time[at] == time && winner != i) return;
+      up.winner[at] = winner;
+      up.time[at] = time;
+    }
+
+    play(levels_.size() - 1, 0, first_, first_time_);
+  }
+
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  void prefetch(std::uint32_t i) const {
+    carom::prefetch(&levels_[0].time[i]);
+    if (levels_.size() > 1) carom::prefetch(&levels_[1].time[i / width]);
+    if (levels_.size() > 1) carom::prefetch(&levels_[1].winner[i / width]);
+  }
+
+  /// An entry and its time.
+  struct Due {
+    double time;
+    std::uint32_t entry;
+  };
+  /// Appends entries that are due up to `until`, in no order. Of entries in the same games at the lowest levels, only
+  /// the first is appended.
+  void due_until(double until, std::vector<Due>& due) const {
+    if (first_time_ <= until) collect(levels_.size() - 1, 0, until, due);
+  }
+
+ private:
+  static constexpr std::size_t width = 8;
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  struct Level {
+    double* time;  // s, padded to whole games
+    // The winner with that time. There is none at the bottom, where it is the entry itself.
+    std::uint32_t* winner;
+  };
+
+  void collect(std::size_t l, std::size_t game, double until, std::vector<Due>& due) const {
+    constexpr std::size_t low = 2;
+    const Level& level = levels_[l];
+    for (std::size_t k = game * width; k < (game + 1) * width; ++k) {
+      if (level.time[k] > until) continue;
+      if (l == 0)
+        due.push_back({level.time[k], static_cast<std::uint32_t>(k)});
+      else if (l == low)
+        due.push_back({level.time[k], level.winner[k]});
+      else
+        collect(l - 1, k, until, due);
+    }
+  }
+
+  [[gnu::always_inline]] void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
+    const Level& level = levels_[l];
+    const double* t = level.time + game * width;
+
+    // The least time of the game, and a bit for each entry that has it.
+#ifdef __SSE2__
+    __m128d pair[4];
+    for (int k = 0; k < 4; ++k) pair[k] = _mm_loadu_pd(t + 2 * k);
+    const __m128d least = _mm_min_pd(_mm_min_pd(pair[0], pair[1]), _mm_min_pd(pair[2], pair[3]));
+    const __m128d first = _mm_min_pd(least, _mm_shuffle_pd(least, least, 1));
+    time = _mm_cvtsd_f64(first);
+    unsigned ties = 0;
+    for (int k = 0; k < 4; ++k) ties |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpeq_pd(pair[k], first))) << (2 * k);
+#else
+    time = *std::min_element(t, t + width);
+    unsigned ties = 0;
+    for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] == time) << k;
+#endif
+
+    const auto entry = [&](unsigned k) {
+      return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
+    };
+    winner = time < never ? entry(static_cast<unsigned>(std::countr_zero(ties))) : none;
+    if (time == never) return;
+
+    // Of several with that time, the one before all others wins.
+    for (ties &= ties - 1; ties != 0; ties &= ties - 1) {
+      const std::uint32_t other = entry(static_cast<unsigned>(std::countr_zero(ties)));
+      if (before_(other, winner)) winner = other;
+    }
+  }
+
+  Before before_;
+  LargeVector<double> times_;           // of all levels
+  LargeVector<std::uint32_t> winners_;  // of all levels but the first
+  std::vector<Level> levels_;
+  std::uint32_t first_ = none;
+  double first_time_ = never;
+};
+
+}  // namespace carom

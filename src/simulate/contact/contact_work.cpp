@@ -1,0 +1,46 @@
+// The work of moving things on bodies that they carry. The change of a body's energy by contact is booked as the
+// method's deviation wherever it happens, because contact with things at rest does no work. This part of it is work.
+#include "simulate/contact/contact_work.h"
+
+#include <utility>
+
+#include "simulate/event_log.h"
+
+namespace carom {
+
+void ContactWork::change(Entity i, const Instant& now, double power) {
+  const Power& last = power_[i];
+  if (last.power == 0 && power == 0) return;
+  if (last.power != 0) log_.carry(last.power * (now - last.since));
+  power_.write(i) = {now, power, 0};
+}
+
+void ContactWork::renew(Entity i, const Instant& now, double power) {
+  const double pushes = power_[i].pushes;
+  change(i, now, power + pushes);
+  if (pushes != 0) power_.write(i).pushes = pushes;
+}
+
+void ContactWork::follow(const std::vector<Entity>& members, const Instant& now, std::function<double(double)> by) {
+  const auto path = std::make_shared<Path>(Path{now, std::move(by)});
+  for (const Entity i : members) path_.write(i) = path;
+}
+
+void ContactWork::end_paths(const std::vector<Entity>& members, const Instant& now) {
+  if (path_.empty()) return;
+  for (const Entity i : members) {
+    if (!path_[i]) continue;
+    Path& path = *path_[i];
+    if (path.work) log_.carry(path.work(now - path.start));
+    path.work = nullptr;
+    path_.write(i) = nullptr;
+  }
+}
+
+void ContactWork::push(Entity i, const Instant& now, double power) {
+  const double pushes = power_[i].pushes + power;
+  change(i, now, power_[i].power + power);
+  power_.write(i).pushes = pushes;
+}
+
+}  // namespace carom

@@ -1,0 +1,152 @@
+// State that the parts of the exact simulator share, and queries on it.
+// Queries on a pair use the relative path, so that the common motion costs no digits. The present forces of a body are
+// cached. Constant ones are recomputed only when a force starts or ends.
+#include "simulate/contact/exact_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "physics/force.h"
+#include "physics/world.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
+    : BodyPaths(given, given_options),
+      same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
+                                        given.radius.end()),
+      ties(given),
+      neighbours(world),
+      islands(given.body_count()),
+      contact_work(given.body_count(), log) {}
+
+ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
+  const Flight p = flights[a], q = flights[b];
+  const Instant base = std::max(p.start, q.start);
+  const double t = now - base;
+  if (p.curve != nullptr || q.curve != nullptr) {
+    const double tp = base - p.start, tq = base - q.start;
+    const Vec3 way = (q.displacement(tq + t) - q.displacement(tq)) - (p.displacement(tp + t) - p.displacement(tp));
+    return {Vec3::Zero(), Vec3::Zero(), q.position(tq) - p.position(tp) + way, q.velocity(tq + t) - p.velocity(tp + t)};
+  }
+  const FadingPath of_a = p.path().from(base - p.start), of_b = q.path().from(base - q.start);
+  if (of_a.fade != of_b.fade)
+    return {Vec3::Zero(), Vec3::Zero(), of_b.position(t) - of_a.position(t), of_b.velocity(t) - of_a.velocity(t)};
+  const FadingPath relative{of_b.x - of_a.x, of_b.v - of_a.v, of_b.a - of_a.a, of_a.fade};
+  return {Vec3::Zero(), Vec3::Zero(), relative.position(t), relative.velocity(t)};
+}
+
+bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
+  return speed * speed < press * exact_tolerance::fading_hop * world.radius[i] && damps(world, i, now.hi);
+}
+
+void ExactBodies::fail_squeezed(Entity i, std::vector<Entity> things) const {
+  std::sort(things.begin(), things.end());
+  things.erase(std::unique(things.begin(), things.end()), things.end());
+  std::vector<std::string> after = {" has no room left between "};
+  for (std::size_t k = 0; k < things.size(); ++k)
+    after.emplace_back(k + 2 < things.size()    ? ", "
+                       : k + 2 == things.size() ? " and "
+                                                : ": end or slow their `motion` before, leave room for the body, or "
+                                                  "shorten simulate.duration");
+  things.insert(things.begin(), i);
+  throw SimulationError(fmt::format("at t = {} s ", now.hi), std::move(things), std::move(after));
+}
+
+std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {
+  const std::span<const Entity> near = neighbours.near(i);
+  std::vector<Entity> all(near.begin(), near.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const {
+  if (world.is_body(b) && world.volume.empty()) {
+    // The normal uses the actual distance, not the sum of the radii. It is then a unit vector, and energy is conserved
+    // to rounding.
+    const Vec3 d = xb - xa;
+    const double distance = d.norm();
+    const Vec3 n = d / distance;
+    return {distance - (world.radius[a] + world.radius[b]), n, xa + world.radius[a] * n, 0};
+  }
+  return touch(world, a, xa, b, xb, feature);
+}
+
+Touch ExactBodies::string_now(Entity string) const {
+  const String& s = world.string(string);
+  return touch(world, s.body, position(s.body), string, position_of(string));
+}
+
+bool ExactBodies::holds(Entity string) const {
+  const String& s = world.string(string);
+  return in_lasting_contact(mode(s.body)) && (s.other == no_entity || in_lasting_contact(mode(s.other))) &&
+         keeps_length(string, 0);
+}
+
+bool ExactBodies::keeps_length(Entity string, double near) const {
+  const String& s = world.string(string);
+  if (s.rod) return true;
+  const Vec3 x = position(s.body);
+  const Vec3 v = velocity(s.body);
+  const Vec3 xe = position_of(string);
+  const Vec3 ve = velocity_of(string);
+  const Touch there = touch(world, s.body, x, string, xe);
+  return there.gap <= std::max(near, contact_gap(s.body, x, xe)) &&
+         std::abs(there.normal.dot(ve - v)) <= drift_of(s.body, v, ve);
+}
+
+bool ExactBodies::is_taut(Entity string) const {
+  const String& s = world.string(string);
+  return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), position_of(string));
+}
+
+bool ExactBodies::any_taut(std::span<const Entity> those) const {
+  return ties.any() && std::any_of(those.begin(), those.end(), [&](Entity i) {
+           const std::span<const Entity> strings = ties.of(i);
+           return std::any_of(strings.begin(), strings.end(), [&](Entity string) { return is_taut(string); });
+         });
+}
+
+bool ExactBodies::any_meets(std::span<const Entity> those) const {
+  // Whether body i and e approach. The length of a rod must not change either way.
+  const auto meets = [&](Entity i, Entity e, const Touch& there) {
+    const Vec3 v = velocity(i);
+    const Vec3 ve = velocity_of(e);
+    const double approach = there.normal.dot(v - ve);
+    const bool both_ways = world.is_string(e) && world.string(e).rod;
+    return (both_ways ? std::abs(approach) : approach) > exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
+  };
+  const auto string_meets = [&](Entity e) { return is_taut(e) && meets(world.string(e).body, e, string_now(e)); };
+  return std::any_of(those.begin(), those.end(), [&](Entity i) {
+    const std::span<const Entity> strings = ties.of(i);
+    const std::vector<Entity> near = neighbours_of(i);
+    const Vec3 x = position(i);
+    const auto neighbour_meets = [&](Entity e) {
+      const Vec3 xe = position_of(e);
+      const Touch there = touch(world, i, x, e, xe);
+      return there.gap <= contact_gap(i, x, xe) && meets(i, e, there);
+    };
+    return std::any_of(strings.begin(), strings.end(), string_meets) ||
+           std::any_of(near.begin(), near.end(), neighbour_meets);
+  });
+}
+
+double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
+  return std::max(exact_tolerance::contact_gap * world.radius[i],
+                  exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
+}
+
+double ExactBodies::drift_of(Entity i, const Vec3& v, const Vec3& ve) const {
+  return exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[i].norm() * world.radius[i]));
+}
+
+double ExactBodies::slow_speed(double press, double length) const {
+  return options.rest_speed > 0 ? options.rest_speed : exact_tolerance::slow_impact * std::sqrt(press * length);
+}
+
+}  // namespace carom

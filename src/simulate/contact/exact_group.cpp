@@ -1,0 +1,343 @@
+// Membership in contact groups: bodies join and leave islands, fall asleep and wake.
+// A struck sleeper wakes with all that rest in contact with it, because their forces depend on each other.
+// Impacts between two time steps see flights with a kick. The queries here remove it where an approach must be
+// physical.
+#include "simulate/contact/exact_group.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/contact/collapse_detector.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/path/path_log.h"
+#include "simulate/tolerances.h"
+#include "solver/contact_problem.h"
+
+namespace carom {
+
+ExactGroup::ExactGroup(ExactBodies& bodies, ModeChanges& modes, FlatContacts& flat, const CollapseDetector& collapses,
+                       PathLog& paths)
+    : pressing(bodies.body.size()),
+      numbers(bodies.body.size(), Numbering::none),
+      member(bodies.body.size()),
+      bodies_(bodies),
+      modes_(modes),
+      flat_(flat),
+      collapses_(collapses),
+      paths_(paths) {}
+
+void ExactGroup::join(Entity i) {
+  if (bodies_.mode(i) == Mode::asleep) wake(i);
+  if (!is_member(bodies_.mode(i))) enlist(i);
+}
+
+/// Makes an island of body i, which is free or asleep.
+void ExactGroup::enlist(Entity i) {
+  paths_.note_change(i);
+  modes_.join(i);
+  flat_.clear(i);
+
+  Islands& islands = bodies_.islands;
+  bodies_.kick.write(i) = {bodies_.now};
+  IslandMember& kept = member.write(i);
+  kept.margin = 0;
+  kept.impacts = 0;
+  kept.idle = 0;
+  kept.needed = bodies_.now;
+
+  if (!islands.any()) bodies_.log.count_collapse();
+  islands.create(i, bodies_.now);
+}
+
+void ExactGroup::unite(Entity a, Entity b) {
+  Islands& islands = bodies_.islands;
+  if (!islands.same(a, b)) {
+    if (bodies_.moving.any())
+      for (const Entity i : {a, b}) bodies_.contact_work.end_paths(islands.of(i).members, bodies_.now);
+
+    // A time step of one goes on if the other has not taken a step.
+    const Mode of_a = bodies_.mode(a);
+    const Mode of_b = bodies_.mode(b);
+    const Mode united = std::max(of_a, of_b);
+    Instant end = bodies_.now;
+    if (united == Mode::stepped && std::min(of_a, of_b) == Mode::fresh)
+      end = islands.of(of_a == Mode::stepped ? a : b).end;
+    for (const Entity i : {a, b}) {
+      if (bodies_.mode(i) == united) continue;
+      for (const Entity k : islands.of(i).members) united == Mode::held ? modes_.hold(k) : modes_.step(k);
+    }
+    islands.merge(a, b, end);
+  }
+
+  // Time steps would let strings lengthen.
+  if (Island& island = islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
+}
+
+bool ExactGroup::wake(Entity i) {
+  bool stepped = false;
+  std::vector<Entity> todo;
+  const auto rouse = [&](Entity k) {
+    // Constrained motion rests on its partners.
+    stepped = stepped || modes_.partners(k).empty();
+    enlist(k);
+    todo.push_back(k);
+  };
+  rouse(i);
+
+  while (!todo.empty()) {
+    const Entity k = todo.back();
+    todo.pop_back();
+    unite(i, k);
+    const Vec3 x = bodies_.flights[k].x;
+    for (const Entity e : bodies_.neighbours_of(k)) {
+      if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
+      const double gap = touch(bodies_.world, k, x, e, bodies_.flights[e].x).gap;
+      if (gap <= exact_tolerance::waking_gap * bodies_.world.radius[k]) rouse(e);
+    }
+    for (const Entity e : asleep_on_strings(k)) rouse(e);
+  }
+  return stepped;
+}
+
+void ExactGroup::stir(Entity i) {
+  if (!wake(i)) return;
+  Island& island = bodies_.islands.of(i);
+  island.busy = true;
+  island.calm_needed = std::max(island.calm_needed, exact_tolerance::calm_steps);
+}
+
+std::vector<Entity> ExactGroup::asleep_on_strings(Entity i) const {
+  std::vector<Entity> asleep;
+  for (const Entity string : bodies_.ties.of(i)) {
+    const Entity other = bodies_.ties.other(string, i);
+    if (other == no_entity || bodies_.mode(other) != Mode::asleep) continue;
+    const bool taut = bodies_.string_now(string).gap <= exact_tolerance::waking_gap * bodies_.world.radius[i];
+    if (taut || bodies_.world.string(string).rod) asleep.push_back(other);
+  }
+  return asleep;
+}
+
+void ExactGroup::join_at_rest(Entity i) {
+  join(i);
+  bodies_.flights.accelerate(i, Vec3::Zero());
+}
+
+void ExactGroup::join_initial(Entity first) {
+  const World& world = bodies_.world;
+  std::vector<Entity> todo{first};
+  while (!todo.empty()) {
+    const Entity i = todo.back();
+    todo.pop_back();
+    for (const Entity e : bodies_.neighbours_of(i)) {
+      const Flight f = bodies_.flights[i];
+      const bool body = world.is_body(e);
+      const bool i_in = in_lasting_contact(bodies_.mode(i));
+      const bool e_in = body && in_lasting_contact(bodies_.mode(e));
+      if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
+      const Vec3 xe = bodies_.position_of(e);
+      const Vec3 ve = bodies_.velocity_of(e);
+      // A run may begin with the state of another one, in which contacts hold within the method's error.
+      const double near =
+          std::max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
+                   bodies_.contact_gap(i, f.x, xe));
+      if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
+      const Touch there = touch(world, i, f.x, e, xe);
+      if (std::abs(there.gap) > near) continue;
+      const Vec3 w = ve - f.v;
+      if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, f.v, ve)) continue;
+      const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
+      if (!i_in && !e_in && !(press > 0)) continue;
+      for (const Entity k : {i, e}) {
+        if (!world.is_body(k) || in_lasting_contact(bodies_.mode(k))) continue;
+        join_at_rest(k);
+        todo.push_back(k);
+      }
+      if (body) unite(i, e);
+    }
+  }
+}
+
+void ExactGroup::join_by_strings() {
+  const World& world = bodies_.world;
+  Numbering moved(numbers);  // bodies that only strings hold
+  std::vector<Vec3> a;       // m/s^2, of these
+  std::vector<double> inverse_mass;
+  std::vector<ContactConstraint> rows;
+  std::vector<Entity> strings;  // of the rows
+  const auto place = [&](Entity i) {
+    if (moved.add(i)) {
+      a.push_back(bodies_.flights[i].a);
+      inverse_mass.push_back(1 / world.mass[i]);
+    }
+    return moved.number(i);
+  };
+  std::vector<Entity> held;
+  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+    const Entity string = world.string_number(k);
+    const String& s = world.strings[k];
+    const Touch there = bodies_.string_now(string);
+    check_length(string, there.gap);
+    // A run may begin with the state of another one, in which strings hold within the method's error.
+    if (!bodies_.keeps_length(string, initial_rounding(string))) continue;
+    const bool anchored = s.other == no_entity;
+    const Vec3 w = bodies_.velocity_of(string) - bodies_.velocity(s.body);
+    const Vec3 other = bodies_.position_of(string);
+    // Bodies in lasting contact with other things have these accelerations.
+    double known = bending(world, s.body, bodies_.position(s.body), string, other, there, w);
+    const bool free = !in_lasting_contact(bodies_.mode(s.body)),
+               other_free = !anchored && !in_lasting_contact(bodies_.mode(s.other));
+    if (!free) known -= there.normal.dot(bodies_.flights[s.body].a);
+    if (!anchored && !other_free) known += there.normal.dot(bodies_.flights[s.other].a);
+    if (s.rod || (!free && !other_free && known < 0)) held.push_back(string);
+    if (!free && !other_free) continue;
+    ContactConstraint row{0, ContactConstraint::fixed, free ? there.normal : Vec3(-there.normal), -known};
+    row.a = place(free ? s.body : s.other);
+    if (free && other_free) row.b = place(s.other);
+    row.bilateral = s.rod;
+    rows.push_back(row);
+    strings.push_back(string);
+  }
+  double greatest = 0;
+  for (const Vec3& acceleration : a) greatest = std::max(greatest, acceleration.norm());
+  for (ContactConstraint& row : rows)
+    if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
+  solve({inverse_mass, a, rows});
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!rows[k].bilateral && rows[k].force > 0) held.push_back(strings[k]);
+  for (const Entity string : held) {
+    const String& s = world.string(string);
+    join_at_rest(s.body);
+    if (s.other == no_entity) continue;
+    join_at_rest(s.other);
+    unite(s.body, s.other);
+  }
+}
+
+/// Throws SimulationError if the string is too short for its ends, or the rod not as long as they are apart.
+void ExactGroup::check_length(Entity string, double gap) const {
+  const String& s = bodies_.world.string(string);
+  if (gap >= -initial_rounding(string) && (!s.rod || gap <= initial_rounding(string))) return;
+  throw SimulationError(fmt::format("at t = 0 s the {} of ", s.rod ? "rod" : "string"), s.body,
+                        fmt::format(" is {:.17g} m long, and its ends are {:.17g} m apart: change `length`, or "
+                                    "place its ends accordingly",
+                                    s.length, s.length - gap));
+}
+
+/// The rounding of a string's gap (m).
+double ExactGroup::initial_rounding(Entity string) const {
+  const String& s = bodies_.world.string(string);
+  return exact_tolerance::initial_rounding *
+         (bodies_.position(s.body).cwiseAbs().sum() + bodies_.position_of(string).cwiseAbs().sum() + s.length);
+}
+
+void ExactGroup::widen_margin(Entity i, double approach) {
+  if (!is_member(bodies_.mode(i))) return;
+  IslandMember& kept = member.write(i);
+  kept.needed = bodies_.now;
+  kept.margin = std::max(kept.margin, std::min(0.5 * approach * bodies_.islands.of(i).step_length,
+                                               exact_tolerance::widest_margin * bodies_.world.radius[i]));
+}
+
+double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
+  const bool body = bodies_.world.is_body(e);
+  if (approach == 0 || !(may_be_kicked(bodies_.mode(i)) || (body && may_be_kicked(bodies_.mode(e))))) return approach;
+  const Vec3 vi = bodies_.unkicked_velocity_of(i);
+  const Vec3 ve = bodies_.unkicked_velocity_of(e);
+  const double met = n.dot(vi - ve);
+  // A difference that is only rounding is no impact. It would be one for ever, because the kick brings the two
+  // together.
+  return met > exact_tolerance::approach_rounding * (vi.norm() + ve.norm() + approach) ? met : 0;
+}
+
+bool ExactGroup::opens(Entity i) const {
+  if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.kick[i].until)) return false;
+  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
+  const auto parts_from = [&](Entity e) {
+    const Vec3 ve = bodies_.velocity_of(e);
+    const Vec3 n = touch(bodies_.world, i, x, e, bodies_.position_of(e)).normal;
+    return n.dot(ve - v) > bodies_.slow_speed(bodies_.applied[i].norm(), bodies_.smaller_length(i, e));
+  };
+  for (const PressingContact& p : pressing[i])
+    if (parts_from(p.partner)) return true;
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    if (!bodies_.world.is_body(e) || e > i) continue;
+    for (const PressingContact& p : pressing[e])
+      if (p.partner == i && parts_from(e)) return true;
+  }
+  return false;
+}
+
+bool ExactGroup::strikes(Entity i, Entity e, double approach, double slow, bool apart) const {
+  const World& world = bodies_.world;
+  const bool body = world.is_body(e);
+  const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
+  return approach >= slow && (pair_restitution(world, i, e) > 0 ? !collapse : apart);
+}
+
+double ExactGroup::pressing_force(Entity i, Entity e) const {
+  for (const PressingContact& p : pressing[std::min(i, e)])
+    if (p.partner == std::max(i, e)) return p.force;
+  return 0;
+}
+
+void ExactGroup::leave(Entity i) {
+  if (!pressing[i].empty()) pressing.write(i).clear();
+  for (const Entity e : bodies_.neighbours_of(i))
+    if (bodies_.world.is_body(e) && !pressing[e].empty())
+      std::erase_if(pressing.write(e), [i](const PressingContact& contact) { return contact.partner == i; });
+  for (const Entity string : bodies_.ties.of(i))
+    if (const Entity other = bodies_.ties.other(string, i); other != no_entity && !pressing[other].empty())
+      std::erase_if(pressing.write(other), [&](const PressingContact& contact) { return contact.partner == string; });
+}
+
+bool ExactGroup::hides(Entity i, Entity fixed) const {
+  return std::ranges::any_of(member[i].floors, [&](const Floor& floor) {
+    return bodies_.hidden(i, bodies_.position(i), fixed, floor.normal, floor.velocity);
+  });
+}
+
+bool ExactGroup::switches(Entity i) const {
+  const auto now = [&](Entity e) { return bodies_.moving.switches(e, bodies_.now); };
+  return std::ranges::any_of(modes_.partners(i), now) ||
+         std::any_of(pressing[i].begin(), pressing[i].end(), [&](const PressingContact& p) { return now(p.partner); });
+}
+
+/// The power of the moving things that press on body i (W).
+double ExactGroup::power(Entity i) const {
+  double power = 0;
+  for (const PressingContact& p : pressing[i]) power -= p.force * p.surface;
+  return power;
+}
+
+void ExactGroup::note_power(Entity i) {
+  bodies_.contact_work.change(i, bodies_.now, power(i));
+}
+
+void ExactGroup::let_go(Entity i) {
+  if (!bodies_.moving.any()) return;
+  pressing.write(i).clear();
+  for (const Entity e : bodies_.neighbours_of(i))
+    if (bodies_.world.is_body(e) && e < i)
+      std::erase_if(pressing.write(e), [&](const PressingContact& p) { return p.partner == i; });
+}
+
+void ExactGroup::carry(Entity i, double approach, double surface) {
+  const double work = -bodies_.world.mass[i] * approach * surface;
+  const Instant& until = bodies_.kick[i].until;
+  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < until)
+    bodies_.contact_work.push(i, bodies_.now, work / (until - bodies_.now));
+  else
+    bodies_.log.carry(work);
+}
+
+void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
+  if (bodies_.mode(i) != Mode::asleep && !may_be_kicked(bodies_.mode(i))) return;
+  for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
+}
+
+}  // namespace carom

@@ -1,0 +1,43 @@
+// Contact problems of one body on flat surfaces, by the general contact solver.
+// The body has unit mass, because its own mass has no effect on the allowed motion.
+#include "simulate/contact/flat_contact_problems.h"
+
+#include <array>
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t most_flat = 32;
+
+FlatSolution solve_one_body(const Vec3& u, std::span<const FlatSurface> surfaces, bool bilateral) {
+  std::array<ContactConstraint, most_flat> contacts;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    contacts[k] = {0, ContactConstraint::fixed, -surfaces[k].normal};
+    contacts[k].bilateral = bilateral;
+    contacts[k].surface = -surfaces[k].u;
+  }
+
+  constexpr double unit_mass = 1;
+  FlatSolution solution;
+  solution.u = u;
+  solution.certificate = solve({{&unit_mass, 1}, {&solution.u, 1}, {contacts.data(), surfaces.size()}});
+
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (contacts[k].force > 0) solution.active |= 1u << k;
+    solution.work += contacts[k].work();
+  }
+  return solution;
+}
+
+}  // namespace
+
+FlatSolution solve_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces) {
+  return solve_one_body(u, surfaces, false);
+}
+
+FlatSolution keep_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces) {
+  return solve_one_body(u, surfaces, true);
+}
+
+}  // namespace carom

@@ -1,0 +1,322 @@
+// Begins and ends flights, and books the work of forces and the method's own error on each flight that ends.
+// Work is booked from the flight as a whole, in closed form where forces are constant.
+// In time stepping a flight has the step's forces in its velocity from the start (the kick). Changes within the step
+// adjust it.
+#include "simulate/contact/flight_changes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/force.h"
+#include "physics/world.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/path/path_log.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
+  go_on(i, x, v, origin);
+  if (bodies_.mode(i) == Mode::held) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
+}
+
+void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
+  paths_.note_change(i);
+  const double speed = v.norm();
+  bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
+  bodies_.note_speed(i, v);
+  book(i, x, bodies_.now);
+  const Mode mode = bodies_.mode(i);
+  const Contact contact = mode == Mode::stepped ? Contact::stepped : Contact::none;
+  if (contact != in_contact_[i].by) {
+    // The next step of its own does not continue one of contact.
+    if (in_contact_[i].by == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
+    in_contact_.write(i) = {contact};
+  }
+  // The body falls through a time step.
+  const bool falls =
+      may_be_kicked(mode) && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
+  const double negligible = bodies_.negligible_speed();
+  const bool still = speed <= negligible ||
+                     (lies_on_flat(mode) && speed * speed < exact_tolerance::negligible_hop *
+                                                                bodies_.applied[i].norm() * bodies_.world.radius[i]);
+  Vec3 kept = v;
+  for (int k = 0; k < 3; ++k)
+    if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
+  bodies_.refresh(i, x, kept);
+  if (const bool free = mode == Mode::flying;
+      bodies_.in_steps && (free ? bodies_.flies_in_steps(i) : falls && bodies_.bent[i])) [[unlikely]] {
+    curve(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, free);
+    return end_change(i, origin);
+  }
+  const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
+  if (bodies_.fade.empty() || (!falls && in_lasting_contact(mode))) [[likely]]
+    bodies_.flights.set(i, {bodies_.now, x, kept, pull});
+  else
+    bodies_.flights.set(i, {bodies_.now, x, kept, pull - bodies_.fade[i] * kept, bodies_.fade[i]});
+  end_change(i, origin);
+}
+
+inline void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
+  if (bodies_.moving.any()) [[unlikely]]
+    note_power(i);
+  bodies_.body[i].set_origin(origin);
+  bodies_.neighbours.turned(i);
+  count(i);
+  note_changed(i);
+}
+
+/// Stores the power of moving surfaces that carry body i by itself. That of islands is stored with their steps.
+void FlightChanges::note_power(Entity i) {
+  if (!is_member(bodies_.mode(i)))
+    bodies_.contact_work.change(i, bodies_.now, in_lasting_contact(bodies_.mode(i)) ? 0 : flat_.power(i));
+}
+
+/// Starts a step of body i's flight: by the scene's method if it is free, otherwise by that of contact.
+void FlightChanges::curve(Entity i, Flight from, bool free) {
+  if (!free) return bodies_.flights.set(i, from, curved_.step_of_its_own(i, from.x, from.v));
+  const PolynomialPath* const last = bodies_.flights.curve(i);
+  const Instant& now = bodies_.now;
+  const bool next = last == nullptr ? now == Instant{} : bodies_.flights[i].start + last->length <= now;
+  const PolynomialPath path = curved_.step(i, from.x, from.v, next);
+  from.a = path.acceleration(0);
+  bodies_.flights.set(i, from, path);
+}
+
+Vec3 FlightChanges::position_of_method(Entity i, const Instant& at) const {
+  if (follows_closed_form(i)) [[unlikely]]
+    return curved_.closed_place(i, at).x;
+  const Flight f = bodies_.flights[i];
+  return f.position(at - f.start);
+}
+
+Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
+  if (follows_closed_form(i)) [[unlikely]]
+    return curved_.closed_place(i, at).v;
+  const Vec3 v = bodies_.velocity_without_kick(i, at);
+  const Flight f = bodies_.flights[i];
+  if (f.curve == nullptr || in_lasting_contact(bodies_.mode(i))) return v;
+  if (bodies_.options.integrator != Integrator::verlet) return v - f.curve->ahead;
+  return v + bodies_.verlet_change(i, f, at - f.start);
+}
+
+void FlightChanges::end_verlets(Entity i) {
+  if (in_lasting_contact(bodies_.mode(i)) || bodies_.flights.curve(i) == nullptr) return;
+  paths_.note_change(i);
+  const Vec3 x = bodies_.position(i), v = velocity_of_method(i, bodies_.now);
+  book(i, x, bodies_.now);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
+}
+
+void FlightChanges::end_closed(Entity i) {
+  paths_.note_change(i);
+  const auto [x, v] = curved_.closed_place(i, bodies_.now);
+  book(i, x, bodies_.now);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
+}
+
+void FlightChanges::take_step(Entity i) {
+  if (const CurvedFlights::Reached* end = curved_.reached(i)) {
+    const auto [x, v] = *end;
+    return go_on(i, x, v, {});
+  }
+  end_step(i);
+  go_on(i, bodies_.position(i), bodies_.velocity(i), {});
+}
+
+void FlightChanges::let_fall(Entity i) {
+  const Flight f = bodies_.flights[i];
+  bodies_.refresh(i, f.x, f.v);
+  const bool free = !in_lasting_contact(bodies_.mode(i));
+  if (free ? bodies_.flies_in_steps(i) : bodies_.bent[i] != 0)
+    curve(i, {f.start, f.x, f.v, bodies_.force_at(i, f.x, f.v)}, free);
+  else
+    bodies_.flights.accelerate(i, bodies_.force_at(i, f.x, f.v), bodies_.fade[i]);
+}
+
+void FlightChanges::release(Entity i) {
+  Islands& islands = bodies_.islands;
+  book_taking(i, bodies_.now);
+  take(i, 0);
+  bodies_.contact_work.change(i, bodies_.now, 0);
+  const Vec3 pending = bodies_.kick[i].rest(bodies_.now);
+  bodies_.kick.write(i) = {bodies_.now};
+  change(i, -pending);
+  let_fall(i);
+  Island& island = islands.of(i);
+  const double excess = (island.end - bodies_.now) - island.shortest_step;
+  if (!(excess > 0)) return;
+  island.end = bodies_.now + island.shortest_step;
+  island.step_length -= excess;
+}
+
+void FlightChanges::hold(Entity i) {
+  bodies_.flights.accelerate(i, Vec3::Zero());
+  Islands& islands = bodies_.islands;
+  if (!may_be_kicked(bodies_.mode(i)) || bodies_.now < bodies_.kick[i].until || !(bodies_.now < islands.of(i).end))
+    return;
+  bodies_.kick.write(i) = {islands.of(i).end};
+  push(i, by_forces(i, islands.of(i).end - bodies_.now));
+}
+
+Vec3 FlightChanges::by_forces(Entity i, double seconds) const {
+  const double drag = seconds * bodies_.fade[i];
+  return (seconds * bodies_.applied[i] - drag * bodies_.velocity(i)) / (1 + drag);
+}
+
+void FlightChanges::push(Entity i, const Vec3& dv) {
+  change(i, dv);
+  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < bodies_.kick[i].until)
+    bodies_.kick.write(i).a += dv / (bodies_.kick[i].until - bodies_.now);
+}
+
+void FlightChanges::change(Entity i, const Vec3& dv) {
+  Flight f = bodies_.flights[i];
+  bodies_.log.deviate(-0.5 * bodies_.world.mass[i] * dv.dot(2 * f.v + dv));
+  f.v += dv;
+  bodies_.note_speed(i, f.v);
+  bodies_.flights.set(i, {f.start, f.x, f.v, f.a, f.fade});
+}
+
+void FlightChanges::follow(Entity i, const PolynomialPath& path) {
+  Flight f = bodies_.flights[i];
+  f.a = path.acceleration(0);
+  bodies_.flights.set(i, f, path);
+  in_contact_.write(i).by = Contact::followed;
+}
+
+void FlightChanges::count(Entity i) {
+  if (++bodies_.body[i].version == 0) [[unlikely]]
+    count_anew(i);
+}
+
+/// Old events must not appear fresh.
+void FlightChanges::count_anew(Entity i) {
+  bodies_.body[i].version = 1;
+  for (ExactBody& body : bodies_.body)
+    if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
+  for (const Entity string : bodies_.ties.of(i))
+    if (const Entity other = bodies_.ties.other(string, i); other != no_entity)
+      if (ExactEvent& event = bodies_.body[other].event; event.kind == ExactEvent::Kind::string)
+        event.partner_version = 0;
+}
+
+/// Books what contact does to body i besides its forces. Returns whether these are booked too.
+bool FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
+  if (in_contact_[i].by == Contact::followed) {
+    bodies_.bent[i] ? book_varying(i, x, end) : book_followed(i, x, end);
+    return true;
+  }
+  bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
+  book_taking(i, end);
+  return false;
+}
+
+void FlightChanges::book_taking(Entity i, const Instant& end) {
+  const double power = in_contact_[i].taking;
+  if (power != 0) bodies_.log.go_on_taking(power * (end - bodies_.flights[i].start));
+}
+
+void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
+  const World& world = bodies_.world;
+  const Flight f = bodies_.flights[i];
+  const Vec3 displacement = x - f.x;
+  const double fade = bodies_.fade[i], mass = world.mass[i];
+  const double dragged = fade == 0 ? 0 : fade * f.path().squared_speed(end - f.start);  // m^2/s^2
+  // On a path that decays with its drag, contact forces are constant.
+  const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
+  bodies_.log.deviate(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
+  if (!world.forces.empty()) book_work(i, f.start.hi, displacement, fade == 0 ? 0 : dragged / fade);
+}
+
+/// Books the work of forces that are constant except for linear drag. Drag acts by an integral of the squared speed
+/// (m^2/s).
+void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
+  const World& world = bodies_.merged.given();
+  const std::span<const Entity> parts = bodies_.merged.parts_of(i);
+  for (const Entity part : parts.empty() ? std::span<const Entity>(&i, 1) : parts)
+    for (std::size_t k = 0; k < world.forces.size(); ++k) {
+      const Force& force = world.forces[k];
+      if (!acts(force, part, time)) continue;
+      // The force on a body at rest, wind included, and the drag on its motion.
+      const Vec3 any = Vec3::Zero(), standing = working_acceleration(world, force, part, any, any);
+      const Drag* const drag = std::get_if<Drag>(&force.law);
+      const double work =
+          world.mass[part] * standing.dot(displacement) - (drag != nullptr ? drag->linear * squared_speed : 0);
+      if (work != 0) bodies_.log.add_work(k, work);
+    }
+}
+
+/// The greatest speed of a flight on a curve (m/s) in `length` (s) of it, by the scene's method. Within a step the
+/// speed rises and falls only once.
+double FlightChanges::greatest_speed(Entity i, const Flight& f, double length) const {
+  const VelocityBeyond beyond = bodies_.beyond_curve(i, f, length);
+  const auto velocity = [&](double t) { return Vec3(f.velocity(t) + beyond.at(t)); };
+  const auto rise = [&](double t) { return velocity(t).dot(f.curve->acceleration(t) + beyond.slope(t)); };
+  double rising = 0, falling = length;
+  if (!(rise(rising) > 0 && rise(falling) < 0)) return std::max(velocity(0).norm(), velocity(length).norm());
+  for (int k = 0; k < 24; ++k) {
+    const double middle = 0.5 * (rising + falling);
+    (rise(middle) > 0 ? rising : falling) = middle;
+  }
+  return velocity(rising).norm();
+}
+
+/// The effect of forces on a free flight is in the potential and in their work. For other flights the rest is due to
+/// contact, which does no work: it is the method's error.
+void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
+  const Flight f = bodies_.flights[i];
+  const double length = end - f.start;
+  if (!(length > 0)) return;
+  const double work = curved_.book_work(i, f, length);
+  if (f.curve != nullptr) bodies_.log.note_speed(i, greatest_speed(i, f, length));
+  if (f.curve != nullptr && in_contact_[i].by != Contact::followed) return;
+  bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
+                      work);
+}
+
+/// The same for a path of constrained motion under forces that are constant except for linear drag.
+void FlightChanges::book_followed(Entity i, const Vec3& x, const Instant& end) {
+  const Flight f = bodies_.flights[i];
+  const double length = end - f.start, mass = bodies_.world.mass[i];
+  if (!(length > 0)) return;
+  bodies_.log.note_speed(i, greatest_speed(i, f, length));
+  const Vec3 displacement = x - f.x;
+  const double fade = bodies_.fade[i], squared = fade == 0 ? 0 : CurvedFlights::squared_speed(f, length);
+  bodies_.log.deviate(kinetic_loss(i, f, length) + mass * (bodies_.applied[i].dot(displacement) - fade * squared));
+  if (!bodies_.world.forces.empty()) book_work(i, f.start.hi, displacement, squared);
+}
+
+/// The kinetic energy that body i loses in `length` (s) of its flight (J).
+double FlightChanges::kinetic_loss(Entity i, const Flight& f, double length) const {
+  const Vec3 v = f.velocity(length);
+  return 0.5 * bodies_.world.mass[i] * (f.v - v).dot(f.v + v);
+}
+
+void FlightChanges::take_out(Entity i, const Vec3& x) {
+  if (in_contact_[i].by != Contact::none) in_contact_.write(i) = {};
+  bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+  bodies_.body[i].set_origin({});
+  count(i);
+  note_changed(i);
+}
+
+Vec3 FlightChanges::book_until(Entity i, const Instant& at) {
+  const Flight f = bodies_.flights[i];
+  const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
+  const Vec3 v = bodies_.velocity_without_kick(i, at);
+  bodies_.hold_to_bounds(i, at.hi, x, v);
+  bodies_.note_speed(i, v);
+  book(i, x, at);
+  bodies_.contact_work.change(i, at, 0);
+  if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
+  return v;
+}
+
+void FlightChanges::book_last(double time) {
+  if (ended_) return;
+  ended_ = true;
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) book_until(i, {time, 0});
+}
+
+}  // namespace carom

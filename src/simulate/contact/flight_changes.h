@@ -1,0 +1,124 @@
+#pragma once
+// Begins flights, and books the effect of forces on those that end.
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "simulate/contact/exact_bodies.h"
+#include "simulate/path/curved_flights.h"
+
+namespace carom {
+
+class FlatContacts;
+class PathLog;
+
+class FlightChanges {
+ public:
+  FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
+      : bodies_(bodies), flat_(flat), paths_(paths), curved_(bodies), in_contact_(bodies.body.size()) {}
+
+  /// Begins a new flight of body i at the present instant, at x (m) with velocity v (m/s). A step of constrained motion
+  /// ends with it.
+  void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// The same within such a step.
+  void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// The position of body i at an instant of its flight (m).
+  Vec3 position_of_method(Entity i, const Instant& at) const;
+  /// The velocity of body i at an instant of its flight (m/s), by the scene's method, without the effect of later
+  /// forces.
+  Vec3 velocity_of_method(Entity i, const Instant& at) const;
+  /// Ends body i's step at an impact. A motion in closed form has its own position and velocity.
+  /// Verlet's method changes the velocity where its step ends, at an impact or not.
+  [[gnu::always_inline]] void end_step(Entity i) {
+    if (follows_closed_form(i)) [[unlikely]]
+      return end_closed(i);
+    if (bodies_.options.integrator == Integrator::verlet) [[unlikely]]
+      end_verlets(i);
+  }
+  /// Ends a step of body i's own flight, and begins the next.
+  void take_step(Entity i);
+  /// Lets body i's flight, which has just begun, continue as if it were free.
+  void let_fall(Entity i);
+  /// Lets member i fall from this instant on. Nothing presses on it in the rest of its time step, which is cut to a
+  /// short one.
+  void release(Entity i);
+  /// Lets member i, which a thing presses on from this instant on, fly straight. Its velocity contains the effect of
+  /// forces in the rest of its time step.
+  void hold(Entity i);
+  /// The change of body i's velocity by forces in so many seconds from the present (m/s). Drag is implicit.
+  Vec3 by_forces(Entity i, double seconds) const;
+  /// Changes member i's velocity by dv (m/s) from this instant on, by a force in the rest of the time step.
+  void push(Entity i, const Vec3& dv);
+  /// From this instant on, impacts within member i's time step take energy at this rate (W), until the step ends.
+  void take(Entity i, double power) {
+    if (power != in_contact_[i].taking) in_contact_.write(i).taking = power;
+  }
+  /// Lets the flight of member i, which has just begun, follow this path of constrained motion.
+  void follow(Entity i, const PolynomialPath& path);
+  /// Books the effect of forces on body i for the flight that ends at x (m) and `end`.
+  /// These are the World's forces, and contact forces against them.
+  [[gnu::always_inline]] void book(Entity i, const Vec3& x, const Instant& end) {
+    const World& world = bodies_.world;
+    if (in_contact_[i].by != Contact::none && book_contact(i, x, end)) [[unlikely]]
+      return;
+    if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]
+      return book_varying(i, x, end);
+    if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
+  }
+  /// Leaves body i at x (m), out of the world.
+  void take_out(Entity i, const Vec3& x);
+  /// Books body i's flight up to an instant, with the energy that its kick has in advance. Returns its velocity there
+  /// (m/s).
+  Vec3 book_until(Entity i, const Instant& at);
+  /// Books all flights up to `time` (s), the run's end. Only the first call has an effect.
+  /// Between collisions a speed is greatest at an end of a flight.
+  void book_last(double time);
+  /// Makes all events with body i stale.
+  void count(Entity i);
+  /// Notes that body i's next event is to be predicted. The event loop does so at the end of the present event. Bodies
+  /// that begin a flight are noted.
+  [[gnu::always_inline]] void note_changed(Entity i) {
+    if (changed_count_ == changed_.size()) [[unlikely]]
+      changed_.resize(2 * changed_count_ + 2);
+    changed_[changed_count_++] = i;
+  }
+  /// The bodies noted since the last call, in no order, some of them more than once. Valid until the next note.
+  [[gnu::always_inline]] std::span<Entity> take_changed() {
+    return {changed_.data(), std::exchange(changed_count_, 0)};
+  }
+
+ private:
+  bool follows_closed_form(Entity i) const { return curved_.follows_closed_form(i) && !is_member(bodies_.mode(i)); }
+  [[gnu::noinline]] void count_anew(Entity i);
+  void end_verlets(Entity i);
+  void end_closed(Entity i);
+  void change(Entity i, const Vec3& dv);
+  void curve(Entity i, Flight from, bool free);
+  [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
+  [[gnu::noinline]] void note_power(Entity i);
+  bool book_contact(Entity i, const Vec3& x, const Instant& end);
+  void book_followed(Entity i, const Vec3& x, const Instant& end);
+  void book_taking(Entity i, const Instant& end);
+  void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);
+  void book_forces(Entity i, const Vec3& x, const Instant& end);
+  void book_varying(Entity i, const Vec3& x, const Instant& end);
+  double greatest_speed(Entity i, const Flight& f, double length) const;
+  double kinetic_loss(Entity i, const Flight& f, double length) const;
+
+  ExactBodies& bodies_;
+  FlatContacts& flat_;
+  PathLog& paths_;
+  CurvedFlights curved_;
+  // What moves a body in its flight: parabolas or free motion, time stepping, or a path of constrained motion.
+  enum class Contact : std::uint8_t { none, stepped, followed };
+  struct InContact {
+    Contact by = Contact::none;
+    double taking = 0;  // W, taken by impacts within its time step
+  };
+  LazyArray<InContact> in_contact_;  // by body, of its present flight
+  std::vector<Entity> changed_;      // longer than the list of noted bodies
+  std::size_t changed_count_ = 0;    // in that list
+  bool ended_ = false;               // the last flights are booked
+};
+
+}  // namespace carom

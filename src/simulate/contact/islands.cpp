@@ -1,0 +1,84 @@
+// The set of islands: a pool of places and, for each body, the number of its island.
+// A union moves the members of the smaller island, so that a body moves rarely. A union-find structure could not split
+// islands again.
+#include "simulate/contact/islands.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom {
+
+std::uint32_t Islands::take_place() {
+  ++count_;
+  if (vacant_.empty()) {
+    islands_.emplace_back();
+    return static_cast<std::uint32_t>(islands_.size() - 1);
+  }
+  const std::uint32_t place = vacant_.back();
+  vacant_.pop_back();
+  return place;
+}
+
+void Islands::release(std::uint32_t place) {
+  islands_[place] = {};
+  vacant_.push_back(place);
+  --count_;
+}
+
+void Islands::create(Entity i, const Instant& end) {
+  const std::uint32_t place = take_place();
+  islands_[place].members.push_back(i);
+  islands_[place].end = end;
+  island_.write(i) = place;
+}
+
+void Islands::merge(Entity a, Entity b, const Instant& end) {
+  std::uint32_t into = island_[a], from = island_[b];
+  if (into == from) return;
+  if (islands_[into].members.size() < islands_[from].members.size()) std::swap(into, from);
+  Island &one = islands_[into], &other = islands_[from];
+  for (const Entity i : other.members) island_.write(i) = into;
+  one.members.insert(one.members.end(), other.members.begin(), other.members.end());
+  one.end = end;
+  one.busy = one.busy || other.busy;
+  one.planned = {never, 0};
+  one.next_length = std::min(one.next_length, other.next_length);
+  one.changes = std::max(one.changes, other.changes);
+  one.calm = 0;
+  one.calm_needed = std::max(one.calm_needed, other.calm_needed);
+  one.step_length = std::max(one.step_length, other.step_length);
+  one.shortest_step = std::max(one.shortest_step, other.shortest_step);
+  one.impact_pairs += other.impact_pairs;
+  one.short_steps = std::max(one.short_steps, other.short_steps);
+  release(from);
+}
+
+void Islands::retain(Entity member, std::vector<Entity> stay) {
+  const std::uint32_t place = island_[member];
+  for (const Entity i : islands_[place].members) island_.write(i) = none;
+  for (const Entity i : stay) island_.write(i) = place;
+  islands_[place].members = std::move(stay);
+  if (islands_[place].members.empty()) release(place);
+}
+
+std::vector<Entity> Islands::split(Entity i, std::span<const std::uint32_t> labels) {
+  const std::uint32_t whole = island_[i];
+  const std::vector<Entity> members = std::exchange(islands_[whole].members, {});
+  std::vector<std::uint32_t> place(members.size());  // by label
+  std::vector<Entity> first;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    if (labels[k] == k) {
+      place[k] = first.empty() ? whole : take_place();
+      if (!first.empty()) {
+        islands_[place[k]] = islands_[whole];
+        islands_[place[k]].members.clear();
+      }
+      first.push_back(members[k]);
+    }
+    islands_[place[labels[k]]].members.push_back(members[k]);
+    island_.write(members[k]) = place[labels[k]];
+  }
+  return first;
+}
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+#pragma once
+// Numbers of bodies in a problem of their own, such as a step of an island.
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "numerics/lazy_array.h"
+#include "physics/entity.h"
+#include "solver/contact_problem.h"
+
+namespace carom {
+
+/// The bodies of one problem and their numbers in it, from 0 on in the order of the list. One problem at a time has
+/// numbers: they are taken back when this object ends.
+class Numbering {
+ public:
+  static constexpr std::uint32_t none = ContactConstraint::fixed;
+  /// By body: its number; common to all problems, and `none` between them.
+  using Numbers = LazyArray<std::uint32_t>;
+
+  /// `numbers` must outlive this object.
+  explicit Numbering(Numbers& numbers) : numbers_(&numbers) {}
+  Numbering(Numbers& numbers, const std::vector<Entity>& bodies) : Numbering(numbers) {
+    for (const Entity i : bodies) add(i);
+  }
+  Numbering(const Numbering&) = delete;
+  Numbering& operator=(const Numbering&) = delete;
+  Numbering(Numbering&& other) noexcept : numbers_(other.numbers_), bodies_(std::exchange(other.bodies_, {})) {}
+  Numbering& operator=(Numbering&&) = delete;
+  ~Numbering() {
+    for (const Entity i : bodies_) numbers_->write(i) = none;
+  }
+
+  /// Adds body i, unless it is there. Returns whether it was not.
+  bool add(Entity i) {
+    if ((*numbers_)[i] != none) return false;
+    numbers_->write(i) = static_cast<std::uint32_t>(bodies_.size());
+    bodies_.push_back(i);
+    return true;
+  }
+  /// The number of body i, or `none`; and the body of a number.
+  std::uint32_t number(Entity i) const { return (*numbers_)[i]; }
+  Entity operator[](std::size_t k) const { return bodies_[k]; }
+
+  // In the order of their numbers.
+  const std::vector<Entity>& bodies() const { return bodies_; }
+  std::size_t size() const { return bodies_.size(); }
+  Entity front() const { return bodies_.front(); }
+  auto begin() const { return bodies_.begin(); }
+  auto end() const { return bodies_.end(); }
+
+ private:
+  Numbers* numbers_;
+  std::vector<Entity> bodies_;
+};
+
+}  // namespace carom

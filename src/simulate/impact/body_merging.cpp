@@ -1,0 +1,102 @@
+// Perfectly inelastic collisions (chapter 8's two lumps of clay). The lighter body becomes part of the heavier one,
+// which keeps its number and shape. Momentum, mass, volume and centre of mass are conserved. The energy lost includes
+// that of the motion along the surfaces. The larger volume may overlap others. Fixed things push it out, and
+// overlapping bodies merge too.
+#include "simulate/impact/body_merging.h"
+
+#include <algorithm>
+
+#include "physics/impact.h"
+#include "physics/world.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/contact/flight_changes.h"
+#include "simulate/contact/region_exit.h"
+#include "simulate/path/path_log.h"
+
+namespace carom {
+
+void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
+  const World& world = bodies_.world;
+  const Entity whole = world.mass[b] > world.mass[a] ? b : a, part = whole == a ? b : a;
+  for (const Entity i : {a, b}) paths_.note_change(i);
+  for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i), bodies_.now);
+  Collision met = meeting(a, b, there);
+  met.energy_lost += join(whole, part);
+  bodies_.log.lose(met.energy_lost);
+  bodies_.log.record(met);
+  renew_region(bodies_, whole, bodies_.body[whole].event.time.hi);
+  move_out(whole);
+  for (const Entity e : bodies_.neighbours_of(whole)) {
+    if (!world.is_body(e)) continue;
+    const Entity first = std::min(whole, e), second = std::max(whole, e);
+    const Touch next = touch(world, first, bodies_.position(first), second, bodies_.position(second));
+    if (next.gap < 0) return merge(first, second, next);
+  }
+  flights_.note_changed(whole);
+}
+
+/// The record of bodies a and b, without what forces on them lose.
+Collision BodyMerging::meeting(Entity a, Entity b, const Touch& there) const {
+  const World& world = bodies_.world;
+  const bool second = world.mass[b] > world.mass[a];
+  const double mw = world.mass[second ? b : a], mp = world.mass[second ? a : b], mass = mw + mp;
+  const Vec3 w = bodies_.velocity(b) - bodies_.velocity(a);
+  const double approach = std::max(-w.dot(there.normal), 0.0);
+  Collision met =
+      make_collision(world, CollisionKind::merge, bodies_.now.hi, a, b, there.point, there.normal, approach, 0, 0);
+  met.impulse = approach * (mw * mp / mass);
+  // The energy of the motion along the surfaces is lost too.
+  met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
+  return met;
+}
+
+/// The joint body continues from the centre of mass with the common momentum. Forces continue to act on the parts.
+/// Returns what their potential loses (J).
+double BodyMerging::join(Entity whole, Entity part) {
+  const double mass_part = bodies_.world.mass[part], share = mass_part / (bodies_.world.mass[whole] + mass_part);
+  const Vec3 xw = bodies_.position(whole), xp = bodies_.position(part);
+  const Vec3 vw = bodies_.velocity(whole), vp = bodies_.velocity(part);
+  const Vec3 x = xw + share * (xp - xw), v = vw + share * (vp - vw);
+  const double before = bodies_.merged.potential(whole, xw) + bodies_.merged.potential(part, xp);  // J
+  bodies_.merged.join(whole, part);
+  if (!bodies_.world.forces.empty()) {
+    const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
+    bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.fade)});
+  }
+  for (const Entity i : {whole, part}) {
+    flat_.clear(i);
+    bodies_.contact_work.change(i, bodies_.now, 0);
+  }
+  modes_.merge(part);
+  bodies_.neighbours.remove(part);
+  flights_.count(part);
+  flights_.note_changed(part);
+  bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+  const double lost = bodies_.world.forces.empty() ? 0 : before - bodies_.merged.potential(whole, x);
+  bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, x, v), bodies_.fade[whole]});
+  flights_.count(whole);
+  bodies_.body[whole].set_origin({});
+  return lost;
+}
+
+/// Moves a joint body out of fixed things that its volume overlaps. The work of lifting it goes into the log.
+void BodyMerging::move_out(Entity whole) {
+  const World& world = bodies_.world;
+  Flight f = bodies_.flights[whole];
+  for (int pass = 0; pass < 8; ++pass) {
+    bool free = true;
+    for (const Entity e : bodies_.neighbours_of(whole)) {
+      if (world.is_body(e)) continue;
+      const Touch there = touch(world, whole, f.x, e, bodies_.fixed_position(e));
+      if (!(there.gap < 0)) continue;
+      const Vec3 out = there.gap * there.normal;
+      bodies_.log.add_work(bodies_.merged.potential(whole, f.x + out) - bodies_.merged.potential(whole, f.x));
+      f.x += out;
+      free = false;
+    }
+    bodies_.flights.set(whole, f);
+    if (free) break;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,656 @@
+// The constrained equations of motion of an island, with the accelerations from the complementarity conditions of its
+// closed contacts. While the set of contacts is the same the motion is smooth, and DOP853 follows it. Stiff drag goes
+// to collocation at Radau's points. Openings are found from the accelerations of gaps, because forces need not be
+// unique. Rims are found at samples of the dense output.
+#include "simulate/island/constrained_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "numerics/cube_root.h"
+#include "numerics/dormand_prince.h"
+#include "numerics/radau_collocation.h"
+#include "physics/force.h"
+#include "physics/world.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+namespace {
+
+/// Gauss's rule of six points on [0, 1], exact to degree 11.
+struct WorkPoint {
+  double at;      // in [0, 1]
+  double weight;  // of a sum of 1
+};
+constexpr WorkPoint work_points[] = {
+    {0.033765242898423986, 0.085662246189585178}, {0.16939530676686774, 0.18038078652406931},
+    {0.38069040695840154, 0.23395696728634552},   {0.61930959304159846, 0.23395696728634552},
+    {0.83060469323313226, 0.18038078652406931},   {0.96623475710157601, 0.085662246189585178}};
+
+// Samples of a step at which rims and opened contacts are examined.
+constexpr int samples = 6;
+
+/// The least radius of curvature of the Minkowski sum of two volumes where it is round (m).
+/// A cylinder's rim is sharp. A sphere makes it as round as the sphere.
+double bend_radius(const World& world, Entity i, Entity e) {
+  if (world.is_string(e)) return world.string(e).length;
+
+  // The sum of the sizes of those that are of this shape.
+  const auto round = [&](Shape shape) {
+    double sum = 0;
+    for (const Entity k : {i, e}) {
+      if (world.is_plane(k) || world.is_wall(k)) continue;
+      const Volume volume = world.volume_of(k);
+      if (volume.shape == shape) sum += volume.half.x();
+    }
+    return sum;
+  };
+
+  if (const double r = round(Shape::sphere); r > 0) return r;
+  if (const double r = round(Shape::cylinder); r > 0) return r;
+  return world.radius[i];
+}
+
+double smaller_radius(const World& world, const Contact& c) {
+  const Entity second = world.second_body(c.e);
+  return second != no_entity ? std::min(world.radius[c.i], world.radius[second]) : world.radius[c.i];
+}
+
+bool is_rod(const World& world, Entity e) {
+  return world.is_string(e) && world.string(e).rod;
+}
+
+Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
+  return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
+}
+
+/// The first time (s) in a step at which `happens` is true of all positions (m). It is false at `from` and true at
+/// `to`.
+template <typename Happens>
+double first_time(const DenseMotion& motion, double from, double to, Happens happens) {
+  std::vector<Vec3> x, v;
+  while (to - from > tol::time_precision * motion.length()) {
+    const double t = 0.5 * (from + to);
+    motion.at(t, x, v);
+    (happens(x) ? to : from) = t;
+  }
+  return to;
+}
+
+double greatest_norm(const std::vector<Vec3>& v) {
+  double greatest = 0;
+  for (const Vec3& of : v) greatest = std::max(greatest, of.norm());
+  return greatest;
+}
+
+}  // namespace
+
+ConstrainedSystem::ConstrainedSystem(const World& world, double time, std::vector<Entity> members,
+                                     std::vector<Applied> applied, double step_error)
+    : world_(world),
+      time_(time),
+      step_error_(step_error),
+      rounding_(0x1p-53 * (step_error / tol::step_error)),
+      members_(std::move(members)),
+      applied_(std::move(applied)),
+      left_(members_.size(), 0) {
+  for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
+}
+
+void ConstrainedSystem::carry(Entity e, const Vec3& x, const Vec3& v) {
+  if (carrier_of(e) == nullptr) carriers_.push_back({e, x, v});
+}
+
+const ConstrainedSystem::Carrier* ConstrainedSystem::carrier_of(Entity e) const {
+  for (const Carrier& carrier : carriers_)
+    if (carrier.thing == e) return &carrier;
+  return nullptr;
+}
+
+/// Positions or velocities of the members, and of the moving things after them.
+std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const {
+  for (const Carrier& carrier : carriers_) of_members.push_back(carrier.*of_carrier);
+  return of_members;
+}
+
+void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pair, double guess) {
+  closed_.push_back(contact);
+  rows_.push_back({pair.a, pair.b, pair.normal});
+  rows_.back().bilateral = pair.bilateral;
+  rows_.back().force = guess;
+}
+
+void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < closed_.size(); ++c) {
+    if (which[c]) {
+      opened_.push_back(closed_[c]);
+      opened_rows_.push_back(rows_[c]);
+    } else {
+      closed_[kept] = closed_[c];
+      rows_[kept++] = rows_[c];
+    }
+  }
+  closed_.resize(kept);
+  rows_.resize(kept);
+}
+
+/// The accelerations by forces without contact (m/s^2), by member.
+std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
+  std::vector<Vec3> a;
+  a.reserve(v.size());
+
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    if (k >= applied_.size()) {
+      a.push_back(Vec3::Zero());
+      continue;
+    }
+
+    const auto& [at_rest, fade, bent] = applied_[k];
+    if (bent)
+      a.push_back(free_acceleration(world_, members_[k], time_, x[k], v[k]));
+    else
+      a.push_back(fade == 0 ? at_rest : Vec3(at_rest - fade * v[k]));
+  }
+  return a;
+}
+
+bool ConstrainedSystem::any_bent() const {
+  return std::any_of(applied_.begin(), applied_.end(), [](const Applied& of) { return of.bent; });
+}
+
+double ConstrainedSystem::common_fade() const {
+  const double fade = applied_.front().fade;
+  const bool same = std::all_of(applied_.begin(), applied_.end(), [&](const Applied& of) { return of.fade == fade; });
+  return same ? fade : -1;
+}
+
+/// The position of a contact's second thing (m). x: of the members at the start, or of all points later.
+Vec3 ConstrainedSystem::place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const {
+  if (b != ContactConstraint::fixed) return x[b];
+  const Carrier* const carrier = carrier_of(e);
+  if (carrier == nullptr) return world_.fixed_position(e);
+  return x.size() > members_.size() ? x[place_of_carrier(*carrier)] : carrier->x;
+}
+
+Vec3 ConstrainedSystem::relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const {
+  const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
+  return carrier == nullptr ? relative(v, row) : Vec3(carrier->v - v[row.a]);
+}
+
+/// The displacement of a contact's second thing relative to the first since the start (m).
+Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row,
+                              Entity e) const {
+  const Vec3 of_a = x[row.a] - motion.start(row.a);
+  if (row.b != ContactConstraint::fixed) return (x[row.b] - motion.start(row.b)) - of_a;
+  const Carrier* const carrier = carrier_of(e);
+  return (carrier == nullptr ? Vec3(Vec3::Zero()) : Vec3(x[place_of_carrier(*carrier)] - carrier->x)) - of_a;
+}
+
+/// Allows rods path errors of the accelerations, where other rods hold their ends already.
+void ConstrainedSystem::allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const {
+  double greatest = greatest_norm(a);
+  for (const ContactConstraint& row : rows) greatest = std::max(greatest, std::abs(row.target));
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    if (is_rod(world_, closed_[c].e)) rows[c].slack = tol::step_error * greatest;
+}
+
+std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                std::vector<ContactConstraint>& rows, Certificate& certificate) const {
+  std::vector<Vec3> a = forces_at(x, v);
+  bool rods = false;
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    const auto& [i, e, feature] = closed_[c];
+    if (is_flat(world_, i, e, feature)) continue;
+
+    ContactConstraint& row = rows[c];
+    const Vec3 xe = place_of(x, row.b, e);
+    // Also beyond its rim.
+    const Touch there = touch(world_, i, x[row.a], e, xe, feature);
+    row.normal = there.normal;
+    if (is_rod(world_, e)) rods = true;
+    row.target = -bending(world_, i, x[row.a], e, xe, there, relative_velocity(v, row, e));
+  }
+
+  if (rods) allow_contradictions(a, rows);
+  certificate.merge(solve({inverse_mass_, a, rows}));
+  return a;
+}
+
+std::vector<Vec3> ConstrainedSystem::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
+  return solve_rows(x, v, rows_, certificate_);
+}
+
+double ConstrainedSystem::gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const {
+  return rows_[c].normal.dot(relative(a, rows_[c])) - rows_[c].target;
+}
+
+/// The greatest speed of members relative to what they touch, and where forces vary in space (m/s). What moves all of
+/// them alike does not count.
+double ConstrainedSystem::relative_speed(const std::vector<Vec3>& v) const {
+  double fastest = 0;
+  const auto take = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      fastest = std::max(fastest, relative_velocity(v, rows[c], contacts[c].e).norm());
+  };
+  take(closed_, rows_);
+  take(opened_, opened_rows_);
+  for (std::size_t k = 0; k < members_.size(); ++k)
+    if (applied_[k].bent || applied_[k].fade > 0) fastest = std::max(fastest, v[k].norm());
+  return fastest;
+}
+
+ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
+  Scales s;
+  double farthest = 0;
+  for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
+  for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
+
+  s.acceleration = greatest_norm(forces_at(x, v));
+  for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
+  s.speed = std::max(relative_speed(v), std::sqrt(s.acceleration * s.length));
+
+  // The greatest term of the forces' sum.
+  double strongest = s.acceleration;
+  for (std::size_t k = 0; k < v.size(); ++k)
+    if (applied_[k].fade > 0)
+      strongest = std::max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
+  s.opening = strongest * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
+  return s;
+}
+
+/// By member: the rounding of its position (m). A coordinate that does not change is not rounded.
+std::vector<double> ConstrainedSystem::place_roundings(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                       const std::vector<Vec3>& a) const {
+  std::vector<double> roundings;
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    double sum = 0;  // m
+    for (int axis = 0; axis < 3; ++axis)
+      if (v[k][axis] != 0 || a[k][axis] != 0) sum += std::abs(x[k][axis]);
+    roundings.push_back(rounding_ * sum);
+  }
+  return roundings;
+}
+
+/// The same for the distance of a contact's two things.
+double ConstrainedSystem::distance_rounding(const std::vector<double>& of_places, const ContactConstraint& row,
+                                            Entity e) const {
+  if (row.b != ContactConstraint::fixed) return of_places[row.a] + of_places[row.b];
+  const Carrier* const carrier = carrier_of(e);
+  return of_places[row.a] + (carrier == nullptr ? 0 : rounding_ * carrier->x.cwiseAbs().sum());
+}
+
+/// The acceleration by a contact's force of its two members relative to one another (m/s^2).
+double ConstrainedSystem::reaction(const ContactConstraint& row) const {
+  const double inverse_mass = inverse_mass_[row.a] + (row.b == ContactConstraint::fixed ? 0 : inverse_mass_[row.b]);
+  return std::abs(row.force) * inverse_mass;
+}
+
+/// The time (s) for which a contact's force keeps its direction, where its members slide at w (m/s) and with the
+/// acceleration a (m/s^2) over a surface of radius `bend` (m).
+///
+/// The force turns by the way over the radius. Parabolas then miss load (w t^3 / 6 + a t^4 / 24) / bend, with the
+/// acceleration `load` (m/s^2) by the force, however small w and a are. That must be a small share of the way itself,
+/// because the motion away from an equilibrium grows in proportion to it, or half the rounding of positions (m).
+double ConstrainedSystem::turning_time(double load, double bend, double w, double a, double rounding) const {
+  if (!(load * (w + a) > 0)) return never;
+  const double share = std::sqrt(6 * step_error_ * bend / load);
+  double rounded = never;
+  if (w > 0) rounded = cube_root(3 * rounding * bend / (load * w));
+  if (a > 0) rounded = std::min(rounded, std::sqrt(std::sqrt(12 * rounding * bend / (load * a))));
+  return std::max(share, rounded);
+}
+
+/// The time for which parabolas stay on closed contacts, and for which open contacts cannot return unseen.
+///
+/// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. For this time they move the body off
+/// the parabola by less than the method's error. The forces keep their direction meanwhile.
+double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                        const std::vector<Vec3>& a) const {
+  double h = never;
+  const double fade = std::max(common_fade(), 0.0);
+  const std::vector<double> roundings = place_roundings(x, v, a);
+
+  const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto& [i, e, feature] = contacts[c];
+      if (is_flat(world_, i, e, feature)) continue;
+
+      const double bend = bend_radius(world_, i, e);
+      const double room = step_error_ * smaller_radius(world_, contacts[c]) * bend;
+      const double w = relative_velocity(v, rows[c], e).norm();
+      const double pull = relative(a, rows[c]).norm();
+
+      const double bent = pull + w * w / bend;
+      if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
+      if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
+      h = std::min(h, turning_time(reaction(rows[c]), bend, w, pull, distance_rounding(roundings, rows[c], e)));
+      // On a path that drag bends the acceleration decays, and that across the surface does not.
+      if (fade * w > 0) h = std::min(h, std::max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
+    }
+  };
+
+  keep(closed_, rows_);
+  keep(opened_, opened_rows_);
+  if (any_bent()) return 0;
+  if (common_fade() >= 0) return h;
+
+  double length = never;
+  for (const Entity i : members_) length = std::min(length, world_.radius[i]);
+  // m/s^3, an upper bound: the effect of drag on forces in flat contacts.
+  const double jerk = greatest_fade() * greatest_norm(a);
+  return jerk > 0 ? std::min(h, cube_root(6 * step_error_ * length / jerk)) : h;
+}
+
+/// The errors that a step may have: shares of the motion itself, as far as rounding allows. Near an equilibrium speeds
+/// and accelerations are small, and errors grow with the motion.
+ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                             const std::vector<Vec3>& a) const {
+  const std::vector<double> roundings = place_roundings(x, v, a);
+  double rate = 0;     // 1/s, at which accelerations change
+  double fastest = 0;  // m/s, along what bends paths
+  double rounded = 0;  // m/s, by the rounding of what turns forces
+
+  const auto take = [&](double of_rate, double speed, double rounding) {
+    rate = std::max(rate, of_rate);
+    fastest = std::max(fastest, speed);
+    rounded = std::max(rounded, of_rate * rounding);
+  };
+
+  for (std::size_t c = 0; c < closed_.size(); ++c) {
+    const auto& [i, e, feature] = closed_[c];
+    if (is_flat(world_, i, e, feature)) continue;
+    const double bend = bend_radius(world_, i, e);
+    const double w = relative_velocity(v, rows_[c], e).norm();
+    take(std::max(std::sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
+  }
+
+  // Forces that vary refer to places and velocities in space.
+  double width = scales_.length;  // m, in which forces change
+  double left = 1;                // of speeds
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    const Entity i = members_[k];
+    if (applied_[k].bent || applied_[k].fade > 0) take(0, v[k].norm(), 0);
+    if (!applied_[k].bent) continue;
+
+    const double swings = std::sqrt(force_jacobian(world_, i, time_, x[k], v[k]).by_position.norm());
+    take(std::min(swings, force_rate(world_, i, x[k], v[k])), 0, roundings[k]);
+    width = std::min(width, force_reach(world_, i, x[k]));
+    left = std::min(left, left_of_speed(world_, i, time_, x[k], v[k]));
+  }
+
+  // The speed that the motion reaches, from rest, before accelerations change.
+  const double pull = greatest_norm(a);
+  double gained = std::sqrt(pull * width);
+  if (rate > 0) gained = std::min(gained, pull / rate);
+  if (const double fade = greatest_fade(); fade > 0) gained = std::min(gained, pull / fade);
+
+  const double place = *std::max_element(roundings.begin(), roundings.end());
+  const double speed = step_error_ * left * std::max(fastest, gained);
+  return {std::max(step_error_ * left * width, place),
+          std::max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
+}
+
+/// The longest step (s) in which no member comes to more than half of its way to an attractor.
+double ConstrainedSystem::within_reach(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                       const std::vector<Vec3>& a) const {
+  double longest = never;
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    if (!applied_[k].bent) continue;
+    const double time = step_within(force_reach(world_, members_[k], x[k]), v[k].norm(), a[k].norm());
+    if (time > 0) longest = std::min(longest, time);
+  }
+  return longest;
+}
+
+ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                      const std::vector<Vec3>& a, double first, double longest) {
+  scales_ = scales(x, v);
+  // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
+  // opening too.
+  held_ = rows_;
+  for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.force > 0;
+  allowed_ = allowed_errors(x, v, a);
+  const double h = std::min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a)});
+  // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
+  if (greatest_fade() * h > 1 && !any_bent())
+    if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
+  return follow_smooth(x, v, a, h);
+}
+
+/// Whether a step moves any body by more than its position's rounding.
+bool ConstrainedSystem::moves(const DenseMotion& motion) {
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    if (motion.displacement(k, motion.length()).norm() > 0x1p-53 * motion.start(k).norm()) return true;
+  return false;
+}
+
+/// Follows the motion by the method of order 8, with a first step of h (s).
+ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                             const std::vector<Vec3>& a, double h) {
+  std::vector<ContactConstraint> rows = held_;
+  const auto smooth = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
+    Certificate of_stage;
+    return solve_rows(at, speed, rows, of_stage);
+  };
+
+  Followed followed;
+  std::vector<Vec3> start = a;
+  start.resize(a.size() + carriers_.size(), Vec3::Zero());
+  auto motion =
+      std::make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
+
+  const double rounded = rounding_ * greatest_norm(v);  // m/s
+  const auto step = [&](double length) {
+    return motion->step(length, smooth, std::max(allowed_.place, length * rounded), allowed_.speed);
+  };
+
+  // Shorter steps follow until the error is allowed.
+  bool rejected = false;
+  for (;;) {
+    const double error = step(h);
+    followed.next = DormandPrince::next_length(h, error);
+    if (error <= 1) break;
+    rejected = true;
+    h = followed.next;
+  }
+
+  motion->interpolate(smooth);
+  followed.stuck = rejected && greatest_norm(v) > 0 && !moves(*motion);
+  // The step ends at the first change in it.
+  const double change = first_change(*motion);
+  followed.changes = change < never;
+  if (change < h) {
+    step(change);
+    motion->interpolate(smooth);
+  }
+
+  followed.motion = std::move(motion);
+  return followed;
+}
+
+/// Follows the motion by collocation. No motion: drag does not decay within its steps.
+ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                            double h) {
+  std::vector<RadauCollocation::Forces> forces;
+  for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
+  forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
+
+  std::vector<ContactConstraint> rows = held_;
+  std::vector<double> inverse_mass(members_.size());
+  const auto hold = [&](const std::vector<Vec3>& at, double s, std::vector<Vec3>& u) {
+    for (std::size_t k = 0; k < members_.size(); ++k) inverse_mass[k] = inverse_mass_[k] / (1 + s * applied_[k].fade);
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      const auto& [i, e, feature] = closed_[c];
+      rows[c].target = 0;
+      if (!is_flat(world_, i, e, feature))
+        rows[c].normal = touch(world_, i, at[rows[c].a], e, place_of(at, rows[c].b, e), feature).normal;
+      if (const Carrier* carrier = carrier_of(e)) rows[c].surface = rows[c].normal.dot(carrier->v);
+    }
+    solve({inverse_mass, u, rows});
+  };
+
+  Followed followed;
+  auto motion = std::make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
+  const auto step = [&](double length) { return motion->step(length, forces, hold, allowed_.place, allowed_.speed); };
+
+  // Shorter steps follow until the error is allowed.
+  for (;;) {
+    const double error = step(h);
+    followed.next = DormandPrince::next_length(h, error);
+    if (error <= 1) break;
+    h = followed.next;
+    if (greatest_fade() * h < 1) return {};
+  }
+
+  const double change = first_change(*motion);
+  followed.changes = change < never;
+  if (change < h) step(change);
+  followed.motion = std::move(motion);
+  return followed;
+}
+
+/// The integral of force times velocity by Gauss's rule, with the forces that hold the motion on the surfaces.
+double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
+  std::vector<ContactConstraint> rows = held_;
+  double work = 0;
+  std::vector<Vec3> x;
+  std::vector<Vec3> v;
+  for (const WorkPoint& point : work_points) {
+    motion.at(point.at * length, x, v);
+    Certificate certificate;
+    solve_rows(x, v, rows, certificate);
+
+    // The power of moving things on members that are not left out.
+    double power = 0;
+    for (std::size_t c = 0; c < rows.size(); ++c)
+      if (const Carrier* carrier = carrier_of(closed_[c].e); carrier != nullptr && !left_[rows[c].a])
+        power -= rows[c].force * rows[c].normal.dot(carrier->v);
+    work += point.weight * length * power;
+  }
+
+  return work;
+}
+
+double ConstrainedSystem::greatest_fade() const {
+  double fade = 0;
+  for (const Applied& of : applied_) fade = std::max(fade, of.fade);
+  return fade;
+}
+
+/// The first change in a step (s), or never.
+double ConstrainedSystem::first_change(const DenseMotion& motion) {
+  const double h = motion.length();
+  double first = never;
+
+  // Openings are searched in the first half, and then in the second.
+  const double middle = opens(motion, 0.5 * h);
+  if (middle > tol::opened) {
+    first = find_opening(motion, 0, 0.5 * h, middle);
+  } else if (const double end = opens(motion, h); end > tol::opened) {
+    first = find_opening(motion, 0.5 * h, h, end);
+  }
+
+  // Rims and opened contacts are examined at samples.
+  const auto rim = [&](const std::vector<Vec3>& at) { return over_rim(motion, at); };
+  const auto back = [&](const std::vector<Vec3>& at) { return classify_opened(motion, at) == Opened::back; };
+  std::vector<Vec3> x;
+  std::vector<Vec3> v;
+  for (int k = 1; k <= samples; ++k) {
+    const double from = h * (k - 1) / samples;
+    const double to = k == samples ? h : h * k / samples;
+    if (from >= first) break;
+
+    motion.at(to, x, v);
+    if (rim(x)) first = std::min(first, first_time(motion, from, to, rim));
+    const Opened opened = classify_opened(motion, x);
+    if (opened == Opened::away) first = std::min(first, to);
+    if (opened == Opened::back) first = std::min(first, first_time(motion, from, to, back));
+  }
+  return first;
+}
+
+/// The greatest acceleration of a gap at t (s), as a multiple of its rounding.
+double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
+  if (scales_.opening == 0) return 0;
+  std::vector<Vec3> x, v;
+  motion.at(t, x, v);
+  const std::vector<Vec3> a = accelerate(x, v);
+  double greatest = 0;
+  for (std::size_t c = 0; c < rows_.size(); ++c)
+    if (!rows_[c].bilateral) greatest = std::max(greatest, gap_acceleration(c, a));
+  return greatest / scales_.opening;
+}
+
+/// The time (s) at which gaps accelerate clearly, but only just. They do at `to` (by at_end), and not at `from`.
+double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, double to, double at_end) {
+  const double aim = std::sqrt(tol::opened * tol::wide_open);
+  // A second point at which contacts are open.
+  double beyond = to;
+  double at_beyond = at_end;
+
+  for (int pass = 0; pass < 100 && to - from > tol::time_precision * motion.length(); ++pass) {
+    if (at_end <= tol::wide_open) break;
+    // The middle, or the secant's point where that lies between `from` and `to`.
+    double t = 0.5 * (from + to);
+    if (beyond > to && at_beyond > at_end) {
+      const double secant = to - (at_end - aim) * (beyond - to) / (at_beyond - at_end);
+      if (secant > from && secant < to) t = secant;
+    }
+
+    const double at_t = opens(motion, t);
+    if (at_t > tol::opened) {
+      beyond = std::exchange(to, t);
+      at_beyond = std::exchange(at_end, at_t);
+    } else {
+      from = t;
+    }
+  }
+  return to;
+}
+
+/// Whether a closed contact has crossed its feature's rim by more than rounding.
+bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const {
+  for (std::size_t c = 0; c < closed_.size(); ++c) {
+    const auto& [i, e, feature] = closed_[c];
+    const ContactConstraint& row = rows_[c];
+    const Vec3 xe = place_of(x, row.b, e);
+    if (touch(world_, i, x[row.a], e, xe).feature == feature) continue;
+    const double over = std::max(tol::step_error * smaller_radius(world_, closed_[c]),
+                                 tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum()));  // m
+    if (moved(motion, x, row, e).norm() > over) return true;
+  }
+  return false;
+}
+
+/// The state of the opened contacts: the first that returns counts, then those far enough away to meet again.
+ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& motion,
+                                                             const std::vector<Vec3>& x) const {
+  Opened all = Opened::near;
+  for (std::size_t c = 0; c < opened_.size(); ++c) {
+    const auto& [i, e, feature] = opened_[c];
+    const ContactConstraint& row = opened_rows_[c];
+    const double least = smaller_radius(world_, opened_[c]);
+    const Vec3 xe = place_of(x, row.b, e);
+    const double gap = touch(world_, i, x[row.a], e, xe).gap;
+
+    // The place of the second thing at the start.
+    const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
+    const Vec3 xe_first = row.b != ContactConstraint::fixed ? motion.start(row.b)
+                          : carrier != nullptr              ? carrier->x
+                                                            : xe;
+
+    const double rounding = tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum());
+    if (gap < -std::max(tol::step_error * least, rounding) &&
+        gap < touch(world_, i, motion.start(row.a), e, xe_first).gap - tol::step_error * least)
+      return Opened::back;
+    if (gap > std::max(tol::contact_gap * least, rounding)) all = Opened::away;
+  }
+  return all;
+}
+
+}  // namespace carom

@@ -1,0 +1,109 @@
+// A pair is in contact where its gap is within rounding. One that approaches faster than the force that pressed it last
+// could explain has an impact of its own, and is left out.
+#include "simulate/island/contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/world.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+void ContactSearch::find(IslandStep& step) const {
+  find_touching(step);
+  step.load = load_of(step);
+  find_slow_speeds(step);
+  drop_striking(step);
+}
+
+/// The pairs that touch.
+void ContactSearch::find_touching(IslandStep& step) const {
+  const World& world = bodies_.world;
+  for (std::uint32_t k = 0; k < step.members.size(); ++k) {
+    const Entity i = step.members[k];
+    const std::size_t first = step.contacts.pairs.size();
+    for (const Entity e : bodies_.neighbours_of(i)) {
+      const bool body = world.is_body(e);
+      if (body && (e < i || step.members.number(e) == Numbering::none)) continue;
+
+      // A thing that it has just struck touches it at that feature, and at no other.
+      const bool struck = bodies_.flights[i].start == bodies_.now && bodies_.body[i].origin_partner == e;
+      const Vec3 xe = step.position_of(bodies_, e);
+      const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
+      if (there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
+
+      const std::uint32_t other = body ? step.members.number(e) : Numbering::none;
+      step.contacts.add({k, other, there.normal, -there.gap, 0, 0}, {i, e, there.feature}, there.gap);
+    }
+    step.contacts.drop_hidden(bodies_, step.x[k], first);
+    find_strings(step, k);
+  }
+}
+
+/// The same for the strings of member k. Each belongs to one of its two bodies. A rod is always in contact.
+void ContactSearch::find_strings(IslandStep& step, std::uint32_t k) const {
+  const Entity i = step.members[k];
+  for (const Entity e : bodies_.ties.of(i)) {
+    const String& s = bodies_.world.string(e);
+    const std::uint32_t other = s.other == no_entity ? Numbering::none : step.members.number(s.other);
+    if (s.body != i || (s.other != no_entity && other == Numbering::none)) continue;
+
+    const Vec3 xe = step.position_of(bodies_, e);
+    const Touch there = touch(bodies_.world, i, step.x[k], e, xe);
+    if (!s.rod && there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
+
+    ContactConstraint pair{k, other, there.normal, -there.gap};
+    pair.bilateral = s.rod;
+    pair.slack = s.rod ? tol::step_error * bodies_.world.radius[i] : 0;
+    step.contacts.add(pair, {i, e, there.feature}, there.gap);
+  }
+}
+
+/// The greatest acceleration by forces with which members may press on anything (m/s^2). Without a fixed thing in
+/// contact it is that relative to one another, because what falls freely presses on nothing.
+double ContactSearch::load_of(const IslandStep& step) const {
+  const bool held = std::ranges::any_of(step.contacts.pairs,
+                                        [](const ContactConstraint& p) { return p.b == ContactConstraint::fixed; });
+  const auto pull = [&](std::size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
+  const Vec3 common = held ? Vec3(Vec3::Zero()) : pull(0);
+  double greatest = 0;
+  for (std::size_t k = 0; k < step.members.size(); ++k) greatest = std::max(greatest, (pull(k) - common).norm());
+  return greatest;
+}
+
+/// The speeds below which approaches are no impacts of their own, by the forces that pressed pairs together last.
+void ContactSearch::find_slow_speeds(IslandStep& step) const {
+  ContactList& contacts = step.contacts;
+  for (std::size_t c = 0; c < contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = contacts.pairs[c];
+    const auto& [i, e, feature] = contacts.names[c];
+    const double of_e = p.b == ContactConstraint::fixed ? 0 : step.inverse_mass[p.b];
+    const double press = group_.pressing_force(i, e) * (step.inverse_mass[p.a] + of_e);  // m/s^2
+
+    // A pair that nothing has pressed together decides by its impact. An error of paths is none.
+    const bool pressed = press > tol::curve_rounding * step.load;
+    const double slow = pressed ? bodies_.slow_speed(press, bodies_.smaller_length(i, e)) : 0;
+    const double errors = bodies_.drift_of(i, step.v[p.a], step.velocity_of(bodies_, e));
+    contacts.slow[c] = std::max({slow, errors, std::numeric_limits<double>::min()});
+  }
+}
+
+/// Drops the pairs that are about to strike: they approach faster than that.
+void ContactSearch::drop_striking(IslandStep& step) const {
+  ContactList& contacts = step.contacts;
+  contacts.drop_if(0, [&](std::size_t c) {
+    const ContactConstraint& p = contacts.pairs[c];
+    const auto& [i, e, feature] = contacts.names[c];
+    const double approach = p.normal.dot(step.v[p.a] - step.velocity_of(bodies_, e));
+    const double places = step.x[p.a].cwiseAbs().sum() + step.position_of(bodies_, e).cwiseAbs().sum();
+    const bool apart = contacts.gaps[c] > tol::contact_rounding * places;
+    return !p.bilateral && group_.strikes(i, e, approach, contacts.slow[c], apart);
+  });
+}
+
+}  // namespace carom

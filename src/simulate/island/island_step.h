@@ -1,0 +1,107 @@
+#pragma once
+// A step of an island by constrained motion, as a value: what is found for it, and what its end will change.
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "physics/collision.h"
+#include "physics/tally.h"
+#include "simulate/contact/contact_list.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/contact/numbering.h"
+#include "simulate/event_log.h"
+#include "simulate/island/constrained_system.h"
+#include "simulate/path/instant.h"
+
+namespace carom {
+
+/// The path of an island's bodies in a step.
+struct IslandPath {
+  Instant start;
+  std::unique_ptr<DenseMotion> motion;
+};
+
+/// What becomes of a member.
+struct MemberFate {
+  bool rests = false;        // neither it nor its island moves or accelerates
+  bool pressed = false;      // a thing presses on it
+  bool bound = false;        // a thing that is not flat does
+  FlatContactList flats;     // the surfaces on which it lies if it leaves the island
+  Vec3 down = Vec3::Zero();  // m, closes the remaining gaps to these
+
+  /// Whether it leaves the island after it has had time to fall back: nothing presses on it, or only flat surfaces do.
+  bool leaves() const { return !bound && !(pressed && rests); }
+};
+
+/// Approaches that contact has taken away at once.
+struct AbsorbedApproaches {
+  std::vector<Vec3> before;              // m/s, by member
+  std::vector<Vec3> after;               // m/s
+  std::vector<ContactConstraint> pairs;  // with the impulses (N s)
+  std::vector<AbsorbedImpact> impacts;   // by pair
+};
+
+struct IslandStep {
+  explicit IslandStep(Numbering of_members) : members(std::move(of_members)) {}
+
+  Numbering members;         // ascending
+  bool undisturbed = false;  // the step before has reached its end
+
+  // By member, at the step's start: m, m/s, m/s^2, 1/kg.
+  std::vector<Vec3> x;
+  std::vector<Vec3> v;
+  std::vector<Vec3> a;
+  std::vector<double> inverse_mass;
+  double load = 0;          // m/s^2, the greatest acceleration with which members may press on anything
+  double smallest = never;  // m, the least radius
+  double fastest = 0;       // m/s
+  ContactList contacts;     // force: N, at the step's start
+  std::vector<MemberFate> fates;
+
+  // s. A body that nothing binds stays for the time `grace`, to fall back.
+  double length = 0;
+  double grace = 0;
+  double fade = 0;                         // 1/s, of all members' accelerations
+  std::shared_ptr<const IslandPath> path;  // none: parabolas
+
+  /// What is known besides when the motion has been chosen.
+  struct Motion {
+    // Of the path, where things that move take part: to integrate their work. none: they do not.
+    std::shared_ptr<ConstrainedSystem> forces;
+    double next_length = 0;  // s, a good length for the next step
+    bool inexact = false;    // the paths have an error beyond rounding
+    bool changes = false;    // a contact changes at the path's end
+  } motion;
+
+  /// What is to be booked.
+  struct Bookings {
+    std::vector<Certificate> solutions;
+    AbsorbedApproaches absorbed;
+    std::vector<Collision> collisions;
+    std::vector<Entity> struck;  // bodies with an impact in turn with a strike
+    double work = 0;             // J, of moving things when separations end
+    std::vector<Unbalanced> unbalanced;
+  } bookings;
+
+  /// The position (m), velocity (m/s) and acceleration (m/s^2) of a thing: a member, a string to a member or to its
+  /// anchor, or a fixed thing.
+  Vec3 position_of(const ExactBodies& bodies, Entity thing) const {
+    const Entity body = bodies.world.second_body(thing);
+    return body != no_entity ? x[members.number(body)] : bodies.fixed_position(thing);
+  }
+  Vec3 velocity_of(const ExactBodies& bodies, Entity thing) const {
+    const Entity body = bodies.world.second_body(thing);
+    return body != no_entity ? v[members.number(body)] : bodies.fixed_velocity(thing);
+  }
+  Vec3 pull_of(const ExactBodies& bodies, Entity thing) const {
+    const Entity body = bodies.world.second_body(thing);
+    return body != no_entity ? a[members.number(body)] : Vec3(Vec3::Zero());
+  }
+  /// The speed at which pair c separates (m/s).
+  double parting_speed(const ExactBodies& bodies, std::size_t c) const {
+    const ContactConstraint& p = contacts.pairs[c];
+    return p.normal.dot(velocity_of(bodies, contacts.names[c].e) - v[p.a]);
+  }
+};
+
+}  // namespace carom

@@ -1,0 +1,198 @@
+// Predicts a body's next event: the first of all that may happen to it. Each body keeps one event only. A pair's
+// collision may be found from either side. Both sides give the same bits, so that the order of predictions has no
+// effect. Balls under equal accelerations, the common case, are tested several at a time (straight_times.h).
+#include "simulate/loop/event_predictor.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "geometry/path_time_of_impact.h"
+#include "physics/world.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/contact/mode_changes.h"
+#include "simulate/contact/region_exit.h"
+#include "simulate/loop/event_queue.h"
+
+namespace carom {
+
+EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const ModeChanges& modes,
+                               const FlatContacts& flat, const ExactGroup& group)
+    : bodies_(bodies),
+      queue_(queue),
+      modes_(modes),
+      flat_(flat),
+      group_(group),
+      times_(bodies),
+      plain_(!bodies.ties.any() && bodies.world.forces.empty() && !bodies.moving.any()) {}
+
+void EventPredictor::predict(Entity i) {
+  if (bodies_.neighbours.bodies(i).size() > 128 && bodies_.neighbours.room(i) > 0.05 * bodies_.world.radius[i])
+    bodies_.neighbours.shrink(i, bodies_.position(i));
+  predict_among(i, bodies_.neighbours.bodies(i));
+}
+
+void EventPredictor::predict_all() {
+  std::vector<Entity> others;
+  // Never on curves, which may part later: their fade equals nothing.
+  const auto together = [&](Entity i, Entity j) {
+    const Flights::Core* const f = bodies_.flights.cores();
+    return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j) &&
+           bodies_.flights.fade(i) == bodies_.flights.fade(j);
+  };
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    if (bodies_.islands.any()) {
+      predict(i);
+      continue;
+    }
+    others.clear();
+    std::ranges::copy_if(bodies_.neighbours.bodies(i), std::back_inserter(others),
+                         [&](Entity j) { return j < i && !together(i, j); });
+    predict_among(i, others);
+  }
+}
+
+/// Predicts the first event of body i with these bodies, with surfaces and by itself.
+void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
+  ExactEvent best;
+  meet_bodies(i, bodies, best);
+  meet_each(i, bodies_.neighbours.surfaces(i), best);
+  if (lies_on_flat(bodies_.mode(i))) offer_flat_contacts(i, best);
+  if (!plain_) offer_beside_contacts(i, best);
+  if (is_member(bodies_.mode(i)) || bodies_.flights.curve(i) != nullptr)
+    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
+  bodies_.body[i].event = best;
+  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+/// Offers what neither a contact nor a region is: strings, and switches of forces and of things that move.
+void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
+  if (bodies_.ties.any()) offer_strings(i, best);
+  if (!bodies_.world.forces.empty())
+    offer(i, best,
+          {{bodies_.merged.next_switch(i, bodies_.now.floor()), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+  if (bodies_.moving.any())
+    offer(i, best,
+          {{bodies_.moving.next_switch(bodies_.now.floor()), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+}
+
+/// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.
+void EventPredictor::offer_strings(Entity i, ExactEvent& best) {
+  const bool constrained = bodies_.mode(i) == Mode::held;
+  for (const Entity string : bodies_.ties.of(i)) {
+    if (bodies_.world.string(string).rod || (constrained && modes_.are_partners(i, string))) continue;
+    ++surface_tests_;
+    const Entity other = bodies_.ties.other(string, i);
+    const std::uint16_t version = other == no_entity ? std::uint16_t{0} : bodies_.body[other].version;
+    offer(i, best, {times_.of_string(string), string, version, ExactEvent::Kind::string, 0});
+  }
+}
+
+/// Offers the end of bounces on flat surfaces, and the instant at which body i slides off them.
+void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
+  for (std::size_t k = 0; k < flat_.of(i).count; ++k) {
+    const FlatContact& contact = flat_.of(i).at[k];
+    if (contact.settling)
+      offer(i, best, {contact.rest_time, contact.surface, 0, ExactEvent::Kind::rest, contact.feature});
+    if (bodies_.world.is_plane(contact.surface)) continue;
+    const Flight& f = bodies_.flights[i];
+    const FadingPath fixed = flat_.path_of(contact.surface, f.start);
+    const FeatureTime rim = leave_feature(bodies_.world, i, f.path(), contact.surface, fixed, contact.feature,
+                                          Instant{bodies_.options.duration, 0} - f.start);
+    if (rim.time < never)
+      offer(i, best, {f.start + rim.time, contact.surface, 0, ExactEvent::Kind::release, rim.feature});
+  }
+}
+
+/// Offers the collisions of body i with each of the others.
+void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
+  const bool constrained = bodies_.mode(i) == Mode::held, carried = lies_on_flat(bodies_.mode(i));
+  for (const Entity e : others) {
+    // They cannot meet.
+    if (constrained && modes_.are_partners(i, e)) continue;
+    std::uint8_t feature = no_feature;
+    if (bodies_.world.is_body(e)) {
+      feature = 0;
+      ++pair_tests_;
+      const Instant time = times_.of_pair(i, e, feature);
+      offer(i, best, {time, e, bodies_.body[e].version, ExactEvent::Kind::body_body, feature});
+    } else if (!(carried && (flat_.carry(i, e) || flat_.hide(i, e))) && !(constrained && group_.hides(i, e))) {
+      ++surface_tests_;
+      const Instant time = times_.of_surface(i, e, feature);
+      offer(i, best, {time, e, 0, ExactEvent::Kind::body_fixed, feature});
+    }
+  }
+}
+
+/// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.
+void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
+  if (!bodies_.world.volume.empty() || is_member(bodies_.mode(i)) || bodies_.flights.fade(i) != 0)
+    return meet_each(i, others, best);
+  const Vec3& a = bodies_.flights.acceleration(i);
+  if (bodies_.islands.any() || !bodies_.flights.alike() || bodies_.flights.any_fades()) {
+    alike_.clear();
+    for (const Entity& e : others)
+      if (is_member(bodies_.mode(e)) || bodies_.flights.acceleration(e) != a || bodies_.flights.fade(e) != 0)
+        meet_each(i, {&e, 1}, best);
+      else
+        alike_.push_back(e);
+    others = alike_;
+  }
+  if (meets_.size() < others.size()) meets_.resize(2 * others.size());
+  const bool latest = bodies_.flights.cores()[i].start == bodies_.now;
+  pair_tests_ += others.size();
+  const double* const radius = bodies_.same_radius ? nullptr : bodies_.world.radius.data();
+  std::size_t count = straight_times(
+      {bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others, a, latest, bodies_.options.duration},
+      meets_.data());
+  for (Meet& meet : std::span(meets_.data(), count)) {
+    std::uint8_t feature = 0;
+    if (meet.time.hi == unsure) meet.time = times_.of_pair(i, meet.with, feature);
+  }
+  // The earliest collision for which the other body is free. If that body has an event before, it then predicts its
+  // collision with body i anew.
+  while (count > 0) {
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      if (meets_[k].time < meets_[first].time) first = k;
+    const Meet& meet = meets_[first];
+    if (best.time.hi < meet.time.hi) return;
+    const ExactEvent& other = bodies_.body[meet.with].event;
+    const bool taken =
+        other.kind == ExactEvent::Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
+    if (!taken) offer(i, best, {meet.time, meet.with, bodies_.body[meet.with].version, ExactEvent::Kind::body_body, 0});
+    meets_[first] = meets_[--count];
+  }
+}
+
+/// Keeps the earlier of two events of body i, by the total order.
+void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) const {
+  if (!(candidate.time.hi <= bodies_.options.duration)) return;
+  // This happens by rounding only.
+  if (candidate.time < bodies_.now) candidate.time = bodies_.now;
+  if (best.time < candidate.time) return;
+  if (candidate.time == best.time) {
+    if (best.kind < candidate.kind) return;
+    if (best.kind == candidate.kind) {
+      // A string has one event for both of its bodies.
+      const auto key = [i](const ExactEvent& e) {
+        const Entity body = e.kind == ExactEvent::Kind::string ? e.partner : i;
+        return std::pair(std::min(body, e.partner), std::max(body, e.partner));
+      };
+      if (key(best) < key(candidate)) return;
+    }
+  }
+  best = candidate;
+}
+
+void EventPredictor::renew_region(Entity i) {
+  const std::span<const Entity> came = carom::renew_region(bodies_, i, bodies_.body[i].event.time.hi);
+  ExactEvent best = bodies_.body[i].event;
+  meet_bodies(i, came, best);
+  meet_each(i, bodies_.neighbours.surfaces(i), best);
+  bodies_.body[i].event = best;
+  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+}  // namespace carom

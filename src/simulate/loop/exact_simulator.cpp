@@ -1,0 +1,410 @@
+// The event loop of the exact simulator. It takes the first event of the total order, updates the bodies concerned and
+// predicts their next events. Other bodies do not move, so that a step costs as much as the event and not as the scene.
+// Each kind of event belongs to one part. The loop returns early when a buffer is full, or after many events, so that
+// the caller keeps control.
+#include "simulate/loop/exact_simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/world.h"
+
+namespace carom {
+
+namespace {
+
+// Collisions that one event causes, as a rule at most.
+constexpr std::size_t collisions_of_event = 8;
+constexpr std::uint32_t events_at_a_time = 65536;
+// A step of an island takes as long as so many impacts for each of its bodies.
+constexpr std::uint32_t events_of_a_step = 64;
+// Number of bodies with data that fit into a processor's cache.
+constexpr Entity cached_bodies = 24576;
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options) {
+  return std::make_unique<ExactSimulator>(world, initial, options);
+}
+
+ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
+    : bodies_(world, options),
+      crossings_(bodies_, [this](Entity i) { return bodies_.flight_end(i); }),
+      paths_(bodies_, crossings_),
+      collapses_(bodies_),
+      modes_(bodies_),
+      flat_(bodies_, modes_, collapses_),
+      group_(bodies_, modes_, flat_, collapses_, paths_),
+      flights_(bodies_, flat_, paths_),
+      queue_(bodies_),
+      prefetch_(bodies_, queue_),
+      predictor_(bodies_, queue_, modes_, flat_, group_),
+      simultaneous_(bodies_, group_, flights_),
+      islands_(bodies_, modes_, group_, flat_, collapses_, flights_, paths_),
+      merging_(bodies_, modes_, flat_, flights_, paths_),
+      guard_(world.body_count(), options.duration),
+      impacts_(bodies_, {collapses_, flat_, group_, flights_, simultaneous_, merging_, guard_}),
+      attends_(watches() || world.body_count() > cached_bodies) {
+  start(initial);
+}
+
+/// Predicts the next events of the bodies that have changed. Those that are out of the world have none.
+inline void ExactSimulator::predict_changed() {
+  std::span<Entity> changed = flights_.take_changed();
+  if (changed.size() > 2) [[unlikely]] {
+    std::sort(changed.begin(), changed.end());
+    changed = changed.first(static_cast<std::size_t>(std::unique(changed.begin(), changed.end()) - changed.begin()));
+  }
+
+  for (const Entity i : changed) {
+    if (!is_in_world(bodies_.mode(i))) [[unlikely]] {
+      bodies_.body[i].event = {};
+      queue_.remove(i);
+    } else {
+      predictor_.predict(i);
+    }
+  }
+}
+
+void ExactSimulator::start(const State& initial) {
+  const World& world = bodies_.world;
+  if (bodies_.options.merge && bodies_.ties.any())
+    throw SimulationError("bodies with strings cannot merge: remove `strings`, or `merge`");
+  const Entity n = world.body_count();
+  for (Entity i = 0; i < n; ++i) {
+    Vec3 v = initial.velocity[i];
+    if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
+    const Vec3& x = initial.position[i];
+    if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
+    bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
+    bodies_.note_speed(i, v);
+  }
+  bodies_.neighbours.start(initial.position);
+  if (!bodies_.options.merge) {
+    for (Entity i = 0; i < n; ++i)
+      if (!bodies_.applied[i].isZero(0) && !bodies_.bent[i]) flat_.find_initial(i);
+    // Where no force acts, nothing presses.
+    if (!(world.gravity.isZero(0) && world.forces.empty()))
+      for (Entity i = 0; i < n; ++i) group_.join_initial(i);
+    if (bodies_.ties.any()) group_.join_by_strings();
+  }
+  for (Entity i = 0; i < n; ++i)
+    if (bodies_.flies_in_steps(i) && bodies_.mode(i) == Mode::flying) flights_.let_fall(i);
+  predictor_.predict_all();
+  if (bodies_.islands.any())
+    for (Entity i = 0; i < n; ++i)
+      if (bodies_.mode(i) == Mode::fresh) begin_island(i);
+  predict_changed();
+  for (Entity i = 0; i < n; ++i) paths_.note_change(i);
+  paths_.record_changes();
+}
+
+/// Takes the first step of body i's island. With strings it may be an impact, as by an impulse along a rod. It is then
+/// the first event.
+void ExactSimulator::begin_island(Entity i) {
+  const std::vector<Entity>& members = bodies_.islands.of(i).members;
+  if (!bodies_.ties.any() || !bodies_.any_meets(members)) return islands_.advance(i);
+  bodies_.islands.of(i).end = bodies_.now;
+  for (const Entity k : members) flights_.note_changed(k);
+}
+
+void ExactSimulator::advance_to(double time) {
+  bodies_.log.begin_advance();
+  paths_.begin_advance();
+  crossings_.begin_advance();
+  answers_.state_fresh = false;
+  const Instant until{std::min(time, bodies_.options.duration), 0};
+  const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
+  std::uint32_t events = 0;
+  do {
+    while (queue_.first_time() <= until.hi) {
+      const Entity i = queue_.first();
+      if (attends_ && bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
+      if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
+      if (attends_ && watches()) [[unlikely]] {
+        if (is_over()) break;
+        if (happens_before(queue_.leaves_first(i) ? Instant{queue_.first_time(), 0} : bodies_.body[i].event.time,
+                           false))
+          continue;
+      }
+      events += take_event(i);
+      // After many events without a result, the caller may need to check the clock.
+      if (events >= events_at_a_time && before_now() > time_) {
+        time_ = before_now();
+        return crossings_.sort();
+      }
+      // A buffer is full. Stop just before the present instant, because more may happen at it.
+      if (paths_.full() || (attends_ && crossings_.full()) || !bodies_.log.has_room(collisions_of_event)) {
+        time_ = std::max(time_, before_now());
+        return crossings_.sort();
+      }
+    }
+  } while (attends_ && happens_before(until, true));
+  paths_.record_changes();
+  crossings_.sort();
+  time_ = std::max(time, time_);
+  if (time_ < bodies_.options.duration) return;
+  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time_, 0}); });
+  flights_.book_last(time_);
+}
+
+/// Takes body i's next event, or its exit from its region. Returns how many events take as long.
+std::uint32_t ExactSimulator::take_event(Entity i) {
+  ++effort_.events;
+  if (!queue_.leaves_first(i)) return process(i);
+  if (bodies_.now.hi < queue_.first_time()) bodies_.now = {queue_.first_time(), 0};
+  ++effort_.regions;
+  predictor_.renew_region(i);
+  bodies_.neighbours.tidy();
+  guard_.count(StallGuard::Happened::region_left, bodies_.now.hi);
+  return 1;
+}
+
+std::uint32_t ExactSimulator::process(Entity i) {
+  using Kind = ExactEvent::Kind;
+  const ExactEvent event = bodies_.body[i].event;
+  std::uint32_t weight = 1;
+  bodies_.neighbours.prefetch_list(i);
+  if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
+  if (bodies_.now < event.time) bodies_.now = event.time;
+  switch (event.kind) {
+    case Kind::body_body:
+      if (bodies_.body[event.partner].version == event.partner_version) {
+        for (const Entity k : {i, event.partner}) flights_.end_step(k);
+        impacts_.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
+      } else {
+        // The partner's path has changed since.
+        flights_.note_changed(i);
+      }
+      break;
+    case Kind::body_fixed:
+      flights_.end_step(i);
+      impacts_.collide_fixed(i, event.partner, event.feature);
+      break;
+    case Kind::string:
+      go_taut(i, event);
+      break;
+    case Kind::force:
+      take_switch(i);
+      break;
+    case Kind::rest:
+      flat_.end_bounces(i);
+      flights_.note_changed(i);
+      break;
+    case Kind::release:
+      release(i, event.partner, event.feature);
+      break;
+    case Kind::step:
+      if (is_member(bodies_.mode(i)) && event.time == bodies_.islands.of(i).end) {
+        weight = events_of_a_step * static_cast<std::uint32_t>(bodies_.islands.of(i).members.size());
+        islands_.advance(i);
+      } else {
+        end_flight(i);
+      }
+      break;
+    case Kind::none:
+      break;
+  }
+  predict_changed();
+  const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
+  guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
+  return weight;
+}
+
+/// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.
+void ExactSimulator::go_taut(Entity i, const ExactEvent& event) {
+  const Entity other = bodies_.ties.other(event.partner, i);
+  if (other != no_entity && bodies_.body[other].version != event.partner_version) return flights_.note_changed(i);
+  for (const Entity k : {i, other})
+    if (k != no_entity) flights_.end_step(k);
+  impacts_.tighten(event.partner);
+}
+
+/// Applies a switch at the present instant to body i: of a force on it, or of the velocity of things that carry it.
+/// Otherwise the body flies on, and may meet such things elsewhere.
+void ExactSimulator::take_switch(Entity i) {
+  if (bodies_.moving.any()) {
+    const bool forced = !bodies_.world.forces.empty() &&
+                        bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
+    if (!forced && !flat_.switches(i) && !group_.switches(i)) return flights_.note_changed(i);
+  }
+  flights_.end_step(i);
+  switch_forces(i);
+}
+
+/// Ends body i's flight, and begins the next under the present forces and on the present surfaces.
+void ExactSimulator::switch_forces(Entity i) {
+  const Vec3 x = bodies_.position(i);
+  Vec3 v = bodies_.velocity(i);
+  paths_.note_change(i);
+  flights_.book(i, x, bodies_.now);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
+  if (bodies_.mode(i) == Mode::asleep) group_.stir(i);
+  // The last step contained the old forces until its end.
+  if (is_member(bodies_.mode(i))) {
+    const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
+    bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
+    v = slower;
+    bodies_.kick.write(i).until = bodies_.now;
+    bodies_.islands.of(i).end = bodies_.now;
+  }
+  bodies_.apply_forces(i, x, v);
+  if (bodies_.bent[i]) flat_.clear(i);
+  flights_.begin(i, x, flat_.keep_at(i, v), {});
+}
+
+/// Body i slides over the rim of the face that carries it: onto a level face, or off. In the second case the rim's edge
+/// is what it touched last.
+void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
+  const FlightOrigin next = flat_.hand_over(i, surface);
+  flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
+                 next.partner == no_entity ? FlightOrigin{surface, edge} : next);
+}
+
+/// Ends a step of body i's own flight, or discards it if another flight has begun since.
+void ExactSimulator::end_flight(Entity i) {
+  const PolynomialPath* const curve = bodies_.flights.curve(i);
+  if (curve != nullptr && bodies_.flights[i].start + curve->length <= bodies_.now) flights_.take_step(i);
+  flights_.note_changed(i);
+}
+
+bool ExactSimulator::watches() const {
+  const ExactOptions& options = bodies_.options;
+  return crossings_.any() || options.stop_at_rest || options.stop_collisions > 0;
+}
+
+/// When everything at the present instant has happened, and the next event is at `next`: ends the run, or takes a
+/// crossing before that. `at_it`: or at that instant. Returns whether either has happened.
+bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
+  if (is_over()) return false;
+  if (!at_it && !(bodies_.now < next)) return false;
+  const ExactOptions& options = bodies_.options;
+  if (options.stop_collisions > 0 && tally().collisions() >= options.stop_collisions) {
+    end_run(bodies_.now.hi, EndReason::collisions, 0);
+  } else if (options.stop_at_rest && all_rest()) {
+    end_run(bodies_.now.hi, EndReason::rest, 0);
+  } else {
+    paths_.record_changes();
+    const Instant sure = crossings_.first_sure();
+    if (!(at_it ? sure <= next : sure < next)) return false;
+    take_crossing(crossings_.take());
+    if (!is_over()) return true;
+  }
+  // The run has ended. What else crosses at that instant happens too.
+  const double end = tally().end->time;
+  while (const std::optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
+  return true;
+}
+
+/// Does what a region does to a body that enters it. What it removes crosses all that it meets at that instant before.
+void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
+  const RegionCrossing& crossing = taken.crossing;
+  const WorldRegion& region = bodies_.world.regions[crossing.region];
+  if (!crossing.enters || !(region.removes || region.stops)) return;
+  if (region.removes) {
+    while (const std::optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
+      const WorldRegion& met = bodies_.world.regions[other->crossing.region];
+      if (other->crossing.enters && met.stops) end_by(*other);
+    }
+    if (bodies_.now < taken.at) bodies_.now = taken.at;
+    paths_.note_change(crossing.body);
+    for (const Entity k : BodyRemoval(bodies_, modes_, group_, flat_, flights_).remove(crossing.body))
+      if (is_member(bodies_.mode(k))) islands_.advance(k);
+    predict_changed();
+    paths_.delay(taken.sure);
+    guard_.count(StallGuard::Happened::other, bodies_.now.hi);
+  }
+  if (region.stops) end_by(taken);
+}
+
+/// Ends the run by a crossing, unless it is over.
+void ExactSimulator::end_by(const Crossings::Taken& taken) {
+  if (is_over()) return;
+  if (bodies_.now < taken.at) bodies_.now = taken.at;
+  end_run(bodies_.now.hi, EndReason::region, taken.crossing.region);
+}
+
+/// Ends the run at `time` (s), the present instant or just before it.
+void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region) {
+  time = std::max({time, time_, paths_.latest()});
+  bodies_.log.end({time, reason, region});
+  paths_.end(time);
+  flights_.book_last(time);
+}
+
+/// Whether body i stays where it is until another body comes.
+bool ExactSimulator::rests(Entity i) const {
+  if (!is_in_world(bodies_.mode(i))) return true;
+  const double past = bodies_.now.floor(), end = bodies_.options.duration;
+  if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, past) < end) return false;
+  if (bodies_.moving.any()) {
+    const ExactEvent& event = bodies_.body[i].event;
+    if (bodies_.moving.next_switch(past) < end || (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end))
+      return false;
+  }
+  if (bodies_.mode(i) == Mode::asleep) return true;
+  if (bodies_.mode(i) == Mode::settling) return false;
+  const Flight f = bodies_.flights[i];
+  if (!f.v.isZero(0) || may_be_kicked(bodies_.mode(i))) return false;
+  if (f.curve == nullptr) return f.a.isZero(0);
+  return std::all_of(f.curve->displacement.begin(), f.curve->displacement.end(),
+                     [](const Vec3& term) { return term.isZero(0); });
+}
+
+/// Whether all bodies rest. The search begins at a body that moved before, so that it seldom goes far.
+bool ExactSimulator::all_rest() {
+  const Entity n = bodies_.world.body_count();
+  for (Entity looked = 0; looked < n; ++looked) {
+    if (!rests(answers_.awake)) return false;
+    answers_.awake = answers_.awake + 1 == n ? 0 : answers_.awake + 1;
+  }
+  return true;
+}
+
+Effort ExactSimulator::effort() const {
+  Effort effort = effort_;
+  effort.pair_tests = predictor_.pair_tests();
+  effort.surface_tests = predictor_.surface_tests();
+  effort.inexact_steps = islands_.inexact_steps();
+  effort.next = queue_.first_time();
+  return effort;
+}
+
+const State& ExactSimulator::state() {
+  if (answers_.state_fresh) return answers_.state;
+  const World& world = bodies_.world;
+  answers_.state.time = is_over() ? tally().end->time : time_;
+  const Instant at{answers_.state.time, 0};
+  answers_.state.position.resize(world.body_count());
+  answers_.state.velocity.resize(world.body_count());
+  for (Entity i = 0; i < world.body_count(); ++i) {
+    answers_.state.position[i] = flights_.position_of_method(i, at);
+    answers_.state.velocity[i] = flights_.velocity_of_method(i, at);
+  }
+  if (bodies_.merged.any()) {
+    answers_.state.mass = world.mass;
+    answers_.state.radius = world.radius;
+    answers_.state.volume = world.volume;
+    answers_.state.part_of = bodies_.merged.whole_of();
+    answers_.state.join_parts();
+  }
+  answers_.state_fresh = true;
+  return answers_.state;
+}
+
+std::span<const ContactForce> ExactSimulator::contacts() {
+  answers_.contact_forces.clear();
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    if (lies_on_flat(bodies_.mode(i))) flat_.report(i, answers_.contact_forces);
+    group_.report(i, answers_.contact_forces);
+  }
+  bodies_.islands.for_each([&](const Island& island) {
+    if (bodies_.mode(island.members.front()) == Mode::held) islands_.report(island, time_, answers_.contact_forces);
+  });
+  std::sort(answers_.contact_forces.begin(), answers_.contact_forces.end(),
+            [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  return answers_.contact_forces;
+}
+
+}  // namespace carom

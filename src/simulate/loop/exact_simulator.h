@@ -1,0 +1,93 @@
+#pragma once
+// The exact simulator: a list of parts, and the loop that takes one event after the other (exact.h).
+#include <vector>
+
+#include "simulate/contact/collapse_detector.h"
+#include "simulate/contact/exact_bodies.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/contact/flight_changes.h"
+#include "simulate/impact/body_merging.h"
+#include "simulate/impact/body_removal.h"
+#include "simulate/impact/exact_impacts.h"
+#include "simulate/impact/simultaneous_impacts.h"
+#include "simulate/impact/stall_guard.h"
+#include "simulate/island/island_motion.h"
+#include "simulate/loop/event_predictor.h"
+#include "simulate/loop/event_prefetch.h"
+#include "simulate/loop/event_queue.h"
+#include "simulate/path/crossings.h"
+#include "simulate/path/path_log.h"
+
+namespace carom {
+
+class ExactSimulator final : public Simulator {
+ public:
+  ExactSimulator(const World& world, const State& initial, const ExactOptions& options);
+
+  void advance_to(double time) override;
+  double time() const override { return time_; }
+  const State& state() override;
+  std::span<const Collision> collisions() const override { return bodies_.log.collisions(); }
+  std::span<const PathPiece> paths() const override { return paths_.pieces(); }
+  std::span<const RegionCrossing> crossings() const override { return crossings_.recorded(); }
+  const Tally& tally() const override { return bodies_.log.tally(); }
+  std::vector<Extremes> extremes() const override {
+    return paths_.extremes().up_to(tally().end ? std::min(time_, tally().end->time) : time_);
+  }
+  Effort effort() const override;
+  std::span<const ContactForce> contacts() override;
+  const ModeChanges& modes() const { return modes_; }
+
+ private:
+  /// What queries have found.
+  struct Answers {
+    State state;
+    bool state_fresh = false;
+    std::vector<ContactForce> contact_forces;
+    Entity awake = 0;  // a body that moved when it was last looked for
+  };
+
+  void start(const State& initial);
+  void begin_island(Entity i);
+  std::uint32_t take_event(Entity i);
+  std::uint32_t process(Entity i);
+  [[gnu::always_inline]] void predict_changed();
+  void go_taut(Entity i, const ExactEvent& event);
+  void take_switch(Entity i);
+  void switch_forces(Entity i);
+  void release(Entity i, Entity surface, std::uint8_t edge);
+  void end_flight(Entity i);
+  bool watches() const;
+  bool happens_before(const Instant& next, bool at_it);
+  void take_crossing(const Crossings::Taken& taken);
+  void end_by(const Crossings::Taken& taken);
+  void end_run(double time, EndReason reason, std::uint32_t region);
+  bool is_over() const { return tally().end.has_value(); }
+  bool rests(Entity i) const;
+  bool all_rest();
+
+  ExactBodies bodies_;
+  Crossings crossings_;
+  PathLog paths_;
+  CollapseDetector collapses_;
+  ModeChanges modes_;
+  FlatContacts flat_;
+  ExactGroup group_;
+  FlightChanges flights_;
+  EventQueue queue_;
+  EventPrefetch prefetch_;
+  EventPredictor predictor_;
+  SimultaneousImpacts simultaneous_;
+  IslandMotion islands_;
+  BodyMerging merging_;
+  StallGuard guard_;
+  ExactImpacts impacts_;
+  Effort effort_;
+  double time_ = 0;  // s: time that advance_to has reached
+  // Whether regions or the run's end depend on the paths between events, or events are prefetched.
+  const bool attends_;
+  Answers answers_;
+};
+
+}  // namespace carom

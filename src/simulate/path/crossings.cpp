@@ -1,0 +1,142 @@
+// Crossings along flights of every kind. A parabola is followed at once to its end. A path under drag is followed in
+// spans for which a polynomial is accurate, and a step of a method is one.
+// Rounding moves a boundary as seen from a path. Crossings by less than that are none, which no order of rounding
+// errors can then double or lose: a ball that bounces with its lowest point on a boundary, or lies there, never crosses
+// it.
+#include "simulate/path/crossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "geometry/region_crossing.h"
+#include "physics/world.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+Crossings::Crossings(const BodyPaths& bodies, std::function<Instant(Entity)> flight_end)
+    : bodies_(bodies), flight_end_(std::move(flight_end)), next_(bodies.body.size()) {
+  if (!any()) return;
+  const std::size_t n = bodies.body.size();
+  queue_.emplace(static_cast<std::uint32_t>(n), Before{this});
+  const std::vector<WorldRegion>& regions = bodies.world.regions;
+  standing_.assign(regions.size() * n, outside);
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    if (regions[r].on.empty()) continue;
+    std::fill_n(standing_.begin() + static_cast<std::ptrdiff_t>(r * n), n, apart);
+    for (const Entity i : regions[r].on) standing(r, i) = outside;
+  }
+}
+
+void Crossings::begin_advance() {
+  for (const RegionCrossing& crossing : recorded_) latest_ = std::max(latest_, crossing.time);
+  recorded_.clear();
+}
+
+Instant Crossings::first_sure() const {
+  if (!queue_ || !(queue_->first_time() < never)) return {never, 0};
+  return next_[queue_->first()].back().sure;
+}
+
+bool Crossings::before(Entity i, Entity j) const {
+  const Next &p = next_[i].back(), &q = next_[j].back();
+  if (p.sure != q.sure) return p.sure < q.sure;
+  return std::tie(p.region, i) < std::tie(q.region, j);
+}
+
+void Crossings::follow(Entity i, const Instant& from) {
+  if (!is_in_world(bodies_.mode(i))) return forget(i);
+  if (!next_[i].empty()) next_.write(i).clear();
+  for (std::uint32_t r = 0; r < bodies_.world.regions.size(); ++r)
+    if (standing(r, i) != apart) find(i, r, from);
+  schedule(i);
+}
+
+void Crossings::forget(Entity i) {
+  if (!next_[i].empty()) next_.write(i).clear();
+  for (std::uint32_t r = 0; r < bodies_.world.regions.size(); ++r) standing(r, i) = apart;
+  schedule(i);
+}
+
+/// Finds body i's next crossing of a region from an instant of its flight on.
+void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
+  namespace tol = exact_tolerance;
+  const WorldRegion& where = bodies_.world.regions[region];
+  const Flight f = bodies_.flights[i];
+  const Instant end = std::min(flight_end_(i), Instant{bodies_.options.duration, 0});
+  const double horizon = end - f.start;
+  const double margin =
+      tol::position_rounding * (f.x.cwiseAbs().sum() + where.position.cwiseAbs().sum() + where.volume.half.maxCoeff());
+
+  // Follows the flight in spans for which one polynomial is accurate, or at once to its end.
+  double t = std::max(from - f.start, 0.0);
+  while (t < horizon) {
+    std::optional<CrossingTime> found;
+    double start = 0;
+    double length = horizon;
+    if (f.is_straight()) {
+      found = next_crossing(where, CenterPath::along(f.x, f.v, f.a, horizon), t, standing(region, i) == inside, margin);
+    } else {
+      start = t;
+      length = std::min(f.span_of_fade(t), horizon - t);
+      found = next_crossing(where, CenterPath::along(f.position(t), f.displacement_from(t, length), length), 0,
+                            standing(region, i) == inside, margin);
+    }
+
+    if (found) {
+      // The clock rounds too.
+      const double sure = (start + found->sure) * (1 + tol::crossing_rounding);
+      if (sure > horizon) return;
+      next_.write(i).push_back({region, f.start + (start + found->at), f.start + sure});
+      return;
+    }
+
+    t = start + length;
+  }
+}
+
+/// Sorts body i's crossings, and enters the first into the queue.
+void Crossings::schedule(Entity i) {
+  if (next_[i].empty()) return queue_->update(i, never);
+  std::vector<Next>& next = next_.write(i);
+  std::sort(next.begin(), next.end(),
+            [](const Next& p, const Next& q) { return q.sure < p.sure || (p.sure == q.sure && q.region < p.region); });
+  queue_->update(i, next.back().sure.hi);
+}
+
+Crossings::Taken Crossings::take(Entity i) {
+  const Next next = next_[i].back();
+  next_.write(i).pop_back();
+  Standing& now = standing(next.region, i);
+  now = now == inside ? outside : inside;
+  const RegionCrossing crossing{std::max(next.at.hi, latest_), next.region, i, now == inside};
+  recorded_.push_back(crossing);
+  find(i, next.region, next.sure);
+  schedule(i);
+  return {crossing, next.at, next.sure};
+}
+
+std::optional<Crossings::Taken> Crossings::take_until(double time) {
+  for (Entity i = 0; i < bodies_.body.size(); ++i)
+    if (std::optional<Taken> taken = take_of(i, {time, never})) return taken;
+  return std::nullopt;
+}
+
+std::optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
+  const std::vector<Next>& next = next_[i];
+  const auto due = std::find_if(next.begin(), next.end(), [&](const Next& one) { return one.at <= last; });
+  if (due == next.end()) return std::nullopt;
+  std::vector<Next>& all = next_.write(i);
+  std::rotate(all.begin() + (due - next.begin()), all.begin() + (due - next.begin()) + 1, all.end());
+  return take(i);
+}
+
+void Crossings::sort() {
+  std::sort(recorded_.begin(), recorded_.end(), [](const RegionCrossing& p, const RegionCrossing& q) {
+    return std::tie(p.time, p.region, p.body) < std::tie(q.time, q.region, q.body);
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,87 @@
+// Book-keeping of merged bodies. Forces act on each part by its share of the mass, with the mass and position that the
+// scene gave it. Volumes add up: the joint body has the shape of the heavier one, scaled to the sum of both volumes.
+#include "simulate/path/merged_bodies.h"
+
+#include <algorithm>
+
+#include "geometry/contact_time.h"
+#include "numerics/cube_root.h"
+#include "physics/force.h"
+#include "physics/world.h"
+
+namespace carom {
+
+MergedBodies::MergedBodies(const World& world, bool merge)
+    : given_(world), joint_(merge ? std::make_unique<World>(world) : nullptr) {}
+
+void MergedBodies::begin() {
+  const Entity n = given_.body_count();
+  whole_of_.resize(n);
+  for (Entity i = 0; i < n; ++i) whole_of_[i] = i;
+  parts_.resize(n);
+  share_.assign(n, 1);
+}
+
+AppliedAcceleration MergedBodies::applied(Entity i, double time) const {
+  // Position and velocity have no effect.
+  const Vec3 any = Vec3::Zero();
+
+  const auto on = [&](const World& world, Entity body) {
+    return AppliedAcceleration{free_acceleration(world, body, time, any, any), fade_of(world, body, time)};
+  };
+
+  if (parts_.empty() || parts_[i].empty()) return on(world(), i);
+  AppliedAcceleration sum{Vec3::Zero(), 0};
+  for (const Entity part : parts_[i]) {
+    const AppliedAcceleration its = on(given_, part);
+    sum.all += share_[part] * its.all;
+    sum.fade += share_[part] * its.fade;
+  }
+  return sum;
+}
+
+double MergedBodies::next_switch(Entity i, double time) const {
+  if (parts_.empty() || parts_[i].empty()) return carom::next_switch(world(), i, time);
+  double next = never;
+  for (const Entity part : parts_[i]) next = std::min(next, carom::next_switch(world(), part, time));
+  return next;
+}
+
+double MergedBodies::potential(Entity i, const Vec3& x) const {
+  if (parts_.empty() || parts_[i].empty()) return carom::potential(given_, i, x);
+  double sum = 0;
+  for (const Entity part : parts_[i]) sum += carom::potential(given_, part, x);
+  return sum;
+}
+
+void MergedBodies::join(Entity whole, Entity part) {
+  if (whole_of_.empty()) begin();
+  World& world = *joint_;
+
+  const double mw = world.mass[whole];
+  const double mp = world.mass[part];
+  const double mass = mw + mp;
+
+  // Volumes add up, in the shape of `whole`.
+  Volume volume = world.volume_of(whole);
+  volume.half *= cube_root((volume.size() + world.volume_of(part).size()) / volume.size());
+  if (!world.volume.empty()) world.volume[whole] = volume;
+  world.radius[whole] = volume.reach();
+  world.restitution[whole] = (mw * world.restitution[whole] + mp * world.restitution[part]) / mass;
+  world.mass[whole] = mass;
+
+  // The parts of both, and their shares of the mass.
+  for (const Entity i : {whole, part})
+    if (parts_[i].empty()) parts_[i].push_back(i);
+  for (const Entity i : parts_[part]) parts_[whole].push_back(i);
+  for (const Entity i : parts_[whole]) share_[i] = given_.mass[i] / mass;
+  parts_[part].clear();
+  whole_of_[part] = whole;
+}
+
+void MergedBodies::remove(Entity i) {
+  if (whole_of_.empty()) begin();
+  whole_of_[i] = no_entity;
+}
+
+}  // namespace carom

@@ -1,0 +1,91 @@
+// Records the pieces of paths for a replay without simulation. A piece is written after all changes at its instant.
+// Only bodies that changed get a new piece, so that the log grows with events and not with outputs.
+#include "simulate/path/path_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/world.h"
+#include "simulate/path/crossings.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t path_buffer = 4096;
+
+/// The first double that is not before an instant.
+double first_double(const Instant& at) {
+  return at.lo > 0 ? std::nextafter(at.hi, std::numeric_limits<double>::infinity()) : at.hi;
+}
+
+}  // namespace
+
+PathLog::PathLog(const BodyPaths& bodies, Crossings& crossings)
+    : bodies_(bodies),
+      extremes_(bodies),
+      crossings_(crossings),
+      followed_(bodies.options.record_paths || crossings.any() || bodies.options.stop_at_rest ||
+                bodies.options.stop_collisions > 0),
+      wanted_(followed_ || extremes_.any()) {}
+
+void PathLog::begin_advance() {
+  pieces_.clear();
+  full_ = false;
+}
+
+void PathLog::note(Entity i) {
+  if (extremes_.any()) extremes_.note(i);
+  if (!followed_) return;
+  if (changed_at_ != bodies_.now) record_changes();
+  changed_at_ = bodies_.now;
+  changed_.push_back(i);
+}
+
+void PathLog::record_changes() {
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  if (changed_.empty()) return;
+  latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);
+  if (bodies_.options.record_paths)
+    for (const Entity i : changed_) pieces_.push_back(piece_of(i, latest_));
+  if (crossings_.any())
+    for (const Entity i : changed_) crossings_.follow(i, changed_at_);
+  changed_.clear();
+  full_ = full_ || pieces_.size() >= path_buffer;
+}
+
+void PathLog::end(double time) {
+  end_ = time;
+  record_changes();
+}
+
+PathPiece PathLog::piece_of(Entity i, double from) const {
+  const Flight f = bodies_.flights[i];
+  const World& world = bodies_.world;
+  const World& given = bodies_.merged.given();
+  PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
+
+  if (may_be_kicked(bodies_.mode(i))) {
+    const Instant until = bodies_.kick[i].until;
+    piece.kicked = true;
+    piece.until = {until.hi, until.lo};
+    piece.kick = bodies_.kick[i].a;
+  }
+
+  if (f.curve != nullptr) piece.curve = std::make_shared<PolynomialPath>(*f.curve);
+  if (bodies_.merged.any()) {
+    const Entity whole = bodies_.merged.whole_of()[i];
+    piece.removed = whole == no_entity;
+    if (whole != i && !piece.removed) piece.part_of = whole;
+
+    piece.joint = world.mass[i] != given.mass[i] || world.radius[i] != given.radius[i];
+    piece.mass = world.mass[i];
+    piece.radius = world.radius[i];
+    piece.half = world.volume_of(i).half;
+  }
+  return piece;
+}
+
+}  // namespace carom

@@ -1,0 +1,152 @@
+#pragma once
+// Many short lists that grow and shrink, in a few large pages. A list takes a block of four entries, or of a multiple
+// of four.
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+#include "numerics/large_pages.h"
+
+namespace carom {
+
+class ListPool {
+ public:
+  /// The place of a list. A zeroed one is an empty list.
+  struct List {
+    std::uint32_t at = 0;       // in granules
+    std::uint32_t count = 0;    // entries
+    std::uint8_t capacity = 0;  // kind of the block
+  };
+
+  /// Null where the list has never had an entry.
+  std::uint32_t* data(const List& list) {
+    return list.capacity == 0 ? nullptr : page_[list.at >> page_bits] + entries_in(list.at & page_mask);
+  }
+  const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
+
+  /// Whether more memory is in free blocks than a pool that was just filled may leave.
+  /// The rest of a page is less than the list that did not fit into it.
+  bool wasteful() const { return unused_ > used_ + page_granules; }
+  /// Replaces a list of another pool by a copy in this pool.
+  void copy(const ListPool& from, List& list) {
+    const List old = list;
+    list.capacity = 0;
+    if (old.count == 0) return;
+    take(list, old.count);
+    std::copy_n(from.data(old), old.count, data(list));
+  }
+
+  /// Makes room for `count` entries. The list's contents are lost.
+  void reserve(List& list, std::size_t count) {
+    if (count <= room(list.capacity)) return;
+    give_back(list);
+    take(list, count);
+  }
+
+  /// The position of an entry that the list holds.
+  std::uint32_t* find(const List& list, std::uint32_t entry) {
+    std::uint32_t* at = data(list);
+#ifdef __SSE2__
+    // A block may end beyond the list. An entry there is found only if it is not in the list.
+    const __m128i wanted = _mm_set1_epi32(static_cast<int>(entry));
+    for (;; at += granule)
+      if (const int there = _mm_movemask_ps(
+              _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), wanted))))
+        return at + std::countr_zero(static_cast<unsigned>(there));
+#else
+    while (*at != entry) ++at;
+    return at;
+#endif
+  }
+
+  void push_back(List& list, std::uint32_t entry) {
+    if (list.count == room(list.capacity)) {
+      const List old = list;
+      take(list, list.count + 1);
+      std::copy_n(data(old), old.count, data(list));
+      give_back(old);
+    }
+    data(list)[list.count++] = entry;
+  }
+
+ private:
+  static constexpr std::size_t granule = 4;  // entries
+  static constexpr std::uint32_t page_bits = 16;
+  static constexpr std::uint32_t page_mask = (1u << page_bits) - 1;
+  static constexpr std::size_t page_granules = std::size_t{1} << page_bits;
+  // Kinds 1 to 16 have as many granules. Each later kind has twice as many as the one before.
+  static constexpr std::uint8_t in_steps = 16;
+
+  static std::size_t entries_in(std::size_t granules) {
+    return granules * granule;
+  }
+  static std::size_t granules_of(std::uint8_t capacity) {
+    return capacity <= in_steps ? capacity : std::size_t{in_steps} << (capacity - in_steps);
+  }
+  static std::size_t room(std::uint8_t capacity) {
+    return entries_in(granules_of(capacity));
+  }
+
+  void take(List& list, std::size_t count) {
+    std::uint8_t kind = 1;
+    while (room(kind) < count) ++kind;
+    list.capacity = kind;
+    used_ += granules_of(kind);
+
+    // A free block of this kind.
+    if (kind < free_.size() && !free_[kind].empty()) {
+      unused_ -= granules_of(kind);
+      list.at = free_[kind].back();
+      free_[kind].pop_back();
+      return;
+    }
+
+    // A block from the present page, or from new ones.
+    const std::size_t granules = granules_of(kind);
+    const std::size_t page = page_granules;
+    if (left_ < granules) {
+      // The rest of the page.
+      for (; left_ > 0; ++next_, --left_) put_away(1, next_);
+      next_ = static_cast<std::uint32_t>(page_.size() << page_bits);
+      left_ = std::max((granules + page - 1) / page, std::min<std::size_t>(page_.size(), 16)) * page;
+      memory_.emplace_back(LargePages<std::uint32_t>().allocate(entries_in(left_)));
+      for (std::size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
+    }
+
+    list.at = next_;
+    next_ += static_cast<std::uint32_t>(granules);
+    left_ -= granules;
+  }
+
+  void give_back(const List& list) {
+    if (list.capacity == 0) return;
+    used_ -= granules_of(list.capacity);
+    put_away(list.capacity, list.at);
+  }
+  void put_away(std::uint8_t kind, std::uint32_t at) {
+    if (free_.size() <= kind) free_.resize(kind + std::size_t{1});
+    free_[kind].push_back(at);
+    unused_ += granules_of(kind);
+  }
+
+  struct Free {
+    void operator()(std::uint32_t* memory) const { LargePages<std::uint32_t>().deallocate(memory, 0); }
+  };
+  std::vector<std::unique_ptr<std::uint32_t[], Free>> memory_;
+  std::vector<std::uint32_t*> page_;
+  std::vector<std::vector<std::uint32_t>> free_;  // by kind
+  std::size_t used_ = 0;                          // granules, in the blocks of lists
+  std::size_t unused_ = 0;                        // granules, in free blocks
+  std::uint32_t next_ = 0;
+  std::size_t left_ = 0;  // granules from next_ on
+};
+
+}  // namespace carom
