@@ -11,7 +11,7 @@ struct FlatSolution {
   Vec3 u;               // allowed
   double work = 0;      // by surfaces that move: of one mass unit, in the unit of u squared
   unsigned active = 0;  // bit k where surface k presses
-  Certificate certificate;
+  Certificate certificate{};
 };
 
 /// A flat surface: its unit normal, from the surface to the body, and its own motion along that.

@@ -68,7 +68,7 @@ std::vector<Entity> FlatContacts::opposite_surfaces(const FlatContactList& conta
 
 /// Notes the quality of a solution for body i's velocity, and books the work of moving surfaces, which is lost (J).
 /// Throws SimulationError where they leave the body no room.
-FlatSolution FlatContacts::allow(Entity i, const FlatSolution& solution, double& lost) const {
+FlatSolution FlatContacts::book(Entity i, const FlatSolution& solution, double& lost) {
   if (bodies_.moving.any()) {
     if (solution.certificate.verdict == Certificate::Verdict::infeasible) {
       bodies_.fail_squeezed(i, opposite_surfaces(contacts_[i]));
@@ -257,7 +257,9 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
     // Into the surface.
     const Vec3 of_surface = bodies_.fixed_velocity(contact.surface);
     const double u = n.dot(v - of_surface);
-    press[k] = n.dot(acceleration_without(i, contact.surface)) + drag_along(i, n, contact.surface);
+    const FlatSolution without = acceleration_without(i, contact.surface);
+    bodies_.log.note(without.certificate);
+    press[k] = n.dot(without.u) + drag_along(i, n, contact.surface);
     kept[k] = std::abs(u) <= noise + velocity_rounding * of_surface.norm() ||
               (press[k] > 0 && bodies_.too_low(x, u, press[k]));
     if (kept[k] || u < 0 || press[k] <= 0) continue;
@@ -273,7 +275,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   Surfaces surfaces;
   n = surfaces_of(contacts, no_entity, 1, surfaces);
   double lost = 0;  // J
-  FlatSolution solution = allow(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
+  FlatSolution solution = book(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
 
   // A push into one surface may lift the body off another.
   for (std::size_t k = 0; k < contacts.count; ++k) {
@@ -282,7 +284,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   }
   keep(contacts, kept);
   n = surfaces_of(contacts, no_entity, 1, surfaces);
-  solution = allow(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
+  solution = book(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
   const Vec3& allowed = solution.u;
   note_mode(i);
 
@@ -312,13 +314,11 @@ Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
   return solution.u;
 }
 
-Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
-  if (contacts_[i].count == 0) return bodies_.applied[i];
+FlatSolution FlatContacts::acceleration_without(Entity i, Entity surface) const {
+  if (!lies_on_flat(bodies_.mode(i))) return {bodies_.applied[i]};
   Surfaces surfaces;
   const std::size_t n = surfaces_of(contacts_[i], surface, bodies_.fade[i], surfaces);
-  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
-  bodies_.log.note(solution.certificate);
-  return solution.u;
+  return solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
 }
 
 /// The contacts of body i with their forces (N).

@@ -78,7 +78,7 @@ class FlatContacts {
   }
   /// The same without one surface, and without any change: the acceleration that would press body i against that
   /// surface (m/s^2).
-  Vec3 acceleration_without(Entity i, Entity surface) const;
+  FlatSolution acceleration_without(Entity i, Entity surface) const;
 
   /// The acceleration (m/s^2) along n, the direction to a surface that moves, by drag on a body that it carries.
   double drag_along(Entity i, const Vec3& n, Entity surface) const {
@@ -92,7 +92,7 @@ class FlatContacts {
   void note_mode(Entity i);
   using Surfaces = std::array<FlatSurface, FlatContactList::most>;
   std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
-  FlatSolution allow(Entity i, const FlatSolution& solution, double& lost) const;
+  FlatSolution book(Entity i, const FlatSolution& solution, double& lost);
   static std::vector<Entity> opposite_surfaces(const FlatContactList& contacts);
   std::vector<ContactConstraint> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);

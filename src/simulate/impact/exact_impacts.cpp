@@ -240,9 +240,14 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
   bodies_.refresh(i, x, v - approach * n);
   const double bend = flat ? 0 : bending(world, i, x, surface, point, there, u - v);
   // In constrained motion other contacts are part of the flight. Drag then acts on the velocity after the impact.
-  const double pull = bodies_.mode(i) == Mode::held
-                          ? f.acceleration(t).dot(n) + bodies_.fade[i] * approach
-                          : parts_.flat.acceleration_without(i, surface).dot(n) + parts_.flat.drag_along(i, n, surface);
+  double pull;  // m/s^2
+  if (bodies_.mode(i) == Mode::held) {
+    pull = f.acceleration(t).dot(n) + bodies_.fade[i] * approach;
+  } else {
+    const FlatSolution without = parts_.flat.acceleration_without(i, surface);
+    bodies_.log.note(without.certificate);
+    pull = without.u.dot(n) + parts_.flat.drag_along(i, n, surface);
+  }
   return {i,
           surface,
           feature,

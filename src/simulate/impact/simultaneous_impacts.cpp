@@ -34,7 +34,7 @@ void SimultaneousImpacts::count_impact(Entity i) {
 
 /// The set of member `first` and the things that it touches. Bodies that these would meet before the next step join it,
 /// as far as impacts reach.
-SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
+SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) {
   const Instant& end = bodies_.islands.of(first).end;
   Struck set(Numbering(group_.numbers));
   set.rest = bodies_.now < end ? end - bodies_.now : 0;
@@ -166,7 +166,7 @@ bool SimultaneousImpacts::add_meeting(Struck& set) const {
 }
 
 /// Computes the velocities after the impacts.
-void SimultaneousImpacts::take_impacts(Struck& set) const {
+void SimultaneousImpacts::take_impacts(Struck& set) {
   set.struck = set.before;
   double fastest = 0;  // m/s
   for (const ContactConstraint& p : set.impacts) fastest = std::max(fastest, carom::approach(set.before, p));
@@ -178,7 +178,7 @@ void SimultaneousImpacts::take_impacts(Struck& set) const {
 }
 
 /// Computes the velocities after the impacts and the forces in the rest of the step.
-void SimultaneousImpacts::solve(Struck& set) const {
+void SimultaneousImpacts::solve(Struck& set) {
   take_impacts(set);
   std::vector<Vec3> free = set.struck;
   for (std::size_t k = 0; k < free.size(); ++k) free[k] += set.forced[k];

@@ -52,7 +52,7 @@ class SimultaneousImpacts {
     std::vector<Vec3> forced;
   };
 
-  Struck strike(Entity first) const;
+  Struck strike(Entity first);
   void take_in(Struck& set, Entity i) const;
   double remaining(const Struck& set, Entity i) const;
   double remaining(const Struck& set, Entity i, Entity e) const;
@@ -63,8 +63,8 @@ class SimultaneousImpacts {
   double slack(const Struck& set, std::size_t near) const;
   void add(Struck& set, std::size_t near) const;
   bool add_meeting(Struck& set) const;
-  void take_impacts(Struck& set) const;
-  void solve(Struck& set) const;
+  void take_impacts(Struck& set);
+  void solve(Struck& set);
   static bool makes_energy(const Struck& set);
   void note_forces(const Struck& set);
   void begin_flights(const Struck& set);

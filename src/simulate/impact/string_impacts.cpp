@@ -77,7 +77,7 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
   passed.impulse = rows.pairs.front().force;
 }
 
-void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) const {
+void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) {
   for (std::size_t k = 0; k < passed.bodies.size(); ++k) {
     const Entity i = passed.bodies[k];
     if (i == a || i == b) continue;

@@ -34,7 +34,7 @@ class StringImpacts {
   /// the next call. Throws SimulationError where strings hold a body against a fixed thing that moves.
   const Passed* pass_on(const Strike& strike);
   /// Begins the flights of the bodies beyond a and b.
-  void begin_beyond(const Passed& passed, Entity a, Entity b) const;
+  void begin_beyond(const Passed& passed, Entity a, Entity b);
 
   /// A string goes taut at the present instant.
   void tighten(Entity string);

@@ -44,7 +44,7 @@ bool TimeStepping::advance(Entity i) {
 }
 
 /// Solves the step, with the length that speeds allow. False: bodies of other islands are near.
-bool TimeStepping::solve_step(Step& step) const {
+bool TimeStepping::solve_step(Step& step) {
   const Island& island = bodies_.islands.of(step.members.front());
   const double shortest = shortest_step(step);
   step.shortest = shortest;
@@ -78,7 +78,7 @@ double TimeStepping::shortest_step(const Step& step) const {
 
 /// The positions and velocities of the members, without the part of the last step's kick for the time that is left of
 /// it.
-TimeStepping::Step TimeStepping::begin_step(Entity one) const {
+TimeStepping::Step TimeStepping::begin_step(Entity one) {
   const Islands& islands = bodies_.islands;
   std::vector<Entity> members = islands.of(one).members;
   std::sort(members.begin(), members.end());
@@ -121,7 +121,7 @@ bool TimeStepping::shorten(Step& step, double shortest) const {
 
 /// Finds the pairs that may press on each other before the step ends, and the speeds at which they must separate, or
 /// may approach.
-void TimeStepping::find_pairs(Step& step) const {
+void TimeStepping::find_pairs(Step& step) {
   const World& world = bodies_.world;
   const double h = step.length;
   const auto margin_of = [&](std::size_t k) {
@@ -181,7 +181,7 @@ void TimeStepping::find_pairs(Step& step) const {
 }
 
 /// Computes the velocities after contact has taken away slow approaches.
-void TimeStepping::take_slow_impacts(Step& step) const {
+void TimeStepping::take_slow_impacts(Step& step) {
   step.after_impacts = step.v;
   step.impacts.clear();
   if (step.greatest <= 0 || !approaching(step.v, step.contacts.pairs)) return;
@@ -201,7 +201,7 @@ void TimeStepping::take_slow_impacts(Step& step) const {
 
 /// Computes the velocities that keep every pair apart until the step ends. Where margins are wide some pairs separate.
 /// They do so if that is possible and takes no more energy than slow impacts have lost.
-void TimeStepping::keep_apart(Step& step) const {
+void TimeStepping::keep_apart(Step& step) {
   std::vector<Vec3> free = step.after_impacts;
   // 1/kg. Linear drag is implicit, as if bodies were heavier.
   std::vector<double> inverse_mass = step.inverse_mass;
@@ -317,7 +317,7 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
 
 /// Computes the forces among the bodies of still islands, starting from none. Where they are not unique, they are then
 /// no greater than necessary.
-TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still) const {
+TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still) {
   Holding holding;
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
@@ -331,7 +331,7 @@ TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std
 }
 
 /// Puts to rest the islands that hardly move and that forces hold in balance.
-void TimeStepping::put_to_rest(Step& step) const {
+void TimeStepping::put_to_rest(Step& step) {
   const std::size_t n = step.x.size();
   step.rests.assign(n, 0);
   std::vector<std::uint8_t> still = stop_slow(step);
@@ -359,7 +359,7 @@ void TimeStepping::put_to_rest(Step& step) const {
 /// Counts the impacts of pairs with gaps that close within the step. The force between the two takes away their
 /// approach in the course of the step. Together they take no more energy than the step does, because its weights do
 /// work along paths that they shorten.
-void TimeStepping::take_closings(Step& step) const {
+void TimeStepping::take_closings(Step& step) {
   step.taking.assign(step.members.size(), 0);
   double fastest = 0, all = 0;  // m/s, J
   for (const Vec3& v : step.after_impacts) fastest = std::max(fastest, v.norm());

@@ -69,21 +69,21 @@ class TimeStepping {
     std::vector<Vec3> a;             // m/s^2: the members' accelerations under these forces
   };
 
-  Step begin_step(Entity one) const;
-  bool solve_step(Step& step) const;
+  Step begin_step(Entity one);
+  bool solve_step(Step& step);
   double shortest_step(const Step& step) const;
   bool shorten(Step& step, double shortest) const;
-  void find_pairs(Step& step) const;
-  void take_slow_impacts(Step& step) const;
-  void keep_apart(Step& step) const;
+  void find_pairs(Step& step);
+  void take_slow_impacts(Step& step);
+  void keep_apart(Step& step);
   static double lost_by_impacts(const Step& step);
   static double parting_work(const Step& step);
   bool makes_energy(const Step& step, const std::vector<Vec3>& free) const;
   void find_parts(Step& step);
-  void put_to_rest(Step& step) const;
+  void put_to_rest(Step& step);
   std::vector<std::uint8_t> stop_slow(Step& step) const;
-  Holding hold(const Step& step, const std::vector<std::uint8_t>& still) const;
-  void take_closings(Step& step) const;
+  Holding hold(const Step& step, const std::vector<std::uint8_t>& still);
+  void take_closings(Step& step);
   double taken(const Step& step) const;
   void begin_flights(Step& step);
   static void count_calm(const Step& step, Island& island);
