@@ -49,11 +49,13 @@ std::multimap<std::string, std::string> source_files() {
 
 TEST(Pages, NameOnlySourcesThatAreThereAndOfAFolderItsOwn) {
   const auto sources = source_files();
-  const std::regex source("`([a-z0-9_]+\\.(?:h|cpp))`");
+  const std::regex source("`([a-z0-9_/]+\\.(?:h|cpp))`");
   for (const Page& page : pages()) {
     const bool of_a_folder = page.folder().starts_with("src/");
     for (const std::string& name : matches(page.text, source, 1)) {
-      if (of_a_folder)
+      if (name.find('/') != std::string::npos)
+        EXPECT_TRUE(fs::exists(root / page.folder() / name) || fs::exists(root / name)) << page.path << ": " << name;
+      else if (of_a_folder)
         EXPECT_TRUE(fs::exists(root / page.folder() / name)) << page.path << ": " << name;
       else
         EXPECT_TRUE(sources.contains(name)) << page.path << ": " << name;

@@ -17,20 +17,21 @@
 //     flying                     -> settling, carried  FlatContacts::add: bounces on a surface are over
 //     settling                   -> carried            FlatContacts::end_bounces: as recorded
 //     carried                    -> settling           FlatContacts::add: bounces on one more surface
-//     settling, carried          -> flying             FlatContacts: the body leaves all surfaces, or none presses
+//     settling, carried          -> flying             FlatContacts::keep_at, keep_pressing, remove: off all surfaces
 //     flying, settling, carried  -> fresh              ExactGroup::join: lasting contact with other things
 //     asleep                     -> fresh              ExactGroup::wake: struck, pressed on, or forces change
 //     fresh                      -> held, stepped      ExactGroup::unite: the other island has taken steps
 //     held                       -> stepped            ExactGroup::unite: the other island takes time steps
-//     fresh, stepped             -> held               ConstrainedMotion::apply: the island's next step
+//     fresh, stepped             -> held               ConstrainedMotion::begin_flights: the island's next step
 //     fresh, held                -> stepped            TimeStepping::begin_flights: the island's next step
-//     held                       -> asleep, flying     ConstrainedMotion::apply: at rest, or nothing binds the body
+//     held                       -> asleep, flying     ConstrainedMotion::begin_flight: at rest, or nothing binds it
 //     stepped                    -> asleep, flying     TimeStepping::begin_flight: the same
 //     flying                     -> part               BodyMerging::join, off all surfaces
 //     flying                     -> gone               BodyRemoval::remove, off all surfaces
 //     fresh, held, stepped       -> gone               BodyRemoval::remove, which wakes a sleeper before
 //
-// From its fall to its sleep in a pile a ball is flying, fresh, held or stepped, and asleep.
+// From its fall to its sleep in a pile a ball is flying, then fresh, then held or stepped, perhaps by turns, then
+// asleep.
 #include <cstddef>
 #include <cstdint>
 
