@@ -103,21 +103,21 @@ struct BodyPaths {
   // anchor, which is as a fixed thing.
   /// The present position (m) and velocity (m/s) of a thing, and the acceleration of its path (m/s^2).
   Vec3 position_of(Entity thing) const {
-    const Entity body = world.second_body(thing);
-    return body != no_entity ? position(body) : fixed_position(thing);
+    const Entity i = world.second_body(thing);
+    return i != no_entity ? position(i) : fixed_position(thing);
   }
   Vec3 velocity_of(Entity thing) const {
-    const Entity body = world.second_body(thing);
-    return body != no_entity ? velocity(body) : fixed_velocity(thing);
+    const Entity i = world.second_body(thing);
+    return i != no_entity ? velocity(i) : fixed_velocity(thing);
   }
   Vec3 pull_of(Entity thing) const {
-    const Entity body = world.second_body(thing);
-    return body != no_entity ? flights[body].acceleration(now - flights[body].start) : Vec3(Vec3::Zero());
+    const Entity i = world.second_body(thing);
+    return i != no_entity ? flights[i].acceleration(now - flights[i].start) : Vec3(Vec3::Zero());
   }
   /// The present velocity of a thing (m/s), without the effect of forces later in a step.
   Vec3 unkicked_velocity_of(Entity thing) const {
-    const Entity body = world.second_body(thing);
-    return body != no_entity ? velocity_without_kick(body, now) : fixed_velocity(thing);
+    const Entity i = world.second_body(thing);
+    return i != no_entity ? velocity_without_kick(i, now) : fixed_velocity(thing);
   }
   /// The position (m) and velocity (m/s) of a fixed thing, at present or at an instant.
   Vec3 fixed_position(Entity e) const { return fixed_position(e, now); }
