@@ -51,6 +51,7 @@ bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approac
   // continue for ever.
   const double window = 2 * slow / press;
   if (alone) return bodies_.body[a].origin_partner != b && in_burst(a, window, exact_tolerance::burst_on_surfaces);
+
   const bool burst_a = in_burst(a, window, exact_tolerance::burst_of_bodies);
   const bool burst_b = body && in_burst(b, window, exact_tolerance::burst_of_bodies);
   if (body) burst_.write(a).bodies = burst_.write(b).bodies = true;

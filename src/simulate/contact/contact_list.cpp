@@ -29,6 +29,7 @@ void ContactList::add(const ContactConstraint& pair, const Contact& name, double
 void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const {
   if (!bodies.moving.any() || pairs.empty()) return;
   const World& world = bodies.world;
+
   // m/s. A rod must not get longer either.
   const auto excess = [&](std::size_t c) {
     const double speed = approach(velocities, pairs[c]);
@@ -37,23 +38,30 @@ void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>&
   std::size_t worst = 0;
   for (std::size_t c = 1; c < pairs.size(); ++c)
     if (excess(c) > excess(worst)) worst = c;
+
   // The things around the body, and the directions to them. A rod holds it from both sides.
   const auto& [body, thing, of_worst] = names[worst];
   std::vector<Entity> around = {thing};
   std::vector<Vec3> directions = {approach(velocities, pairs[worst]) < 0 ? Vec3(-pairs[worst].normal)
                                                                          : pairs[worst].normal};
+
+  // Its other contacts, of which it may be the first body or the second.
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
     if (c == worst || (i != body && world.second_body(e) != body)) continue;
     around.push_back(i == body || world.is_string(e) ? e : i);
     directions.emplace_back(i == body ? pairs[c].normal : Vec3(-pairs[c].normal));
+
     if (!pairs[c].bilateral) continue;
     around.push_back(around.back());
     directions.emplace_back(-directions.back());
   }
+
+  // The fewest of them that hold it all around.
   std::vector<Entity> things;
   for (const std::size_t k : vanishing_sum(directions, 0, exact_tolerance::level)) things.push_back(around[k]);
   if (!things.empty()) bodies.fail_squeezed(body, std::move(things));
+
   // They do not hold the body all around: the thing on its other side.
   std::size_t other = 0;
   for (std::size_t k = 1; k < around.size(); ++k)
@@ -65,6 +73,8 @@ void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::siz
   const World& world = bodies.world;
   const auto fixed = [&](std::size_t c) { return world.is_fixed(names[c].e); };
   const auto flat = [&](std::size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
+
+  // Whether contact number `floor` is with a flat surface that hides the thing of contact c.
   const auto hides = [&](std::size_t floor, std::size_t c) {
     const Vec3& n = pairs[floor].normal;
     if (floor == c || gaps[floor] > beside || !flat(floor) ||
@@ -72,6 +82,7 @@ void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::siz
       return false;
     return bodies.hidden(names[c].i, x, names[c].e, -n, bodies.fixed_velocity(names[floor].e));
   };
+
   std::vector<std::size_t> hidden;
   for (std::size_t c = first; c < pairs.size(); ++c)
     for (std::size_t floor = first; floor < pairs.size() && fixed(c); ++floor)
@@ -79,6 +90,7 @@ void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::siz
         hidden.push_back(c);
         break;
       }
+
   if (!hidden.empty())
     drop_if(first, [&](std::size_t c) { return std::binary_search(hidden.begin(), hidden.end(), c); });
 }

@@ -16,7 +16,8 @@ struct ExactBodies;
 
 /// Two things in contact.
 struct Contact {
-  Entity i, e;           // i a body; in steps i < e. A string between two bodies is the e of one of them.
+  Entity i;              // a body; in steps i < e
+  Entity e;              // A string between two bodies is the e of one of them.
   std::uint8_t feature;  // as in Touch
 };
 
@@ -64,6 +65,7 @@ struct ContactList {
       slow[kept] = slow[c];
       gaps[kept++] = gaps[c];
     }
+
     pairs.resize(kept);
     names.resize(kept);
     gaps.resize(kept);

@@ -26,17 +26,25 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       contact_work(given.body_count(), log) {}
 
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
-  const Flight p = flights[a], q = flights[b];
+  const Flight p = flights[a];
+  const Flight q = flights[b];
   const Instant base = std::max(p.start, q.start);
   const double t = now - base;
+
+  // Where a flight follows a curve: the positions at `base`, and the displacements since then.
   if (p.curve != nullptr || q.curve != nullptr) {
-    const double tp = base - p.start, tq = base - q.start;
+    const double tp = base - p.start;
+    const double tq = base - q.start;
     const Vec3 way = (q.displacement(tq + t) - q.displacement(tq)) - (p.displacement(tp + t) - p.displacement(tp));
     return {Vec3::Zero(), Vec3::Zero(), q.position(tq) - p.position(tp) + way, q.velocity(tq + t) - p.velocity(tp + t)};
   }
-  const FadingPath of_a = p.path().from(base - p.start), of_b = q.path().from(base - q.start);
+
+  const FadingPath of_a = p.path().from(base - p.start);
+  const FadingPath of_b = q.path().from(base - q.start);
   if (of_a.fade != of_b.fade)
     return {Vec3::Zero(), Vec3::Zero(), of_b.position(t) - of_a.position(t), of_b.velocity(t) - of_a.velocity(t)};
+
+  // With equal drag the relative path is of the same form.
   const FadingPath relative{of_b.x - of_a.x, of_b.v - of_a.v, of_b.a - of_a.a, of_a.fade};
   return {Vec3::Zero(), Vec3::Zero(), relative.position(t), relative.velocity(t)};
 }
@@ -122,6 +130,7 @@ bool ExactBodies::any_meets(std::span<const Entity> those) const {
     return (both_ways ? std::abs(approach) : approach) > exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
   };
   const auto string_meets = [&](Entity e) { return is_taut(e) && meets(world.string(e).body, e, string_now(e)); };
+
   return std::any_of(those.begin(), those.end(), [&](Entity i) {
     const std::span<const Entity> strings = ties.of(i);
     const std::vector<Entity> near = neighbours_of(i);
@@ -131,6 +140,7 @@ bool ExactBodies::any_meets(std::span<const Entity> those) const {
       const Touch there = touch(world, i, x, e, xe);
       return there.gap <= contact_gap(i, x, xe) && meets(i, e, there);
     };
+
     return std::any_of(strings.begin(), strings.end(), string_meets) ||
            std::any_of(near.begin(), near.end(), neighbour_meets);
   });

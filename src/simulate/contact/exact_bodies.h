@@ -48,7 +48,10 @@ struct ExactBodies : BodyPaths {
 
   /// Present positions and velocities of two bodies.
   struct PairState {
-    Vec3 xa, va, xb, vb;  // m, m/s
+    Vec3 xa;  // m
+    Vec3 va;  // m/s
+    Vec3 xb;  // m
+    Vec3 vb;  // m/s
   };
   /// Whether a body at x (m) is far from the origin. Its position then resolves its surroundings less well than
   /// relative paths do.

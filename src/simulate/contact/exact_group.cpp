@@ -67,6 +67,8 @@ void ExactGroup::unite(Entity a, Entity b) {
     Instant end = bodies_.now;
     if (united == Mode::stepped && std::min(of_a, of_b) == Mode::fresh)
       end = islands.of(of_a == Mode::stepped ? a : b).end;
+
+    // An island in another mode takes that of the united one.
     for (const Entity i : {a, b}) {
       if (bodies_.mode(i) == united) continue;
       for (const Entity k : islands.of(i).members) united == Mode::held ? modes_.hold(k) : modes_.step(k);
@@ -93,6 +95,8 @@ bool ExactGroup::wake(Entity i) {
     const Entity k = todo.back();
     todo.pop_back();
     unite(i, k);
+
+    // Sleepers that it touches wake too, and those at the other ends of its taut strings and rods.
     const Vec3 x = bodies_.flights[k].x;
     for (const Entity e : bodies_.neighbours_of(k)) {
       if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
@@ -133,12 +137,14 @@ void ExactGroup::join_initial(Entity first) {
   while (!todo.empty()) {
     const Entity i = todo.back();
     todo.pop_back();
+
     for (const Entity e : bodies_.neighbours_of(i)) {
       const Flight f = bodies_.flights[i];
       const bool body = world.is_body(e);
       const bool i_in = in_lasting_contact(bodies_.mode(i));
       const bool e_in = body && in_lasting_contact(bodies_.mode(e));
       if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
+
       const Vec3 xe = bodies_.position_of(e);
       const Vec3 ve = bodies_.velocity_of(e);
       // A run may begin with the state of another one, in which contacts hold within the method's error.
@@ -146,12 +152,17 @@ void ExactGroup::join_initial(Entity first) {
           std::max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
                    bodies_.contact_gap(i, f.x, xe));
       if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
+
+      // The two must touch, without speed along the normal.
       const Touch there = touch(world, i, f.x, e, xe);
       if (std::abs(there.gap) > near) continue;
       const Vec3 w = ve - f.v;
       if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, f.v, ve)) continue;
+
+      // Where neither is in the group yet, they must be pressed together.
       const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
+
       for (const Entity k : {i, e}) {
         if (!world.is_body(k) || in_lasting_contact(bodies_.mode(k))) continue;
         join_at_rest(k);
@@ -169,6 +180,8 @@ void ExactGroup::join_by_strings() {
   std::vector<double> inverse_mass;
   std::vector<ContactConstraint> rows;
   std::vector<Entity> strings;  // of the rows
+
+  // Adds body i to the problem, unless it is there. Returns its number there.
   const auto place = [&](Entity i) {
     if (moved.add(i)) {
       a.push_back(bodies_.flights[i].a);
@@ -176,6 +189,7 @@ void ExactGroup::join_by_strings() {
     }
     return moved.number(i);
   };
+
   std::vector<Entity> held;
   for (std::size_t k = 0; k < world.strings.size(); ++k) {
     const Entity string = world.string_number(k);
@@ -184,17 +198,21 @@ void ExactGroup::join_by_strings() {
     check_length(string, there.gap);
     // A run may begin with the state of another one, in which strings hold within the method's error.
     if (!bodies_.keeps_length(string, initial_rounding(string))) continue;
+
     const bool anchored = s.other == no_entity;
     const Vec3 w = bodies_.velocity_of(string) - bodies_.velocity(s.body);
     const Vec3 other = bodies_.position_of(string);
     // Bodies in lasting contact with other things have these accelerations.
     double known = bending(world, s.body, bodies_.position(s.body), string, other, there, w);
-    const bool free = !in_lasting_contact(bodies_.mode(s.body)),
-               other_free = !anchored && !in_lasting_contact(bodies_.mode(s.other));
+    const bool free = !in_lasting_contact(bodies_.mode(s.body));
+    const bool other_free = !anchored && !in_lasting_contact(bodies_.mode(s.other));
     if (!free) known -= there.normal.dot(bodies_.flights[s.body].a);
     if (!anchored && !other_free) known += there.normal.dot(bodies_.flights[s.other].a);
+
+    // A rod always holds. A taut string between ends of known acceleration holds if they would move apart.
     if (s.rod || (!free && !other_free && known < 0)) held.push_back(string);
     if (!free && !other_free) continue;
+
     ContactConstraint row{0, ContactConstraint::fixed, free ? there.normal : Vec3(-there.normal), -known};
     row.a = place(free ? s.body : s.other);
     if (free && other_free) row.b = place(s.other);
@@ -202,13 +220,18 @@ void ExactGroup::join_by_strings() {
     rows.push_back(row);
     strings.push_back(string);
   }
+
+  // Rods that contradict one another may do so by a share of the greatest acceleration.
   double greatest = 0;
   for (const Vec3& acceleration : a) greatest = std::max(greatest, acceleration.norm());
   for (ContactConstraint& row : rows)
     if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
   solve({inverse_mass, a, rows});
+
+  // Other strings hold if they are under tension.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!rows[k].bilateral && rows[k].force > 0) held.push_back(strings[k]);
+
   for (const Entity string : held) {
     const String& s = world.string(string);
     join_at_rest(s.body);
@@ -256,14 +279,18 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
 
 bool ExactGroup::opens(Entity i) const {
   if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.kick[i].until)) return false;
-  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
+
+  const Vec3 x = bodies_.position(i);
+  const Vec3 v = bodies_.velocity(i);
   const auto parts_from = [&](Entity e) {
     const Vec3 ve = bodies_.velocity_of(e);
     const Vec3 n = touch(bodies_.world, i, x, e, bodies_.position_of(e)).normal;
     return n.dot(ve - v) > bodies_.slow_speed(bodies_.applied[i].norm(), bodies_.smaller_length(i, e));
   };
+
   for (const PressingContact& p : pressing[i])
     if (parts_from(p.partner)) return true;
+  // The list of the lower body has the contact.
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (!bodies_.world.is_body(e) || e > i) continue;
     for (const PressingContact& p : pressing[e])

@@ -109,27 +109,38 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (contacts.at[k].surface == surface) normal = contacts.at[k].normal;
   remove(i, surface);
+
   const Flight f = bodies_.flights[i];
-  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = f.acceleration(bodies_.now - f.start);
+  const Vec3 x = bodies_.position(i);
+  const Vec3 v = bodies_.velocity(i);
+  const Vec3 a = f.acceleration(bodies_.now - f.start);
   const Vec3 w = v - bodies_.fixed_velocity(surface);
+
   // A little ahead, the body is over the other surface's face, if the rims are no farther apart than rounding.
   const double ahead =
       std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
   const double speed = w.norm();
   if (speed == 0) return {};
   const Vec3 there = x + ahead / speed * w;
+
+  // Of all level surfaces, the one that the body stays on the longest.
   FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
   double longest = -1;
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || e == surface || carry(i, e)) continue;
-    const Vec3 point = bodies_.fixed_position(e), u = bodies_.fixed_velocity(e);
+    const Vec3 point = bodies_.fixed_position(e);
+    const Vec3 u = bodies_.fixed_velocity(e);
     const Touch level = touch(world, i, there, e, point);
+
+    // It must be flat and level with the other, and touch the body without speed along the normal, up to rounding.
     const double rounding =
         exact_tolerance::initial_rounding * (x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
     if (!is_flat(world, i, e, level.feature) || std::abs(level.gap) > rounding ||
         (level.normal + normal).norm() > velocity_rounding ||
         std::abs(normal.dot(v - u)) > velocity_rounding * (v.norm() + u.norm()))
       continue;
+
+    // The time (s) for which the body stays at this feature.
     const RelativeMotion m{point - there, u - v, -a, speed, true};
     const double stay = leave_feature(world, i, e, level.feature, m, bodies_.options.duration).time;
     if (!(stay > longest)) continue;
@@ -138,6 +149,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
     next.feature = level.feature;
     next.normal = -level.normal;
   }
+
   if (next.surface != no_entity) add(i, next);
   return {next.surface, next.feature};
 }
@@ -178,21 +190,27 @@ void FlatContacts::clear(Entity i) {
 void FlatContacts::find_initial(Entity i) {
   const World& world = bodies_.world;
   if (bodies_.neighbours.surfaces(i).empty()) return;
+
   Flight f = bodies_.flights[i];
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || contacts_[i].count == most) continue;
-    const Vec3 point = bodies_.fixed_position(e), u = bodies_.fixed_velocity(e);
+    const Vec3 point = bodies_.fixed_position(e);
+    const Vec3 u = bodies_.fixed_velocity(e);
     const Touch there = touch(world, i, f.x, e, point);
+
+    // The body must touch a flat surface, without speed along the normal, and be pressed on.
     const double rounding =
         exact_tolerance::flat_rounding * (f.x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
     if (!is_flat(world, i, e, there.feature) || std::abs(there.gap) > rounding ||
         std::abs(there.normal.dot(f.v - u)) > velocity_rounding * (f.v.norm() + u.norm()) ||
         there.normal.dot(bodies_.applied[i]) + drag_along(i, there.normal, e) <= 0)
       continue;
+
     add(i, {e, there.feature, -there.normal, false, {}, 0});
     f.x += there.gap * there.normal;
     bodies_.body[i].set_origin({e, there.feature});
   }
+
   f.a = keep_pressing(i) - f.fade * f.v;
   bodies_.flights.set(i, f);
   if (bodies_.moving.any()) bodies_.contact_work.change(i, bodies_.now, power(i));
@@ -202,8 +220,10 @@ void FlatContacts::end_bounces(Entity i) {
   for (std::size_t k = 0; k < contacts_[i].count; ++k) {
     FlatContact& contact = contacts_.write(i).at[k];
     if (!contact.settling || bodies_.now < contact.rest_time) continue;
+
     contact.settling = false;
     note_mode(i);
+
     const World& world = bodies_.world;
     const Vec3 point =
         bodies_
@@ -239,29 +259,37 @@ void FlatContacts::keep(FlatContactList& contacts, const std::array<bool, most>&
 
 Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   FlatContactList& contacts = contacts_.write(i);
-  const double now = bodies_.now.hi, mass = bodies_.world.mass[i];
+  const double now = bodies_.now.hi;
+  const double mass = bodies_.world.mass[i];
   const Vec3 x = bodies_.position(i);
   const double noise = velocity_rounding * (v.norm() + bodies_.flights[i].v.norm());
+
   std::array<bool, most> kept;
   std::array<double, most> press;
   // A bounce that ends at once.
   struct Bounce {
     FlatContact contact;
-    double approach, e;
+    double approach;  // m/s
+    double e;
   };
   std::array<Bounce, most> bounces;
   std::size_t bounced = 0;
+
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const FlatContact& contact = contacts.at[k];
     const Vec3 n = -contact.normal;
     // Into the surface.
     const Vec3 of_surface = bodies_.fixed_velocity(contact.surface);
     const double u = n.dot(v - of_surface);
+
+    // A contact stays where rounding hides the motion along the normal, or the hop.
     const FlatSolution without = acceleration_without(i, contact.surface);
     bodies_.log.note(without.certificate);
     press[k] = n.dot(without.u) + drag_along(i, n, contact.surface);
     kept[k] = std::abs(u) <= noise + velocity_rounding * of_surface.norm() ||
               (press[k] > 0 && bodies_.too_low(x, u, press[k]));
+
+    // It also stays where bounces end in less time than the clock resolves.
     if (kept[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(bodies_.world, i, contact.surface);
     kept[k] = e < 1 && now + 2 * e * u / (press[k] * (1 - e)) == now;
@@ -272,6 +300,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (kept[k]) press[n++] = press[k];
   keep(contacts, kept);
+
   Surfaces surfaces;
   n = surfaces_of(contacts, no_entity, 1, surfaces);
   double lost = 0;  // J
@@ -297,6 +326,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
     collapses_.count_in_turn(i, 1 - e);
     record_bounce(i, contact, approach, e, lost * (approach * approach / squares));
   }
+
   bounced > 0 ? bodies_.log.lose(lost) : bodies_.log.absorb(lost);
   return allowed;
 }

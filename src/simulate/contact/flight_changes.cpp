@@ -26,6 +26,7 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
   bodies_.note_speed(i, v);
   book(i, x, bodies_.now);
+
   const Mode mode = bodies_.mode(i);
   const Contact contact = mode == Mode::stepped ? Contact::stepped : Contact::none;
   if (contact != in_contact_[i].by) {
@@ -33,9 +34,12 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
     if (in_contact_[i].by == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
     in_contact_.write(i) = {contact};
   }
+
   // The body falls through a time step.
   const bool falls =
       may_be_kicked(mode) && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
+
+  // A negligible speed becomes zero, on a flat surface also one with a negligible hop.
   const double negligible = bodies_.negligible_speed();
   const bool still = speed <= negligible ||
                      (lies_on_flat(mode) && speed * speed < exact_tolerance::negligible_hop *
@@ -44,11 +48,15 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
   bodies_.refresh(i, x, kept);
+
+  // A flight in steps follows a curve.
   if (const bool free = mode == Mode::flying;
       bodies_.in_steps && (free ? bodies_.flies_in_steps(i) : falls && bodies_.bent[i])) [[unlikely]] {
     curve(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, free);
     return end_change(i, origin);
   }
+
+  // Any other path is a parabola, or decays with its drag.
   const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
   if (bodies_.fade.empty() || (!falls && in_lasting_contact(mode))) [[likely]]
     bodies_.flights.set(i, {bodies_.now, x, kept, pull});
@@ -103,7 +111,8 @@ Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
 void FlightChanges::end_verlets(Entity i) {
   if (in_lasting_contact(bodies_.mode(i)) || bodies_.flights.curve(i) == nullptr) return;
   paths_.note_change(i);
-  const Vec3 x = bodies_.position(i), v = velocity_of_method(i, bodies_.now);
+  const Vec3 x = bodies_.position(i);
+  const Vec3 v = velocity_of_method(i, bodies_.now);
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
 }
@@ -139,10 +148,14 @@ void FlightChanges::release(Entity i) {
   book_taking(i, bodies_.now);
   take(i, 0);
   bodies_.contact_work.change(i, bodies_.now, 0);
+
+  // The velocity loses the part that forces in the rest of the step have given it in advance.
   const Vec3 pending = bodies_.kick[i].rest(bodies_.now);
   bodies_.kick.write(i) = {bodies_.now};
   change(i, -pending);
   let_fall(i);
+
+  // The time step is cut to the shortest one of the method.
   Island& island = islands.of(i);
   const double excess = (island.end - bodies_.now) - island.shortest_step;
   if (!(excess > 0)) return;
@@ -221,7 +234,8 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   const World& world = bodies_.world;
   const Flight f = bodies_.flights[i];
   const Vec3 displacement = x - f.x;
-  const double fade = bodies_.fade[i], mass = world.mass[i];
+  const double fade = bodies_.fade[i];
+  const double mass = world.mass[i];
   const double dragged = fade == 0 ? 0 : fade * f.path().squared_speed(end - f.start);  // m^2/s^2
   // On a path that decays with its drag, contact forces are constant.
   const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
@@ -234,12 +248,15 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
 void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
   const World& world = bodies_.merged.given();
   const std::span<const Entity> parts = bodies_.merged.parts_of(i);
+
   for (const Entity part : parts.empty() ? std::span<const Entity>(&i, 1) : parts)
     for (std::size_t k = 0; k < world.forces.size(); ++k) {
       const Force& force = world.forces[k];
       if (!acts(force, part, time)) continue;
+
       // The force on a body at rest, wind included, and the drag on its motion.
-      const Vec3 any = Vec3::Zero(), standing = working_acceleration(world, force, part, any, any);
+      const Vec3 any = Vec3::Zero();
+      const Vec3 standing = working_acceleration(world, force, part, any, any);
       const Drag* const drag = std::get_if<Drag>(&force.law);
       const double work =
           world.mass[part] * standing.dot(displacement) - (drag != nullptr ? drag->linear * squared_speed : 0);
@@ -253,7 +270,8 @@ double FlightChanges::greatest_speed(Entity i, const Flight& f, double length) c
   const VelocityBeyond beyond = bodies_.beyond_curve(i, f, length);
   const auto velocity = [&](double t) { return Vec3(f.velocity(t) + beyond.at(t)); };
   const auto rise = [&](double t) { return velocity(t).dot(f.curve->acceleration(t) + beyond.slope(t)); };
-  double rising = 0, falling = length;
+  double rising = 0;
+  double falling = length;
   if (!(rise(rising) > 0 && rise(falling) < 0)) return std::max(velocity(0).norm(), velocity(length).norm());
   for (int k = 0; k < 24; ++k) {
     const double middle = 0.5 * (rising + falling);
@@ -278,11 +296,13 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
 /// The same for a path of constrained motion under forces that are constant except for linear drag.
 void FlightChanges::book_followed(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
-  const double length = end - f.start, mass = bodies_.world.mass[i];
+  const double length = end - f.start;
+  const double mass = bodies_.world.mass[i];
   if (!(length > 0)) return;
   bodies_.log.note_speed(i, greatest_speed(i, f, length));
   const Vec3 displacement = x - f.x;
-  const double fade = bodies_.fade[i], squared = fade == 0 ? 0 : CurvedFlights::squared_speed(f, length);
+  const double fade = bodies_.fade[i];
+  const double squared = fade == 0 ? 0 : CurvedFlights::squared_speed(f, length);
   bodies_.log.deviate(kinetic_loss(i, f, length) + mass * (bodies_.applied[i].dot(displacement) - fade * squared));
   if (!bodies_.world.forces.empty()) book_work(i, f.start.hi, displacement, squared);
 }
@@ -303,7 +323,8 @@ void FlightChanges::take_out(Entity i, const Vec3& x) {
 
 Vec3 FlightChanges::book_until(Entity i, const Instant& at) {
   const Flight f = bodies_.flights[i];
-  const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
+  const Vec3 x = f.position(at - f.start);
+  const Vec3 kicked = f.velocity(at - f.start);
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   bodies_.hold_to_bounds(i, at.hi, x, v);
   bodies_.note_speed(i, v);

@@ -96,6 +96,7 @@ class FlightChanges {
   void curve(Entity i, Flight from, bool free);
   [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
   [[gnu::noinline]] void note_power(Entity i);
+
   bool book_contact(Entity i, const Vec3& x, const Instant& end);
   void book_followed(Entity i, const Vec3& x, const Instant& end);
   void book_taking(Entity i, const Instant& end);

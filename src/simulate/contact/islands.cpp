@@ -33,12 +33,17 @@ void Islands::create(Entity i, const Instant& end) {
 }
 
 void Islands::merge(Entity a, Entity b, const Instant& end) {
-  std::uint32_t into = island_[a], from = island_[b];
+  std::uint32_t into = island_[a];
+  std::uint32_t from = island_[b];
   if (into == from) return;
   if (islands_[into].members.size() < islands_[from].members.size()) std::swap(into, from);
-  Island &one = islands_[into], &other = islands_[from];
+
+  Island& one = islands_[into];
+  Island& other = islands_[from];
   for (const Entity i : other.members) island_.write(i) = into;
   one.members.insert(one.members.end(), other.members.begin(), other.members.end());
+
+  // The next step, and changes of contact.
   one.end = end;
   one.busy = one.busy || other.busy;
   one.planned = {never, 0};
@@ -46,10 +51,13 @@ void Islands::merge(Entity a, Entity b, const Instant& end) {
   one.changes = std::max(one.changes, other.changes);
   one.calm = 0;
   one.calm_needed = std::max(one.calm_needed, other.calm_needed);
+
+  // Time steps, and impacts within them.
   one.step_length = std::max(one.step_length, other.step_length);
   one.shortest_step = std::max(one.shortest_step, other.shortest_step);
   one.impact_pairs += other.impact_pairs;
   one.short_steps = std::max(one.short_steps, other.short_steps);
+
   release(from);
 }
 
@@ -66,7 +74,9 @@ std::vector<Entity> Islands::split(Entity i, std::span<const std::uint32_t> labe
   const std::vector<Entity> members = std::exchange(islands_[whole].members, {});
   std::vector<std::uint32_t> place(members.size());  // by label
   std::vector<Entity> first;
+
   for (std::size_t k = 0; k < members.size(); ++k) {
+    // The first member of a part makes its island. The first part keeps the old one.
     if (labels[k] == k) {
       place[k] = first.empty() ? whole : take_place();
       if (!first.empty()) {
@@ -75,6 +85,7 @@ std::vector<Entity> Islands::split(Entity i, std::span<const std::uint32_t> labe
       }
       first.push_back(members[k]);
     }
+
     islands_[place[labels[k]]].members.push_back(members[k]);
     island_.write(members[k]) = place[labels[k]];
   }

@@ -23,8 +23,10 @@ struct Island {
   // Constrained: the end of the step if nothing happens before.
   Instant planned{never, 0};
   double next_length = 0;  // s, a good length for the next step of constrained motion
-  // Start of the count of contact changes, and the last change.
-  Instant counted, changed;
+  // Start of the count of contact changes.
+  Instant counted;
+  // The last change of contact.
+  Instant changed;
   std::uint32_t changes = 0;  // changes of contact since `counted`
   std::uint32_t calm = 0;     // consecutive time steps in which the same pairs pressed
   // After so many of these the island is not busy.
