@@ -17,21 +17,30 @@ namespace carom {
 
 void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   const World& world = bodies_.world;
-  const Entity whole = world.mass[b] > world.mass[a] ? b : a, part = whole == a ? b : a;
+  const Entity whole = world.mass[b] > world.mass[a] ? b : a;
+  const Entity part = whole == a ? b : a;
+
+  // The flights of both end here. The loss contains what their potential loses.
   for (const Entity i : {a, b}) paths_.note_change(i);
   for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i), bodies_.now);
   Collision met = meeting(a, b, there);
   met.energy_lost += join(whole, part);
   bodies_.log.lose(met.energy_lost);
   bodies_.log.record(met);
+
+  // The larger volume has a new region, and is moved out of fixed things that it overlaps.
   renew_region(bodies_, whole, bodies_.body[whole].event.time.hi);
   move_out(whole);
+
+  // The first body that it overlaps merges too. That merge looks for the next one.
   for (const Entity e : bodies_.neighbours_of(whole)) {
     if (!world.is_body(e)) continue;
-    const Entity first = std::min(whole, e), second = std::max(whole, e);
+    const Entity first = std::min(whole, e);
+    const Entity second = std::max(whole, e);
     const Touch next = touch(world, first, bodies_.position(first), second, bodies_.position(second));
     if (next.gap < 0) return merge(first, second, next);
   }
+
   flights_.note_changed(whole);
 }
 
@@ -39,11 +48,15 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
 Collision BodyMerging::meeting(Entity a, Entity b, const Touch& there) const {
   const World& world = bodies_.world;
   const bool second = world.mass[b] > world.mass[a];
-  const double mw = world.mass[second ? b : a], mp = world.mass[second ? a : b], mass = mw + mp;
+  const double mw = world.mass[second ? b : a];
+  const double mp = world.mass[second ? a : b];
+  const double mass = mw + mp;
+
   const Vec3 w = bodies_.velocity(b) - bodies_.velocity(a);
   const double approach = std::max(-w.dot(there.normal), 0.0);
   Collision met =
       make_collision(world, CollisionKind::merge, bodies_.now.hi, a, b, there.point, there.normal, approach, 0, 0);
+
   met.impulse = approach * (mw * mp / mass);
   // The energy of the motion along the surfaces is lost too.
   met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
@@ -53,25 +66,37 @@ Collision BodyMerging::meeting(Entity a, Entity b, const Touch& there) const {
 /// The joint body continues from the centre of mass with the common momentum. Forces continue to act on the parts.
 /// Returns what their potential loses (J).
 double BodyMerging::join(Entity whole, Entity part) {
-  const double mass_part = bodies_.world.mass[part], share = mass_part / (bodies_.world.mass[whole] + mass_part);
-  const Vec3 xw = bodies_.position(whole), xp = bodies_.position(part);
-  const Vec3 vw = bodies_.velocity(whole), vp = bodies_.velocity(part);
-  const Vec3 x = xw + share * (xp - xw), v = vw + share * (vp - vw);
+  const double mass_part = bodies_.world.mass[part];
+  const double share = mass_part / (bodies_.world.mass[whole] + mass_part);
+  const Vec3 xw = bodies_.position(whole);
+  const Vec3 xp = bodies_.position(part);
+  const Vec3 vw = bodies_.velocity(whole);
+  const Vec3 vp = bodies_.velocity(part);
+  const Vec3 x = xw + share * (xp - xw);
+  const Vec3 v = vw + share * (vp - vw);
+
   const double before = bodies_.merged.potential(whole, xw) + bodies_.merged.potential(part, xp);  // J
   bodies_.merged.join(whole, part);
+
+  // What acts on the whole is the mean, by mass, of what acts on the parts.
   if (!bodies_.world.forces.empty()) {
     const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
     bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.fade)});
   }
+
+  // Both leave their flat surfaces, and contacts do no more work on them.
   for (const Entity i : {whole, part}) {
     flat_.clear(i);
     bodies_.contact_work.change(i, bodies_.now, 0);
   }
+
+  // The part has no neighbours and no events any more. It rests at the centre of mass.
   modes_.merge(part);
   bodies_.neighbours.remove(part);
   flights_.count(part);
   flights_.note_changed(part);
   bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+
   const double lost = bodies_.world.forces.empty() ? 0 : before - bodies_.merged.potential(whole, x);
   bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, x, v), bodies_.fade[whole]});
   flights_.count(whole);
@@ -89,11 +114,13 @@ void BodyMerging::move_out(Entity whole) {
       if (world.is_body(e)) continue;
       const Touch there = touch(world, whole, f.x, e, bodies_.fixed_position(e));
       if (!(there.gap < 0)) continue;
+
       const Vec3 out = there.gap * there.normal;
       bodies_.log.add_work(bodies_.merged.potential(whole, f.x + out) - bodies_.merged.potential(whole, f.x));
       f.x += out;
       free = false;
     }
+
     bodies_.flights.set(whole, f);
     if (free) break;
   }

@@ -16,12 +16,18 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
   const double mass = bodies_.world.mass[i];
   const Vec3 x = flights_.position_of_method(i, now);
   const Vec3 v = flights_.velocity_of_method(i, now);
+
+  // Its step, its flight and the work of its contacts end here.
   flights_.end_step(i);
   flights_.book_until(i, now);
   if (is_member(bodies_.mode(i))) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, now);
   bodies_.contact_work.change(i, now, 0);
+
+  // What was in contact with it goes on without it.
   std::vector<Entity> left = release(i);
   modes_.remove(i);
+
+  // It takes its energy and momentum out of the world.
   bodies_.log.remove(0.5 * mass * v.squaredNorm() + bodies_.merged.potential(i, x), mass * v);
   bodies_.merged.remove(i);
   bodies_.ties.untie(i);
@@ -34,6 +40,7 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
 std::vector<Entity> BodyRemoval::release(Entity i) {
   flat_.clear(i);
   if (!in_lasting_contact(bodies_.mode(i))) return {};
+
   // What sleeps beside it may rest on it.
   const Vec3 x = bodies_.position(i);
   std::vector<Entity> left;
@@ -45,11 +52,15 @@ std::vector<Entity> BodyRemoval::release(Entity i) {
     group_.wake(e);
     left.push_back(e);
   }
+
+  // Strings may hold what sleeps at their other ends.
   for (const Entity e : group_.asleep_on_strings(i)) {
     if (bodies_.mode(e) != Mode::asleep) continue;
     group_.wake(e);
     left.push_back(e);
   }
+
+  // Its island goes on without it, if it has other members.
   group_.leave(i);
   std::vector<Entity> stay;
   for (const Entity k : bodies_.islands.of(i).members)

@@ -39,16 +39,20 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double approa
   if (parts_.flat.of(striker).count == 0 || !bodies_.ties.of(struck).empty()) return false;
   const double lifts = 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck];
   if (!(approach * approach < lifts)) return false;
+
   // At least three forces that are not in one plane.
   std::vector<Vec3> normals;
   const Vec3 x = bodies_.flights[struck].x;
   const auto hold = [&](Entity e) { normals.push_back(touch(world, struck, x, e, bodies_.position_of(e)).normal); };
+
+  // The list of the lower body of a pair has the force.
   for (const PressingContact& p : parts_.group.pressing[struck])
     if (p.force > 0) hold(p.partner);
   for (const Entity e : bodies_.neighbours_of(struck))
     if (world.is_body(e) && bodies_.mode(e) == Mode::asleep)
       for (const PressingContact& p : parts_.group.pressing[e])
         if (p.partner == struck && p.force > 0) hold(e);
+
   for (std::size_t i = 0; i < normals.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k)
@@ -61,7 +65,9 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double approa
 void ExactImpacts::bounce_off(Entity striker, Entity struck, std::uint8_t feature, const Touch& there,
                               double approach) {
   const double mass = bodies_.world.mass[striker];
-  const double e = pair_restitution(bodies_.world, striker, struck), separation = e * approach;
+  const double e = pair_restitution(bodies_.world, striker, struck);
+  const double separation = e * approach;
+
   Collision met = make_collision(bodies_.world, CollisionKind::body_body, bodies_.now.hi, std::min(striker, struck),
                                  std::max(striker, struck), there.point, there.normal, approach, separation, e);
   met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, separation);
@@ -79,17 +85,22 @@ void ExactImpacts::bounce_off(Entity striker, Entity struck, std::uint8_t featur
 /// their approach has ended.
 double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there,
                               const Vec3& w) const {
-  const Flight p = bodies_.flights[a], q = bodies_.flights[b];
+  const Flight p = bodies_.flights[a];
+  const Flight q = bodies_.flights[b];
   const Vec3& n = there.normal;
+
   double forces = n.dot(q.a - p.a);
   if (p.curve != nullptr || q.curve != nullptr) {
     forces = n.dot(pull_after(b, xb, q, a, there, w) - pull_after(a, xa, p, b, there, w));
     // Drag acts on the velocities after the impact.
   } else if (p.fade != 0 || q.fade != 0) {
-    const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], share = -n.dot(w) / (ma + mb);
+    const double ma = bodies_.world.mass[a];
+    const double mb = bodies_.world.mass[b];
+    const double share = -n.dot(w) / (ma + mb);
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
              (q.fade * ma + p.fade * mb) * share;
   }
+
   return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
 }
 
@@ -97,7 +108,9 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
 /// The impact is at w, the velocity of the second body relative to the first (m/s).
 Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there,
                               const Vec3& w) const {
-  const double mi = bodies_.world.mass[i], mo = bodies_.world.mass[other], share = mo / (mi + mo);
+  const double mi = bodies_.world.mass[i];
+  const double mo = bodies_.world.mass[other];
+  const double share = mo / (mi + mo);
   const Vec3 towards = there.normal.dot(w) * there.normal;  // m/s
   const Vec3 v = f.velocity(bodies_.now - f.start) + (i < other ? share : -share) * towards;
   return bodies_.flies_on_curve(i) ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
@@ -124,12 +137,34 @@ bool ExactImpacts::move_as_one(Entity a, Entity b, double approach) const {
          approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
 }
 
+/// Bodies a < b at the instant of their impact, and its effect.
+struct ExactImpacts::PairImpact {
+  Entity a;
+  Entity b;
+  std::uint8_t feature;
+  bool ends;                            // in lasting contact
+  double approach;                      // m/s
+  double impulse;                       // N s
+  const Vec3& n;                        // unit, from a to b
+  const Vec3& xa;                       // m
+  const Vec3& xb;                       // m
+  const Vec3& va;                       // m/s, before the impact
+  const Vec3& vb;                       // m/s, before the impact
+  const StringImpacts::Passed* passed;  // null: no string passes it on
+};
+
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const World& world = bodies_.world;
-  const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
-  const double ta = bodies_.now - p.start, tb = bodies_.now - q.start;
-  const Vec3 xa = p.position(ta), xb = q.position(tb);
-  const Vec3 va = p.velocity(ta), vb = q.velocity(tb);
+  const Flight& p = bodies_.flights[a];
+  const Flight& q = bodies_.flights[b];
+  const double ta = bodies_.now - p.start;
+  const double tb = bodies_.now - q.start;
+  const Vec3 xa = p.position(ta);
+  const Vec3 xb = q.position(tb);
+  const Vec3 va = p.velocity(ta);
+  const Vec3 vb = q.velocity(tb);
+
+  // Far from the origin the relative path has more digits.
   Touch there = bodies_.touch_at(a, xa, b, xb, feature);
   Vec3 w = vb - va;
   if (bodies_.far_from_origin(a, xa)) [[unlikely]] {
@@ -138,22 +173,27 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     there.point += xa;
     w = pair.vb - pair.va;
   }
+
   bodies_.log.note_overlap(-there.gap);
   bodies_.note_speed(a, va);
   bodies_.note_speed(b, vb);
   if (bodies_.options.merge) return parts_.merging.merge(a, b, there);
-  const double ma = world.mass[a], mb = world.mass[b];
+
+  const double ma = world.mass[a];
+  const double mb = world.mass[b];
   const Vec3& n = there.normal;
   const double approach = -w.dot(n) > bodies_.negligible_speed() ? -w.dot(n) : 0;
   const double e = pair_restitution(world, a, b);
   parts_.guard.note_restitution(e);
   const double met = parts_.group.approach_without_kick(approach, n, a, b);
+
   const double length = bodies_.smaller_length(a, b);
   const double press = p.a == q.a && p.fade == q.fade ? 0 : press_of(a, xa, b, xb, there, w);
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
       if (bodies_.mode(struck) == Mode::asleep && too_slow_to_wake(striker, struck, approach))
         return bounce_off(striker, struck, feature, there, approach);
+
   // Where nothing presses, an approach that is only rounding ends with this impact.
   const double held = press > 0 || bodies_.islands.any() ? holding(press, a, b) : 0;
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || held > 0;
@@ -166,6 +206,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
                                    (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));
   const double separation = ends ? 0 : e * met;
+
+  // Strings that hold the bodies take part.
   const StringImpacts::Passed* const passed =
       bodies_.ties.any() ? strings_->pass_on({a, b, n, approach, met + separation, 0}) : nullptr;
   const double impulse = passed ? passed->impulse : impact_impulse(ma, mb, met, separation);
@@ -176,6 +218,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double lost = loss(met, separation);
   bodies_.log.lose(lost);
   if (met != approach) bodies_.log.deviate(loss(approach, met + separation - approach) - lost);
+
   Collision collision =
       make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e);
   if (passed) {
@@ -186,16 +229,28 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     bodies_.log.record(collision);
   else if (met > 0)
     bodies_.log.take_up(met, collision.energy_lost);
+
+  apply_pair({a, b, feature, ends, approach, impulse, n, xa, xb, va, vb, passed});
+}
+
+/// Begins the flights of two bodies after their impact. Where it ends in contact, they join one island.
+void ExactImpacts::apply_pair(const PairImpact& impact) {
+  const auto& [a, b, feature, ends, approach, impulse, n, xa, xb, va, vb, passed] = impact;
+  const double ma = bodies_.world.mass[a];
+  const double mb = bodies_.world.mass[b];
   for (const Entity i : {a, b}) {
     if (ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
     parts_.group.widen_margin(i, approach);
   }
   if (ends) parts_.group.unite_fresh(a, b);
+
   const Vec3 after_a = passed ? passed->v[0] : Vec3(va - (impulse / ma) * n);
   const Vec3 after_b = passed ? passed->v[1] : Vec3(vb + (impulse / mb) * n);
   parts_.flights.begin(a, xa, parts_.flat.keep_at(a, after_a), {b, feature});
   parts_.flights.begin(b, xb, parts_.flat.keep_at(b, after_b), {a, feature});
   if (passed) strings_->begin_beyond(*passed, a, b);
+
+  // An impact may throw a member off its support, or end in contact.
   for (const Entity i : {a, b})
     if (parts_.group.opens(i)) release(i);
   if (ends) hold_together(a, b, n);
@@ -209,7 +264,9 @@ void ExactImpacts::hold_together(Entity a, Entity b, const Vec3& n) {
   for (const Entity i : {a, b}) parts_.flights.hold(i);
   const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
   if (closing > 0) {
-    const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], held = impact_impulse(ma, mb, closing, 0);
+    const double ma = bodies_.world.mass[a];
+    const double mb = bodies_.world.mass[b];
+    const double held = impact_impulse(ma, mb, closing, 0);
     parts_.flights.push(a, -held / ma * n);
     parts_.flights.push(b, held / mb * n);
   }
@@ -231,12 +288,17 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
   const World& world = bodies_.world;
   const Flight f = bodies_.flights[i];
   const double t = bodies_.now - f.start;
-  const Vec3 x = f.position(t), v = f.velocity(t);
-  const Vec3 point = bodies_.fixed_position(surface), u = bodies_.fixed_velocity(surface);
+  const Vec3 x = f.position(t);
+  const Vec3 v = f.velocity(t);
+  const Vec3 point = bodies_.fixed_position(surface);
+  const Vec3 u = bodies_.fixed_velocity(surface);
+
   const bool flat = is_flat(world, i, surface, feature);
   const Touch there = bodies_.touch_at(i, x, surface, point, feature);
   const Vec3& n = there.normal;
-  const double towards = (v - u).dot(n), approach = towards > bodies_.negligible_speed() ? towards : 0;
+  const double towards = (v - u).dot(n);
+  const double approach = towards > bodies_.negligible_speed() ? towards : 0;
+
   bodies_.refresh(i, x, v - approach * n);
   const double bend = flat ? 0 : bending(world, i, x, surface, point, there, u - v);
   // In constrained motion other contacts are part of the flight. Drag then acts on the velocity after the impact.
@@ -248,6 +310,7 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
     bodies_.log.note(without.certificate);
     pull = without.u.dot(n) + parts_.flat.drag_along(i, n, surface);
   }
+
   return {i,
           surface,
           feature,
@@ -270,6 +333,7 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
   const double separation = e * unkicked;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
   const std::size_t carrying = parts_.flat.of(i).count;
+
   // A surface nearly level with one that carries the body takes over. Hops that rounding hides do not count.
   const double weight = bodies_.applied[i].dot(there.normal);
   if (carrying > 0 && flat && carrying < FlatContactList::most && !in_lasting_contact(bodies_.mode(i)) && e <= 1 &&
@@ -280,12 +344,14 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
     contact.rest_time = bodies_.now;
     return true;
   }
+
   // The body's path on the surface is not a parabola.
   if (bodies_.bent[i]) return false;
   const bool ends = e < 1 || approach == 0 ||
                     (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
   if (!(press > 0) || !flat || in_lasting_contact(bodies_.mode(i)) || carrying >= FlatContactList::most || !ends)
     return false;
+
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
   // The body does not hop on this surface alone. Other bodies, or the surfaces that carry it, throw it back at once.
   const bool carried = carrying > 0 && (bodies_.body[i].origin_partner != surface || began_now);
@@ -320,13 +386,18 @@ void ExactImpacts::check_room(const FixedImpact& impact) const {
   const Vec3& n = impact.there.normal;
   const double until = std::min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
   const Entity i = impact.body;
+
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || e == impact.surface) continue;
-    const Vec3 point = bodies_.fixed_position(e), u = bodies_.fixed_velocity(e);
+    const Vec3 point = bodies_.fixed_position(e);
+    const Vec3 u = bodies_.fixed_velocity(e);
     const Touch opposite = touch(world, i, impact.x, e, point);
     if ((opposite.normal + n).norm() > exact_tolerance::level || !is_flat(world, i, e, opposite.feature)) continue;
+
     const double closing = n.dot(u - impact.u);
     if (opposite.gap > exact_tolerance::least_gap * world.radius[i] || !(closing > 0)) continue;
+
+    // The room ends before the run, a change of motion and the rim of the surface.
     const double left = opposite.gap / closing;
     if (bodies_.now.hi + left > until) continue;
     const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
@@ -339,21 +410,33 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   const World& world = bodies_.world;
   const FixedImpact impact = find_fixed(i, surface, feature);
   if (bodies_.moving.any()) check_room(impact);
-  const Vec3 &x = impact.x, &v = impact.v, &n = impact.there.normal;
-  const double approach = impact.approach, met = impact.unkicked, mass = world.mass[i];
+  const Vec3& x = impact.x;
+  const Vec3& v = impact.v;
+  const Vec3& n = impact.there.normal;
+  const double approach = impact.approach;
+  const double met = impact.unkicked;
+  const double mass = world.mass[i];
+
   parts_.guard.note_restitution(impact.e, world.moves(surface));
   bodies_.log.note_overlap(-impact.there.gap);
   bodies_.note_speed(i, v);
+
+  // It comes to rest on a flat surface, ends in lasting contact, or bounces.
   FlatContact contact;
   const bool rests = comes_to_rest(impact, contact);
   const bool taken_over = rests && !contact.settling;
-  const bool ends = !rests && ends_in_contact(impact), leaves_nothing = ends || taken_over;
+  const bool ends = !rests && ends_in_contact(impact);
+  const bool leaves_nothing = ends || taken_over;
   const double separation = leaves_nothing ? 0 : impact.e * met;
   if (ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
+
+  // Strings that hold the body take part.
   const StringImpacts::Passed* const passed =
       bodies_.ties.any() && !rests ? strings_->pass_on({i, surface, n, approach, met + separation, n.dot(impact.u)})
                                    : nullptr;
+
+  // The energy is booked, and the impact is recorded or counted.
   if (approach > 0 || separation > 0) {
     const double impulse = passed ? passed->impulse : mass * (rests ? approach : met + separation);
     if (bodies_.moving.any()) bodies_.log.add_work(-impulse * n.dot(impact.u));
@@ -364,6 +447,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     bodies_.log.lose(lost);
     if (const double left = taken_over ? 0 : met + separation - approach; met != approach)
       bodies_.log.deviate(loss(approach, left) - lost);
+
     Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
                                          impact.there.point, n, met, separation, impact.e);
     if (passed) {
@@ -375,6 +459,8 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     else if (met > 0)
       bodies_.log.take_up(met, collision.energy_lost);
   }
+
+  // The next flight begins: on the flat surface, or after the impulse.
   if (taken_over) parts_.flat.remove_level(i, contact.normal);
   if (rests) {
     parts_.flat.add(i, contact);
@@ -384,7 +470,10 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     parts_.flights.begin(i, x, parts_.flat.keep_at(i, after), {surface, feature});
     if (passed) strings_->begin_beyond(*passed, i, no_entity);
   }
+
   if (parts_.group.opens(i)) release(i);
+
+  // In lasting contact, what is left of the approach ends in the rest of the step.
   if (ends) {
     parts_.flights.hold(i);
     const double closing = n.dot(bodies_.velocity(i) - impact.u);

@@ -50,11 +50,13 @@ class ExactImpacts {
  private:
   /// A body and a fixed thing at the instant of their impact.
   struct FixedImpact {
-    Entity body, surface;
+    Entity body;
+    Entity surface;
     std::uint8_t feature;
     bool flat;
     bool began_now;   // the flight began at this instant
-    Vec3 x, v;        // m, m/s
+    Vec3 x;           // m
+    Vec3 v;           // m/s
     Vec3 u;           // m/s, of the fixed thing
     Touch there;      // the contact of the two
     double e;         // restitution
@@ -62,6 +64,9 @@ class ExactImpacts {
     double unkicked;  // m/s, without the effect of later forces
     double press;     // m/s^2, drives the two together
   };
+
+  /// The same of two bodies, with its effect.
+  struct PairImpact;
 
   double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   Vec3 pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there, const Vec3& w) const;
@@ -72,6 +77,7 @@ class ExactImpacts {
   void release(Entity i);
   bool is_plastic(const Collision& met, double press, double length) const;
   void bounce_off(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
+  void apply_pair(const PairImpact& impact);
   FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature);
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
   bool over_at_once(const FixedImpact& impact, double left) const;

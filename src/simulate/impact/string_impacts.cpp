@@ -42,6 +42,8 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
   const Entity b = bodies_.world.second_body(strike.thing);
   take_in(strike.a);
   if (b != no_entity) take_in(b);
+
+  // The strings of these bodies, of those at their other ends, and so on.
   std::vector<Entity> strings;
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const Entity i = reached[k];
@@ -53,10 +55,13 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
   }
   std::sort(strings.begin(), strings.end());
   strings.erase(std::unique(strings.begin(), strings.end()), strings.end());
+
   const auto row = [&](Entity i, Entity other, const Vec3& normal, double target) {
     return ContactConstraint{reached.number(i), other == no_entity ? Numbering::none : reached.number(other), normal,
                              target};
   };
+
+  // The struck pair has the first row, and each string one of the others.
   ContactList rows;
   ContactConstraint struck = row(strike.a, b, strike.normal, strike.change - strike.approach);
   struck.surface = strike.surface;
@@ -68,11 +73,13 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
     held.slack = s.rod ? exact_tolerance::step_error * std::abs(strike.change) : 0;
     rows.add(held, {s.body, string, no_feature}, 0);
   }
+
   std::vector<double> inverse_mass;
   for (const Entity i : reached) inverse_mass.push_back(1 / bodies_.world.mass[i]);
   const Certificate certificate = solve({inverse_mass, passed.v, rows.pairs});
   if (certificate.verdict == Certificate::Verdict::infeasible) rows.check_room(bodies_, passed.v);
   bodies_.log.note(certificate);
+
   passed.bodies = reached.bodies();
   passed.impulse = rows.pairs.front().force;
 }
@@ -89,8 +96,10 @@ void StringImpacts::begin_beyond(const Passed& passed, Entity a, Entity b) {
 void StringImpacts::tighten(Entity string) {
   const World& world = bodies_.world;
   const String& s = world.string(string);
-  const Entity a = s.body, b = s.other;
+  const Entity a = s.body;
+  const Entity b = s.other;
   const bool anchored = b == no_entity;
+
   // The rest of a time step is not to come: a step with the string follows at once.
   for (const Entity i : {a, b}) {
     if (i == no_entity || !may_be_kicked(bodies_.mode(i))) continue;
@@ -98,19 +107,27 @@ void StringImpacts::tighten(Entity string) {
     parts_.flights.release(i);
     parts_.group.let_go(i);
   }
-  const Vec3 xa = bodies_.position(a), xb = bodies_.position_of(string);
-  const Vec3 va = bodies_.velocity(a), vb = bodies_.velocity_of(string);
+
+  const Vec3 xa = bodies_.position(a);
+  const Vec3 xb = bodies_.position_of(string);
+  const Vec3 va = bodies_.velocity(a);
+  const Vec3 vb = bodies_.velocity_of(string);
   const Touch there = touch(world, a, xa, string, xb);
-  const Vec3 &n = there.normal, w = vb - va;
+  const Vec3& n = there.normal;
+  const Vec3 w = vb - va;
   for (const Entity i : {a, b})
     if (i != no_entity) bodies_.note_speed(i, bodies_.velocity(i));
+
   const double rounding = exact_tolerance::velocity_rounding * (va.norm() + vb.norm());
   const double approach = -w.dot(n) > std::max(bodies_.negligible_speed(), rounding) ? -w.dot(n) : 0;
   const double e = s.restitution;
   parts_.guard.note_restitution(e);
+
   const Vec3 apart = bodies_.pull_of(string) - bodies_.pull_of(a);
   const double press = -(n.dot(apart) + bending(world, a, xa, string, xb, there, w));  // m/s^2
   const double length = bodies_.smaller_length(a, string);
+
+  // Whether the string holds from here on, or its ends spring back.
   const auto fades = [&](Entity i) { return i != no_entity && bodies_.hops_fade(i, approach, press); };
   const auto collapses = [&](Entity i) {
     return i != no_entity && parts_.collapses.count_impact(i, string, e, approach, press, length, false);
@@ -118,10 +135,13 @@ void StringImpacts::tighten(Entity string) {
   const bool ends = e * approach == 0 || collapses(a) || collapses(b) ||
                     (press > 0 && (bodies_.too_low(xa, e * approach, press) || (e == 1 && (fades(a) || fades(b)))));
   const double separation = ends ? 0 : e * approach;
+
   solve_with_strings({a, string, n, approach, approach + separation, 0});
   const Passed& passed = passed_;
   const double lost = 0.5 * passed.impulse * (approach - separation);
   bodies_.log.lose(lost);
+
+  // An impact that ends in contact is counted, unless it is fast and plastic.
   if (!ends || (e == 0 && approach > bodies_.slow_speed(std::max(press, 0.0), length))) {
     Collision met = make_collision(world, CollisionKind::string, bodies_.now.hi, a, string, there.point, n, approach,
                                    separation, e);
@@ -131,12 +151,16 @@ void StringImpacts::tighten(Entity string) {
   } else if (approach > 0) {
     bodies_.log.take_up(approach, lost);
   }
+
+  // Sleeping bodies wake, and new flights begin.
   for (const Entity i : passed.bodies)
     if (bodies_.mode(i) == Mode::asleep || (ends && (i == a || i == b))) parts_.group.join(i);
   for (std::size_t k = 0; k < passed.bodies.size(); ++k)
     if (const Entity i = passed.bodies[k]; i == a || i == b)
       parts_.flights.begin(i, bodies_.position(i), parts_.flat.keep_at(i, passed.v[k]), {string, 0});
   begin_beyond(passed, a, b);
+
+  // A string that holds connects the islands of its bodies. Their next step is due.
   if (ends && !anchored) parts_.group.unite(a, b);
   if (ends) bodies_.islands.of(a).end = bodies_.now;
 }

@@ -18,7 +18,8 @@ class StringImpacts {
 
   /// An impact of body a, at the present instant, on another body or a fixed thing, or along a string that goes taut.
   struct Strike {
-    Entity a, thing;
+    Entity a;
+    Entity thing;
     Vec3 normal;      // unit, from a to the thing
     double approach;  // m/s
     double change;    // m/s, of the speed along the normal

@@ -213,12 +213,15 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
 
   const bool was_bound = following_[i].version == bodies_.body[i].version && following_[i].bound;
   if (fate.bound || was_bound) group_.member.write(i).needed = bodies_.now;
+
+  // A member that nothing has needed for long enough leaves the island.
   if (fate.leaves() && bodies_.now - group_.member[i].needed >= step.grace) {
     modes_.leave(i);
     for (std::size_t c = 0; c < fate.flats.count; ++c) flat_.add(i, fate.flats.at[c]);
     flights_.begin(i, x + fate.down, flat_.keep_at(i, v), {});
     return false;
   }
+
   if (fate.rests) {
     modes_.fall_asleep(i);
     flights_.begin(i, x, Vec3::Zero(), {});
@@ -227,10 +230,12 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
 
   modes_.press(i, fate.pressed);
   bodies_.kick.write(i) = {bodies_.now};
+
   // A thing that it has just struck stays its origin, if nothing has changed since.
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;
   flights_.go_on(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
+
   following_.write(i) = {step.path, k, bodies_.body[i].version, fate.bound};
   if (step.path)
     flights_.follow(i, step.path->motion->path(k));
@@ -260,6 +265,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     for (const Entity e : modes_.partners(i)) {
       const bool string = world.is_string(e);
       const Entity second = world.second_body(e);
+
       if (string ? world.string(e).body != i : second != no_entity && e < i) continue;
       const std::uint32_t other = second != no_entity ? step.members.number(second) : Numbering::none;
       if (second != no_entity && other == Numbering::none) continue;

@@ -103,6 +103,7 @@ std::vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep&
   std::vector<AbsorbedImpact> impacts(pairs.size());
   double all = 0;  // J, lost by all of them
   bool closed_later = false;
+
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     impacts[c].approach = speed_of(met, pairs[c]);
     impacts[c].lost = 0.5 * pairs[c].force * approach(met, pairs[c]);
@@ -234,6 +235,7 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   std::vector<ContactConstraint> kept;
   bool parts = false;
   const double rounding = share_of_errors() * tol::velocity_rounding * step.fastest;  // m/s
+
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     parts = parts || (p.force > 0 && step.parting_speed(bodies_, c) > rounding);
@@ -318,6 +320,7 @@ double ConstrainedSteps::leverage(const IslandStep& step, std::size_t pair) cons
   solve({step.inverse_mass, moved, bearing});
   for (const ContactConstraint& p : bearing)
     if (std::abs(approach(moved, p) + p.target) > 0.25) return never;
+
   double farthest = 0;
   for (const Vec3& u : moved) farthest = std::max(farthest, u.norm());
   return farthest;
@@ -339,6 +342,7 @@ void ConstrainedSteps::find_resting(IslandStep& step) const {
   const std::vector<std::uint32_t> part = connected_parts(n, pairs, [](std::size_t) { return true; });
   std::vector<std::uint8_t> moves(n, 1);  // by part
   for (const ContactConstraint& p : pairs) moves[part[p.a]] = 0;
+
   // The rim of a thing that moves may come along.
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (bodies_.moving.moves(step.contacts.names[c].e, bodies_.now)) moves[part[pairs[c].a]] = 1;
@@ -369,6 +373,7 @@ void ConstrainedSteps::note_unbalanced(IslandStep& step) const {
     const double places = step.x[p.a].cwiseAbs().sum() + xe.cwiseAbs().sum();
     const double of_force =
         std::abs(p.force) * (tol::velocity_rounding + tol::contact_rounding * places / step.smallest);
+
     // A rod's force has an allowed error.
     const double of_rod = p.bilateral ? tol::step_error * step.load : 0;
     for (const std::uint32_t k : {p.a, p.b})
@@ -389,6 +394,7 @@ void ConstrainedSteps::find_pressed(IslandStep& step) const {
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     if (!(p.force > 0 || p.bilateral)) continue;
+
     const auto& [i, e, feature] = step.contacts.names[c];
     MemberFate& fate = step.fates[p.a];
     fate.pressed = true;
@@ -397,6 +403,7 @@ void ConstrainedSteps::find_pressed(IslandStep& step) const {
       other.pressed = fate.bound = other.bound = true;
       continue;
     }
+
     if (!is_flat(world, i, e, feature) || bodies_.bent[i] || fate.flats.count == FlatContactList::most) {
       fate.bound = true;
       continue;
@@ -471,6 +478,7 @@ double ConstrainedSteps::rim_time(const IslandStep& step, std::size_t pair, doub
   const Vec3 ve = step.velocity_of(bodies_, e);
   const Vec3 w = ve - step.v[k];
   const Vec3 a = step.pull_of(bodies_, e) - step.a[k];
+
   RelativeMotion m{step.position_of(bodies_, e) - step.x[k], w, a, w.norm(), true};
   const double speeds = step.v[k].norm() + ve.norm();
   for (int axis = 0; axis < 3; ++axis) {

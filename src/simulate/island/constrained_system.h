@@ -87,12 +87,14 @@ class ConstrainedSystem {
   /// A fixed thing that moves. In a motion that is followed it is one more point, after the members.
   struct Carrier {
     Entity thing;
-    Vec3 x, v;  // m, m/s: at the start
+    Vec3 x;  // m, at the start
+    Vec3 v;  // m/s, at the start
   };
 
   /// The errors of a step that are allowed: of positions (m) and of velocities (m/s).
   struct Allowed {
-    double place, speed;
+    double place;  // m
+    double speed;  // m/s
   };
 
   const Carrier* carrier_of(Entity e) const;
@@ -138,8 +140,10 @@ class ConstrainedSystem {
   std::vector<double> inverse_mass_;  // 1/kg
   std::vector<Carrier> carriers_;
   std::vector<std::uint8_t> left_;  // by member: whether it is left out of their work
-  std::vector<Contact> closed_, opened_;
-  std::vector<ContactConstraint> rows_, opened_rows_;
+  std::vector<Contact> closed_;
+  std::vector<Contact> opened_;
+  std::vector<ContactConstraint> rows_;
+  std::vector<ContactConstraint> opened_rows_;
   std::vector<ContactConstraint> held_;  // rows_ in the motion that is followed
   Scales scales_;                        // of the step that is followed
   Allowed allowed_;                      // the same

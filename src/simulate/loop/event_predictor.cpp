@@ -35,17 +35,20 @@ void EventPredictor::predict(Entity i) {
 
 void EventPredictor::predict_all() {
   std::vector<Entity> others;
+
   // Never on curves, which may part later: their fade equals nothing.
   const auto together = [&](Entity i, Entity j) {
     const Flights::Core* const f = bodies_.flights.cores();
     return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j) &&
            bodies_.flights.fade(i) == bodies_.flights.fade(j);
   };
+
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
     if (bodies_.islands.any()) {
       predict(i);
       continue;
     }
+
     others.clear();
     std::ranges::copy_if(bodies_.neighbours.bodies(i), std::back_inserter(others),
                          [&](Entity j) { return j < i && !together(i, j); });
@@ -96,6 +99,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
     if (contact.settling)
       offer(i, best, {contact.rest_time, contact.surface, 0, ExactEvent::Kind::rest, contact.feature});
     if (bodies_.world.is_plane(contact.surface)) continue;
+
     const Flight& f = bodies_.flights[i];
     const FadingPath fixed = flat_.path_of(contact.surface, f.start);
     const FeatureTime rim = leave_feature(bodies_.world, i, f.path(), contact.surface, fixed, contact.feature,
@@ -107,10 +111,13 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
 
 /// Offers the collisions of body i with each of the others.
 void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  const bool constrained = bodies_.mode(i) == Mode::held, carried = lies_on_flat(bodies_.mode(i));
+  const bool constrained = bodies_.mode(i) == Mode::held;
+  const bool carried = lies_on_flat(bodies_.mode(i));
+
   for (const Entity e : others) {
     // They cannot meet.
     if (constrained && modes_.are_partners(i, e)) continue;
+
     std::uint8_t feature = no_feature;
     if (bodies_.world.is_body(e)) {
       feature = 0;
@@ -129,7 +136,10 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
   if (!bodies_.world.volume.empty() || is_member(bodies_.mode(i)) || bodies_.flights.fade(i) != 0)
     return meet_each(i, others, best);
+
   const Vec3& a = bodies_.flights.acceleration(i);
+
+  // Bodies that move in another way are tested one at a time.
   if (bodies_.islands.any() || !bodies_.flights.alike() || bodies_.flights.any_fades()) {
     alike_.clear();
     for (const Entity& e : others)
@@ -139,6 +149,7 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
         alike_.push_back(e);
     others = alike_;
   }
+
   if (meets_.size() < others.size()) meets_.resize(2 * others.size());
   const bool latest = bodies_.flights.cores()[i].start == bodies_.now;
   pair_tests_ += others.size();
@@ -146,10 +157,13 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
   std::size_t count = straight_times(
       {bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others, a, latest, bodies_.options.duration},
       meets_.data());
+
+  // Pairs that touch or graze need a test of their own.
   for (Meet& meet : std::span(meets_.data(), count)) {
     std::uint8_t feature = 0;
     if (meet.time.hi == unsure) meet.time = times_.of_pair(i, meet.with, feature);
   }
+
   // The earliest collision for which the other body is free. If that body has an event before, it then predicts its
   // collision with body i anew.
   while (count > 0) {
@@ -158,6 +172,7 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
       if (meets_[k].time < meets_[first].time) first = k;
     const Meet& meet = meets_[first];
     if (best.time.hi < meet.time.hi) return;
+
     const ExactEvent& other = bodies_.body[meet.with].event;
     const bool taken =
         other.kind == ExactEvent::Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
@@ -169,9 +184,12 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
 /// Keeps the earlier of two events of body i, by the total order.
 void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) const {
   if (!(candidate.time.hi <= bodies_.options.duration)) return;
+
   // This happens by rounding only.
   if (candidate.time < bodies_.now) candidate.time = bodies_.now;
   if (best.time < candidate.time) return;
+
+  // At one instant the kind decides, then the numbers of the bodies.
   if (candidate.time == best.time) {
     if (best.kind < candidate.kind) return;
     if (best.kind == candidate.kind) {
@@ -183,6 +201,7 @@ void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) con
       if (key(best) < key(candidate)) return;
     }
   }
+
   best = candidate;
 }
 

@@ -57,7 +57,8 @@ class EventPredictor {
   const bool plain_;           // there are neither strings nor forces, and nothing moves
   std::vector<Entity> alike_;  // scratch
   std::vector<Meet> meets_;    // scratch
-  std::uint64_t pair_tests_ = 0, surface_tests_ = 0;
+  std::uint64_t pair_tests_ = 0;
+  std::uint64_t surface_tests_ = 0;
 };
 
 }  // namespace carom

@@ -36,6 +36,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       modes_(bodies_),
       flat_(bodies_, modes_, collapses_),
       group_(bodies_, modes_, flat_, collapses_, paths_),
+      // What makes flights and events, then what happens at an event.
       flights_(bodies_, flat_, paths_),
       queue_(bodies_),
       prefetch_(bodies_, queue_),
@@ -71,6 +72,7 @@ void ExactSimulator::start(const State& initial) {
   const World& world = bodies_.world;
   if (bodies_.options.merge && bodies_.ties.any())
     throw SimulationError("bodies with strings cannot merge: remove `strings`, or `merge`");
+
   const Entity n = world.body_count();
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
@@ -80,7 +82,10 @@ void ExactSimulator::start(const State& initial) {
     bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
     bodies_.note_speed(i, v);
   }
+
   bodies_.neighbours.start(initial.position);
+
+  // Contacts at the start: with flat surfaces, with other things, along strings.
   if (!bodies_.options.merge) {
     for (Entity i = 0; i < n; ++i)
       if (!bodies_.applied[i].isZero(0) && !bodies_.bent[i]) flat_.find_initial(i);
@@ -89,13 +94,17 @@ void ExactSimulator::start(const State& initial) {
       for (Entity i = 0; i < n; ++i) group_.join_initial(i);
     if (bodies_.ties.any()) group_.join_by_strings();
   }
+
   for (Entity i = 0; i < n; ++i)
     if (bodies_.flies_in_steps(i) && bodies_.mode(i) == Mode::flying) flights_.let_fall(i);
+
+  // The first events, then the first steps of islands.
   predictor_.predict_all();
   if (bodies_.islands.any())
     for (Entity i = 0; i < n; ++i)
       if (bodies_.mode(i) == Mode::fresh) begin_island(i);
   predict_changed();
+
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
 }
@@ -114,9 +123,11 @@ void ExactSimulator::advance_to(double time) {
   paths_.begin_advance();
   crossings_.begin_advance();
   answers_.state_fresh = false;
+
   const Instant until{std::min(time, bodies_.options.duration), 0};
   const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
   std::uint32_t events = 0;
+
   do {
     while (queue_.first_time() <= until.hi) {
       const Entity i = queue_.first();
@@ -129,11 +140,13 @@ void ExactSimulator::advance_to(double time) {
           continue;
       }
       events += take_event(i);
+
       // After many events without a result, the caller may need to check the clock.
       if (events >= events_at_a_time && before_now() > time_) {
         time_ = before_now();
         return crossings_.sort();
       }
+
       // A buffer is full. Stop just before the present instant, because more may happen at it.
       if (paths_.full() || (attends_ && crossings_.full()) || !bodies_.log.has_room(collisions_of_event)) {
         time_ = std::max(time_, before_now());
@@ -141,9 +154,12 @@ void ExactSimulator::advance_to(double time) {
       }
     }
   } while (attends_ && happens_before(until, true));
+
   paths_.record_changes();
   crossings_.sort();
   time_ = std::max(time, time_);
+
+  // At the run's end, the last flights and the work along paths are booked.
   if (time_ < bodies_.options.duration) return;
   bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time_, 0}); });
   flights_.book_last(time_);
@@ -165,9 +181,11 @@ std::uint32_t ExactSimulator::process(Entity i) {
   using Kind = ExactEvent::Kind;
   const ExactEvent event = bodies_.body[i].event;
   std::uint32_t weight = 1;
+
   bodies_.neighbours.prefetch_list(i);
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
   if (bodies_.now < event.time) bodies_.now = event.time;
+
   switch (event.kind) {
     case Kind::body_body:
       if (bodies_.body[event.partner].version == event.partner_version) {
@@ -178,6 +196,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
         flights_.note_changed(i);
       }
       break;
+
     case Kind::body_fixed:
       flights_.end_step(i);
       impacts_.collide_fixed(i, event.partner, event.feature);
@@ -188,6 +207,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
     case Kind::force:
       take_switch(i);
       break;
+
     case Kind::rest:
       flat_.end_bounces(i);
       flights_.note_changed(i);
@@ -195,6 +215,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
     case Kind::release:
       release(i, event.partner, event.feature);
       break;
+
     case Kind::step:
       if (is_member(bodies_.mode(i)) && event.time == bodies_.islands.of(i).end) {
         weight = events_of_a_step * static_cast<std::uint32_t>(bodies_.islands.of(i).members.size());
@@ -206,6 +227,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
     case Kind::none:
       break;
   }
+
   predict_changed();
   const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed || event.kind == Kind::string;
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
@@ -241,6 +263,7 @@ void ExactSimulator::switch_forces(Entity i) {
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
   if (bodies_.mode(i) == Mode::asleep) group_.stir(i);
+
   // The last step contained the old forces until its end.
   if (is_member(bodies_.mode(i))) {
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
@@ -249,6 +272,7 @@ void ExactSimulator::switch_forces(Entity i) {
     bodies_.kick.write(i).until = bodies_.now;
     bodies_.islands.of(i).end = bodies_.now;
   }
+
   bodies_.apply_forces(i, x, v);
   if (bodies_.bent[i]) flat_.clear(i);
   flights_.begin(i, x, flat_.keep_at(i, v), {});
@@ -279,6 +303,7 @@ bool ExactSimulator::watches() const {
 bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
   if (is_over()) return false;
   if (!at_it && !(bodies_.now < next)) return false;
+
   const ExactOptions& options = bodies_.options;
   if (options.stop_collisions > 0 && tally().collisions() >= options.stop_collisions) {
     end_run(bodies_.now.hi, EndReason::collisions, 0);
@@ -291,6 +316,7 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
     take_crossing(crossings_.take());
     if (!is_over()) return true;
   }
+
   // The run has ended. What else crosses at that instant happens too.
   const double end = tally().end->time;
   while (const std::optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
@@ -302,11 +328,14 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   const RegionCrossing& crossing = taken.crossing;
   const WorldRegion& region = bodies_.world.regions[crossing.region];
   if (!crossing.enters || !(region.removes || region.stops)) return;
+
   if (region.removes) {
     while (const std::optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
       const WorldRegion& met = bodies_.world.regions[other->crossing.region];
       if (other->crossing.enters && met.stops) end_by(*other);
     }
+
+    // The islands that lose the body take a step at once.
     if (bodies_.now < taken.at) bodies_.now = taken.at;
     paths_.note_change(crossing.body);
     for (const Entity k : BodyRemoval(bodies_, modes_, group_, flat_, flights_).remove(crossing.body))
@@ -315,6 +344,7 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
     paths_.delay(taken.sure);
     guard_.count(StallGuard::Happened::other, bodies_.now.hi);
   }
+
   if (region.stops) end_by(taken);
 }
 
@@ -336,15 +366,19 @@ void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region
 /// Whether body i stays where it is until another body comes.
 bool ExactSimulator::rests(Entity i) const {
   if (!is_in_world(bodies_.mode(i))) return true;
-  const double past = bodies_.now.floor(), end = bodies_.options.duration;
+  const double past = bodies_.now.floor();
+  const double end = bodies_.options.duration;
+
   if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, past) < end) return false;
   if (bodies_.moving.any()) {
     const ExactEvent& event = bodies_.body[i].event;
     if (bodies_.moving.next_switch(past) < end || (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end))
       return false;
   }
+
   if (bodies_.mode(i) == Mode::asleep) return true;
   if (bodies_.mode(i) == Mode::settling) return false;
+
   const Flight f = bodies_.flights[i];
   if (!f.v.isZero(0) || may_be_kicked(bodies_.mode(i))) return false;
   if (f.curve == nullptr) return f.a.isZero(0);
@@ -373,15 +407,18 @@ Effort ExactSimulator::effort() const {
 
 const State& ExactSimulator::state() {
   if (answers_.state_fresh) return answers_.state;
+
   const World& world = bodies_.world;
   answers_.state.time = is_over() ? tally().end->time : time_;
   const Instant at{answers_.state.time, 0};
+
   answers_.state.position.resize(world.body_count());
   answers_.state.velocity.resize(world.body_count());
   for (Entity i = 0; i < world.body_count(); ++i) {
     answers_.state.position[i] = flights_.position_of_method(i, at);
     answers_.state.velocity[i] = flights_.velocity_of_method(i, at);
   }
+
   if (bodies_.merged.any()) {
     answers_.state.mass = world.mass;
     answers_.state.radius = world.radius;
@@ -389,6 +426,7 @@ const State& ExactSimulator::state() {
     answers_.state.part_of = bodies_.merged.whole_of();
     answers_.state.join_parts();
   }
+
   answers_.state_fresh = true;
   return answers_.state;
 }
