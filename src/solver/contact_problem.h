@@ -44,6 +44,11 @@ inline double approach(std::span<const Vec3> motion, const ContactConstraint& c)
   return c.normal.dot(motion[c.a] - b) - c.surface;
 }
 
+/// The inverse mass of a contact's second body (1/kg): 0 for an immovable thing.
+inline double inverse_mass_of_b(std::span<const double> inverse_mass, const ContactConstraint& c) {
+  return c.b == ContactConstraint::fixed ? 0 : inverse_mass[c.b];
+}
+
 /// The required accuracy of a solution. A contact that is off by its slack s has the kinetic energy of the correcting
 /// motion: s^2 / (2/m_a + 2/m_b).
 enum class ContactAccuracy : std::uint8_t {

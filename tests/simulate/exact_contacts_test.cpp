@@ -79,7 +79,7 @@ TEST(FlatContacts, ReportTheWeight) {
   parts.flat.report(0, forces);
   ASSERT_EQ(forces.size(), 1u);
   EXPECT_NEAR(forces[0].force, 2 * pull, 1e-12);
-  EXPECT_EQ(parts.flat.acceleration_without(0, 1), Vec3(0, -pull, 0));
+  EXPECT_EQ(parts.flat.acceleration_without(0, 1).u, Vec3(0, -pull, 0));
 }
 
 TEST(FlatContacts, TakeWhatTheLastBounceLeft) {

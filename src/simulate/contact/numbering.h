@@ -38,8 +38,8 @@ class Numbering {
     bodies_.push_back(i);
     return true;
   }
-  /// The number of body i, or `none`; and the body of a number.
-  std::uint32_t number(Entity i) const { return (*numbers_)[i]; }
+  /// The number of body i, or `none`, also for no_entity; and the body of a number.
+  std::uint32_t number(Entity i) const { return i == no_entity ? none : (*numbers_)[i]; }
   Entity operator[](std::size_t k) const { return bodies_[k]; }
 
   // In the order of their numbers.

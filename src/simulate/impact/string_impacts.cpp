@@ -57,8 +57,7 @@ void StringImpacts::solve_with_strings(const Strike& strike) {
   strings.erase(std::unique(strings.begin(), strings.end()), strings.end());
 
   const auto row = [&](Entity i, Entity other, const Vec3& normal, double target) {
-    return ContactConstraint{reached.number(i), other == no_entity ? Numbering::none : reached.number(other), normal,
-                             target};
+    return ContactConstraint{reached.number(i), reached.number(other), normal, target};
   };
 
   // The struck pair has the first row, and each string one of the others.

@@ -118,6 +118,7 @@ std::pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
 /// The members of a step, and their contacts.
 IslandStep ConstrainedMotion::begin_step(const std::vector<Entity>& members, bool undisturbed) {
   IslandStep step(Numbering(group_.numbers, members));
+  step.at = bodies_.now;
   step.undisturbed = undisturbed;
   for (const Entity i : members) {
     const auto [x, v] = place_of(i);
@@ -246,14 +247,13 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
 
 void ConstrainedMotion::report(const Island& island, double time, std::vector<ContactForce>& forces) const {
   const World& world = bodies_.world;
-  const Instant now{time, 0};
   IslandStep step(Numbering(group_.numbers, island.members));
-  std::vector<Vec3> a;
+  step.at = {time, 0};
   for (const Entity i : island.members) {
-    const double t = now - bodies_.flights[i].start;
-    step.x.push_back(bodies_.flights[i].position(t));
-    step.v.push_back(bodies_.flights[i].velocity(t));
-    a.push_back(bodies_.force_at(i, step.x.back(), step.v.back()));
+    const Flight f = bodies_.flights[i];
+    step.x.push_back(f.position(step.at - f.start));
+    step.v.push_back(f.velocity(step.at - f.start));
+    step.a.push_back(bodies_.force_at(i, step.x.back(), step.v.back()));
     step.inverse_mass.push_back(1 / world.mass[i]);
   }
 
@@ -263,24 +263,21 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
   for (std::uint32_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
     for (const Entity e : modes_.partners(i)) {
-      const bool string = world.is_string(e);
       const Entity second = world.second_body(e);
+      const std::uint32_t other = step.members.number(second);
+      const bool of_another = world.is_string(e) ? world.string(e).body != i : world.is_body(e) && e < i;
+      if (of_another || (second != no_entity && other == Numbering::none)) continue;
 
-      if (string ? world.string(e).body != i : second != no_entity && e < i) continue;
-      const std::uint32_t other = second != no_entity ? step.members.number(second) : Numbering::none;
-      if (second != no_entity && other == Numbering::none) continue;
-
-      const Vec3 xe = second != no_entity ? step.x[other] : bodies_.fixed_position(e, now);
-      const Vec3 ve = second != no_entity ? step.v[other] : bodies_.fixed_velocity(e, now);
+      const Vec3 xe = step.position_of(bodies_, e);
       const Touch there = touch(world, i, step.x[k], e, xe);
-      const double bend = bending(world, i, step.x[k], e, xe, there, ve - step.v[k]);
+      const double bend = bending(world, i, step.x[k], e, xe, there, step.velocity_of(bodies_, e) - step.v[k]);
       pairs.push_back({k, other, there.normal, -bend});
-      pairs.back().bilateral = string && world.string(e).rod;
+      pairs.back().bilateral = world.is_string(e) && world.string(e).rod;
       names.emplace_back(i, e);
     }
   }
 
-  solve({step.inverse_mass, a, pairs});
+  solve({step.inverse_mass, step.a, pairs});
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});
 }

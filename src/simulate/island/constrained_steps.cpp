@@ -271,7 +271,7 @@ void ConstrainedSteps::check_digits(const IslandStep& step, double acceleration)
     const auto& [i, e, feature] = step.contacts.names[c];
     if (!bodies_.world.is_string(e)) continue;
     const ContactConstraint& p = step.contacts.pairs[c];
-    const double of_e = p.b == ContactConstraint::fixed ? 0.0 : step.inverse_mass[p.b];
+    const double of_e = inverse_mass_of_b(step.inverse_mass, p);
     const double by_force = std::abs(p.force) * std::max(step.inverse_mass[p.a], of_e);  // m/s^2
     const double noticeable = tol::arbitrary * acceleration;                             // m/s^2
     const double turn = turn_by_rounding(step, c);

@@ -286,7 +286,7 @@ double ConstrainedSystem::distance_rounding(const std::vector<double>& of_places
 
 /// The acceleration by a contact's force of its two members relative to one another (m/s^2).
 double ConstrainedSystem::reaction(const ContactConstraint& row) const {
-  const double inverse_mass = inverse_mass_[row.a] + (row.b == ContactConstraint::fixed ? 0 : inverse_mass_[row.b]);
+  const double inverse_mass = inverse_mass_[row.a] + inverse_mass_of_b(inverse_mass_, row);
   return std::abs(row.force) * inverse_mass;
 }
 

@@ -37,7 +37,7 @@ void ContactSearch::find_touching(IslandStep& step) const {
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
       if (there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
 
-      const std::uint32_t other = body ? step.members.number(e) : Numbering::none;
+      const std::uint32_t other = step.members.number(world.second_body(e));
       step.contacts.add({k, other, there.normal, -there.gap, 0, 0}, {i, e, there.feature}, there.gap);
     }
     step.contacts.drop_hidden(bodies_, step.x[k], first);
@@ -50,7 +50,7 @@ void ContactSearch::find_strings(IslandStep& step, std::uint32_t k) const {
   const Entity i = step.members[k];
   for (const Entity e : bodies_.ties.of(i)) {
     const String& s = bodies_.world.string(e);
-    const std::uint32_t other = s.other == no_entity ? Numbering::none : step.members.number(s.other);
+    const std::uint32_t other = step.members.number(s.other);
     if (s.body != i || (s.other != no_entity && other == Numbering::none)) continue;
 
     const Vec3 xe = step.position_of(bodies_, e);
@@ -82,8 +82,8 @@ void ContactSearch::find_slow_speeds(IslandStep& step) const {
   for (std::size_t c = 0; c < contacts.pairs.size(); ++c) {
     const ContactConstraint& p = contacts.pairs[c];
     const auto& [i, e, feature] = contacts.names[c];
-    const double of_e = p.b == ContactConstraint::fixed ? 0 : step.inverse_mass[p.b];
-    const double press = group_.pressing_force(i, e) * (step.inverse_mass[p.a] + of_e);  // m/s^2
+    const double press =
+        group_.pressing_force(i, e) * (step.inverse_mass[p.a] + inverse_mass_of_b(step.inverse_mass, p));  // m/s^2
 
     // A pair that nothing has pressed together decides by its impact. An error of paths is none.
     const bool pressed = press > tol::curve_rounding * step.load;

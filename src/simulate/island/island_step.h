@@ -45,6 +45,7 @@ struct IslandStep {
   explicit IslandStep(Numbering of_members) : members(std::move(of_members)) {}
 
   Numbering members;         // ascending
+  Instant at;                // its start
   bool undisturbed = false;  // the step before has reached its end
 
   // By member, at the step's start: m, m/s, m/s^2, 1/kg.
@@ -87,11 +88,11 @@ struct IslandStep {
   /// anchor, or a fixed thing.
   Vec3 position_of(const ExactBodies& bodies, Entity thing) const {
     const Entity body = bodies.world.second_body(thing);
-    return body != no_entity ? x[members.number(body)] : bodies.fixed_position(thing);
+    return body != no_entity ? x[members.number(body)] : bodies.fixed_position(thing, at);
   }
   Vec3 velocity_of(const ExactBodies& bodies, Entity thing) const {
     const Entity body = bodies.world.second_body(thing);
-    return body != no_entity ? v[members.number(body)] : bodies.fixed_velocity(thing);
+    return body != no_entity ? v[members.number(body)] : bodies.fixed_velocity(thing, at);
   }
   Vec3 pull_of(const ExactBodies& bodies, Entity thing) const {
     const Entity body = bodies.world.second_body(thing);

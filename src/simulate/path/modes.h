@@ -69,21 +69,27 @@ constexpr bool is_in_world(Mode mode) {
 /// Whether the table above has this change.
 constexpr bool may_become(Mode from, Mode to) {
   using enum Mode;
+  const auto to_one_of = [to](auto... some) { return ((to == some) || ...); };
   switch (from) {
+    // Free.
     case flying:
-      return to == settling || to == carried || to == fresh || to == part || to == gone;
+      return to_one_of(settling, carried, fresh, part, gone);
     case settling:
-      return to == flying || to == carried || to == fresh;
+      return to_one_of(flying, carried, fresh);
     case carried:
-      return to == flying || to == settling || to == fresh;
+      return to_one_of(flying, settling, fresh);
+
+    // In an island.
     case fresh:
-      return to == held || to == stepped || to == gone;
+      return to_one_of(held, stepped, gone);
     case held:
-      return to == flying || to == stepped || to == asleep || to == gone;
+      return to_one_of(flying, stepped, asleep, gone);
     case stepped:
-      return to == flying || to == held || to == asleep || to == gone;
+      return to_one_of(flying, held, asleep, gone);
+
+    // At rest, or out of the world.
     case asleep:
-      return to == fresh;
+      return to_one_of(fresh);
     case part:
     case gone:
       return false;

@@ -17,6 +17,7 @@ BodyPaths::BodyPaths(const World& given, const ExactOptions& given_options)
       varying(bending_force(given) != nullptr),
       by_method(options.integrator != Integrator::dop853 || !options.closed_forms),
       in_steps(varying || by_method),
+      // By body.
       applied(given.body_count(), given.gravity),
       fade(given.body_count()),
       bent(given.body_count()),
