@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "physics/world.h"
 #include "simulate/contact/region_exit.h"
 #include "simulate/exact_parts.h"
 #include "simulate/loop/event_predictor.h"
+#include "simulate/loop/event_prefetch.h"
 #include "simulate/loop/exact_collision_times.h"
 
 namespace carom {
@@ -20,8 +23,21 @@ Problem row(int balls) {
   return p;
 }
 
-struct Queue : ExactParts {
-  using ExactParts::ExactParts;
+/// With the parts of the loop.
+struct LoopParts : ExactParts {
+  explicit LoopParts(Problem given)
+      : ExactParts(std::move(given)),
+        queue(bodies),
+        prefetch(bodies, queue),
+        predictor(bodies, queue, modes, flat, group) {}
+
+  EventQueue queue;
+  EventPrefetch prefetch;
+  EventPredictor predictor;
+};
+
+struct Queue : LoopParts {
+  using LoopParts::LoopParts;
   void put(Entity i, double time, Kind kind, Entity partner, double leaves = never) {
     bodies.body[i].event = {{time, 0}, partner, 1, kind, 0};
     queue.schedule(i, leaves);
@@ -88,7 +104,7 @@ TEST(EventPredictor, FindsTheFirstOfABodysCollisions) {
   Problem p = two_towards_each_other();
   p.plane(Vec3(0, -1, 0), Vec3(0, 1, 0));
   p.initial.velocity[0] = Vec3(1, -1, 0);
-  ExactParts parts(p);
+  LoopParts parts(p);
   parts.predictor.predict(0);
   const ExactEvent& event = parts.bodies.body[0].event;
   EXPECT_EQ(event.kind, Kind::body_fixed);
@@ -109,7 +125,7 @@ TEST(RegionExit, IsBeforeTheBodyLeaves) {
 }
 
 TEST(EventPrefetch, ChangesNoEvent) {
-  ExactParts parts(row(100));
+  LoopParts parts(row(100));
   parts.predictor.predict_all();
   const Entity first = parts.queue.first();
   const double time = parts.queue.first_time();

@@ -12,8 +12,6 @@
 #include "simulate/impact/stall_guard.h"
 #include "simulate/island/constrained_motion.h"
 #include "simulate/island/time_stepping.h"
-#include "simulate/loop/event_predictor.h"
-#include "simulate/loop/event_prefetch.h"
 #include "simulate/path/crossings.h"
 #include "simulate/path/path_log.h"
 
@@ -30,9 +28,6 @@ struct ExactParts {
         flat(bodies, modes, collapses),
         group(bodies, modes, flat, collapses, paths),
         flights(bodies, flat, paths),
-        queue(bodies),
-        prefetch(bodies, queue),
-        predictor(bodies, queue, modes, flat, group),
         simultaneous(bodies, group, flights),
         stepping(bodies, modes, group, flights),
         constrained(bodies, modes, group, flat, collapses, flights),
@@ -53,9 +48,6 @@ struct ExactParts {
   FlatContacts flat;
   ExactGroup group;
   FlightChanges flights;
-  EventQueue queue;
-  EventPrefetch prefetch;
-  EventPredictor predictor;
   SimultaneousImpacts simultaneous;
   TimeStepping stepping;
   ConstrainedMotion constrained;

@@ -1,39 +1,20 @@
 #pragma once
 // The effect of impacts on velocities: of two bodies, and of a body and a fixed thing. Pairs are resolved one at a
 // time.
-
 #include <memory>
 
 #include "geometry/touch.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "simulate/impact/impact_parts.h"
+
 namespace carom {
 
 struct Collision;
-struct ExactBodies;
 struct FlatContact;
-class FlatContacts;
 struct Flight;
 
-class BodyMerging;
-class CollapseDetector;
-class ExactGroup;
-class FlightChanges;
-class SimultaneousImpacts;
-class StallGuard;
-
 class StringImpacts;
-
-/// The parts of the simulator that an impact changes.
-struct ImpactParts {
-  CollapseDetector& collapses;
-  FlatContacts& flat;
-  ExactGroup& group;
-  FlightChanges& flights;
-  SimultaneousImpacts& simultaneous;
-  BodyMerging& merging;
-  StallGuard& guard;
-};
 
 class ExactImpacts {
  public:

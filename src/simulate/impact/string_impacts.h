@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "simulate/impact/exact_impacts.h"
+#include "numerics/vec3.h"
+#include "physics/entity.h"
+#include "simulate/impact/impact_parts.h"
 #include "solver/contact_problem.h"
 
 namespace carom {

@@ -1,0 +1,26 @@
+#pragma once
+// The parts of the simulator that an impact changes.
+
+namespace carom {
+
+struct ExactBodies;
+
+class BodyMerging;
+class CollapseDetector;
+class ExactGroup;
+class FlatContacts;
+class FlightChanges;
+class SimultaneousImpacts;
+class StallGuard;
+
+struct ImpactParts {
+  CollapseDetector& collapses;
+  FlatContacts& flat;
+  ExactGroup& group;
+  FlightChanges& flights;
+  SimultaneousImpacts& simultaneous;
+  BodyMerging& merging;
+  StallGuard& guard;
+};
+
+}  // namespace carom
