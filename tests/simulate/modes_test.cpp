@@ -134,6 +134,19 @@ TEST(Modes, OfASleeperThatIsRemovedAreFreshBefore) {
   EXPECT_EQ(changes_of(parts.modes, Mode::fresh, Mode::gone), 1u);
 }
 
+TEST(Modes, OfTwoSleepersOnTwoStringsMakeOneIsland) {
+  Problem p = two_on_a_floor(1);  // 2 m apart
+  for (int k = 0; k < 2; ++k) p.world.strings.push_back({0, 1, Vec3::Zero(), 2});
+  ExactParts parts(p);
+  parts.modes.fall_asleep(0);
+  parts.modes.fall_asleep(1);
+  parts.group.join(0);
+  EXPECT_EQ(changes_of(parts.modes, Mode::asleep, Mode::fresh), 2u);
+  int islands = 0;
+  parts.bodies.islands.for_each([&](const Island&) { ++islands; });
+  EXPECT_EQ(islands, 1);
+}
+
 TEST(Modes, OfABodyThatMergesArePart) {
   for (const Mode mode : {Mode::flying, Mode::settling, Mode::carried}) {
     Problem p = two_on_a_floor();

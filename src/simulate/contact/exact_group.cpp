@@ -103,7 +103,8 @@ bool ExactGroup::wake(Entity i) {
       const double gap = touch(bodies_.world, k, x, e, bodies_.flights[e].x).gap;
       if (gap <= exact_tolerance::waking_gap * bodies_.world.radius[k]) rouse(e);
     }
-    for (const Entity e : asleep_on_strings(k)) rouse(e);
+    for (const Entity e : asleep_on_strings(k))
+      if (bodies_.mode(e) == Mode::asleep) rouse(e);
   }
   return stepped;
 }
