@@ -1,37 +1,44 @@
 #pragma once
-// What moves each body now. A body has one mode at a time. ModeChanges (mode_changes.h) alone changes it.
+// What moves each body now. A body has one mode at a time. ModeChanges (mode_changes.h) alone changes it, for the
+// functions that are named below.
 //
-//     mode      what moves the body                          its velocity between two events
-//     flying    forces alone                                 that of a free flight
-//     settling  forces and flat surfaces, until bounces end  along the surfaces
-//     carried   forces and flat surfaces                     along the surfaces
-//     fresh     an island that has not taken a step yet      as before it joined
-//     held      an island, by constrained motion             on the others' surfaces
-//     stepped   an island, by time stepping                  straight or falling until the step's end
-//     asleep    nothing: contact forces are in balance       exactly zero
-//     part      the body that it has merged into             none of its own
-//     gone      nothing: it has left the world               none
+//     mode      what moves the body                             its velocity between two events
+//     flying    forces alone                                    that of a free flight
+//     settling  the same as `carried`, and its last bounces on  along the surfaces
+//               a surface, too low to be followed, go on
+//     carried   forces and flat surfaces: it slides, or lies    along the surfaces, or zero
+//     fresh     its island, which has not taken a step yet      that with which it joined
+//     held      its island, by constrained motion               along what it touches
+//     stepped   its island, by time stepping                    straight, or falling, until the step's end
+//     asleep    nothing: contact forces are in balance          exactly zero
+//     part      the body that it has merged into                none of its own
+//     gone      nothing: it has left the world                  none
 //
 // All changes, each with the function that makes it:
 //
-//     flying                     -> settling, carried  FlatContacts::add: bounces on a surface are over
-//     settling                   -> carried            FlatContacts::end_bounces: as recorded
-//     carried                    -> settling           FlatContacts::add: bounces on one more surface
-//     settling, carried          -> flying             FlatContacts::keep_at, keep_pressing, remove: off all surfaces
-//     flying, settling, carried  -> fresh              ExactGroup::join: lasting contact with other things
-//     asleep                     -> fresh              ExactGroup::wake: struck, pressed on, or forces change
-//     fresh                      -> held, stepped      ExactGroup::unite: the other island has taken steps
-//     held                       -> stepped            ExactGroup::unite: the other island takes time steps
-//     fresh, stepped             -> held               ConstrainedMotion::begin_flights: the island's next step
-//     fresh, held                -> stepped            TimeStepping::begin_flights: the island's next step
-//     held                       -> asleep, flying     ConstrainedMotion::begin_flight: at rest, or nothing binds it
-//     stepped                    -> asleep, flying     TimeStepping::begin_flight: the same
-//     flying                     -> part               BodyMerging::join, off all surfaces
-//     flying                     -> gone               BodyRemoval::remove, off all surfaces
-//     fresh, held, stepped       -> gone               BodyRemoval::remove, which wakes a sleeper before
+//     flying             -> settling   FlatContacts::add: bounces on a flat surface are too low to be followed
+//     flying             -> carried    FlatContacts::add: it lies on one, from the start or out of an island
+//     settling           -> carried    FlatContacts::end_bounces: they are over, which the collisions record
+//     carried            -> settling   FlatContacts::add: it bounces on one more surface
+//     settling, carried  -> flying     FlatContacts::keep_at, keep_pressing, remove: it is off all surfaces
+//     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces
+//     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode,
+//                           stepped      and its next step does not make it so before
+//     held               -> stepped    ExactGroup::unite: its island becomes one with an island in time steps
+//     fresh, stepped     -> held       ConstrainedMotion::begin_flights: its island takes a step this way
+//     fresh, held        -> stepped    TimeStepping::begin_flights: its island takes a step that way
+//     held               -> asleep     ConstrainedMotion::begin_flight: all that it touches neither moves nor can
+//     stepped            -> asleep     TimeStepping::begin_flight: the same
+//     held               -> flying     ConstrainedMotion::begin_flight: nothing presses on it, or only flat surfaces do
+//     stepped            -> flying     TimeStepping::begin_flight: nothing has pressed on it for some steps
+//     asleep             -> fresh      ExactGroup::wake: it is struck, pressed on or removed, or forces change
+//     flying             -> part       BodyMerging::join, which takes it off its surfaces before
+//     flying             -> gone       BodyRemoval::remove, which takes it off its surfaces before
+//     fresh, held,       -> gone       BodyRemoval::remove, which wakes a sleeper before
+//       stepped
 //
-// From its fall to its sleep in a pile a ball is flying, then fresh, then held or stepped, perhaps by turns, then
-// asleep.
+// A ball that falls on a pile is flying, fresh, held or stepped (perhaps by turns), and asleep in the end. A ball that
+// falls on a flat floor is flying, settling and carried. It lies there as `carried`, and never sleeps.
 #include <cstddef>
 #include <cstdint>
 
@@ -57,11 +64,11 @@ constexpr bool is_member(Mode mode) {
 constexpr bool in_lasting_contact(Mode mode) {
   return Mode::fresh <= mode && mode <= Mode::asleep;
 }
-/// Whether its island takes time steps, or no step yet. Its velocity may then contain a kick.
+/// Whether its velocity may contain a kick: its island takes time steps, or may join one that does.
 constexpr bool may_be_kicked(Mode mode) {
   return mode == Mode::fresh || mode == Mode::stepped;
 }
-/// Whether it is in the world by itself.
+/// Whether it is neither a part of another body nor gone.
 constexpr bool is_in_world(Mode mode) {
   return mode < Mode::part;
 }
