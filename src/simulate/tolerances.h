@@ -77,7 +77,7 @@ inline constexpr double least_volume = 1e-3;
 // Share of a radius: in less room between things that certainly close in on a body, the run ends with an error.
 inline constexpr double least_gap = 0x1p-10;
 
-// The contact group (exact_group.h).
+// Islands (exact_group.h).
 
 // Share of a radius: bodies within this gap of a waking body wake too.
 inline constexpr double waking_gap = 1e-6;
@@ -162,7 +162,7 @@ inline constexpr double least_margin = 1e-10;
 inline constexpr double parting_margin = 1e-3;
 // Share of a radius: a group with smaller displacements is not solved again.
 inline constexpr double converged_displacement = 5e-4;
-// Steps without a force, after which a body leaves the group.
+// Steps without a force, after which a body leaves its island.
 inline constexpr std::uint8_t idle_steps = 8;
 // Share of a radius: bodies at rest no farther apart may press.
 inline constexpr double resting_gap = 3e-8;

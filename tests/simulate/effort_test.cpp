@@ -1,6 +1,7 @@
 // Unneeded work is not done: counts of pair and surface tests, events and regions.
 #include <gtest/gtest.h>
 
+#include "physics/force_law.h"
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
@@ -39,6 +40,19 @@ TEST(Effort, OneBallTestsNoPair) {
   // Each impact is one event. The ball leaves few regions, though it moves all the time.
   EXPECT_LE(effort.regions, 10U);
   EXPECT_EQ(effort.events - effort.regions, counted.collisions());
+}
+
+TEST(Effort, AStepOfABallsOwnIsPredictedOnce) {
+  Problem p;
+  p.ball(Vec3(1, 0, 0), Vec3::Zero());
+  p.plane(Vec3(0, -0.6, 0), Vec3(0, 1, 0));
+  p.world.forces = {{Spring{Vec3::Zero(), 1, 0.5, 0}}};
+  p.options.integrator = Integrator::verlet;
+  p.options.step = 0.01;
+  p.options.duration = 1;
+  Counted counted(p);
+  const Effort effort = counted.at(1);
+  EXPECT_LE(effort.surface_tests, 101 + effort.regions);  // at the start, and after each of 100 steps
 }
 
 // 30 x 30 balls, `pitch` apart, dropped onto a plane from heights that differ from one to the next.

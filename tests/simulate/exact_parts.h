@@ -31,7 +31,7 @@ struct ExactParts {
         simultaneous(bodies, group, flights),
         stepping(bodies, modes, group, flights),
         constrained(bodies, modes, group, flat, collapses, flights),
-        merging(bodies, modes, flat, flights, paths),
+        merging(bodies, modes, group, flat, flights, paths),
         guard(problem.world.body_count(), problem.options.duration),
         impacts(bodies, {collapses, flat, group, flights, simultaneous, merging, guard}) {
     for (Entity i = 0; i < bodies.world.body_count(); ++i)

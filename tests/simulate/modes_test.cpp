@@ -161,6 +161,20 @@ TEST(Modes, OfABodyThatMergesArePart) {
   }
 }
 
+TEST(Modes, OfAMemberThatMergesAreFlyingBefore) {
+  for (const Mode mode : {Mode::fresh, Mode::held, Mode::stepped}) {
+    Problem p = two_on_a_floor();
+    p.options.merge = true;
+    p.world.mass[1] = 2;
+    ExactParts parts(p);
+    bring(parts, mode);
+    parts.merging.merge(0, 1, parts.bodies.touch_at(0, p.initial.position[0], 1, p.initial.position[1], 0));
+    EXPECT_EQ(parts.bodies.mode(0), Mode::part);
+    EXPECT_EQ(changes_of(parts.modes, mode, Mode::flying), 1u);
+    EXPECT_FALSE(parts.bodies.islands.any());
+  }
+}
+
 TEST(Modes, KeepPartnersOnBothSides) {
   ExactParts parts(two_on_a_floor());
   for (const Entity i : {0, 1}) parts.group.join(i);

@@ -110,6 +110,28 @@ TEST(Merge, JointBodiesKeepMassMomentumCentreAndVolume) {
   EXPECT_NEAR(run.tally.energy_lost, 0.5 * 0.75 * (9 + 0.25), 1e-14);
 }
 
+// The first ball lies near the top of a globe, and slides down when the other one falls on it.
+TEST(Merge, ABallOnACurvedSurfaceMergesWithOneThatFallsOnIt) {
+  for (const double heavier : {0.5, 2.0}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -10, 0);
+    problem.options.merge = true;
+    problem.options.duration = 3;
+    problem.obstacle(Vec3::Zero(), Volume::sphere(1));
+    problem.ball({0.05, 1.21, 0}, Vec3::Zero(), 1, 0.2, 0);
+    problem.ball({0.05, 3, 0}, Vec3::Zero(), heavier, 0.2, 0);
+    const double before = potential_energy(problem.world, problem.initial);
+    const Outcome run = run_exact(problem);
+    ASSERT_EQ(run.tally.merges, 1u);
+    const std::size_t whole = heavier > 1 ? 1 : 0;
+    EXPECT_EQ(run.end.mass[whole], 1 + heavier);
+    EXPECT_LT(run.end.position[whole].y(), -10);  // off the globe
+    const double after = 0.5 * run.end.mass[whole] * run.end.velocity[whole].squaredNorm() +
+                         10 * run.end.mass[whole] * run.end.position[whole].y();
+    EXPECT_NEAR(after, before + run.tally.work - run.tally.energy_lost - run.tally.method_error, 1e-11 * before);
+  }
+}
+
 TEST(Merge, ARowBecomesOneLump) {
   Problem problem;
   problem.options.merge = true;

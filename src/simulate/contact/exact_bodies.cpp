@@ -1,6 +1,5 @@
 // State that the parts of the exact simulator share, and queries on it.
-// Queries on a pair use the relative path, so that the common motion costs no digits. The present forces of a body are
-// cached. Constant ones are recomputed only when a force starts or ends.
+// Queries on a pair use the relative path, so that the common motion costs no digits.
 #include "simulate/contact/exact_bodies.h"
 
 #include <fmt/format.h>

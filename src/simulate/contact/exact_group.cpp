@@ -1,4 +1,4 @@
-// Membership in contact groups: bodies join and leave islands, fall asleep and wake.
+// Membership in islands: bodies join, leave and wake.
 // A struck sleeper wakes with all that rest in contact with it, because their forces depend on each other.
 // Impacts between two time steps see flights with a kick. The queries here remove it where an approach must be
 // physical.
@@ -160,7 +160,7 @@ void ExactGroup::join_initial(Entity first) {
       const Vec3 w = ve - f.v;
       if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, f.v, ve)) continue;
 
-      // Where neither is in the group yet, they must be pressed together.
+      // Where neither is in an island yet, they must be pressed together.
       const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
 
@@ -313,7 +313,40 @@ double ExactGroup::pressing_force(Entity i, Entity e) const {
   return 0;
 }
 
-void ExactGroup::leave(Entity i) {
+std::vector<Entity> ExactGroup::withdraw(Entity i) {
+  if (!in_lasting_contact(bodies_.mode(i))) return {};
+
+  // What sleeps beside it may rest on it.
+  const Vec3 x = bodies_.position(i);
+  std::vector<Entity> left;
+  if (bodies_.mode(i) == Mode::asleep) wake(i);
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
+    const double gap = touch(bodies_.world, i, x, e, bodies_.position(e)).gap;
+    if (gap > exact_tolerance::waking_gap * bodies_.world.radius[i]) continue;
+    wake(e);
+    left.push_back(e);
+  }
+
+  // Strings may hold what sleeps at their other ends.
+  for (const Entity e : asleep_on_strings(i)) {
+    if (bodies_.mode(e) != Mode::asleep) continue;
+    wake(e);
+    left.push_back(e);
+  }
+
+  // Its island goes on without it, if it has other members.
+  forget_forces(i);
+  std::vector<Entity> stay;
+  for (const Entity k : bodies_.islands.of(i).members)
+    if (k != i) stay.push_back(k);
+  if (!stay.empty()) left.push_back(stay.front());
+  bodies_.islands.retain(i, std::move(stay));
+  return left;
+}
+
+/// Nothing presses on body i any more, and it on nothing.
+void ExactGroup::forget_forces(Entity i) {
   if (!pressing[i].empty()) pressing.write(i).clear();
   for (const Entity e : bodies_.neighbours_of(i))
     if (bodies_.world.is_body(e) && !pressing[e].empty())

@@ -49,9 +49,10 @@ class ExactGroup {
 
   /// Puts body i into an island. If it sleeps, all that rest in contact with it wake too.
   void join(Entity i);
-  /// Unites the islands of members a and b. The next step of the united island is due.
+  /// Unites the islands of members a and b. The next step of the united island is due. A time step of one goes on if
+  /// the other is fresh.
   void unite(Entity a, Entity b);
-  /// The same, if one of them has only just joined. A time step of the other one continues.
+  /// The same, if one of them is fresh.
   void unite_fresh(Entity a, Entity b) {
     if (bodies_.mode(a) == Mode::fresh || bodies_.mode(b) == Mode::fresh) unite(a, b);
   }
@@ -62,7 +63,7 @@ class ExactGroup {
   /// rest. They leave gaps, and constrained motion would let bodies fall through these.
   void stir(Entity i);
   /// At the start, a body may touch others or a curved surface, without speed along the normal, and be pressed on.
-  /// Such a body joins the group, and so does all that it touches.
+  /// Such a body joins an island, and so does all that it touches.
   void join_initial(Entity first);
   /// The same for bodies that taut strings pull, and for those on rods. The tensions are those under the forces at the
   /// start: a taut string without tension holds nothing. Throws SimulationError where a string is too short.
@@ -83,8 +84,9 @@ class ExactGroup {
 
   /// The force between member i and a thing in the last step (N).
   double pressing_force(Entity i, Entity e) const;
-  /// Nothing presses on member i, which leaves the world, and it on nothing.
-  void leave(Entity i);
+  /// Takes body i out of its island, or out of what rests in contact with it: that wakes. Nothing is done to a free
+  /// body. Returns one member of each island that has lost it. Their forces are to be found anew.
+  std::vector<Entity> withdraw(Entity i);
 
   /// Whether body i cannot strike this fixed thing, because it lies behind one that constrained motion keeps the body
   /// on.
@@ -107,6 +109,7 @@ class ExactGroup {
 
  private:
   void enlist(Entity i);
+  void forget_forces(Entity i);
   void join_at_rest(Entity i);
   void check_length(Entity string, double gap) const;
   double initial_rounding(Entity string) const;

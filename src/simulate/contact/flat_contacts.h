@@ -4,7 +4,7 @@
 // presses the body on. The body is put to rest when that time is less than the clock resolves, or when the impact is
 // slower than rest_speed. It then moves in the surface, the reaction reduces its acceleration, and its path is a
 // parabola again. Contact of any other kind, with a body, an edge, a corner or a round thing, has no such path. Such
-// bodies join the contact group (exact_group.h).
+// bodies join islands (exact_group.h).
 #include <array>
 #include <vector>
 
@@ -77,7 +77,7 @@ class FlatContacts {
     return lies_on_flat(bodies_.mode(i)) ? keep_pressing_surfaces(i) : bodies_.applied[i];
   }
   /// The same without one surface, and without any change: the acceleration that would press body i against that
-  /// surface (m/s^2).
+  /// surface (m/s^2). The caller notes the certificate.
   FlatSolution acceleration_without(Entity i, Entity surface) const;
 
   /// The acceleration (m/s^2) along n, the direction to a surface that moves, by drag on a body that it carries.

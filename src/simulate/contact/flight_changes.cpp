@@ -313,9 +313,9 @@ double FlightChanges::kinetic_loss(Entity i, const Flight& f, double length) con
   return 0.5 * bodies_.world.mass[i] * (f.v - v).dot(f.v + v);
 }
 
-void FlightChanges::take_out(Entity i, const Vec3& x) {
+void FlightChanges::take_out(Entity i, const Vec3& x, const Vec3& v) {
   if (in_contact_[i].by != Contact::none) in_contact_.write(i) = {};
-  bodies_.flights.set(i, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+  bodies_.flights.set(i, {bodies_.now, x, v, Vec3::Zero()});
   bodies_.body[i].set_origin({});
   count(i);
   note_changed(i);

@@ -65,8 +65,8 @@ class FlightChanges {
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
-  /// Leaves body i at x (m), out of the world.
-  void take_out(Entity i, const Vec3& x);
+  /// Leaves body i at x (m) with velocity v (m/s), out of all contact. What has ended is booked already.
+  void take_out(Entity i, const Vec3& x, const Vec3& v);
   /// Books body i's flight up to an instant, with the energy that its kick has in advance. Returns its velocity there
   /// (m/s).
   Vec3 book_until(Entity i, const Instant& at);
@@ -78,6 +78,7 @@ class FlightChanges {
   /// Notes that body i's next event is to be predicted. The event loop does so at the end of the present event. Bodies
   /// that begin a flight are noted.
   [[gnu::always_inline]] void note_changed(Entity i) {
+    if (changed_count_ > 0 && changed_[changed_count_ - 1] == i) return;
     if (changed_count_ == changed_.size()) [[unlikely]]
       changed_.resize(2 * changed_count_ + 2);
     changed_[changed_count_++] = i;

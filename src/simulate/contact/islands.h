@@ -10,7 +10,6 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/lazy_array.h"
-#include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "simulate/path/instant.h"
 

@@ -8,6 +8,7 @@
 
 #include "physics/impact.h"
 #include "physics/world.h"
+#include "simulate/contact/exact_group.h"
 #include "simulate/contact/flat_contacts.h"
 #include "simulate/contact/flight_changes.h"
 #include "simulate/contact/region_exit.h"
@@ -22,7 +23,7 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
 
   // The flights of both end here. The loss contains what their potential loses.
   for (const Entity i : {a, b}) paths_.note_change(i);
-  for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i), bodies_.now);
+  for (const Entity i : {a, b}) end_flight(i);
   Collision met = meeting(a, b, there);
   met.energy_lost += join(whole, part);
   bodies_.log.lose(met.energy_lost);
@@ -42,6 +43,21 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   }
 
   flights_.note_changed(whole);
+}
+
+/// Books the flight of body i, which ends. A body in lasting contact leaves its island, which takes a step at once.
+void BodyMerging::end_flight(Entity i) {
+  const Vec3 x = bodies_.position(i);
+  if (!in_lasting_contact(bodies_.mode(i))) return flights_.book(i, x, bodies_.now);
+
+  if (is_member(bodies_.mode(i))) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, bodies_.now);
+  const Vec3 v = flights_.book_until(i, bodies_.now);
+  for (const Entity k : group_.withdraw(i)) {
+    bodies_.islands.of(k).end = bodies_.now;
+    flights_.note_changed(k);
+  }
+  modes_.leave(i);
+  flights_.take_out(i, x, v);
 }
 
 /// The record of bodies a and b, without what forces on them lose.

@@ -13,24 +13,28 @@ class FlatContacts;
 class PathLog;
 struct Touch;
 
+class ExactGroup;
 class FlightChanges;
 class ModeChanges;
 
 class BodyMerging {
  public:
-  BodyMerging(ExactBodies& bodies, ModeChanges& modes, FlatContacts& flat, FlightChanges& flights, PathLog& paths)
-      : bodies_(bodies), modes_(modes), flat_(flat), flights_(flights), paths_(paths) {}
+  BodyMerging(ExactBodies& bodies, ModeChanges& modes, ExactGroup& group, FlatContacts& flat, FlightChanges& flights,
+              PathLog& paths)
+      : bodies_(bodies), modes_(modes), group_(group), flat_(flat), flights_(flights), paths_(paths) {}
 
   /// Merges bodies a and b, which touch as `there` describes.
   void merge(Entity a, Entity b, const Touch& there);
 
  private:
+  void end_flight(Entity i);
   Collision meeting(Entity a, Entity b, const Touch& there) const;
   double join(Entity whole, Entity part);
   void move_out(Entity whole);
 
   ExactBodies& bodies_;
   ModeChanges& modes_;
+  ExactGroup& group_;
   FlatContacts& flat_;
   FlightChanges& flights_;
   PathLog& paths_;

@@ -22,8 +22,6 @@ class BodyRemoval {
   std::vector<Entity> remove(Entity i);
 
  private:
-  std::vector<Entity> release(Entity i);
-
   ExactBodies& bodies_;
   ModeChanges& modes_;
   ExactGroup& group_;

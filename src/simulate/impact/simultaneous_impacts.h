@@ -1,5 +1,5 @@
 #pragma once
-// Impacts at one instant among bodies of the contact group. A body that others push to and fro would be struck for
+// Impacts at one instant among members of an island. A body that others push to and fro would be struck for
 // ever. It and all that touch it are therefore struck at once, together with all that would meet before the next step
 // because of it. The rest of the time step is solved anew for these bodies, as a step is: impacts first, then forces.
 // No contact then continues to press on a body that was struck off it, which would make energy. Time stepping keeps a

@@ -440,7 +440,7 @@ void ConstrainedSteps::choose_motion(IslandStep& step, ConstrainedSystem& system
   const bool all_rest = std::ranges::all_of(step.fates, [](const MemberFate& fate) { return fate.rests; });
   const double straight = all_rest ? step.length : system.straight_time(step.x, step.v, step.a);
 
-  if (straight < std::min(step.length, time)) {
+  if (!(straight >= std::min(step.length, time))) {
     if (step.undisturbed)
       follow(step, system, next_length);
     else

@@ -461,7 +461,10 @@ void TimeStepping::split(const Step& step) {
     label.push_back(number[part[k]]);
   }
   for (std::uint32_t k = 0; k < members.size(); ++k)
-    if (stays(k)) return void(bodies_.islands.split(members[k], label));
+    if (stays(k)) {
+      bodies_.islands.split(members[k], label);
+      break;
+    }
 }
 
 /// Body i, member k of the step, falls asleep, leaves its island or continues. Returns whether it stays.

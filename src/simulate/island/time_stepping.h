@@ -10,7 +10,7 @@
 // in its rest.
 //
 // Members that were just struck keep a margin. The small motions after a strike then wait for the next step instead of
-// making thousands of impacts at one instant. The margin shrinks as the group slows down. Bodies that touch within
+// making thousands of impacts at one instant. The margin shrinks as the island slows down. Bodies that touch within
 // their margin separate a little, as far as the loss of slow approaches pays for it. An island that forces hold in
 // balance is put to rest: its velocities are exactly zero, and it takes no steps until it is struck.
 #include <utility>

@@ -5,7 +5,7 @@
 // - the end of its bounces
 // - a rim that it slides over
 // - a force that starts or ends
-// - the next step of its contact group
+// - the next step of its island
 #include <span>
 #include <vector>
 

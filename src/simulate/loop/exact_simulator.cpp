@@ -43,7 +43,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       predictor_(bodies_, queue_, modes_, flat_, group_),
       simultaneous_(bodies_, group_, flights_),
       islands_(bodies_, modes_, group_, flat_, collapses_, flights_, paths_),
-      merging_(bodies_, modes_, flat_, flights_, paths_),
+      merging_(bodies_, modes_, group_, flat_, flights_, paths_),
       guard_(world.body_count(), options.duration),
       impacts_(bodies_, {collapses_, flat_, group_, flights_, simultaneous_, merging_, guard_}),
       attends_(watches() || world.body_count() > cached_bodies) {
@@ -289,8 +289,10 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
 /// Ends a step of body i's own flight, or discards it if another flight has begun since.
 void ExactSimulator::end_flight(Entity i) {
   const PolynomialPath* const curve = bodies_.flights.curve(i);
-  if (curve != nullptr && bodies_.flights[i].start + curve->length <= bodies_.now) flights_.take_step(i);
-  flights_.note_changed(i);
+  if (curve != nullptr && bodies_.flights[i].start + curve->length <= bodies_.now)
+    flights_.take_step(i);
+  else
+    flights_.note_changed(i);
 }
 
 bool ExactSimulator::watches() const {

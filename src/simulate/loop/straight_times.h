@@ -20,7 +20,7 @@ struct Meet {
   Entity with;
 };
 
-/// The task: impacts of body i with others. None of them is in the contact group, and all have the same acceleration.
+/// The task: impacts of body i with others. None of them is in an island, and all have the same acceleration.
 struct StraightTask {
   const Flights::Core* flights;
   const double* radius;  // m, by body; null: all have own_radius

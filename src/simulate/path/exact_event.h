@@ -15,7 +15,7 @@ struct ExactEvent {
     force,    // a force on the body starts or ends, or a fixed thing changes its velocity
     rest,     // bounces end: a line in the record
     release,  // a body slides off a wall's face
-    // A step of the contact group: no impact, but new forces.
+    // A step of an island: no impact, but new forces.
     step,
     body_fixed,
     body_body,

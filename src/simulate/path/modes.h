@@ -7,7 +7,7 @@
 //     settling  the same as `carried`, and its last bounces on  along the surfaces
 //               a surface, too low to be followed, go on
 //     carried   forces and flat surfaces: it slides, or lies    along the surfaces, or zero
-//     fresh     its island, which has not taken a step yet      that with which it joined
+//     fresh     its island, which has not taken a step yet      as the impact left it
 //     held      its island, by constrained motion               along what it touches
 //     stepped   its island, by time stepping                    straight, or falling, until the step's end
 //     asleep    nothing: contact forces are in balance          exactly zero
@@ -18,9 +18,10 @@
 //
 //     flying             -> settling   FlatContacts::add: bounces on a flat surface are too low to be followed
 //     flying             -> carried    FlatContacts::add: it lies on one, from the start or out of an island
-//     settling           -> carried    FlatContacts::end_bounces: they are over, which the collisions record
+//     settling           -> carried    FlatContacts::end_bounces: they are over, which the collisions record; keep_at,
+//                                      keep_pressing, remove: it is off that surface, and on another one
 //     carried            -> settling   FlatContacts::add: it bounces on one more surface
-//     settling, carried  -> flying     FlatContacts::keep_at, keep_pressing, remove: it is off all surfaces
+//     settling, carried  -> flying     FlatContacts::keep_at, keep_pressing, remove, clear: it is off all surfaces
 //     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces
 //     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode,
 //                           stepped      and its next step does not make it so before
@@ -32,6 +33,8 @@
 //     held               -> flying     ConstrainedMotion::begin_flight: nothing presses on it, or only flat surfaces do
 //     stepped            -> flying     TimeStepping::begin_flight: nothing has pressed on it for some steps
 //     asleep             -> fresh      ExactGroup::wake: it is struck, pressed on or removed, or forces change
+//     fresh, held,       -> flying     BodyMerging::end_flight: it merges, and leaves its island before
+//       stepped
 //     flying             -> part       BodyMerging::join, which takes it off its surfaces before
 //     flying             -> gone       BodyRemoval::remove, which takes it off its surfaces before
 //     fresh, held,       -> gone       BodyRemoval::remove, which wakes a sleeper before
@@ -88,7 +91,7 @@ constexpr bool may_become(Mode from, Mode to) {
 
     // In an island.
     case fresh:
-      return to_one_of(held, stepped, gone);
+      return to_one_of(flying, held, stepped, gone);
     case held:
       return to_one_of(flying, stepped, asleep, gone);
     case stepped:

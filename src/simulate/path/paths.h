@@ -99,8 +99,8 @@ struct BodyPaths {
     return bent[i] == 0 && fade[i] == 0 && flights.curve(i) == nullptr && flights.acceleration(i) == applied[i];
   }
 
-  // A thing is what a body meets: another body, a fixed thing, or a string. A string is at its other end: a body, or an
-  // anchor, which is as a fixed thing.
+  // A thing is what a body meets: another body, a fixed thing, or a string. A string is at its end away from
+  // String::body: at a body, or at an anchor, which is as a fixed thing.
   /// The present position (m) and velocity (m/s) of a thing, and the acceleration of its path (m/s^2).
   Vec3 position_of(Entity thing) const {
     const Entity i = world.second_body(thing);
