@@ -340,5 +340,30 @@ TEST(Losses, OfALightCylinderUnderAFallingBoxAreThoseOfEachImpact) {
     }
 }
 
+TEST(Losses, OfARodThatOthersMoveBackAreNone) {
+  // Two rods and a string stop a ball that an impulse moves at (1, 1, -0.2). Both rods and the string lengthen, but the
+  // slanted rod's impulse is along its motion, because the others take back more than the ball has.
+  for (const double e : {0.0, 0.5}) {
+    Problem problem;
+    problem.world.gravity = Vec3::Zero();
+    problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.1, e);
+    problem.world.impulse = {Vec3(1, 1, -0.2)};
+    const Vec3 slanted = Vec3(0.8, 0.5, 0.33).normalized();
+    problem.world.strings.push_back({0, no_entity, Vec3(-1, 0, 0), 1, 0, true});
+    problem.world.strings.push_back({0, no_entity, Vec3(0, -1, 0), 1, 0, false});
+    problem.world.strings.push_back({0, no_entity, -slanted, 1, 0, true});
+    problem.options.duration = 0.1;
+    const Outcome run = run_exact(problem);
+    ASSERT_GE(run.all.size(), 2u);
+    double lost = run.tally.taken_up.energy;
+    for (const Collision& met : run.all) {
+      EXPECT_GE(met.energy_lost, 0);
+      lost += met.energy_lost;
+    }
+    EXPECT_NEAR(lost, 0.5 * 2.04, 1e-12);  // m v^2 / 2: the three directions hold the ball
+    EXPECT_LT(run.end.velocity[0].norm(), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace carom

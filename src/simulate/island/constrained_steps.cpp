@@ -108,7 +108,9 @@ std::vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep&
     impacts[c].approach = speed_of(met, pairs[c]);
     impacts[c].lost = 0.5 * pairs[c].force * approach(met, pairs[c]);
     all += impacts[c].lost;
-    closed_later = closed_later || (pairs[c].force > 0 && impacts[c].approach < -errors);
+    // A rod that others move back before it takes its impact gives them energy.
+    const bool gives = pairs[c].bilateral && impacts[c].lost < 0 && impacts[c].approach > errors;
+    closed_later = closed_later || gives || (pairs[c].force > 0 && impacts[c].approach < -errors);
   }
   if (!closed_later) return impacts;
 
