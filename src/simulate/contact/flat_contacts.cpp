@@ -277,8 +277,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
 
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const FlatContact& contact = contacts.at[k];
-    const Vec3 n = -contact.normal;
-    // Into the surface.
+    const Vec3 n = -contact.normal;  // into the surface
     const Vec3 of_surface = bodies_.fixed_velocity(contact.surface);
     const double u = n.dot(v - of_surface);
 
