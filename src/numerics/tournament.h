@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "numerics/prefetch.h"
 #include "numerics/large_pages.h"
+#include "numerics/prefetch.h"
 
 #ifdef __SSE2__
 #include <immintrin.h>
