@@ -147,8 +147,8 @@ TEST(Modes, OfTwoSleepersOnTwoStringsMakeOneIsland) {
   EXPECT_EQ(islands, 1);
 }
 
-TEST(Modes, OfABodyThatMergesArePart) {
-  for (const Mode mode : {Mode::flying, Mode::settling, Mode::carried}) {
+TEST(Modes, OfABodyThatMergesArePartAndFlyingBefore) {
+  for (const Mode mode : {Mode::flying, Mode::settling, Mode::carried, Mode::fresh, Mode::held, Mode::stepped}) {
     Problem p = two_on_a_floor();
     p.options.merge = true;
     p.world.mass[1] = 2;
@@ -158,19 +158,6 @@ TEST(Modes, OfABodyThatMergesArePart) {
     EXPECT_EQ(parts.bodies.mode(0), Mode::part);
     EXPECT_EQ(parts.bodies.mode(1), Mode::flying);
     EXPECT_EQ(changes_of(parts.modes, Mode::flying, Mode::part), 1u);
-  }
-}
-
-TEST(Modes, OfAMemberThatMergesAreFlyingBefore) {
-  for (const Mode mode : {Mode::fresh, Mode::held, Mode::stepped}) {
-    Problem p = two_on_a_floor();
-    p.options.merge = true;
-    p.world.mass[1] = 2;
-    ExactParts parts(p);
-    bring(parts, mode);
-    parts.merging.merge(0, 1, parts.bodies.touch_at(0, p.initial.position[0], 1, p.initial.position[1], 0));
-    EXPECT_EQ(parts.bodies.mode(0), Mode::part);
-    EXPECT_EQ(changes_of(parts.modes, mode, Mode::flying), 1u);
     EXPECT_FALSE(parts.bodies.islands.any());
   }
 }
