@@ -23,12 +23,12 @@
 //     carried            -> settling   FlatContacts::add: it bounces on one more surface
 //     settling, carried  -> flying     FlatContacts::keep_at, keep_pressing, remove, clear: it is off all surfaces
 //     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces
-//     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode,
-//                           stepped      and its next step does not make it so before
+//     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode
+//                           stepped
 //     held               -> stepped    ExactGroup::unite: its island becomes one with an island in time steps
 //     fresh, stepped     -> held       ConstrainedMotion::begin_flights: its island takes a step this way
 //     fresh, held        -> stepped    TimeStepping::begin_flights: its island takes a step that way
-//     held               -> asleep     ConstrainedMotion::begin_flight: all that it touches neither moves nor can
+//     held               -> asleep     ConstrainedMotion::begin_flight: it and all that it touches neither move nor can
 //     stepped            -> asleep     TimeStepping::begin_flight: the same
 //     held               -> flying     ConstrainedMotion::begin_flight: nothing presses on it, or only flat surfaces do
 //     stepped            -> flying     TimeStepping::begin_flight: nothing has pressed on it for some steps
