@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -96,15 +95,7 @@ bool ExactGroup::wake(Entity i) {
     todo.pop_back();
     unite(i, k);
 
-    // Sleepers that it touches wake too, and those at the other ends of its taut strings and rods.
-    const Vec3 x = bodies_.flights[k].x;
-    for (const Entity e : bodies_.neighbours_of(k)) {
-      if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
-      const double gap = touch(bodies_.world, k, x, e, bodies_.flights[e].x).gap;
-      if (gap <= exact_tolerance::waking_gap * bodies_.world.radius[k]) rouse(e);
-    }
-    for (const Entity e : asleep_on_strings(k))
-      if (bodies_.mode(e) == Mode::asleep) rouse(e);
+    for (const Entity e : asleep_beside(k)) rouse(e);
   }
   return stepped;
 }
@@ -116,13 +107,20 @@ void ExactGroup::stir(Entity i) {
   island.calm_needed = std::max(island.calm_needed, exact_tolerance::calm_steps);
 }
 
-std::vector<Entity> ExactGroup::asleep_on_strings(Entity i) const {
+/// The sleeping bodies that touch body i, and those at the other ends of its taut strings and of its rods, each once.
+std::vector<Entity> ExactGroup::asleep_beside(Entity i) const {
+  const double near = exact_tolerance::waking_gap * bodies_.world.radius[i];  // m
+  const Vec3 x = bodies_.position(i);
   std::vector<Entity> asleep;
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
+    if (touch(bodies_.world, i, x, e, bodies_.position(e)).gap <= near) asleep.push_back(e);
+  }
+
   for (const Entity string : bodies_.ties.of(i)) {
     const Entity other = bodies_.ties.other(string, i);
-    if (other == no_entity || bodies_.mode(other) != Mode::asleep) continue;
-    const bool taut = bodies_.string_now(string).gap <= exact_tolerance::waking_gap * bodies_.world.radius[i];
-    if (taut || bodies_.world.string(string).rod) asleep.push_back(other);
+    if (other == no_entity || bodies_.mode(other) != Mode::asleep || std::ranges::count(asleep, other) > 0) continue;
+    if (bodies_.world.string(string).rod || bodies_.string_now(string).gap <= near) asleep.push_back(other);
   }
   return asleep;
 }
@@ -316,20 +314,10 @@ double ExactGroup::pressing_force(Entity i, Entity e) const {
 std::vector<Entity> ExactGroup::withdraw(Entity i) {
   if (!in_lasting_contact(bodies_.mode(i))) return {};
 
-  // What sleeps beside it may rest on it.
-  const Vec3 x = bodies_.position(i);
+  // What sleeps beside it may rest on it. One that wakes may wake the next.
   std::vector<Entity> left;
   if (bodies_.mode(i) == Mode::asleep) wake(i);
-  for (const Entity e : bodies_.neighbours_of(i)) {
-    if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
-    const double gap = touch(bodies_.world, i, x, e, bodies_.position(e)).gap;
-    if (gap > exact_tolerance::waking_gap * bodies_.world.radius[i]) continue;
-    wake(e);
-    left.push_back(e);
-  }
-
-  // Strings may hold what sleeps at their other ends.
-  for (const Entity e : asleep_on_strings(i)) {
+  for (const Entity e : asleep_beside(i)) {
     if (bodies_.mode(e) != Mode::asleep) continue;
     wake(e);
     left.push_back(e);

@@ -68,8 +68,6 @@ class ExactGroup {
   /// The same for bodies that taut strings pull, and for those on rods. The tensions are those under the forces at the
   /// start: a taut string without tension holds nothing. Throws SimulationError where a string is too short.
   void join_by_strings();
-  /// The sleeping bodies at the other ends of body i's taut strings and of its rods.
-  std::vector<Entity> asleep_on_strings(Entity i) const;
   /// Widens the margin of member i after an impact at this speed (m/s).
   /// For a while, bodies keep about the distance that they could move at that speed until the next step.
   void widen_margin(Entity i, double approach);
@@ -110,6 +108,7 @@ class ExactGroup {
  private:
   void enlist(Entity i);
   void forget_forces(Entity i);
+  std::vector<Entity> asleep_beside(Entity i) const;
   void join_at_rest(Entity i);
   void check_length(Entity string, double gap) const;
   double initial_rounding(Entity string) const;

@@ -19,7 +19,6 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
   flights_.end_step(i);
   flights_.book_until(i, now);
   if (is_member(bodies_.mode(i))) bodies_.contact_work.end_paths(bodies_.islands.of(i).members, now);
-  bodies_.contact_work.change(i, now, 0);
 
   // What was in contact with it goes on without it.
   flat_.clear(i);
