@@ -26,6 +26,8 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr double loosest = 1;
 // The same at last.
 constexpr double tightest = 1e-8;
+// The same where forces are to be the least ones: it is a share of their squares.
+constexpr double least_yield = 1e-10;
 // After so many factorisations a guess is given up. That is half of the number for an island without a guess.
 constexpr int guess_worth = 16;
 // A share of the motion: the interior point ends at this error.
@@ -183,6 +185,16 @@ class ContactInteriorPoint::Method {
     if (!approach()) std::fill(z_.begin(), z_.end(), 0.0);
     for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
       if (!find_pressing(rho)) break;
+
+    refine(solution);
+    return judge(island_, solution);
+  }
+
+  Judgement solve_least(ContactSolution& solution) {
+    for (double rho = loosest; rho > 0.5 * least_yield; rho *= 1e-2) {
+      std::fill(z_.begin(), z_.end(), 0.0);
+      if (!find_pressing(rho)) break;
+    }
 
     refine(solution);
     return judge(island_, solution);
@@ -508,6 +520,9 @@ double ContactInteriorPoint::operations() const {
 }
 Judgement ContactInteriorPoint::solve(ContactSolution& solution) {
   return method_->solve(solution);
+}
+Judgement ContactInteriorPoint::solve_least(ContactSolution& solution) {
+  return method_->solve_least(solution);
 }
 
 }  // namespace carom

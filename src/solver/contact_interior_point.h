@@ -18,6 +18,9 @@ class ContactInteriorPoint {
   double operations() const;
 
   Judgement solve(ContactSolution& solution);
+  /// The same for an island with dependent rows: of all forces with that motion, those with the least sum of squares
+  /// of force over scale. Proximal steps from forces of zero add what the rows span, and nothing else.
+  Judgement solve_least(ContactSolution& solution);
 
  private:
   class Method;

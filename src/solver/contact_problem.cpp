@@ -15,6 +15,7 @@
 #include "solver/contact_interior_point.h"
 #include "solver/contact_island.h"
 #include "solver/contact_projected_gradients.h"
+#include "solver/least_forces.h"
 
 namespace carom {
 
@@ -124,7 +125,7 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
   if (!(change <= accepted_change)) return false;
 
   certificate = {Certificate::Verdict::solved, change};
-  c.force = force;
+  c.force = c.independent = force;
   problem.motion[c.a] = a;
   if (!fixed) problem.motion[c.b] = b;
   return true;
@@ -187,6 +188,7 @@ struct ContactSolver::Workspace {
   std::vector<std::uint32_t> place;   // by body: its number in the island
   std::vector<std::uint32_t> bodies;  // by number in the island
   bool caches = true;
+  bool by_factors = false;  // the last exact solution is that of an active set
 
   void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
@@ -273,6 +275,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
     return judgement.within_slack;
   };
 
+  by_factors = true;
   const auto by_active_set = [&] {
     const DualActiveSet::Result result = last.method.solve(island, attempt);
     return take(result.judgement, result.infeasible);
@@ -298,6 +301,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
 
   // Sparse factors.
   last.method.clear();
+  by_factors = false;
   if (take(cost.method().solve(attempt), false)) return best;
   // Orthogonal factors, from the forces of the best solution so far.
   for (std::size_t c = 0; c < island.rows.size(); ++c)
@@ -328,7 +332,7 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
 
   // An island without pressing contacts needs no method, and one of a single contact seldom does.
   if (nothing_presses(problem, contacts)) {
-    for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+    for (const std::uint32_t c : contacts) problem.contacts[c].force = problem.contacts[c].independent = 0;
     return certificate;
   }
   if (contacts.size() == 1 && solve_single(problem, problem.contacts[contacts.front()], certificate))
@@ -336,11 +340,12 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
 
   take_island(problem, contacts);
   if (island.speed == 0) {
-    for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+    for (const std::uint32_t c : contacts) problem.contacts[c].force = problem.contacts[c].independent = 0;
     return certificate;
   }
 
-  if (problem.accuracy != ContactAccuracy::rounding && island.unilateral) {
+  const bool exact = problem.accuracy == ContactAccuracy::rounding || !island.unilateral;
+  if (!exact) {
     certificate = solve_to_slack(problem.accuracy);
   } else {
     CachedIsland& last = caches ? cached[bodies.front()] : uncached;
@@ -355,6 +360,9 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
   }
 
   give_back(problem, contacts);
+  for (const std::uint32_t c : contacts) problem.contacts[c].independent = problem.contacts[c].force;
+  if (problem.least_forces && exact && certificate.solved() && take_least_forces(island, solution, by_factors))
+    give_back(problem, contacts);
   return certificate;
 }
 

@@ -3,7 +3,7 @@
 // free motion (Gauss's principle of least constraint). With the forces x_c >= 0 along the normals n_c as unknowns it is
 // the complementarity problem
 //   u = u_free + M^-1 N x,  w = N^T u - target,  0 <= x, 0 <= w, x w = 0.
-// The motion u is unique, the forces need not be.
+// The motion u is unique, the forces need not be. On request they are the least ones (least_forces.h).
 //
 // Two methods solve it to rounding. Each is the other's fallback, and one certificate judges both (contact_island.h). A
 // dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
@@ -29,6 +29,9 @@ struct ContactConstraint {
   double target = 0;  // lower bound of normal . (u_b - u_a); in the unit of u
   double slack = 0;   // allowed shortfall from the target; in the unit of u; see `bilateral`
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral
+  // out: the same, by contacts that do not depend on each other. Where the motion leaves forces open, it differs from
+  // the least force.
+  double independent = 0;
   // normal . (u_b - u_a) must equal the target, and the force may pull too. Where others determine it already, it may
   // contradict them by its slack, in every accuracy: lengths of a frame with more rods than it needs.
   bool bilateral = false;
@@ -64,6 +67,9 @@ struct ContactProblem {
   std::span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
   std::span<ContactConstraint> contacts;
   ContactAccuracy accuracy = ContactAccuracy::rounding;
+  // Of the forces that give this motion, those of equally stiff contacts: the sum of their squares is the least. They do
+  // not depend on the order of contacts. Only where the accuracy is `rounding`.
+  bool least_forces = false;
 };
 
 /// The quality of a solution. It is the exact one, rounded, of data that differ from the given ones by `change`.

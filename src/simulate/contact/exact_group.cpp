@@ -225,7 +225,7 @@ void ExactGroup::join_by_strings() {
   for (const Vec3& acceleration : a) greatest = std::max(greatest, acceleration.norm());
   for (ContactConstraint& row : rows)
     if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
-  solve({inverse_mass, a, rows});
+  solve({inverse_mass, a, rows, ContactAccuracy::rounding, true});
 
   // Other strings hold if they are under tension.
   for (std::size_t k = 0; k < rows.size(); ++k)

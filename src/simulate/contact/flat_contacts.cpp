@@ -350,38 +350,64 @@ FlatSolution FlatContacts::acceleration_without(Entity i, Entity surface) const 
   return solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
 }
 
-/// The contacts of body i with their forces (N).
-std::vector<ContactConstraint> FlatContacts::forces_on(Entity i) const {
-  Surfaces surfaces;
-  const std::size_t n = surfaces_of(contacts_[i], no_entity, bodies_.fade[i], surfaces);
-  std::vector<ContactConstraint> pairs;
-  for (std::size_t k = 0; k < n; ++k) {
-    pairs.push_back({0, ContactConstraint::fixed, -surfaces[k].normal});
-    pairs.back().surface = -surfaces[k].u;
+/// The flat surfaces that body i lies on: those that carry it, and others that it touches at the same level.
+std::vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const {
+  const World& world = bodies_.world;
+  const FlatContactList& contacts = contacts_[i];
+  std::vector<SurfaceForce> surfaces;
+  for (std::size_t k = 0; k < contacts.count; ++k) surfaces.push_back({contacts.at[k].surface, -contacts.at[k].normal});
+
+  const Vec3 x = bodies_.position(i);
+  const Vec3 v = bodies_.velocity(i);
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    if (world.is_body(e) || carry(i, e)) continue;
+    const Vec3 point = bodies_.fixed_position(e);
+    const Vec3 u = bodies_.fixed_velocity(e);
+    const Touch there = touch(world, i, x, e, point);
+    const double rounding =
+        exact_tolerance::initial_rounding * (x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
+    if (!is_flat(world, i, e, there.feature) || std::abs(there.gap) > rounding ||
+        std::abs(there.normal.dot(v - u)) > velocity_rounding * (v.norm() + u.norm()))
+      continue;
+
+    const auto level = [&](const FlatContact& c) { return (c.normal + there.normal).norm() <= velocity_rounding; };
+    if (std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count, level))
+      surfaces.push_back({e, there.normal});
   }
+  return surfaces;
+}
+
+/// The forces on body i by the surfaces that it lies on.
+std::vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const {
+  std::vector<SurfaceForce> forces = surfaces_below(i);
+  std::vector<ContactConstraint> pairs;
+  for (SurfaceForce& of : forces) {
+    if (bodies_.moving.any()) of.along = of.normal.dot(bodies_.fixed_velocity(of.surface));
+    pairs.push_back({0, ContactConstraint::fixed, of.normal});
+    pairs.back().surface = bodies_.fade[i] * of.along;
+  }
+
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
-  solve({{&inverse_mass, 1}, {&a, 1}, pairs});
-  return pairs;
+  solve({{&inverse_mass, 1}, {&a, 1}, pairs, ContactAccuracy::rounding, true});
+  for (std::size_t k = 0; k < pairs.size(); ++k) forces[k].force = std::max(pairs[k].force, 0.0);
+  return forces;
 }
 
 double FlatContacts::power(Entity i) const {
   const FlatContactList& contacts = contacts_[i];
-  bool moving = false;
-  for (std::size_t k = 0; k < contacts.count; ++k)
-    moving = moving || bodies_.moving.moves(contacts.at[k].surface, bodies_.now);
+  const bool moving = std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count, [&](const FlatContact& c) {
+    return bodies_.moving.moves(c.surface, bodies_.now);
+  });
   if (!moving) return 0;
-  const std::vector<ContactConstraint> pairs = forces_on(i);
   double power = 0;
-  for (std::size_t k = 0; k < contacts.count; ++k)
-    power += std::max(pairs[k].force, 0.0) * contacts.at[k].normal.dot(bodies_.fixed_velocity(contacts.at[k].surface));
+  for (const SurfaceForce& of : forces_on(i)) power -= of.force * of.along;
   return power;
 }
 
 void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
-  const std::vector<ContactConstraint> pairs = forces_on(i);
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (pairs[k].force > 0) forces.push_back({i, contacts_[i].at[k].surface, pairs[k].force});
+  for (const SurfaceForce& of : forces_on(i))
+    if (of.force > 0) forces.push_back({i, of.surface, of.force});
 }
 
 }  // namespace carom

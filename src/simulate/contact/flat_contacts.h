@@ -94,7 +94,15 @@ class FlatContacts {
   std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
   FlatSolution book(Entity i, const FlatSolution& solution, double& lost);
   static std::vector<Entity> opposite_surfaces(const FlatContactList& contacts);
-  std::vector<ContactConstraint> forces_on(Entity i) const;
+  /// The force of a surface on a body.
+  struct SurfaceForce {
+    Entity surface;
+    Vec3 normal;       // unit, from the body to the surface
+    double along = 0;  // m/s, of the surface along the normal
+    double force = 0;  // N
+  };
+  std::vector<SurfaceForce> surfaces_below(Entity i) const;
+  std::vector<SurfaceForce> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);
   void record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost);

@@ -277,7 +277,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     }
   }
 
-  solve({step.inverse_mass, step.a, pairs});
+  solve({step.inverse_mass, step.a, pairs, ContactAccuracy::rounding, true});
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});
 }

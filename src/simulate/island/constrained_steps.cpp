@@ -204,7 +204,7 @@ ConstrainedSystem ConstrainedSteps::make_system(const IslandStep& step) const {
 
 /// Computes accelerations and forces.
 void ConstrainedSteps::accelerate(IslandStep& step, ConstrainedSystem& system) {
-  step.a = system.accelerate(step.x, step.v);
+  step.a = system.accelerate(step.x, step.v, true);
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
 }
 

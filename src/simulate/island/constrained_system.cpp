@@ -200,7 +200,8 @@ void ConstrainedSystem::allow_contradictions(const std::vector<Vec3>& a, std::ve
 }
 
 std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                std::vector<ContactConstraint>& rows, Certificate& certificate) const {
+                                                std::vector<ContactConstraint>& rows, Certificate& certificate,
+                                                bool least) const {
   std::vector<Vec3> a = forces_at(x, v);
   bool rods = false;
   for (std::size_t c = 0; c < rows.size(); ++c) {
@@ -217,12 +218,12 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
   }
 
   if (rods) allow_contradictions(a, rows);
-  certificate.merge(solve({inverse_mass_, a, rows}));
+  certificate.merge(solve({inverse_mass_, a, rows, ContactAccuracy::rounding, least}));
   return a;
 }
 
-std::vector<Vec3> ConstrainedSystem::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
-  return solve_rows(x, v, rows_, certificate_);
+std::vector<Vec3> ConstrainedSystem::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, bool least) {
+  return solve_rows(x, v, rows_, certificate_, least);
 }
 
 double ConstrainedSystem::gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const {
@@ -413,7 +414,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
   // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
   // opening too.
   held_ = rows_;
-  for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.force > 0;
+  for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.independent > 0;
   allowed_ = allowed_errors(x, v, a);
   const double h = std::min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a)});
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.

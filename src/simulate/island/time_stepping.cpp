@@ -330,13 +330,22 @@ TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std
   return holding;
 }
 
+/// Replaces forces within their slack by exact ones, which remain while the islands are at rest.
+void TimeStepping::take_exact_forces(const Step& step, Holding& holding) const {
+  std::vector<Vec3> a;
+  for (const Entity i : step.members) a.push_back(bodies_.applied[i]);
+  std::vector<ContactConstraint> pairs = holding.pairs;
+  const Certificate certificate = carom::solve({step.inverse_mass, a, pairs, ContactAccuracy::rounding, true});
+  if (certificate.solved()) holding.pairs = std::move(pairs);
+}
+
 /// Puts to rest the islands that hardly move and that forces hold in balance.
 void TimeStepping::put_to_rest(Step& step) {
   const std::size_t n = step.x.size();
   step.rests.assign(n, 0);
   std::vector<std::uint8_t> still = stop_slow(step);
   if (std::find(still.begin(), still.end(), 1) == still.end()) return;
-  const Holding holding = hold(step, still);
+  Holding holding = hold(step, still);
   for (std::uint32_t k = 0; k < n; ++k)
     if (!(holding.a[k].norm() <= tol::balance * step.greatest)) still[step.island[k]] = 0;
   // A body that rests on a sleeping body wakes it first. They are in balance together, or not at all.
@@ -349,6 +358,7 @@ void TimeStepping::put_to_rest(Step& step) {
     }
   }
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];
+  if (std::ranges::find(step.rests, 1) != step.rests.end()) take_exact_forces(step, holding);
   for (ContactConstraint& p : step.contacts.pairs)
     if (step.rests[p.a]) p.force = 0;
   for (std::size_t c = 0; c < holding.pairs.size(); ++c)

@@ -83,6 +83,7 @@ class TimeStepping {
   void put_to_rest(Step& step);
   std::vector<std::uint8_t> stop_slow(Step& step) const;
   Holding hold(const Step& step, const std::vector<std::uint8_t>& still);
+  void take_exact_forces(const Step& step, Holding& holding) const;
   void take_closings(Step& step);
   double taken(const Step& step) const;
   void begin_flights(Step& step);
