@@ -84,7 +84,26 @@ inline constexpr double waking_gap = 1e-6;
 // Share of a radius: greatest margin of bodies that were just struck.
 inline constexpr double widest_margin = 2e-2;
 
-// Simultaneous impacts (simultaneous_impacts.h).
+// Impacts at one instant (impact_set.h).
+
+// Cosine of an angle: pushes at right angles.
+inline constexpr double right_angle = 0x1p-40;
+// Share of a speed: two approaches that are equal.
+inline constexpr double equal_speeds = 0x1p-32;
+// Share of the greatest speed of an instant: a component of a velocity that is zero.
+inline constexpr double nothing_left = 0x1p-90;
+// Share of speeds: a string that shortens by more slackens.
+inline constexpr double slackening = 0x1p-40;
+// Share of the greatest speeds of an instant, by kinetic energy: the limit of endless rounds has not changed.
+inline constexpr double same_limit = 1e-13;
+// The same: the limit is reached.
+inline constexpr double limit_reached = 0x1p-50;
+// Sum of 1 - e for each row that presses in the limit, after which rounds leave nothing: ln 2^52.
+inline constexpr double rounds_of_limit = 36;
+// Sum of 1 - e over the impacts of one body, from which on the limit is taken as it is: masses over six decades.
+inline constexpr double worn_out = 1024;
+
+// Simultaneous impacts of crowds (simultaneous_impacts.h).
 
 // So many impacts of a member between two steps are resolved one by one. [2e-11 1e-10]
 inline constexpr std::uint32_t few_impacts = 3;

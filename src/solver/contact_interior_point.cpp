@@ -358,6 +358,7 @@ class ContactInteriorPoint::Method {
     const std::size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
 
+    double last_off = no_limit;
     for (double last = no_limit; matrix_.factorisations() < most;) {
       // The forces that this motion implies, and its merit.
       Vector forces(m);
@@ -378,7 +379,10 @@ class ContactInteriorPoint::Method {
 
       if (former == weight && off <= 1e-9 * (greatest(y_) + greatest(free_))) break;
       if (!(merit < last)) break;
+      // With the same rows the first step would be exact, but for rounding.
+      if (former == weight && !(off < 0.5 * last_off)) break;
       last = merit;
+      last_off = off;
 
       // Newton's step, with the best length along it.
       if (former != weight && !matrix_.factorise(weight)) return false;

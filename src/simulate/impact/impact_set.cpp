@@ -1,0 +1,631 @@
+// Rounds of impacts at one instant. A row alone is the law of two bodies, in closed form. Rows together are a projection
+// by the contact solver, and an expansion that is summed in twice as many digits. Their velocities are rounded once, so
+// that a mirror image has the same bits but for rare roundings.
+#include "simulate/impact/impact_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "numerics/compensated.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+namespace {
+
+/// Twice the kinetic energy of a change of velocity (J).
+double twice_energy(double mass, const Vec3& dv) {
+  return mass * dv.squaredNorm();
+}
+
+}  // namespace
+
+std::uint32_t ImpactSet::add_body(double mass, const Vec3& v) {
+  bodies_.push_back({mass, v, v.norm(), {}});
+  next_.push_back(v);
+  return bodies() - 1;
+}
+
+std::uint32_t ImpactSet::add_row(const Row& row) {
+  const std::uint32_t c = rows();
+  rows_.push_back({row});
+  rows_.back().holds = row.kind != Kind::touching;
+  bodies_[row.a].rows.push_back(c);
+  if (row.b != fixed) bodies_[row.b].rows.push_back(c);
+  return c;
+}
+
+void ImpactSet::set_velocity(std::uint32_t body, const Vec3& v) {
+  Body& of = bodies_[body];
+  of.v = next_[body] = v;
+  of.top = std::max(of.top, v.norm());
+}
+
+double ImpactSet::approach(std::uint32_t c) const {
+  const Row& r = rows_[c];
+  if (r.b == fixed) return r.normal.dot(bodies_[r.a].v) - r.surface;
+  return -r.normal.dot(bodies_[r.b].v - bodies_[r.a].v);
+}
+
+/// The speed at which a row opens after this round (m/s).
+double ImpactSet::separation(std::uint32_t c) const {
+  const Row& r = rows_[c];
+  if (r.b == fixed) return r.surface - r.normal.dot(next_[r.a]);
+  return r.normal.dot(next_[r.b] - next_[r.a]);
+}
+
+/// The sum of the greatest speeds of a row's two things in this instant (m/s).
+double ImpactSet::top_of(std::uint32_t c) const {
+  const Row& r = rows_[c];
+  return bodies_[r.a].top + (r.b == fixed ? std::abs(r.surface) : bodies_[r.b].top);
+}
+
+bool ImpactSet::approaches(std::uint32_t c) const {
+  return !rows_[c].holds && approach(c) > tol::velocity_rounding * top_of(c);
+}
+
+/// The order of rows: by place, then by normal, both of which names do not change but for the normal's sign.
+bool ImpactSet::before(std::uint32_t c, std::uint32_t d) const {
+  const Row& p = rows_[c];
+  const Row& q = rows_[d];
+  for (int k = 0; k < 3; ++k)
+    if (p.place[k] != q.place[k]) return p.place[k] < q.place[k];
+  const auto along = [](const Row& r) { return Vec3(r.b == fixed ? r.normal : r.normal.cwiseAbs()); };
+  const Vec3 n = along(p);
+  const Vec3 m = along(q);
+  for (int k = 0; k < 3; ++k)
+    if (n[k] != m[k]) return n[k] < m[k];
+  return c < d;
+}
+
+void ImpactSet::sort(Rows& rows) const {
+  std::sort(rows.begin(), rows.end(), [this](std::uint32_t c, std::uint32_t d) { return before(c, d); });
+}
+
+/// The links that hold and are connected with these rows, directly or through other links.
+ImpactSet::Rows ImpactSet::links_at(std::span<const std::uint32_t> rows) const {
+  Rows links;
+  Rows todo(rows.begin(), rows.end());
+  for (std::size_t k = 0; k < todo.size(); ++k)
+    for (const std::uint32_t body : {rows_[todo[k]].a, rows_[todo[k]].b}) {
+      if (body == fixed) continue;
+      for (const std::uint32_t d : bodies_[body].rows) {
+        if (!rows_[d].holds || std::ranges::find(links, d) != links.end()) continue;
+        links.push_back(d);
+        todo.push_back(d);
+      }
+    }
+  return links;
+}
+
+std::vector<Vec3> ImpactSet::velocities() const {
+  std::vector<Vec3> v;
+  v.reserve(bodies_.size());
+  for (const Body& of : bodies_) v.push_back(of.v);
+  return v;
+}
+
+/// The velocities nearest to v, by kinetic energy, with no row approaching, strings not longer and rods unchanged.
+/// `relative`: v are changes of velocities, to which the motion of fixed things does not matter.
+ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v,
+                                         bool relative) const {
+  Projection p;
+  rows.insert(rows.end(), links.begin(), links.end());
+  Rows order = rows;
+  sort(order);
+
+  // Bodies are numbered as rows come to them, and each row points the same way under any names.
+  std::vector<std::uint32_t> number(bodies_.size(), fixed);
+  const auto place = [&](std::uint32_t body) {
+    if (number[body] == fixed) {
+      number[body] = static_cast<std::uint32_t>(p.bodies.size());
+      p.bodies.push_back(body);
+    }
+    return number[body];
+  };
+
+  std::vector<ContactConstraint> constraints;
+  for (const std::uint32_t c : order) {
+    const Row& r = rows_[c];
+    ContactConstraint constraint{0, fixed, r.normal};
+    const bool turned = r.b != fixed && std::tie(r.normal.x(), r.normal.y(), r.normal.z()) < std::tuple(0.0, 0.0, 0.0);
+    if (turned) constraint.normal = -r.normal;
+    constraint.a = place(turned ? r.b : r.a);
+    if (r.b != fixed) constraint.b = place(turned ? r.a : r.b);
+    constraint.surface = relative ? 0 : r.surface;
+    constraint.bilateral = r.kind == Kind::rod;
+    constraint.slack = constraint.bilateral ? tol::step_error * top_of(c) : 0;
+    constraints.push_back(constraint);
+  }
+
+  std::vector<double> inverse_mass;
+  for (const std::uint32_t body : p.bodies) {
+    inverse_mass.push_back(1 / bodies_[body].mass);
+    p.v.push_back(v[body]);
+  }
+  const Certificate certificate = solve({inverse_mass, p.v, constraints, ContactAccuracy::rounding, true});
+  p.feasible = certificate.verdict != Certificate::Verdict::infeasible;
+  certificate_.merge(certificate);
+
+  // In the order of the rows that were given.
+  std::vector<double> impulse(rows_.size(), 0.0);
+  for (std::size_t k = 0; k < order.size(); ++k) impulse[order[k]] = constraints[k].force;
+  for (const std::uint32_t c : rows) p.impulse.push_back(impulse[c]);
+  return p;
+}
+
+/// The change of velocities by a unit impulse of row c against its approach, with its links as rods.
+ImpactSet::Projection ImpactSet::response(std::uint32_t c, std::span<const std::uint32_t> links) const {
+  const Row& r = rows_[c];
+  Projection p;
+  const auto place = [&](std::uint32_t body) {
+    const auto it = std::ranges::find(p.bodies, body);
+    if (it != p.bodies.end()) return static_cast<std::uint32_t>(it - p.bodies.begin());
+    p.bodies.push_back(body);
+    return static_cast<std::uint32_t>(p.bodies.size() - 1);
+  };
+
+  std::vector<ContactConstraint> constraints;
+  place(r.a);
+  if (r.b != fixed) place(r.b);
+  for (const std::uint32_t link : links) {
+    ContactConstraint constraint{place(rows_[link].a), fixed, rows_[link].normal};
+    if (rows_[link].b != fixed) constraint.b = place(rows_[link].b);
+    constraint.bilateral = true;
+    constraint.slack = tol::step_error / bodies_[r.a].mass;
+    constraints.push_back(constraint);
+  }
+
+  std::vector<double> inverse_mass;
+  for (const std::uint32_t body : p.bodies) inverse_mass.push_back(1 / bodies_[body].mass);
+  p.v.assign(p.bodies.size(), Vec3::Zero());
+  p.v[0] = -inverse_mass[0] * r.normal;
+  if (r.b != fixed) p.v[1] = inverse_mass[1] * r.normal;
+  solve({inverse_mass, p.v, constraints});
+  return p;
+}
+
+/// The cosine of the angle between the pushes of two rows: below zero, an impulse of one makes the other approach.
+/// `response`: to c, where links connect bodies.
+double ImpactSet::cosine(std::uint32_t c, std::uint32_t d, const Projection* response) const {
+  const Row& p = rows_[c];
+  const Row& q = rows_[d];
+
+  // A shared body is pushed against the normal of which it is the first.
+  if (response == nullptr) {
+    double cosine = 1;
+    for (const std::uint32_t body : {p.a, p.b}) {
+      if (body == fixed || (body != q.a && body != q.b)) continue;
+      const double along = p.normal.dot(q.normal);
+      cosine = std::min(cosine, (p.a == body) == (q.a == body) ? along : -along);
+    }
+    return cosine;
+  }
+
+  const auto change = [&](std::uint32_t body) {
+    const auto it = std::ranges::find(response->bodies, body);
+    return it == response->bodies.end()
+               ? Vec3(Vec3::Zero())
+               : response->v[static_cast<std::size_t>(it - response->bodies.begin())];
+  };
+  const auto opens = [&](const Row& r) {
+    return r.normal.dot((r.b == fixed ? Vec3(Vec3::Zero()) : change(r.b)) - change(r.a));
+  };
+  const auto inverse = [&](const Row& r) {
+    return 1 / bodies_[r.a].mass + (r.b == fixed ? 0 : 1 / bodies_[r.b].mass);
+  };
+  return opens(q) / std::sqrt(inverse(p) * inverse(q));
+}
+
+/// Whether row c waits for a faster one that pushes a body of it from the other side.
+bool ImpactSet::waits(std::uint32_t c, const std::vector<std::uint8_t>& approaching) {
+  const Rows links = links_at(std::span(&c, 1));
+  Rows near{c};
+  near.insert(near.end(), links.begin(), links.end());
+  Projection through;
+  if (!links.empty()) through = response(c, links);
+
+  const double u = approach(c);
+  const double e = rows_[c].restitution;
+  for (const std::uint32_t at : near)
+    for (const std::uint32_t body : {rows_[at].a, rows_[at].b}) {
+      if (body == fixed) continue;
+      for (const std::uint32_t d : bodies_[body].rows) {
+        if (d == c || !approaching[d]) continue;
+        const double along = cosine(c, d, links.empty() ? nullptr : &through);
+        if (std::abs(along) > tol::right_angle && (e > 0 || rows_[d].restitution > 0)) leaves_open_ = true;
+        if (!(along < -tol::right_angle)) continue;
+
+        // The faster one goes first, of equal ones that with the smaller e.
+        const double other = approach(d);
+        if (other > u * (1 + tol::equal_speeds)) return true;
+        if (other < u * (1 - tol::equal_speeds)) continue;
+        if (rows_[d].restitution < e) return true;
+        if (rows_[d].restitution == e && e > 0) tied_ = true;
+      }
+    }
+  return false;
+}
+
+/// The rows that act in this round.
+ImpactSet::Rows ImpactSet::select(std::span<const std::uint32_t> approaching) {
+  std::vector<std::uint8_t> flag(rows_.size(), 0);
+  for (const std::uint32_t c : approaching) flag[c] = 1;
+  Rows acting;
+  for (const std::uint32_t c : approaching)
+    if (!waits(c, flag)) acting.push_back(c);
+  sort(acting);
+  return acting;
+}
+
+/// The sets of these rows that share bodies, directly or through links, or also through open rows.
+std::vector<ImpactSet::Together> ImpactSet::connect(std::span<const std::uint32_t> acting, bool through_open) const {
+  constexpr std::uint8_t acts = 1;
+  constexpr std::uint8_t taken = 2;
+  std::vector<std::uint8_t> flag(rows_.size(), 0);
+  for (const std::uint32_t c : acting) flag[c] = acts;
+
+  std::vector<Together> sets;
+  for (const std::uint32_t first : acting) {
+    if (flag[first] & taken) continue;
+    Together& set = sets.emplace_back();
+    Rows todo{first};
+    flag[first] |= taken;
+
+    for (std::size_t k = 0; k < todo.size(); ++k) {
+      const std::uint32_t c = todo[k];
+      Rows& kind = rows_[c].holds ? set.links : flag[c] & acts ? set.rows : set.open;
+      kind.push_back(c);
+      for (const std::uint32_t body : {rows_[c].a, rows_[c].b}) {
+        if (body == fixed) continue;
+        for (const std::uint32_t d : bodies_[body].rows) {
+          if (flag[d] & taken || !(flag[d] & acts || rows_[d].holds || (through_open && rows_[d].open > 0))) continue;
+          flag[d] |= taken;
+          todo.push_back(d);
+        }
+      }
+    }
+    for (Rows* const list : {&set.rows, &set.open, &set.links}) sort(*list);
+  }
+  return sets;
+}
+
+const std::vector<ImpactSet::Impact>& ImpactSet::strike(std::span<const std::uint32_t> approaching) {
+  impacts_.clear();
+  changed_.clear();
+  const Rows acting = select(approaching);
+  const auto inelastic = [&](std::uint32_t c) { return rows_[c].restitution == 0; };
+
+  for (const Together& set : connect(acting, true)) {
+    if (std::ranges::all_of(set.rows, inelastic)) {
+      strike_together(set);
+      continue;
+    }
+    // Rows that stayed closed stay so no longer: an impact with e > 0 goes through them.
+    for (const Rows* const list : {&set.rows, &set.open, &set.links})
+      for (const std::uint32_t c : *list) rows_[c].open = 0;
+    for (const Together& part : connect(set.rows, false)) strike_together(part);
+  }
+
+  for (const std::uint32_t body : changed_) set_velocity(body, next_[body]);
+  count();
+  close_parted();
+  ++rounds_;
+  return impacts_;
+}
+
+void ImpactSet::strike_together(const Together& set) {
+  if (set.rows.size() == 1 && set.open.empty() && set.links.empty()) return strike_one(set.rows.front());
+  const bool inelastic = std::ranges::all_of(set.rows, [&](std::uint32_t c) { return rows_[c].restitution == 0; });
+  inelastic ? strike_inelastic(set) : strike_elastic(set);
+}
+
+/// The law of two bodies.
+void ImpactSet::strike_one(std::uint32_t c) {
+  RowState& r = rows_[c];
+  const double u = approach(c);
+  const double separation = r.restitution * u;
+  const double ma = bodies_[r.a].mass;
+  double impulse;
+
+  if (r.b == fixed) {
+    impulse = ma * (u + separation);
+    change(r.a, bodies_[r.a].v - (u + separation) * r.normal);
+  } else {
+    const double mb = bodies_[r.b].mass;
+    impulse = (u + separation) / (1 / ma + 1 / mb);
+    change(r.a, bodies_[r.a].v - (impulse / ma) * r.normal);
+    change(r.b, bodies_[r.b].v + (impulse / mb) * r.normal);
+  }
+
+  if (r.restitution == 0) r.open = impulse;
+  note(c, impulse, u, separation);
+}
+
+/// The projection of the velocities without the earlier impulses of these rows and links, which stay open to revision.
+void ImpactSet::strike_inelastic(const Together& set) {
+  Rows rows = set.rows;
+  rows.insert(rows.end(), set.open.begin(), set.open.end());
+  sort(rows);
+  Rows all = rows;
+  all.insert(all.end(), set.links.begin(), set.links.end());
+
+  std::vector<Vec3> start = velocities();
+  for (const std::uint32_t c : all) {
+    const RowState& r = rows_[c];
+    if (r.open == 0) continue;
+    start[r.a] += (r.open / bodies_[r.a].mass) * r.normal;
+    if (r.b != fixed) start[r.b] -= (r.open / bodies_[r.b].mass) * r.normal;
+  }
+
+  const Projection p = project(rows, set.links, start);
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
+  const std::size_t first = impacts_.size();
+  double by_links = 0;  // J
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    RowState& r = rows_[all[k]];
+    const double more = p.impulse[k] - r.open;
+    r.open = p.impulse[k];
+    if (r.holds)
+      by_links += 0.5 * more * (approach(all[k]) - separation(all[k]));
+    else
+      note(all[k], more, approach(all[k]), separation(all[k]));
+  }
+  if (!set.links.empty()) share_losses(first, by_links);
+}
+
+/// Compression, then expansion by e times the impulses of compression.
+void ImpactSet::strike_elastic(const Together& set) {
+  const Projection compressed = project(set.rows, set.links, velocities());
+  const auto place = [&](std::uint32_t body) {
+    return static_cast<std::size_t>(std::ranges::find(compressed.bodies, body) - compressed.bodies.begin());
+  };
+
+  // The sum of each body's impulses of expansion over its mass.
+  std::vector<std::array<DoubleDouble, 3>> gained(compressed.bodies.size());
+  for (auto& of : gained) of.fill({0, 0});
+  double least = 2;
+  double most = 0;
+  for (std::size_t k = 0; k < set.rows.size(); ++k) {
+    const Row& r = rows_[set.rows[k]];
+    least = std::min(least, r.restitution);
+    most = std::max(most, r.restitution);
+    const DoubleDouble impulse = two_product(r.restitution, compressed.impulse[k]);
+
+    const auto push = [&](std::uint32_t body, double sign) {
+      const DoubleDouble speed = impulse / DoubleDouble{sign * bodies_[body].mass, 0};
+      for (int axis = 0; axis < 3; ++axis) {
+        DoubleDouble& sum = gained[place(body)][static_cast<std::size_t>(axis)];
+        sum = sum + speed * DoubleDouble{r.normal[axis], 0};
+      }
+    };
+    push(r.a, -1);
+    if (r.b != fixed) push(r.b, 1);
+  }
+
+  std::vector<Vec3> dv;
+  for (const auto& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
+  double share = 1;
+
+  // Links that compression leaves tight answer to the expansion. The others slacken.
+  if (!set.links.empty()) {
+    Rows tight;
+    for (const std::uint32_t link : set.links) {
+      RowState& r = rows_[link];
+      const auto of = [&](std::uint32_t body) {
+        return body == fixed ? Vec3(Vec3::Zero()) : compressed.v[place(body)];
+      };
+      const double parts = r.normal.dot(of(r.b) - of(r.a)) + r.surface;
+      const double speeds = top_of(link) + of(r.a).norm() + of(r.b).norm();
+      if (r.kind == Kind::taut && parts > tol::slackening * speeds) r.holds = false;
+      if (r.holds) tight.push_back(link);
+    }
+
+    std::vector<Vec3> all(bodies_.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
+    const Projection answered = project({}, tight, all, true);
+    for (std::size_t k = 0; k < answered.bodies.size(); ++k) dv[place(answered.bodies[k])] = answered.v[k];
+  }
+
+  // Unequal e: no more energy comes back than compression took.
+  if (most <= 1 && least < most) {
+    double took = 0;
+    double back = 0;
+    for (std::size_t k = 0; k < dv.size(); ++k) {
+      const Body& of = bodies_[compressed.bodies[k]];
+      took += twice_energy(of.mass, of.v - compressed.v[k]);
+      back += twice_energy(of.mass, dv[k]);
+    }
+    if (back > took) share = std::sqrt(took / back);
+  }
+
+  // The velocities are rounded once where links and limits have not changed the sums.
+  const bool plain = set.links.empty() && share == 1;
+  for (std::size_t k = 0; k < dv.size(); ++k) {
+    Vec3 after = compressed.v[k] + share * dv[k];
+    for (int axis = 0; plain && axis < 3; ++axis)
+      after[axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][static_cast<std::size_t>(axis)]).value();
+    change(compressed.bodies[k], after);
+  }
+
+  const std::size_t first = impacts_.size();
+  for (std::size_t k = 0; k < set.rows.size(); ++k) {
+    const std::uint32_t c = set.rows[k];
+    note(c, (1 + share * rows_[c].restitution) * compressed.impulse[k], approach(c), separation(c));
+  }
+
+  // A string that compression has pulled, and that slackens in the expansion, gives energy back.
+  if (set.links.empty()) return;
+  double by_links = 0;  // J
+  for (std::size_t k = 0; k < set.links.size(); ++k) {
+    const std::uint32_t c = set.links[k];
+    by_links += 0.5 * compressed.impulse[set.rows.size() + k] * (approach(c) - separation(c));
+  }
+  share_losses(first, by_links);
+}
+
+/// Shares the losses of a set, those of its links (J) included, among its impacts from number `first` on, by the work of
+/// each against its approach. The energy that a link takes or gives is that of impacts.
+void ImpactSet::share_losses(std::size_t first, double by_links) {
+  double lost = by_links;
+  double all = 0;  // J
+  const auto work = [](const Impact& impact) { return std::max(impact.impulse * impact.approach, 0.0); };
+  for (std::size_t k = first; k < impacts_.size(); ++k) {
+    lost += impacts_[k].lost;
+    all += work(impacts_[k]);
+  }
+  if (!(all > 0)) return;
+  for (std::size_t k = first; k < impacts_.size(); ++k) impacts_[k].lost = lost * (work(impacts_[k]) / all);
+}
+
+void ImpactSet::change(std::uint32_t body, const Vec3& v) {
+  Vec3 kept = v;
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(kept[axis]) <= tol::nothing_left * bodies_[body].top) kept[axis] = 0;
+  if (kept == bodies_[body].v) return;
+  next_[body] = kept;
+  changed_.push_back(body);
+}
+
+void ImpactSet::note(std::uint32_t c, double impulse, double approach, double separation) {
+  if (impulse == 0) return;
+  impacts_.push_back({c, approach, separation, impulse, 0.5 * impulse * (approach - separation)});
+}
+
+/// Counts the strikes of this round.
+void ImpactSet::count() {
+  for (const Impact& impact : impacts_) {
+    if (!(impact.impulse > 0)) continue;
+    const Row& r = rows_[impact.row];
+    const double lost = std::max(1 - r.restitution, 0.0);
+    endless_.sum += lost;
+    for (const std::uint32_t body : {r.a, r.b}) {
+      if (body == fixed) continue;
+      bodies_[body].lost += lost;
+      endless_.most_struck = std::max(endless_.most_struck, ++bodies_[body].struck);
+    }
+  }
+}
+
+/// Rows that part are open no longer, in the sense of revision, and strings that part do not hold.
+void ImpactSet::close_parted() {
+  for (std::uint32_t c = 0; c < rows(); ++c) {
+    RowState& r = rows_[c];
+    if (r.kind == Kind::rod || (r.open == 0 && !r.holds)) continue;
+    const double parts = -approach(c);
+    if (r.kind == Kind::taut && parts > tol::slackening * top_of(c)) r.holds = false;
+    if (parts > 16 * tol::velocity_rounding * top_of(c)) r.open = 0;
+  }
+}
+
+/// Whether some motion opens all of these rows at once.
+bool ImpactSet::has_room(const Rows& rows, const Rows& links) const {
+  std::vector<std::uint32_t> number(bodies_.size(), fixed);
+  std::vector<double> inverse_mass;
+  const auto place = [&](std::uint32_t body) {
+    if (number[body] == fixed) {
+      number[body] = static_cast<std::uint32_t>(inverse_mass.size());
+      inverse_mass.push_back(1 / bodies_[body].mass);
+    }
+    return number[body];
+  };
+
+  std::vector<ContactConstraint> constraints;
+  const auto add = [&](std::uint32_t c, double target) {
+    ContactConstraint constraint{place(rows_[c].a), fixed, rows_[c].normal, target};
+    if (rows_[c].b != fixed) constraint.b = place(rows_[c].b);
+    constraint.bilateral = rows_[c].kind == Kind::rod;
+    constraint.slack = constraint.bilateral ? tol::step_error : 0;
+    constraints.push_back(constraint);
+  };
+  for (const std::uint32_t c : rows) add(c, 1);
+  for (const std::uint32_t c : links) add(c, 0);
+
+  std::vector<Vec3> x(inverse_mass.size(), Vec3::Zero());
+  solve({inverse_mass, x, constraints});
+  return std::ranges::all_of(constraints,
+                             [&](const ContactConstraint& c) { return -carom::approach(x, c) >= c.target - 0.5; });
+}
+
+const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std::uint32_t> approaching) {
+  impacts_.clear();
+  changed_.clear();
+  endless_.next_check *= 2;
+
+  Rows touching;
+  Rows links;
+  for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
+  const Projection p = project(touching, links, velocities());
+
+  // How far the limit is, and how far it is from the last one.
+  std::vector<Vec3> limit = velocities();
+  double away = 0;
+  double greatest = 0;
+  double moved = 0;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) limit[p.bodies[k]] = p.v[k];
+  const bool known = endless_.limit.size() == limit.size();
+  for (std::uint32_t i = 0; i < bodies(); ++i) {
+    const Body& of = bodies_[i];
+    away += twice_energy(of.mass, limit[i] - of.v);
+    greatest += of.mass * of.top * of.top;
+    if (known) moved += twice_energy(of.mass, limit[i] - endless_.limit[i]);
+  }
+
+  const auto pressing = static_cast<double>(std::ranges::count_if(p.impulse, [](double j) { return j > 0; }));
+  const bool same = known && moved <= tol::same_limit * tol::same_limit * greatest;
+  const bool elastic =
+      std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution >= 1; });
+  const bool worn = std::ranges::any_of(approaching, [&](std::uint32_t c) {
+    const Row& r = rows_[c];
+    return bodies_[r.a].lost > tol::worn_out || (r.b != fixed && bodies_[r.b].lost > tol::worn_out);
+  });
+  bool over = away <= tol::limit_reached * tol::limit_reached * greatest || worn ||
+              (same && endless_.sum - endless_.sum_at_limit >= tol::rounds_of_limit * pressing);
+  if (!over && elastic && !has_room(touching, links)) over = endless_.without_room = true;
+
+  if (!same) {
+    endless_.limit = limit;
+    endless_.sum_at_limit = endless_.sum;
+  }
+  if (over) end_by(p, touching);
+  return impacts_;
+}
+
+/// Ends the rounds with the velocities of a projection.
+void ImpactSet::end_by(const Projection& limit, const Rows& rows) {
+  endless_.ended = true;
+  ++rounds_;
+  for (std::size_t k = 0; k < limit.bodies.size(); ++k) change(limit.bodies[k], limit.v[k]);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    note(rows[k], limit.impulse[k], approach(rows[k]), separation(rows[k]));
+  }
+  for (const std::uint32_t body : changed_) set_velocity(body, next_[body]);
+}
+
+const std::vector<ImpactSet::Impact>& ImpactSet::finish() {
+  impacts_.clear();
+  changed_.clear();
+  if (endless_.ended || endless_.most_struck <= 32) return impacts_;
+
+  Rows touching;
+  Rows links;
+  for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
+  const Projection p = project(touching, links, velocities());
+
+  // Only a change that is rounding.
+  double away = 0;
+  double greatest = 0;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) {
+    const Body& of = bodies_[p.bodies[k]];
+    away += twice_energy(of.mass, p.v[k] - of.v);
+    greatest += of.mass * of.top * of.top;
+  }
+  if (away > 0 && away <= 0x1p-80 * greatest) end_by(p, touching);
+  return impacts_;
+}
+
+}  // namespace carom

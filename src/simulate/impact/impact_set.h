@@ -1,0 +1,172 @@
+#pragma once
+// Impacts of touching bodies at one instant, as one problem in rounds.
+//
+// A row is a pair that touches: two bodies, a body and a fixed thing, or a string that has reached its length. All rows
+// that approach act in a round, with the velocities at its start. Rounds repeat until none approaches.
+//
+// - Rows that push a shared body to one side act together. Their compression is Moreau's projection on the motions that
+//   no row forbids (Moreau, "Unilateral contact and dry friction in finite freedom dynamics", 1988, eq. 6.5). The
+//   expansion adds e times each row's impulse of compression (Poisson). It makes no energy for e <= 1.
+// - Of rows that push a body from opposite sides the faster goes first, and the others wait for the next round. At
+//   equal speeds the one of smaller e does; with equal e both act together. A chain is then a sequence of impacts of
+//   two, and the outcome is continuous in the velocities wherever opposed approaches differ.
+// - Rows with e = 0 stay closed to the end, and their impulses open to revision: all with e = 0 is one projection.
+// - Rods and taut strings are links. They act as parts of the bodies that they connect.
+//
+// Rounds may be endless. With e < 1 their limit is the projection of any late velocities on all touching rows, which
+// then no longer changes from round to round. With e = 1 they end, if all rows can open at once (Vouga, Smith, Kaufman,
+// Tamstorf & Grinspun, "All's well that ends well", ACM Trans. Graph. 36, 2017); else the same projection ends them.
+//
+// Rows are taken in an order of places, so that no number of a body or a row has an effect.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "numerics/vec3.h"
+#include "solver/contact_problem.h"
+
+namespace carom {
+
+class ImpactSet {
+ public:
+  static constexpr std::uint32_t fixed = ContactConstraint::fixed;
+
+  enum class Kind : std::uint8_t {
+    touching,  // it can be struck
+    taut,      // a string that holds: a link until it slackens
+    rod        // a link
+  };
+  struct Row {
+    std::uint32_t a = 0;        // a body of the set
+    std::uint32_t b = fixed;    // another one, or a fixed thing
+    Vec3 normal;                // unit, from a to b; the two approach along it
+    Vec3 place;                 // m, rows are taken in the order of their places
+    double surface = 0;         // m/s, of a fixed thing that moves, along the normal
+    double restitution = 0;     // of the next round
+    Kind kind = Kind::touching;
+  };
+  /// What a round does to a row.
+  struct Impact {
+    std::uint32_t row;
+    double approach;    // m/s, before the round
+    double separation;  // m/s, after it
+    double impulse;     // N s, against the approach; of a row with e = 0 a later round may take some of it back
+    double lost;        // J
+  };
+
+  /// Adds a body and returns its number. mass: kg; v: m/s.
+  std::uint32_t add_body(double mass, const Vec3& v);
+  /// Adds a row and returns its number.
+  std::uint32_t add_row(const Row& row);
+  std::uint32_t bodies() const { return static_cast<std::uint32_t>(bodies_.size()); }
+  std::uint32_t rows() const { return static_cast<std::uint32_t>(rows_.size()); }
+  const Row& row(std::uint32_t c) const { return rows_[c]; }
+  std::span<const std::uint32_t> rows_of(std::uint32_t body) const { return bodies_[body].rows; }
+  void set_restitution(std::uint32_t c, double e) { rows_[c].restitution = e; }
+
+  /// m/s.
+  const Vec3& velocity(std::uint32_t body) const { return bodies_[body].v; }
+  void set_velocity(std::uint32_t body, const Vec3& v);
+  /// The speed at which a row closes (m/s).
+  double approach(std::uint32_t c) const;
+  /// Whether that is more than rounding of speeds, and the row is no link that holds.
+  bool approaches(std::uint32_t c) const;
+
+  /// One round of these rows, which approach. Returns the impacts of this round, by place.
+  const std::vector<Impact>& strike(std::span<const std::uint32_t> approaching);
+  /// The bodies with velocities that the last round has changed; some of them more than once.
+  const std::vector<std::uint32_t>& changed() const { return changed_; }
+
+  /// Whether it is time to look for the end of endless rounds. The caller adds all that touches before.
+  bool may_be_endless() const { return endless_.most_struck >= endless_.next_check; }
+  /// Ends the rounds, of which these rows would be the next, by their limit, if that is known. Returns the rows with an
+  /// impulse; none: the rounds go on.
+  const std::vector<Impact>& end_endless(std::span<const std::uint32_t> approaching);
+  /// After the last round of many: removes what rounding has left of approaches.
+  const std::vector<Impact>& finish();
+
+  std::uint32_t rounds() const { return rounds_; }
+  /// Whether the rounds have been ended because some row cannot open.
+  bool without_room() const { return endless_.without_room; }
+  /// Whether impacts with e > 0 have shared a body in a round, so that rigid bodies alone leave the outcome open.
+  bool leaves_open() const { return leaves_open_; }
+  /// Whether two of them pushed it from opposite sides at equal speeds.
+  bool tied() const { return tied_; }
+  /// That of all projections (contact_problem.h).
+  const Certificate& certificate() const { return certificate_; }
+
+ private:
+  using Rows = std::vector<std::uint32_t>;
+  struct Body {
+    double mass;                // kg
+    Vec3 v;                     // m/s
+    double top;                 // m/s, its greatest speed in this instant
+    Rows rows;
+    std::uint32_t struck = 0;   // strikes in this instant
+    double lost = 0;            // the sum of 1 - e of these
+  };
+  struct RowState : Row {
+    bool holds = false;  // a link that does
+    double open = 0;     // N s, the impulse of a row with e = 0 that stays closed
+  };
+  /// Rows that act together, and the open rows and links connected with them.
+  struct Together {
+    Rows rows;
+    Rows open;
+    Rows links;
+  };
+  /// The nearest velocities (m/s), by body of the problem, and the impulses (N s), by row of it.
+  struct Projection {
+    Rows bodies;
+    std::vector<Vec3> v;
+    std::vector<double> impulse;
+    bool feasible = true;
+  };
+  struct Endless {
+    double sum = 0;           // of 1 - e over all impacts
+    double sum_at_limit = 0;  // when the limit was first found
+    std::vector<Vec3> limit;  // m/s, the last one
+    std::uint32_t most_struck = 0;
+    std::uint32_t next_check = 32;
+    bool ended = false;
+    bool without_room = false;
+  };
+
+  bool before(std::uint32_t c, std::uint32_t d) const;
+  void sort(Rows& rows) const;
+  double separation(std::uint32_t c) const;
+  double top_of(std::uint32_t c) const;
+  Rows links_at(std::span<const std::uint32_t> rows) const;
+  Projection project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v,
+                     bool relative = false) const;
+  std::vector<Vec3> velocities() const;
+  double cosine(std::uint32_t c, std::uint32_t d, const Projection* response) const;
+  Projection response(std::uint32_t c, std::span<const std::uint32_t> links) const;
+  Rows select(std::span<const std::uint32_t> approaching);
+  bool waits(std::uint32_t c, const std::vector<std::uint8_t>& approaches);
+  std::vector<Together> connect(std::span<const std::uint32_t> acting, bool through_open) const;
+  void strike_together(const Together& set);
+  void strike_one(std::uint32_t c);
+  void strike_inelastic(const Together& set);
+  void strike_elastic(const Together& set);
+  void change(std::uint32_t body, const Vec3& v);
+  void note(std::uint32_t c, double impulse, double approach, double separation);
+  void share_losses(std::size_t first, double by_links);
+  void count();
+  bool has_room(const Rows& rows, const Rows& links) const;
+  void end_by(const Projection& limit, const Rows& rows);
+  void close_parted();
+
+  std::vector<Body> bodies_;
+  std::vector<RowState> rows_;
+  std::vector<Impact> impacts_;  // of the last round
+  Rows changed_;                 // in the last round
+  std::vector<Vec3> next_;       // m/s, by body, after this round
+  Endless endless_;
+  std::uint32_t rounds_ = 0;
+  bool leaves_open_ = false;
+  bool tied_ = false;
+  mutable Certificate certificate_;
+};
+
+}  // namespace carom

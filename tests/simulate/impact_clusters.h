@@ -1,0 +1,359 @@
+#pragma once
+// Clusters of touching balls for tests of impacts at one instant: closed forms, and random ones.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "simulate/impact/impact_set.h"
+
+namespace carom::impact_clusters {
+
+inline constexpr std::uint32_t fixed = ImpactSet::fixed;
+
+/// Bodies and rows. The restitution of a row stays the same in all rounds.
+struct Cluster {
+  std::vector<double> mass;  // kg
+  std::vector<Vec3> v;       // m/s
+  std::vector<ImpactSet::Row> rows;
+
+  double energy(const std::vector<Vec3>& at) const {  // J
+    double sum = 0;
+    for (std::size_t i = 0; i < mass.size(); ++i) sum += 0.5 * mass[i] * at[i].squaredNorm();
+    return sum;
+  }
+};
+
+struct Resolved {
+  std::vector<Vec3> v;                     // m/s
+  std::vector<ImpactSet::Impact> impacts;  // of all rounds
+  std::vector<ImpactSet::Impact> absorbed;  // of the end of endless rounds
+  std::uint32_t rounds = 0;
+  bool finished = true;
+  bool without_room = false;
+  bool leaves_open = false;
+  bool tied = false;
+  double change = 0;    // the worst certificate
+  double approach = 0;  // the greatest that is left, as a share of the greatest speed
+  bool solved = true;
+};
+
+inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'000'000) {
+  ImpactSet set;
+  for (std::size_t i = 0; i < cluster.mass.size(); ++i) set.add_body(cluster.mass[i], cluster.v[i]);
+  for (const ImpactSet::Row& row : cluster.rows) set.add_row(row);
+
+  Resolved outcome;
+  double greatest = 0;
+  for (const Vec3& v : cluster.v) greatest = std::max(greatest, v.norm());
+  for (;;) {
+    std::vector<std::uint32_t> approaching;
+    for (std::uint32_t c = 0; c < set.rows(); ++c)
+      if (set.approaches(c)) approaching.push_back(c);
+    if (approaching.empty()) break;
+    if (set.rounds() > most_rounds) {
+      outcome.finished = false;
+      break;
+    }
+    if (set.may_be_endless()) {
+      outcome.absorbed = set.end_endless(approaching);
+      if (!outcome.absorbed.empty()) break;
+    }
+    const auto& impacts = set.strike(approaching);
+    outcome.impacts.insert(outcome.impacts.end(), impacts.begin(), impacts.end());
+  }
+
+  const auto& rest = set.finish();
+  outcome.absorbed.insert(outcome.absorbed.end(), rest.begin(), rest.end());
+  for (std::uint32_t i = 0; i < set.bodies(); ++i) {
+    outcome.v.push_back(set.velocity(i));
+    greatest = std::max(greatest, outcome.v.back().norm());
+  }
+  for (std::uint32_t c = 0; c < set.rows(); ++c)
+    outcome.approach = std::max(outcome.approach, set.approach(c) / std::max(greatest, 1e-300));
+  outcome.rounds = set.rounds();
+  outcome.without_room = set.without_room();
+  outcome.leaves_open = set.leaves_open();
+  outcome.tied = set.tied();
+  outcome.change = set.certificate().change;
+  outcome.solved = set.certificate().solved();
+  return outcome;
+}
+
+/// A row of touching balls along x, with these speeds (m/s).
+inline Cluster row(const std::vector<double>& mass, const std::vector<double>& speed, const std::vector<double>& e) {
+  Cluster cluster{mass, {}, {}};
+  for (const double v : speed) cluster.v.emplace_back(v, 0, 0);
+  for (std::uint32_t i = 0; i + 1 < mass.size(); ++i)
+    cluster.rows.push_back({i, i + 1, Vec3::UnitX(), Vec3(2.0 * i + 1, 0, 0), 0, e[i % e.size()]});
+  return cluster;
+}
+
+/// Bodies at places with given normals: a row for each pair (a, b, normal, e).
+inline void join(Cluster& cluster, std::uint32_t a, std::uint32_t b, const Vec3& normal, double e, double surface = 0) {
+  const auto n = static_cast<double>(cluster.rows.size());
+  cluster.rows.push_back({a, b, normal, Vec3(n, 0, 0), surface, e});
+}
+
+/// Equal balls of radius 1 m at these places, with a row for each pair that touches.
+inline Cluster balls(const std::vector<Vec3>& x, double e) {
+  Cluster cluster;
+  cluster.mass.assign(x.size(), 1);
+  cluster.v.assign(x.size(), Vec3::Zero());
+  for (std::uint32_t i = 0; i < x.size(); ++i)
+    for (std::uint32_t j = i + 1; j < x.size(); ++j) {
+      const Vec3 d = x[j] - x[i];
+      if (d.norm() < 2 + 1e-9) cluster.rows.push_back({i, j, d / d.norm(), x[i] + x[j], 0, e});
+    }
+  return cluster;
+}
+
+/// The random numbers of clusters, the same on every machine.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : generator_(seed) {}
+  std::uint64_t below(std::uint64_t n) { return generator_() % n; }
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1p-53;
+  }
+  Vec3 direction(bool planar) {
+    for (;;) {
+      Vec3 u;
+      for (int k = 0; k < 3; ++k) u[k] = between(-1, 1);
+      if (planar) u.z() = 0;
+      if (const double length = u.norm(); length > 0.1 && length < 1) return u / length;
+    }
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+/// How the restitutions of a random cluster are drawn.
+enum class Restitutions : std::uint8_t { zero, one, any, some_zero_and_one, half, nine_tenths, small, all_kinds };
+
+inline double draw_restitution(Draw& draw, Restitutions kind) {
+  switch (kind) {
+    case Restitutions::zero:
+      return 0;
+    case Restitutions::one:
+      return 1;
+    case Restitutions::some_zero_and_one: {
+      const std::uint64_t which = draw.below(3);
+      return which == 0 ? 0 : which == 1 ? 1 : draw.between(0, 1);
+    }
+    case Restitutions::half:
+      return 0.5;
+    case Restitutions::nine_tenths:
+      return 0.9;
+    case Restitutions::small:
+      return draw.between(0, 0.2);
+    default:
+      return draw.between(0, 1);
+  }
+}
+
+/// Up to `most` balls, in the plane or in space, on a lattice or a tree of random touches, with up to two walls, masses
+/// over up to six decades, and in a third of the cases strings and rods.
+inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutions kind = Restitutions::all_kinds) {
+  Draw draw(seed);
+  const std::uint64_t n = 2 + draw.below(most - 1);
+  const bool planar = draw.below(2) == 0;
+  const bool on_lattice = draw.below(2) == 0;
+  if (kind == Restitutions::all_kinds) kind = static_cast<Restitutions>(draw.below(7));
+  const std::uint64_t walls = draw.below(3);
+  const std::uint64_t motion = draw.below(3);
+  const double decades = 3 * static_cast<double>(draw.below(3));
+  const bool tied = draw.below(3) == 0;
+
+  // Each ball touches one that is there, and no other by more than rounding.
+  std::vector<Vec3> x{Vec3::Zero()};
+  std::vector<double> radius{1};
+  const double h = std::sqrt(3.0);
+  const double q = std::sqrt(2.0);
+  const std::vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
+  const std::vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0},  {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
+                               {-q, 0, q}, {-q, 0, -q}, {0, q, q},   {0, q, -q},  {0, -q, q}, {0, -q, -q}};
+  for (int tries = 0; x.size() < n && tries < 20'000; ++tries) {
+    const std::size_t i = draw.below(x.size());
+    const double r = on_lattice ? 1 : std::pow(10, draw.between(-0.3, 0.3));
+    const std::vector<Vec3>& steps = planar ? flat : deep;
+    const Vec3 at = on_lattice ? Vec3(x[i] + steps[draw.below(steps.size())])
+                               : Vec3(x[i] + (radius[i] + r) * draw.direction(planar));
+    bool clear = true;
+    for (std::size_t k = 0; k < x.size(); ++k) clear = clear && (at - x[k]).norm() >= radius[k] + r - 1e-9;
+    if (!clear) continue;
+    x.push_back(at);
+    radius.push_back(r);
+  }
+
+  Cluster cluster;
+  for (std::uint32_t i = 0; i < x.size(); ++i)
+    for (std::uint32_t j = i + 1; j < x.size(); ++j) {
+      const Vec3 d = x[j] - x[i];
+      if (d.norm() < radius[i] + radius[j] + 1e-9)
+        cluster.rows.push_back({i, j, d / d.norm(), x[i] + x[j], 0, draw_restitution(draw, kind)});
+    }
+
+  // Walls that the outermost balls touch; some of them opposite to a pair.
+  for (std::uint64_t k = 0; k < walls; ++k) {
+    Vec3 normal = draw.direction(planar);
+    if (k == 1 && draw.below(2) == 0) normal = -cluster.rows.back().normal;
+    double outermost = -1e9;
+    for (std::size_t i = 0; i < x.size(); ++i) outermost = std::max(outermost, x[i].dot(normal) + radius[i]);
+    for (std::uint32_t i = 0; i < x.size(); ++i)
+      if (x[i].dot(normal) + radius[i] > outermost - 1e-9)
+        cluster.rows.push_back({i, fixed, normal, x[i] + x[i], 0, draw_restitution(draw, kind)});
+  }
+
+  // Velocities: random ones, one ball alone, or all towards the middle.
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& at : x) middle += at / static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    cluster.mass.push_back(std::pow(10, draw.between(-decades / 2, decades / 2)));
+    Vec3 v = Vec3::Zero();
+    if (motion == 0) v = draw.between(0, 1) * draw.direction(planar);
+    if (motion == 2) v = 0.1 * (middle - x[i]);
+    cluster.v.push_back(v);
+  }
+  if (motion == 1) cluster.v[draw.below(x.size())] = draw.direction(planar);
+  if (!tied) return cluster;
+
+  // Strings and rods to points and between balls. The velocities keep their lengths.
+  std::vector<ContactConstraint> links;
+  for (std::uint64_t k = 1 + draw.below(3); k > 0; --k) {
+    const auto a = static_cast<std::uint32_t>(draw.below(x.size()));
+    const auto b = static_cast<std::uint32_t>(draw.below(x.size()));
+    ImpactSet::Row link{a, fixed, draw.direction(planar), x[a] + x[a]};
+    link.kind = draw.below(2) == 0 ? ImpactSet::Kind::taut : ImpactSet::Kind::rod;
+    if (a != b && draw.below(2) == 0) {
+      link.b = b;
+      link.normal = (x[a] - x[b]).normalized();
+      link.place = x[a] + x[b];
+    }
+    cluster.rows.push_back(link);
+    links.push_back({link.a, link.b, link.normal});
+    links.back().bilateral = true;
+    links.back().slack = 1e-12;
+  }
+  std::vector<double> inverse_mass;
+  for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
+  solve({inverse_mass, cluster.v, links});
+  return cluster;
+}
+
+/// The same cluster under other numbers of bodies and rows. `number`: by body, its new one.
+inline Cluster renamed(const Cluster& given, std::uint64_t seed, std::vector<std::uint32_t>& number) {
+  Draw draw(seed);
+  const auto shuffle = [&](auto& list) {
+    for (std::size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[draw.below(k)]);
+  };
+  number.resize(given.mass.size());
+  std::iota(number.begin(), number.end(), 0u);
+  shuffle(number);
+
+  Cluster other = given;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    other.mass[number[i]] = given.mass[i];
+    other.v[number[i]] = given.v[i];
+  }
+  for (ImpactSet::Row& r : other.rows) {
+    r.a = number[r.a];
+    if (r.b == fixed) continue;
+    r.b = number[r.b];
+    if (r.b > r.a || r.kind != ImpactSet::Kind::touching) continue;
+    std::swap(r.a, r.b);
+    r.normal = -r.normal;
+  }
+  shuffle(other.rows);
+  return other;
+}
+
+/// What is wrong with the outcomes of many random clusters.
+struct Findings {
+  std::uint64_t clusters = 0;
+  double gain = 0;      // share of the energy, the most that is made
+  double books = 0;     // share of the energy, the most that rows do not add up to
+  double momentum = 0;  // share of the sum of m v
+  double approach = 0;  // share of the greatest speed
+  double pull = 0;      // N s, over the momentum: the greatest impulse that pulls
+  double least_loss = 0;  // share of the energy, of a row
+  double projection = 0;  // e = 0: share of the speeds, from one projection
+  std::uint64_t other_bits = 0;  // under other names
+  std::uint64_t unfinished = 0;
+  std::uint64_t unsolved = 0;
+  std::uint64_t ended = 0;  // by their limit
+  std::uint32_t rounds = 0;
+};
+
+inline void examine(std::uint64_t seed, std::uint64_t most, Findings& all) {
+  const Cluster cluster = random_cluster(seed, most);
+  const Resolved outcome = resolve(cluster);
+  ++all.clusters;
+  all.unfinished += !outcome.finished;
+  all.unsolved += !outcome.solved;
+  all.ended += !outcome.absorbed.empty();
+  all.rounds = std::max(all.rounds, outcome.rounds);
+
+  const double before = cluster.energy(cluster.v);
+  if (before == 0) return;
+  double momentum = 0;
+  for (std::size_t i = 0; i < cluster.mass.size(); ++i) momentum += cluster.mass[i] * cluster.v[i].norm();
+
+  // Energy and books. A row of e = 0 has the sum of its impulses, which does not pull.
+  double lost = 0;
+  std::vector<double> impulse(cluster.rows.size(), 0.0);
+  for (const auto* const list : {&outcome.impacts, &outcome.absorbed})
+    for (const ImpactSet::Impact& impact : *list) {
+      lost += impact.lost;
+      impulse[impact.row] += impact.impulse;
+      if (list == &outcome.impacts && cluster.rows[impact.row].restitution > 0)
+        all.least_loss = std::min(all.least_loss, impact.lost / before);
+    }
+  const double after = cluster.energy(outcome.v);
+  all.gain = std::max(all.gain, (after - before) / before);
+  all.books = std::max(all.books, std::abs(before - after - lost) / before);
+  for (const double j : impulse) all.pull = std::max(all.pull, -j / momentum);
+  all.approach = std::max(all.approach, outcome.approach);
+
+  // Momentum, which links to points take too.
+  Vec3 change = Vec3::Zero();
+  bool tied = false;
+  bool inelastic = true;
+  for (std::size_t i = 0; i < cluster.mass.size(); ++i) change += cluster.mass[i] * (outcome.v[i] - cluster.v[i]);
+  for (std::size_t c = 0; c < cluster.rows.size(); ++c) {
+    const ImpactSet::Row& r = cluster.rows[c];
+    if (r.b == fixed) change += impulse[c] * r.normal;
+    tied = tied || r.kind != ImpactSet::Kind::touching;
+    inelastic = inelastic && r.restitution == 0;
+  }
+  if (!tied) all.momentum = std::max(all.momentum, change.norm() / momentum);
+
+  // With e = 0 throughout: one projection.
+  if (inelastic) {
+    std::vector<double> inverse_mass;
+    std::vector<ContactConstraint> rows;
+    for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
+    for (const ImpactSet::Row& r : cluster.rows) {
+      rows.push_back({r.a, r.b, r.normal});
+      rows.back().bilateral = r.kind == ImpactSet::Kind::rod;
+      rows.back().slack = 1e-12;
+    }
+    std::vector<Vec3> v = cluster.v;
+    solve({inverse_mass, v, rows});
+    double off = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) off += cluster.mass[i] * (v[i] - outcome.v[i]).squaredNorm();
+    all.projection = std::max(all.projection, std::sqrt(off / (2 * before)));
+  }
+
+  // Other names.
+  std::vector<std::uint32_t> number;
+  const Resolved other = resolve(renamed(cluster, seed, number));
+  bool same = true;
+  for (std::size_t i = 0; i < number.size(); ++i) same = same && other.v[number[i]] == outcome.v[i];
+  all.other_bits += !same;
+}
+
+}  // namespace carom::impact_clusters
