@@ -61,7 +61,11 @@ class Tournament {
       Level& up = levels_[l];
 
       // An entry that did not win before, and that comes later than the winner, changes nothing.
-      if (up.winner[at] != i && up.time[at] < time) return;
+      if (up.winner[at] != i && up.time[at] < time) {
+        if (time <= up.time[at] + close_) [[unlikely]]
+          note_close(time);
+        return;
+      }
       play(l - 1, at, winner, time);
       // Entry i itself may have changed in more than its time.
       if (up.winner[at] == winner && up.time[at] == time && winner != i) return;
@@ -78,6 +82,11 @@ class Tournament {
     if (levels_.size() > 1) carom::prefetch(&levels_[1].time[i / width]);
     if (levels_.size() > 1) carom::prefetch(&levels_[1].winner[i / width]);
   }
+
+  /// Times that differ by no more than this (s) are close. They are noted where two entries in one game have them.
+  void set_close(double span) { close_ = span; }
+  /// Whether two entries have been close about this time (s), which must not decrease from call to call.
+  [[gnu::always_inline]] bool close_at(double time) { return !close_times_.empty() && find_close(time); }
 
   /// An entry and its time.
   struct Due {
@@ -118,7 +127,7 @@ class Tournament {
     const Level& level = levels_[l];
     const double* t = level.time + game * width;
 
-    // The least time of the game, and a bit for each entry that has it.
+    // The least time of the game, and a bit for each entry that has it, or is close.
 #ifdef __SSE2__
     __m128d pair[4];
     for (int k = 0; k < 4; ++k) pair[k] = _mm_loadu_pd(t + 2 * k);
@@ -126,24 +135,46 @@ class Tournament {
     const __m128d first = _mm_min_pd(least, _mm_shuffle_pd(least, least, 1));
     time = _mm_cvtsd_f64(first);
     unsigned ties = 0;
-    for (int k = 0; k < 4; ++k) ties |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpeq_pd(pair[k], first))) << (2 * k);
+    const __m128d limit = _mm_add_pd(_mm_unpacklo_pd(first, first), _mm_set1_pd(close_));
+    for (int k = 0; k < 4; ++k) ties |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(pair[k], limit))) << (2 * k);
 #else
     time = *std::min_element(t, t + width);
     unsigned ties = 0;
-    for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] == time) << k;
+    for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] <= time + close_) << k;
 #endif
 
     const auto entry = [&](unsigned k) {
       return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
     };
-    winner = time < never ? entry(static_cast<unsigned>(std::countr_zero(ties))) : none;
-    if (time == never) return;
-
-    // Of several with that time, the one before all others wins.
-    for (ties &= ties - 1; ties != 0; ties &= ties - 1) {
-      const std::uint32_t other = entry(static_cast<unsigned>(std::countr_zero(ties)));
-      if (before_(other, winner)) winner = other;
+    if (time == never) {
+      winner = none;
+    } else if ((ties & (ties - 1)) == 0) [[likely]] {
+      winner = entry(static_cast<unsigned>(std::countr_zero(ties)));
+    } else {
+      note_close(time);
+      winner = first_of(ties, t, time, entry);
     }
+  }
+
+  /// Of several entries with the least time or close to it, the one that comes before all others.
+  template <typename Entry>
+  [[gnu::noinline]] std::uint32_t first_of(unsigned ties, const double* t, double time, const Entry& entry) const {
+    std::uint32_t winner = none;
+    for (; ties != 0; ties &= ties - 1) {
+      const auto k = static_cast<unsigned>(std::countr_zero(ties));
+      if (t[k] != time) continue;
+      const std::uint32_t other = entry(k);
+      if (winner == none || before_(other, winner)) winner = other;
+    }
+    return winner;
+  }
+
+  [[gnu::noinline]] void note_close(double time) const {
+    if (close_times_.empty() || close_times_.back() != time) close_times_.push_back(time);
+  }
+  [[gnu::noinline]] bool find_close(double time) {
+    std::erase_if(close_times_, [&](double close) { return close < time - close_; });
+    return std::ranges::any_of(close_times_, [&](double close) { return close <= time + close_; });
   }
 
   Before before_;
@@ -152,6 +183,8 @@ class Tournament {
   std::vector<Level> levels_;
   std::uint32_t first_ = none;
   double first_time_ = never;
+  double close_ = 0;  // s
+  mutable std::vector<double> close_times_;
 };
 
 }  // namespace carom

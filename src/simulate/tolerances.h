@@ -86,6 +86,12 @@ inline constexpr double widest_margin = 2e-2;
 
 // Impacts at one instant (impact_set.h).
 
+// Share of the time until an impact: another one may fall on the same instant.
+inline constexpr double tie_of_flight = 0x1p-20;
+// Share of the clock: the same.
+inline constexpr double tie_of_clock = 0x1p-36;
+// Share of the time in which the fastest body crosses the scene, or the duration: the same, by rounding of places.
+inline constexpr double tie_of_places = 0x1p-34;
 // Cosine of an angle: pushes at right angles.
 inline constexpr double right_angle = 0x1p-40;
 // Share of a speed: two approaches that are equal.

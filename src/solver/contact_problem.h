@@ -67,8 +67,8 @@ struct ContactProblem {
   std::span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
   std::span<ContactConstraint> contacts;
   ContactAccuracy accuracy = ContactAccuracy::rounding;
-  // Of the forces that give this motion, those of equally stiff contacts: the sum of their squares is the least. They do
-  // not depend on the order of contacts. Only where the accuracy is `rounding`.
+  // Of the forces that give this motion, those of equally stiff contacts: the sum of their squares is the least. They
+  // do not depend on the order of contacts. Only where the accuracy is `rounding`.
   bool least_forces = false;
 };
 

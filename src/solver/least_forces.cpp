@@ -1,5 +1,5 @@
-// Least forces: the nearest motion to that of the contact forces alone, for bodies of unit mass and rows that are closed.
-// The forces that end such a motion have the sums on each body that the solution has. A proximal Newton method
+// Least forces: the nearest motion to that of the contact forces alone, for bodies of unit mass and rows that are
+// closed. The forces that end such a motion have the sums on each body that the solution has. A proximal Newton method
 // (contact_interior_point.h) finds them from zero, so that they contain nothing that cancels among themselves.
 #include "solver/least_forces.h"
 

@@ -6,9 +6,9 @@
 
 namespace carom {
 
-/// Replaces the forces of an exact solution by the least ones with the same motion. Rows count that press, or are closed
-/// to rounding. The forces stay as they are where the least ones are not found to rounding. `independent`: no row with a
-/// force depends on the others. Returns whether forces have changed.
+/// Replaces the forces of an exact solution by the least ones with the same motion. Rows count that press, or are
+/// closed to rounding. The forces stay as they are where the least ones are not found to rounding. `independent`: no
+/// row with a force depends on the others. Returns whether forces have changed.
 bool take_least_forces(const ContactIsland& island, ContactSolution& solution, bool independent);
 
 }  // namespace carom

@@ -31,7 +31,7 @@ TEST(Effort, OneBallTestsNoPair) {
   Problem p;
   p.world.gravity = falling;
   p.room(Vec3(-2, -2, -2), Vec3(2, 2, 2));
-  p.ball(Vec3(0, 0, 0), Vec3(1, 2, 3));
+  p.ball(Vec3(0, 0, 0), Vec3(1, 2, 2.9));
   p.options.duration = 100;
   Counted counted(p);
   const Effort effort = counted.at(100);

@@ -39,7 +39,7 @@ struct LoopParts : ExactParts {
 struct Queue : LoopParts {
   using LoopParts::LoopParts;
   void put(Entity i, double time, Kind kind, Entity partner, double leaves = never) {
-    bodies.body[i].event = {{time, 0}, partner, 1, kind, 0};
+    bodies.body[i].event = ExactEvent{{time, 0}, partner, 1, 0, kind};
     queue.schedule(i, leaves);
   }
 };
@@ -64,8 +64,8 @@ TEST(EventQueue, EventsOfOneInstantGoByKindThenByNumbers) {
 
 TEST(EventQueue, TheSecondDoubleOfTheClockDecides) {
   Queue q(row(2));
-  q.bodies.body[0].event = {{1, 1e-20}, no_entity, 0, Kind::force, 0};
-  q.bodies.body[1].event = {{1, 0}, no_entity, 0, Kind::rest, 0};
+  q.bodies.body[0].event = ExactEvent{{1, 1e-20}, no_entity, 0, 0, Kind::force};
+  q.bodies.body[1].event = ExactEvent{{1, 0}, no_entity, 0, 0, Kind::rest};
   q.queue.schedule(0, never);
   q.queue.schedule(1, never);
   EXPECT_EQ(q.queue.first(), 1u);

@@ -101,7 +101,7 @@ TEST(FlightChanges, BookWhatContactTookFromAFlight) {
 
 TEST(FlightChanges, NeverMakeAnOldEventFresh) {
   ExactParts parts(three_in_a_row(1));
-  parts.bodies.body[1].event = {{1, 0}, 0, 1, ExactEvent::Kind::body_body, 0};
+  parts.bodies.body[1].event = ExactEvent{{1, 0}, 0, 1, 0, ExactEvent::Kind::body_body};
   for (int k = 0; k < 0xffff; ++k) parts.flights.count(0);
   EXPECT_EQ(parts.bodies.body[0].version, 1);
   EXPECT_EQ(parts.bodies.body[1].event.partner_version, 0);

@@ -7,7 +7,7 @@
 #include "simulate/contact/exact_group.h"
 #include "simulate/contact/flight_changes.h"
 #include "simulate/impact/body_merging.h"
-#include "simulate/impact/exact_impacts.h"
+#include "simulate/impact/impacts.h"
 #include "simulate/impact/simultaneous_impacts.h"
 #include "simulate/impact/stall_guard.h"
 #include "simulate/island/constrained_motion.h"
@@ -33,7 +33,8 @@ struct ExactParts {
         constrained(bodies, modes, group, flat, collapses, flights),
         merging(bodies, modes, group, flat, flights, paths),
         guard(problem.world.body_count(), problem.options.duration),
-        impacts(bodies, {collapses, flat, group, flights, simultaneous, merging, guard}) {
+        all_impacts(bodies, {collapses, flat, group, flights, simultaneous, merging, guard}),
+        impacts(all_impacts.of_two) {
     for (Entity i = 0; i < bodies.world.body_count(); ++i)
       bodies.flights.set(i, {{}, problem.initial.position[i], problem.initial.velocity[i], problem.world.gravity});
     bodies.neighbours.start(problem.initial.position);
@@ -53,7 +54,8 @@ struct ExactParts {
   ConstrainedMotion constrained;
   BodyMerging merging;
   StallGuard guard;
-  ExactImpacts impacts;
+  Impacts all_impacts;
+  ExactImpacts& impacts;
 };
 
 }  // namespace carom

@@ -27,8 +27,8 @@ struct Cluster {
 };
 
 struct Resolved {
-  std::vector<Vec3> v;                     // m/s
-  std::vector<ImpactSet::Impact> impacts;  // of all rounds
+  std::vector<Vec3> v;                      // m/s
+  std::vector<ImpactSet::Impact> impacts;   // of all rounds
   std::vector<ImpactSet::Impact> absorbed;  // of the end of endless rounds
   std::uint32_t rounds = 0;
   bool finished = true;
@@ -62,6 +62,7 @@ inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'00
       if (!outcome.absorbed.empty()) break;
     }
     const auto& impacts = set.strike(approaching);
+    if (impacts.empty()) break;
     outcome.impacts.insert(outcome.impacts.end(), impacts.begin(), impacts.end());
   }
 
@@ -174,8 +175,8 @@ inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutio
   const double h = std::sqrt(3.0);
   const double q = std::sqrt(2.0);
   const std::vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
-  const std::vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0},  {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
-                               {-q, 0, q}, {-q, 0, -q}, {0, q, q},   {0, q, -q},  {0, -q, q}, {0, -q, -q}};
+  const std::vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0}, {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
+                               {-q, 0, q}, {-q, 0, -q}, {0, q, q},  {0, q, -q},  {0, -q, q}, {0, -q, -q}};
   for (int tries = 0; x.size() < n && tries < 20'000; ++tries) {
     const std::size_t i = draw.below(x.size());
     const double r = on_lattice ? 1 : std::pow(10, draw.between(-0.3, 0.3));
@@ -274,13 +275,13 @@ inline Cluster renamed(const Cluster& given, std::uint64_t seed, std::vector<std
 /// What is wrong with the outcomes of many random clusters.
 struct Findings {
   std::uint64_t clusters = 0;
-  double gain = 0;      // share of the energy, the most that is made
-  double books = 0;     // share of the energy, the most that rows do not add up to
-  double momentum = 0;  // share of the sum of m v
-  double approach = 0;  // share of the greatest speed
-  double pull = 0;      // N s, over the momentum: the greatest impulse that pulls
-  double least_loss = 0;  // share of the energy, of a row
-  double projection = 0;  // e = 0: share of the speeds, from one projection
+  double gain = 0;               // share of the energy, the most that is made
+  double books = 0;              // share of the energy, the most that rows do not add up to
+  double momentum = 0;           // share of the sum of m v
+  double approach = 0;           // share of the greatest speed
+  double pull = 0;               // N s, over the momentum: the greatest impulse that pulls
+  double least_loss = 0;         // share of the energy, of a row
+  double projection = 0;         // e = 0: share of the speeds, from one projection
   std::uint64_t other_bits = 0;  // under other names
   std::uint64_t unfinished = 0;
   std::uint64_t unsolved = 0;

@@ -50,7 +50,8 @@ TEST(ImpactSet, ABallOnTwoThatTouchIsSymmetric) {
   for (const double e : {0.0, 0.5, 1.0}) {
     const Cluster c = cue_on_two(e, e);
     const Resolved outcome = resolve(c);
-    expect_velocities(outcome, {{4 - 6 * e, 0, 0}, {3 * (1 + e), (1 + e) * root_of_3, 0}, {3 * (1 + e), -(1 + e) * root_of_3, 0}});
+    expect_velocities(
+        outcome, {{4 - 6 * e, 0, 0}, {3 * (1 + e), (1 + e) * root_of_3, 0}, {3 * (1 + e), -(1 + e) * root_of_3, 0}});
     expect_books(c, outcome);
     EXPECT_EQ(outcome.rounds, 1u);
     EXPECT_EQ(outcome.leaves_open, e > 0);
@@ -102,7 +103,8 @@ TEST(ImpactSet, AChainIsASequenceOfImpactsOfTwo) {
   expect_speeds_x(resolve(row({1, 2, 3}, {1, 0, 0}, {1})), {-1.0 / 3, -2.0 / 15, 8.0 / 15});
   expect_speeds_x(resolve(row({1, 1, 1, 1}, {1, 0, 0, 0}, {3, 1, 1})), {-1, 0, 0, 2}, "Gauss gun");
   // The faster one of two from opposite sides goes first.
-  expect_speeds_x(resolve(row({1, 1, 1}, {1, 0, -1 - 0x1p-10}, {0.5})), {-5129.0 / 16384, -3087.0 / 65536, 23539.0 / 65536});
+  expect_speeds_x(resolve(row({1, 1, 1}, {1, 0, -1 - 0x1p-10}, {0.5})),
+                  {-5129.0 / 16384, -3087.0 / 65536, 23539.0 / 65536});
 }
 
 TEST(ImpactSet, EndlessRoundsEndInTheirLimit) {
@@ -191,7 +193,8 @@ TEST(ImpactSet, AStackOnTheFloorPassesABlowUpAndDown) {
   join(c, 0, fixed, {0, -1, 0}, 0.5);
   for (std::uint32_t k = 0; k < 3; ++k) join(c, k, k + 1, {0, 1, 0}, 0.5);
   const Resolved outcome = resolve(c);
-  expect_velocities(outcome, {{0, 3861 * 0x1p-28, 0}, {0, 58743 * 0x1p-28, 0}, {0, 61227 * 0x1p-26, 0}, {0, 11503 * 0x1p-21, 0}});
+  expect_velocities(
+      outcome, {{0, 3861 * 0x1p-28, 0}, {0, 58743 * 0x1p-28, 0}, {0, 61227 * 0x1p-26, 0}, {0, 11503 * 0x1p-21, 0}});
   EXPECT_EQ(outcome.rounds, 17u);
 }
 

@@ -36,16 +36,19 @@ bool CollapseDetector::collapses(Entity i, Entity other, double e, double approa
 }
 
 bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approach, double press, double length,
-                                    bool alone) {
+                                    bool alone, bool again) {
   const bool body = bodies_.world.is_body(b);
-  const bool collapse_a = collapses(a, b, e, approach, length);
-  const bool collapse_b = body && collapses(b, a, e, approach, length);
-  if (collapse_a || collapse_b) return true;
+  if (!again) {
+    const bool collapse_a = collapses(a, b, e, approach, length);
+    const bool collapse_b = body && collapses(b, a, e, approach, length);
+    if (collapse_a || collapse_b) return true;
+  }
   if (e >= 1 || !(press > 0)) return false;
 
   const double slow = bodies_.slow_speed(press, length);
   if (approach >= slow) return false;
   if (in_lasting_contact(bodies_.mode(a)) || (body && in_lasting_contact(bodies_.mode(b)))) return true;
+  if (again) return false;
 
   // Alone on flat surfaces a body comes to rest on each of them in closed form. Only between several of them can it
   // continue for ever.

@@ -22,8 +22,10 @@ class CollapseDetector {
   /// approach. `press`: the acceleration that drives the two together (m/s^2). `length`: the diameter of the smaller
   /// one, or a's radius on a fixed thing (m). `alone`: on a flat surface, not among bodies. An inelastic collapse ends
   /// bouncing at any speed. Where the two are pressed together a slow impact also ends it in two cases. It is one of
-  /// very many within the time of a hop at that speed, or it meets bodies in lasting contact.
-  bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
+  /// very many within the time of a hop at that speed, or it meets bodies in lasting contact. `again`: the two have met
+  /// at this instant before, and only the last case ends their impact.
+  bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone,
+                    bool again = false);
   /// Counts an impact of body i in turn with the impact that caused it. lost: its 1 - e.
   void count_in_turn(Entity i, double lost);
 

@@ -92,7 +92,7 @@ struct ExactBodies : BodyPaths {
   double slow_speed(double press, double length) const;
   /// The length on which two things are slow (m): the diameter of the smaller one, or the radius of a body on a fixed
   /// thing.
-  double smaller_length(Entity i, Entity e) const {
+  [[gnu::always_inline]] double smaller_length(Entity i, Entity e) const {
     const Entity second = world.second_body(e);
     return second != no_entity ? 2 * std::min(world.radius[i], world.radius[second]) : world.radius[i];
   }

@@ -276,6 +276,30 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
   return met > exact_tolerance::approach_rounding * (vi.norm() + ve.norm() + approach) ? met : 0;
 }
 
+void ExactGroup::note_parted(Entity a, Entity thing, bool parted) {
+  const std::pair pair(a, thing);
+  const auto at = std::lower_bound(parted_.begin(), parted_.end(), pair);
+  const bool known = at != parted_.end() && *at == pair;
+  if (known && !parted) parted_.erase(at);
+  if (!known && parted) parted_.insert(at, pair);
+  if (parted_.size() > many_parted_) forget_apart();
+}
+
+/// Forgets pairs that are no longer in contact.
+void ExactGroup::forget_apart() {
+  std::erase_if(parted_, [&](const auto& pair) {
+    const auto& [a, thing] = pair;
+    const Vec3 x = bodies_.position(a);
+    const Vec3 xe = bodies_.position_of(thing);
+    return touch(bodies_.world, a, x, thing, xe).gap > bodies_.contact_gap(a, x, xe);
+  });
+  many_parted_ = std::max<std::size_t>(64, 2 * parted_.size());
+}
+
+bool ExactGroup::has_parted(Entity a, Entity thing) const {
+  return std::binary_search(parted_.begin(), parted_.end(), std::pair(a, thing));
+}
+
 bool ExactGroup::opens(Entity i) const {
   if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.kick[i].until)) return false;
 

@@ -3,6 +3,7 @@
 // no closed form. Each island moves in steps of its own: by constrained motion (constrained_motion.h), or by time
 // stepping where contacts change too often (time_stepping.h). This class holds the data of these bodies, and the
 // effects of impacts on them between steps.
+#include <utility>
 #include <vector>
 
 #include "simulate/contact/exact_bodies.h"
@@ -74,6 +75,11 @@ class ExactGroup {
   /// The part of an approach (m/s) along n that is already there. In time stepping, flights contain a kick by forces of
   /// the rest of the step. It is 0 where the part is only rounding.
   double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
+  /// Notes that an impact has let two members part, or that it has not. Until they meet again, their speed is no error
+  /// of paths, however small it is.
+  void note_parted(Entity a, Entity thing, bool parted);
+  /// Whether the last impact of the two has let them part.
+  bool has_parted(Entity a, Entity thing) const;
   /// Whether member i separates from a thing that pressed on it in the last time step.
   bool opens(Entity i) const;
   /// Whether members i and e approach each other (m/s) for an impact of their own: not below `slow` (m/s), and one that
@@ -113,12 +119,15 @@ class ExactGroup {
   void check_length(Entity string, double gap) const;
   double initial_rounding(Entity string) const;
   double power(Entity i) const;
+  void forget_apart();
 
   ExactBodies& bodies_;
   ModeChanges& modes_;
   FlatContacts& flat_;
   const CollapseDetector& collapses_;
   PathLog& paths_;
+  std::vector<std::pair<Entity, Entity>> parted_;  // sorted
+  std::size_t many_parted_ = 64;
 };
 
 }  // namespace carom

@@ -396,9 +396,8 @@ std::vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const 
 
 double FlatContacts::power(Entity i) const {
   const FlatContactList& contacts = contacts_[i];
-  const bool moving = std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count, [&](const FlatContact& c) {
-    return bodies_.moving.moves(c.surface, bodies_.now);
-  });
+  const bool moving = std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count,
+                                  [&](const FlatContact& c) { return bodies_.moving.moves(c.surface, bodies_.now); });
   if (!moving) return 0;
   double power = 0;
   for (const SurfaceForce& of : forces_on(i)) power -= of.force * of.along;

@@ -1,10 +1,9 @@
-// Rounds of impacts at one instant. A row alone is the law of two bodies, in closed form. Rows together are a projection
-// by the contact solver, and an expansion that is summed in twice as many digits. Their velocities are rounded once, so
-// that a mirror image has the same bits but for rare roundings.
+// Rounds of impacts at one instant. A row alone is the law of two bodies, in closed form. Rows together are a
+// projection by the contact solver, and an expansion that is summed in twice as many digits. Their velocities are
+// rounded once, so that a mirror image has the same bits but for rare roundings.
 #include "simulate/impact/impact_set.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -68,17 +67,20 @@ bool ImpactSet::approaches(std::uint32_t c) const {
   return !rows_[c].holds && approach(c) > tol::velocity_rounding * top_of(c);
 }
 
-/// The order of rows: by place, then by normal, both of which names do not change but for the normal's sign.
+/// The order of rows: by what neither names nor a mirror change, and then by place, which names do not change.
 bool ImpactSet::before(std::uint32_t c, std::uint32_t d) const {
   const Row& p = rows_[c];
   const Row& q = rows_[d];
+  const double u = approach(c);
+  const double w = approach(d);
+  if (u != w) return u > w;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(p.normal[k]) != std::abs(q.normal[k])) return std::abs(p.normal[k]) < std::abs(q.normal[k]);
+
   for (int k = 0; k < 3; ++k)
     if (p.place[k] != q.place[k]) return p.place[k] < q.place[k];
-  const auto along = [](const Row& r) { return Vec3(r.b == fixed ? r.normal : r.normal.cwiseAbs()); };
-  const Vec3 n = along(p);
-  const Vec3 m = along(q);
   for (int k = 0; k < 3; ++k)
-    if (n[k] != m[k]) return n[k] < m[k];
+    if (p.b == fixed && q.b == fixed && p.normal[k] != q.normal[k]) return p.normal[k] < q.normal[k];
   return c < d;
 }
 
@@ -102,6 +104,10 @@ ImpactSet::Rows ImpactSet::links_at(std::span<const std::uint32_t> rows) const {
   return links;
 }
 
+std::size_t ImpactSet::Projection::place_of(std::uint32_t body) const {
+  return static_cast<std::size_t>(std::ranges::find(bodies, body) - bodies.begin());
+}
+
 std::vector<Vec3> ImpactSet::velocities() const {
   std::vector<Vec3> v;
   v.reserve(bodies_.size());
@@ -110,9 +116,10 @@ std::vector<Vec3> ImpactSet::velocities() const {
 }
 
 /// The velocities nearest to v, by kinetic energy, with no row approaching, strings not longer and rods unchanged.
-/// `relative`: v are changes of velocities, to which the motion of fixed things does not matter.
+/// `relative`: v are changes of velocities, to which the motion of fixed things does not matter. target: m/s, at which
+/// rows are to open.
 ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v,
-                                         bool relative) const {
+                                         bool relative, double target) const {
   Projection p;
   rows.insert(rows.end(), links.begin(), links.end());
   Rows order = rows;
@@ -130,13 +137,14 @@ ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_
 
   std::vector<ContactConstraint> constraints;
   for (const std::uint32_t c : order) {
-    const Row& r = rows_[c];
+    const RowState& r = rows_[c];
     ContactConstraint constraint{0, fixed, r.normal};
     const bool turned = r.b != fixed && std::tie(r.normal.x(), r.normal.y(), r.normal.z()) < std::tuple(0.0, 0.0, 0.0);
     if (turned) constraint.normal = -r.normal;
     constraint.a = place(turned ? r.b : r.a);
     if (r.b != fixed) constraint.b = place(turned ? r.a : r.b);
     constraint.surface = relative ? 0 : r.surface;
+    constraint.target = r.holds ? 0 : target;
     constraint.bilateral = r.kind == Kind::rod;
     constraint.slack = constraint.bilateral ? tol::step_error * top_of(c) : 0;
     constraints.push_back(constraint);
@@ -147,9 +155,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_
     inverse_mass.push_back(1 / bodies_[body].mass);
     p.v.push_back(v[body]);
   }
-  const Certificate certificate = solve({inverse_mass, p.v, constraints, ContactAccuracy::rounding, true});
-  p.feasible = certificate.verdict != Certificate::Verdict::infeasible;
-  certificate_.merge(certificate);
+  p.certificate = solve({inverse_mass, p.v, constraints, ContactAccuracy::rounding, true});
 
   // In the order of the rows that were given.
   std::vector<double> impulse(rows_.size(), 0.0);
@@ -208,16 +214,13 @@ double ImpactSet::cosine(std::uint32_t c, std::uint32_t d, const Projection* res
 
   const auto change = [&](std::uint32_t body) {
     const auto it = std::ranges::find(response->bodies, body);
-    return it == response->bodies.end()
-               ? Vec3(Vec3::Zero())
-               : response->v[static_cast<std::size_t>(it - response->bodies.begin())];
+    return it == response->bodies.end() ? Vec3(Vec3::Zero())
+                                        : response->v[static_cast<std::size_t>(it - response->bodies.begin())];
   };
   const auto opens = [&](const Row& r) {
     return r.normal.dot((r.b == fixed ? Vec3(Vec3::Zero()) : change(r.b)) - change(r.a));
   };
-  const auto inverse = [&](const Row& r) {
-    return 1 / bodies_[r.a].mass + (r.b == fixed ? 0 : 1 / bodies_[r.b].mass);
-  };
+  const auto inverse = [&](const Row& r) { return 1 / bodies_[r.a].mass + (r.b == fixed ? 0 : 1 / bodies_[r.b].mass); };
   return opens(q) / std::sqrt(inverse(p) * inverse(q));
 }
 
@@ -276,10 +279,12 @@ std::vector<ImpactSet::Together> ImpactSet::connect(std::span<const std::uint32_
     Rows todo{first};
     flag[first] |= taken;
 
+    // Breadth first over bodies. Each row is of one of three kinds.
     for (std::size_t k = 0; k < todo.size(); ++k) {
       const std::uint32_t c = todo[k];
       Rows& kind = rows_[c].holds ? set.links : flag[c] & acts ? set.rows : set.open;
       kind.push_back(c);
+
       for (const std::uint32_t body : {rows_[c].a, rows_[c].b}) {
         if (body == fixed) continue;
         for (const std::uint32_t d : bodies_[body].rows) {
@@ -363,7 +368,9 @@ void ImpactSet::strike_inelastic(const Together& set) {
   }
 
   const Projection p = project(rows, set.links, start);
+  certificate_.merge(p.certificate);
   for (std::size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
+
   const std::size_t first = impacts_.size();
   double by_links = 0;  // J
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -378,70 +385,71 @@ void ImpactSet::strike_inelastic(const Together& set) {
   if (!set.links.empty()) share_losses(first, by_links);
 }
 
-/// Compression, then expansion by e times the impulses of compression.
-void ImpactSet::strike_elastic(const Together& set) {
-  const Projection compressed = project(set.rows, set.links, velocities());
-  const auto place = [&](std::uint32_t body) {
-    return static_cast<std::size_t>(std::ranges::find(compressed.bodies, body) - compressed.bodies.begin());
-  };
+/// By body of the compression: the sum of its impulses of expansion over its mass (m/s).
+std::vector<ImpactSet::Sum3> ImpactSet::expansion(const Rows& rows, const Projection& compressed) const {
+  std::vector<Sum3> gained(compressed.bodies.size());
+  for (Sum3& of : gained) of.fill({0, 0});
 
-  // The sum of each body's impulses of expansion over its mass.
-  std::vector<std::array<DoubleDouble, 3>> gained(compressed.bodies.size());
-  for (auto& of : gained) of.fill({0, 0});
-  double least = 2;
-  double most = 0;
-  for (std::size_t k = 0; k < set.rows.size(); ++k) {
-    const Row& r = rows_[set.rows[k]];
-    least = std::min(least, r.restitution);
-    most = std::max(most, r.restitution);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Row& r = rows_[rows[k]];
     const DoubleDouble impulse = two_product(r.restitution, compressed.impulse[k]);
-
     const auto push = [&](std::uint32_t body, double sign) {
       const DoubleDouble speed = impulse / DoubleDouble{sign * bodies_[body].mass, 0};
-      for (int axis = 0; axis < 3; ++axis) {
-        DoubleDouble& sum = gained[place(body)][static_cast<std::size_t>(axis)];
-        sum = sum + speed * DoubleDouble{r.normal[axis], 0};
-      }
+      Sum3& sum = gained[compressed.place_of(body)];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sum[axis] = sum[axis] + speed * DoubleDouble{r.normal[static_cast<int>(axis)], 0};
     };
     push(r.a, -1);
     if (r.b != fixed) push(r.b, 1);
   }
+  return gained;
+}
 
+/// The same change of velocities (m/s), to which links answer that compression has left tight. The others slacken.
+void ImpactSet::answer(const Rows& links, const Projection& compressed, std::vector<Vec3>& dv) {
+  Rows tight;
+  const auto of = [&](std::uint32_t body) {
+    return body == fixed ? Vec3(Vec3::Zero()) : compressed.v[compressed.place_of(body)];
+  };
+  for (const std::uint32_t link : links) {
+    RowState& r = rows_[link];
+    const double parts = r.normal.dot(of(r.b) - of(r.a)) + r.surface;
+    const double speeds = top_of(link) + of(r.a).norm() + of(r.b).norm();
+    if (r.kind == Kind::taut && parts > tol::slackening * speeds) r.holds = false;
+    if (r.holds) tight.push_back(link);
+  }
+
+  std::vector<Vec3> all(bodies_.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
+  const Projection answered = project({}, tight, all, true);
+  certificate_.merge(answered.certificate);
+  for (std::size_t k = 0; k < answered.bodies.size(); ++k) dv[compressed.place_of(answered.bodies[k])] = answered.v[k];
+}
+
+/// The share of an expansion that gives back no more energy than compression has taken.
+double ImpactSet::allowed_share(const Projection& compressed, const std::vector<Vec3>& dv) const {
+  double took = 0;
+  double back = 0;
+  for (std::size_t k = 0; k < dv.size(); ++k) {
+    const Body& of = bodies_[compressed.bodies[k]];
+    took += twice_energy(of.mass, of.v - compressed.v[k]);
+    back += twice_energy(of.mass, dv[k]);
+  }
+  return back > took ? std::sqrt(took / back) : 1;
+}
+
+/// Compression, then expansion by e times the impulses of compression.
+void ImpactSet::strike_elastic(const Together& set) {
+  const Projection compressed = project(set.rows, set.links, velocities());
+  certificate_.merge(compressed.certificate);
+  const std::vector<Sum3> gained = expansion(set.rows, compressed);
   std::vector<Vec3> dv;
-  for (const auto& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
-  double share = 1;
+  for (const Sum3& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
+  if (!set.links.empty()) answer(set.links, compressed, dv);
 
-  // Links that compression leaves tight answer to the expansion. The others slacken.
-  if (!set.links.empty()) {
-    Rows tight;
-    for (const std::uint32_t link : set.links) {
-      RowState& r = rows_[link];
-      const auto of = [&](std::uint32_t body) {
-        return body == fixed ? Vec3(Vec3::Zero()) : compressed.v[place(body)];
-      };
-      const double parts = r.normal.dot(of(r.b) - of(r.a)) + r.surface;
-      const double speeds = top_of(link) + of(r.a).norm() + of(r.b).norm();
-      if (r.kind == Kind::taut && parts > tol::slackening * speeds) r.holds = false;
-      if (r.holds) tight.push_back(link);
-    }
-
-    std::vector<Vec3> all(bodies_.size(), Vec3::Zero());
-    for (std::size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
-    const Projection answered = project({}, tight, all, true);
-    for (std::size_t k = 0; k < answered.bodies.size(); ++k) dv[place(answered.bodies[k])] = answered.v[k];
-  }
-
-  // Unequal e: no more energy comes back than compression took.
-  if (most <= 1 && least < most) {
-    double took = 0;
-    double back = 0;
-    for (std::size_t k = 0; k < dv.size(); ++k) {
-      const Body& of = bodies_[compressed.bodies[k]];
-      took += twice_energy(of.mass, of.v - compressed.v[k]);
-      back += twice_energy(of.mass, dv[k]);
-    }
-    if (back > took) share = std::sqrt(took / back);
-  }
+  const auto [least, most] = std::ranges::minmax(set.rows, {}, [&](std::uint32_t c) { return rows_[c].restitution; });
+  const bool one = rows_[least].restitution == rows_[most].restitution;
+  const double share = rows_[most].restitution <= 1 && !one ? allowed_share(compressed, dv) : 1;
 
   // The velocities are rounded once where links and limits have not changed the sums.
   const bool plain = set.links.empty() && share == 1;
@@ -452,10 +460,12 @@ void ImpactSet::strike_elastic(const Together& set) {
     change(compressed.bodies[k], after);
   }
 
+  // With one e for all, each row separates by it.
   const std::size_t first = impacts_.size();
   for (std::size_t k = 0; k < set.rows.size(); ++k) {
     const std::uint32_t c = set.rows[k];
-    note(c, (1 + share * rows_[c].restitution) * compressed.impulse[k], approach(c), separation(c));
+    const double e = rows_[c].restitution;
+    note(c, (1 + share * e) * compressed.impulse[k], approach(c), plain && one ? e * approach(c) : separation(c));
   }
 
   // A string that compression has pulled, and that slackens in the expansion, gives energy back.
@@ -468,8 +478,8 @@ void ImpactSet::strike_elastic(const Together& set) {
   share_losses(first, by_links);
 }
 
-/// Shares the losses of a set, those of its links (J) included, among its impacts from number `first` on, by the work of
-/// each against its approach. The energy that a link takes or gives is that of impacts.
+/// Shares the losses of a set, those of its links (J) included, among its impacts from number `first` on, by the work
+/// of each against its approach. The energy that a link takes or gives is that of impacts.
 void ImpactSet::share_losses(std::size_t first, double by_links) {
   double lost = by_links;
   double all = 0;  // J
@@ -524,31 +534,10 @@ void ImpactSet::close_parted() {
 
 /// Whether some motion opens all of these rows at once.
 bool ImpactSet::has_room(const Rows& rows, const Rows& links) const {
-  std::vector<std::uint32_t> number(bodies_.size(), fixed);
-  std::vector<double> inverse_mass;
-  const auto place = [&](std::uint32_t body) {
-    if (number[body] == fixed) {
-      number[body] = static_cast<std::uint32_t>(inverse_mass.size());
-      inverse_mass.push_back(1 / bodies_[body].mass);
-    }
-    return number[body];
-  };
-
-  std::vector<ContactConstraint> constraints;
-  const auto add = [&](std::uint32_t c, double target) {
-    ContactConstraint constraint{place(rows_[c].a), fixed, rows_[c].normal, target};
-    if (rows_[c].b != fixed) constraint.b = place(rows_[c].b);
-    constraint.bilateral = rows_[c].kind == Kind::rod;
-    constraint.slack = constraint.bilateral ? tol::step_error : 0;
-    constraints.push_back(constraint);
-  };
-  for (const std::uint32_t c : rows) add(c, 1);
-  for (const std::uint32_t c : links) add(c, 0);
-
-  std::vector<Vec3> x(inverse_mass.size(), Vec3::Zero());
-  solve({inverse_mass, x, constraints});
-  return std::ranges::all_of(constraints,
-                             [&](const ContactConstraint& c) { return -carom::approach(x, c) >= c.target - 0.5; });
+  const Projection p = project(rows, links, std::vector<Vec3>(bodies_.size(), Vec3::Zero()), true, 1);
+  const auto of = [&](std::uint32_t body) { return body == fixed ? Vec3(Vec3::Zero()) : p.v[p.place_of(body)]; };
+  return std::ranges::all_of(
+      rows, [&](std::uint32_t c) { return rows_[c].normal.dot(of(rows_[c].b) - of(rows_[c].a)) >= 0.5; });
 }
 
 const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std::uint32_t> approaching) {
@@ -560,25 +549,30 @@ const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std
   Rows links;
   for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
   const Projection p = project(touching, links, velocities());
+  certificate_.merge(p.certificate);
 
   // How far the limit is, and how far it is from the last one.
   std::vector<Vec3> limit = velocities();
-  double away = 0;
-  double greatest = 0;
-  double moved = 0;
+  Sum away_sum;  // with compensation: no number of a body matters
+  Sum greatest_sum;
+  Sum moved_sum;
   for (std::size_t k = 0; k < p.bodies.size(); ++k) limit[p.bodies[k]] = p.v[k];
+
   const bool known = endless_.limit.size() == limit.size();
   for (std::uint32_t i = 0; i < bodies(); ++i) {
     const Body& of = bodies_[i];
-    away += twice_energy(of.mass, limit[i] - of.v);
-    greatest += of.mass * of.top * of.top;
-    if (known) moved += twice_energy(of.mass, limit[i] - endless_.limit[i]);
+    away_sum.add(twice_energy(of.mass, limit[i] - of.v));
+    greatest_sum.add(of.mass * of.top * of.top);
+    if (known) moved_sum.add(twice_energy(of.mass, limit[i] - endless_.limit[i]));
   }
+
+  const double away = away_sum.value();
+  const double greatest = greatest_sum.value();
+  const double moved = moved_sum.value();
 
   const auto pressing = static_cast<double>(std::ranges::count_if(p.impulse, [](double j) { return j > 0; }));
   const bool same = known && moved <= tol::same_limit * tol::same_limit * greatest;
-  const bool elastic =
-      std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution >= 1; });
+  const bool elastic = std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution >= 1; });
   const bool worn = std::ranges::any_of(approaching, [&](std::uint32_t c) {
     const Row& r = rows_[c];
     return bodies_[r.a].lost > tol::worn_out || (r.b != fixed && bodies_[r.b].lost > tol::worn_out);
@@ -615,6 +609,7 @@ const std::vector<ImpactSet::Impact>& ImpactSet::finish() {
   Rows links;
   for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
   const Projection p = project(touching, links, velocities());
+  certificate_.merge(p.certificate);
 
   // Only a change that is rounding.
   double away = 0;

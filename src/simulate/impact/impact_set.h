@@ -18,10 +18,12 @@
 // Tamstorf & Grinspun, "All's well that ends well", ACM Trans. Graph. 36, 2017); else the same projection ends them.
 //
 // Rows are taken in an order of places, so that no number of a body or a row has an effect.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "numerics/compensated.h"
 #include "numerics/vec3.h"
 #include "solver/contact_problem.h"
 
@@ -37,12 +39,12 @@ class ImpactSet {
     rod        // a link
   };
   struct Row {
-    std::uint32_t a = 0;        // a body of the set
-    std::uint32_t b = fixed;    // another one, or a fixed thing
-    Vec3 normal;                // unit, from a to b; the two approach along it
-    Vec3 place;                 // m, rows are taken in the order of their places
-    double surface = 0;         // m/s, of a fixed thing that moves, along the normal
-    double restitution = 0;     // of the next round
+    std::uint32_t a = 0;      // a body of the set
+    std::uint32_t b = fixed;  // another one, or a fixed thing
+    Vec3 normal;              // unit, from a to b; the two approach along it
+    Vec3 place;               // m, rows are taken in the order of their places
+    double surface = 0;       // m/s, of a fixed thing that moves, along the normal
+    double restitution = 0;   // of the next round
     Kind kind = Kind::touching;
   };
   /// What a round does to a row.
@@ -98,12 +100,12 @@ class ImpactSet {
  private:
   using Rows = std::vector<std::uint32_t>;
   struct Body {
-    double mass;                // kg
-    Vec3 v;                     // m/s
-    double top;                 // m/s, its greatest speed in this instant
+    double mass;  // kg
+    Vec3 v;       // m/s
+    double top;   // m/s, its greatest speed in this instant
     Rows rows;
-    std::uint32_t struck = 0;   // strikes in this instant
-    double lost = 0;            // the sum of 1 - e of these
+    std::uint32_t struck = 0;  // strikes in this instant
+    double lost = 0;           // the sum of 1 - e of these
   };
   struct RowState : Row {
     bool holds = false;  // a link that does
@@ -120,8 +122,11 @@ class ImpactSet {
     Rows bodies;
     std::vector<Vec3> v;
     std::vector<double> impulse;
-    bool feasible = true;
+    Certificate certificate;
+    std::size_t place_of(std::uint32_t body) const;
   };
+  /// A sum of velocities in twice as many digits, by axis.
+  using Sum3 = std::array<DoubleDouble, 3>;
   struct Endless {
     double sum = 0;           // of 1 - e over all impacts
     double sum_at_limit = 0;  // when the limit was first found
@@ -137,8 +142,8 @@ class ImpactSet {
   double separation(std::uint32_t c) const;
   double top_of(std::uint32_t c) const;
   Rows links_at(std::span<const std::uint32_t> rows) const;
-  Projection project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v,
-                     bool relative = false) const;
+  Projection project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v, bool relative = false,
+                     double target = 0) const;
   std::vector<Vec3> velocities() const;
   double cosine(std::uint32_t c, std::uint32_t d, const Projection* response) const;
   Projection response(std::uint32_t c, std::span<const std::uint32_t> links) const;
@@ -148,6 +153,9 @@ class ImpactSet {
   void strike_together(const Together& set);
   void strike_one(std::uint32_t c);
   void strike_inelastic(const Together& set);
+  std::vector<Sum3> expansion(const Rows& rows, const Projection& compressed) const;
+  void answer(const Rows& links, const Projection& compressed, std::vector<Vec3>& dv);
+  double allowed_share(const Projection& compressed, const std::vector<Vec3>& dv) const;
   void strike_elastic(const Together& set);
   void change(std::uint32_t body, const Vec3& v);
   void note(std::uint32_t c, double impulse, double approach, double separation);
@@ -166,7 +174,7 @@ class ImpactSet {
   std::uint32_t rounds_ = 0;
   bool leaves_open_ = false;
   bool tied_ = false;
-  mutable Certificate certificate_;
+  Certificate certificate_;
 };
 
 }  // namespace carom

@@ -183,8 +183,12 @@ double ConstrainedSteps::parting_speed(const IslandStep& step) const {
 /// Pairs that separate by more than path errors are not contacts. If they return, they meet.
 void ConstrainedSteps::drop_parting(IslandStep& step) const {
   const double parting = parting_speed(step);
-  step.contacts.drop_if(
-      0, [&](std::size_t c) { return !step.contacts.pairs[c].bilateral && step.parting_speed(bodies_, c) > parting; });
+  const double rounding = tol::velocity_rounding * step.fastest;
+  step.contacts.drop_if(0, [&](std::size_t c) {
+    const auto& [i, e, feature] = step.contacts.names[c];
+    const double least = group_.has_parted(i, e) ? rounding : parting;
+    return !step.contacts.pairs[c].bilateral && step.parting_speed(bodies_, c) > least;
+  });
 }
 
 /// The equations of motion of a step's members and contacts.

@@ -46,8 +46,8 @@ class ConstrainedSystem {
   void open(const std::vector<std::uint8_t>& which);
 
   /// Accelerations (m/s^2) by member at x (m) and v (m/s): the nearest to the applied ones for which closed contacts do
-  /// not approach, n . (a_b - a_a) >= -bending. Afterwards the rows hold the forces, the normals and the bending. `least`:
-  /// where the motion leaves forces open, they are the least ones.
+  /// not approach, n . (a_b - a_a) >= -bending. Afterwards the rows hold the forces, the normals and the bending.
+  /// `least`: where the motion leaves forces open, they are the least ones.
   std::vector<Vec3> accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, bool least = false);
   /// The second derivative of closed contact c's gap (m/s^2), for accelerations a.
   double gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const;
@@ -121,7 +121,8 @@ class ConstrainedSystem {
   double greatest_fade() const;
   void allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const;
   std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                               std::vector<ContactConstraint>& rows, Certificate& certificate, bool least = false) const;
+                               std::vector<ContactConstraint>& rows, Certificate& certificate,
+                               bool least = false) const;
   static bool moves(const DenseMotion& motion);
   double opens(const DenseMotion& motion, double t);
   double find_opening(const DenseMotion& motion, double from, double to, double at_end);

@@ -64,7 +64,7 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   if (lies_on_flat(bodies_.mode(i))) offer_flat_contacts(i, best);
   if (!plain_) offer_beside_contacts(i, best);
   if (is_member(bodies_.mode(i)) || bodies_.flights.curve(i) != nullptr)
-    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
+    offer(i, best, ExactEvent{bodies_.flight_end(i), no_entity, 0, no_feature, ExactEvent::Kind::step});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
 }
@@ -74,10 +74,15 @@ void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
   if (bodies_.ties.any()) offer_strings(i, best);
   if (!bodies_.world.forces.empty())
     offer(i, best,
-          {{bodies_.merged.next_switch(i, bodies_.now.floor()), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+          ExactEvent{{bodies_.merged.next_switch(i, bodies_.now.floor()), 0},
+                     no_entity,
+                     0,
+                     no_feature,
+                     ExactEvent::Kind::force});
   if (bodies_.moving.any())
     offer(i, best,
-          {{bodies_.moving.next_switch(bodies_.now.floor()), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+          ExactEvent{
+              {bodies_.moving.next_switch(bodies_.now.floor()), 0}, no_entity, 0, no_feature, ExactEvent::Kind::force});
 }
 
 /// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.
@@ -88,7 +93,7 @@ void EventPredictor::offer_strings(Entity i, ExactEvent& best) {
     ++surface_tests_;
     const Entity other = bodies_.ties.other(string, i);
     const std::uint16_t version = other == no_entity ? std::uint16_t{0} : bodies_.body[other].version;
-    offer(i, best, {times_.of_string(string), string, version, ExactEvent::Kind::string, 0});
+    offer(i, best, ExactEvent{times_.of_string(string), string, version, 0, ExactEvent::Kind::string});
   }
 }
 
@@ -97,7 +102,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
   for (std::size_t k = 0; k < flat_.of(i).count; ++k) {
     const FlatContact& contact = flat_.of(i).at[k];
     if (contact.settling)
-      offer(i, best, {contact.rest_time, contact.surface, 0, ExactEvent::Kind::rest, contact.feature});
+      offer(i, best, ExactEvent{contact.rest_time, contact.surface, 0, contact.feature, ExactEvent::Kind::rest});
     if (bodies_.world.is_plane(contact.surface)) continue;
 
     const Flight& f = bodies_.flights[i];
@@ -105,7 +110,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
     const FeatureTime rim = leave_feature(bodies_.world, i, f.path(), contact.surface, fixed, contact.feature,
                                           Instant{bodies_.options.duration, 0} - f.start);
     if (rim.time < never)
-      offer(i, best, {f.start + rim.time, contact.surface, 0, ExactEvent::Kind::release, rim.feature});
+      offer(i, best, ExactEvent{f.start + rim.time, contact.surface, 0, rim.feature, ExactEvent::Kind::release});
   }
 }
 
@@ -123,11 +128,11 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
       feature = 0;
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature);
-      offer(i, best, {time, e, bodies_.body[e].version, ExactEvent::Kind::body_body, feature});
+      offer(i, best, ExactEvent{time, e, bodies_.body[e].version, feature, ExactEvent::Kind::body_body});
     } else if (!(carried && (flat_.carry(i, e) || flat_.hide(i, e))) && !(constrained && group_.hides(i, e))) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
-      offer(i, best, {time, e, 0, ExactEvent::Kind::body_fixed, feature});
+      offer(i, best, ExactEvent{time, e, 0, feature, ExactEvent::Kind::body_fixed});
     }
   }
 }
@@ -171,14 +176,26 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
     for (std::size_t k = 1; k < count; ++k)
       if (meets_[k].time < meets_[first].time) first = k;
     const Meet& meet = meets_[first];
-    if (best.time.hi < meet.time.hi) return;
+    if (best.time.hi < meet.time.hi) {
+      if (is_tie(best, meet.time)) best.tied = true;
+      return;
+    }
 
-    const ExactEvent& other = bodies_.body[meet.with].event;
+    ExactEvent& other = bodies_.body[meet.with].event;
     const bool taken =
         other.kind == ExactEvent::Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
-    if (!taken) offer(i, best, {meet.time, meet.with, bodies_.body[meet.with].version, ExactEvent::Kind::body_body, 0});
+    if (taken && is_tie(other, meet.time)) other.tied = true;
+    if (!taken)
+      offer(i, best, ExactEvent{meet.time, meet.with, bodies_.body[meet.with].version, 0, ExactEvent::Kind::body_body});
     meets_[first] = meets_[--count];
   }
+}
+
+/// Whether an event and another impact, at a later time, may fall on one instant. Rounding makes their difference a
+/// small share of the time until then. Where that is itself rounding, both are at present.
+bool EventPredictor::is_tie(const ExactEvent& first, const Instant& later) const {
+  return later.hi - first.time.hi <= exact_tolerance::tie_of_flight * (first.time.hi - bodies_.now.hi) +
+                                         exact_tolerance::tie_of_clock * bodies_.now.hi;
 }
 
 /// Keeps the earlier of two events of body i, by the total order.
@@ -187,11 +204,17 @@ void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) con
 
   // This happens by rounding only.
   if (candidate.time < bodies_.now) candidate.time = bodies_.now;
-  if (best.time < candidate.time) return;
+  const bool impact = ExactEvent::is_impact(candidate.kind);
+  if (best.time < candidate.time) {
+    if (impact && is_tie(best, candidate.time)) best.tied = true;
+    return;
+  }
+  candidate.tied = impact && ExactEvent::is_impact(best.kind) && is_tie(candidate, best.time);
 
   // At one instant the kind decides, then the numbers of the bodies.
   if (candidate.time == best.time) {
     if (best.kind < candidate.kind) return;
+    best.tied = candidate.tied;
     if (best.kind == candidate.kind) {
       // A string has one event for both of its bodies.
       const auto key = [i](const ExactEvent& e) {

@@ -25,6 +25,9 @@ class EventQueue {
 
   Entity first() const { return queue_.first(); }
   double first_time() const { return queue_.first_time(); }  // s; infinite: there is none
+  /// Impacts that rounding may separate by no more than this (s) are close (tournament.h).
+  void set_close(double span) { queue_.set_close(span); }
+  bool close_at(double time) { return queue_.close_at(time); }
   /// Whether body i leaves its region before its event.
   bool leaves_first(Entity i) const { return queue_.time(i) < bodies_.body[i].event.time.hi; }
 

@@ -9,7 +9,7 @@
 #include "simulate/contact/flight_changes.h"
 #include "simulate/impact/body_merging.h"
 #include "simulate/impact/body_removal.h"
-#include "simulate/impact/exact_impacts.h"
+#include "simulate/impact/impacts.h"
 #include "simulate/impact/simultaneous_impacts.h"
 #include "simulate/impact/stall_guard.h"
 #include "simulate/island/island_motion.h"
@@ -53,7 +53,8 @@ class ExactSimulator final : public Simulator {
   std::uint32_t take_event(Entity i);
   std::uint32_t process(Entity i);
   [[gnu::always_inline]] void predict_changed();
-  void go_taut(Entity i, const ExactEvent& event);
+  [[gnu::always_inline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
+  bool is_current(Entity i, const ExactEvent& event) const;
   void take_switch(Entity i);
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);
@@ -82,7 +83,7 @@ class ExactSimulator final : public Simulator {
   IslandMotion islands_;
   BodyMerging merging_;
   StallGuard guard_;
-  ExactImpacts impacts_;
+  Impacts impacts_;
   Effort effort_;
   double time_ = 0;  // s: time that advance_to has reached
   // Whether regions or the run's end depend on the paths between events, or events are prefetched.

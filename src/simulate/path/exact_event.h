@@ -22,13 +22,15 @@ struct ExactEvent {
     string,  // a string goes taut; the partner is the string
     none
   };
+  static constexpr bool is_impact(Kind kind) { return Kind::body_fixed <= kind && kind <= Kind::string; }
 
   Instant time{never, 0};
   Entity partner = no_entity;
   // The event is stale if the partner has another version.
   std::uint16_t partner_version = 0;
-  Kind kind = Kind::none;
   std::uint8_t feature = no_feature;  // where they meet, as in Touch
+  Kind kind : 7 = Kind::none;
+  bool tied : 1 = false;  // another impact of the body falls on about the same instant
 };
 
 /// The origin of a flight: the thing that the body has just struck, and the feature.

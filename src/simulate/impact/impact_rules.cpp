@@ -1,0 +1,270 @@
+// Decisions about impacts. An impact ends in lasting contact if it is slow under load, or part of a collapse. The
+// bodies then join an island instead of bouncing for ever. In time stepping, velocities contain a kick by later forces.
+// Impacts use the approach without it.
+#include "simulate/impact/impact_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/contact/collapse_detector.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flat_contacts.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+/// Where nothing presses, a striker that lies on flat surfaces and a sleeping body that forces hold on all sides, at an
+/// approach too slow to lift it noticeably.
+bool ImpactRules::too_slow_to_wake(const PairImpact& impact, Entity striker, Entity struck) const {
+  const World& world = bodies_.world;
+  if (impact.press > 0) return false;
+  if (flat_.of(striker).count == 0 || !bodies_.ties.of(struck).empty()) return false;
+  const double lifts = 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck];
+  if (!(impact.approach * impact.approach < lifts)) return false;
+
+  // At least three forces that are not in one plane.
+  std::vector<Vec3> normals;
+  const Vec3 x = bodies_.flights[struck].x;
+  const auto hold = [&](Entity e) { normals.push_back(touch(world, struck, x, e, bodies_.position_of(e)).normal); };
+
+  // The list of the lower body of a pair has the force.
+  for (const PressingContact& p : group_.pressing[struck])
+    if (p.force > 0) hold(p.partner);
+  for (const Entity e : bodies_.neighbours_of(struck))
+    if (world.is_body(e) && bodies_.mode(e) == Mode::asleep)
+      for (const PressingContact& p : group_.pressing[e])
+        if (p.partner == struck && p.force > 0) hold(e);
+
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k)
+        if (std::abs(normals[i].cross(normals[j]).dot(normals[k])) > exact_tolerance::least_volume) return true;
+  return false;
+}
+
+/// The acceleration that drives together two bodies (m/s^2), after their approach has ended.
+double ImpactRules::press_of(const PairImpact& impact) const {
+  const auto& [a, b, feature, xa, xb, va, vb, w, there, e, approach, unkicked, press, length] = impact;
+  const Flight p = bodies_.flights[a];
+  const Flight q = bodies_.flights[b];
+  const Vec3& n = there.normal;
+
+  double forces = n.dot(q.a - p.a);
+  if (p.curve != nullptr || q.curve != nullptr) {
+    forces = n.dot(pull_after(impact, b) - pull_after(impact, a));
+    // Drag acts on the velocities after the impact.
+  } else if (p.fade != 0 || q.fade != 0) {
+    const double ma = bodies_.world.mass[a];
+    const double mb = bodies_.world.mass[b];
+    const double share = -n.dot(w) / (ma + mb);
+    forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
+             (q.fade * ma + p.fade * mb) * share;
+  }
+
+  return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
+}
+
+/// The acceleration of body i, one of the two, after the impact has ended the approach (m/s^2).
+Vec3 ImpactRules::pull_after(const PairImpact& impact, Entity i) const {
+  const Entity other = i == impact.a ? impact.b : impact.a;
+  const Flight f = bodies_.flights[i];
+  const double mi = bodies_.world.mass[i];
+  const double mo = bodies_.world.mass[other];
+  const double share = mo / (mi + mo);
+  const Vec3 towards = impact.there.normal.dot(impact.w) * impact.there.normal;  // m/s
+  const Vec3 v = f.velocity(bodies_.now - f.start) + (i < other ? share : -share) * towards;
+  if (!bodies_.flies_on_curve(i)) return f.acceleration(bodies_.now - f.start);
+  return bodies_.force_at(i, i == impact.a ? impact.xa : impact.xb, v);
+}
+
+/// The acceleration that drives the two together (m/s^2), for which impacts are slow. Loads that cancel but for
+/// rounding do not press. In time steps flights hold forces in advance, and any load may press.
+double ImpactRules::holding(double press, Entity i, Entity e) const {
+  double loads = 0;
+  bool stepped = false;
+  for (const Entity k : {i, e}) {
+    if (!bodies_.world.is_body(k)) continue;
+    loads = std::max(loads, bodies_.applied[k].norm());
+    stepped = stepped || bodies_.mode(k) == Mode::stepped || bodies_.now < bodies_.kick[k].until;
+  }
+  if (stepped) return std::max(press, loads);
+  press = std::max(press, pressed(i, e));
+  return press > exact_tolerance::curve_rounding * loads ? press : 0;
+}
+
+double ImpactRules::pressed(Entity i, Entity e) const {
+  const Entity second = bodies_.world.second_body(e);
+  if (!in_lasting_contact(bodies_.mode(i)) || (second != no_entity && !in_lasting_contact(bodies_.mode(second))))
+    return 0;
+  const double inverse = 1 / bodies_.world.mass[i] + (second == no_entity ? 0 : 1 / bodies_.world.mass[second]);
+  return group_.pressing_force(i, e) * inverse;
+}
+
+/// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
+/// rounding.
+bool ImpactRules::move_as_one(Entity a, Entity b, double approach) const {
+  return bodies_.mode(a) == Mode::held && bodies_.mode(b) == Mode::held &&
+         approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
+}
+
+bool ImpactRules::is_plastic(const Collision& met, double press, double length) const {
+  const bool pressed = press > 0 || met.kind == CollisionKind::string;
+  return met.restitution == 0 && pressed && met.approach_speed > bodies_.slow_speed(std::max(press, 0.0), length);
+}
+
+FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, std::uint8_t feature) const {
+  const World& world = bodies_.world;
+  const Flight f = bodies_.flights[i];
+  const double t = bodies_.now - f.start;
+  const Vec3 x = f.position(t);
+  const Vec3 v = f.velocity(t);
+  const Vec3 point = bodies_.fixed_position(surface);
+  const Vec3 u = bodies_.fixed_velocity(surface);
+
+  const bool flat = is_flat(world, i, surface, feature);
+  const Touch there = bodies_.touch_at(i, x, surface, point, feature);
+  const Vec3& n = there.normal;
+  const double towards = (v - u).dot(n);
+  const double approach = towards > bodies_.negligible_speed() ? towards : 0;
+
+  bodies_.refresh(i, x, v - approach * n);
+  const double bend = flat ? 0 : bending(world, i, x, surface, point, there, u - v);
+  // In constrained motion other contacts are part of the flight. Drag then acts on the velocity after the impact.
+  double pull;  // m/s^2
+  if (bodies_.mode(i) == Mode::held) {
+    pull = f.acceleration(t).dot(n) + bodies_.fade[i] * approach;
+  } else {
+    const FlatSolution without = flat_.acceleration_without(i, surface);
+    bodies_.log.note(without.certificate);
+    pull = without.u.dot(n) + flat_.drag_along(i, n, surface);
+  }
+
+  return {i,
+          surface,
+          feature,
+          flat,
+          f.start == bodies_.now,
+          x,
+          v,
+          u,
+          there,
+          pair_restitution(world, i, surface),
+          approach,
+          group_.approach_without_kick(approach, n, i, surface),
+          pull - bend};
+}
+
+bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
+  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
+  const double separation = e * unkicked;
+  contact = {surface, feature, -there.normal, false, bodies_.now, separation};
+  const std::size_t carrying = flat_.of(i).count;
+
+  // A surface nearly level with one that carries the body takes over. Hops that rounding hides do not count.
+  const double weight = bodies_.applied[i].dot(there.normal);
+  if (carrying > 0 && flat && carrying < FlatContactList::most && !in_lasting_contact(bodies_.mode(i)) && e <= 1 &&
+      weight > 0 &&
+      approach * approach <
+          weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
+    contact.residual_speed = 0;
+    contact.rest_time = bodies_.now;
+    return true;
+  }
+
+  // The body's path on the surface is not a parabola.
+  if (bodies_.bent[i]) return false;
+  const bool ends = e < 1 || approach == 0 ||
+                    (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
+  if (!(press > 0) || !flat || in_lasting_contact(bodies_.mode(i)) || carrying >= FlatContactList::most || !ends)
+    return false;
+
+  const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
+  // The body does not hop on this surface alone. Other bodies, or the surfaces that carry it, throw it back at once.
+  const bool carried = carrying > 0 && (bodies_.body[i].origin_partner != surface || began_now);
+  contact.settling = over_at_once(impact, left) || (carried && bodies_.too_low(x, approach, press));
+  contact.rest_time = bodies_.now + left;
+  return contact.settling;
+}
+
+/// Whether bounces on a flat surface that end `left` (s) from the present are over.
+bool ImpactRules::over_at_once(const FixedImpact& impact, double left) const {
+  return bodies_.now.hi + left == bodies_.now.hi || impact.approach < bodies_.options.rest_speed;
+}
+
+bool ImpactRules::ends(const FixedImpact& impact, bool again) {
+  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
+  if (unkicked == 0 && (approach > 0 || bodies_.path_bends(i))) return true;
+  const bool alone = flat && !collapses_.among_bodies(i);
+  const double held = holding(press, i, surface);
+  if (collapses_.count_impact(i, surface, e, unkicked, held, bodies_.world.radius[i], alone, again)) return true;
+  const double separation = e * unkicked;
+  if (!(press > 0)) return false;
+  if (flat && bodies_.bent[i] && !in_lasting_contact(bodies_.mode(i)) && e < 1)
+    return over_at_once(impact, 2 * separation / (press * (1 - e)));
+  if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
+  return (!flat || in_lasting_contact(bodies_.mode(i))) && (separation == 0 || bodies_.too_low(x, separation, press));
+}
+
+void ImpactRules::check_room(const FixedImpact& impact) const {
+  const World& world = bodies_.world;
+  const Vec3& n = impact.there.normal;
+  const double until = std::min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
+  const Entity i = impact.body;
+
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    if (world.is_body(e) || e == impact.surface) continue;
+    const Vec3 point = bodies_.fixed_position(e);
+    const Vec3 u = bodies_.fixed_velocity(e);
+    const Touch opposite = touch(world, i, impact.x, e, point);
+    if ((opposite.normal + n).norm() > exact_tolerance::level || !is_flat(world, i, e, opposite.feature)) continue;
+
+    const double closing = n.dot(u - impact.u);
+    if (opposite.gap > exact_tolerance::least_gap * world.radius[i] || !(closing > 0)) continue;
+
+    // The room ends before the run, a change of motion and the rim of the surface.
+    const double left = opposite.gap / closing;
+    if (bodies_.now.hi + left > until) continue;
+    const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
+    if (leave_feature(world, i, e, opposite.feature, along, left).time < never) continue;
+    bodies_.fail_squeezed(i, {impact.surface, e});
+  }
+}
+
+StringImpact ImpactRules::find_string(Entity string) const {
+  const World& world = bodies_.world;
+  const Entity a = world.string(string).body;
+  const Vec3 xa = bodies_.position(a);
+  const Vec3 xb = bodies_.position_of(string);
+  const Vec3 va = bodies_.velocity(a);
+  const Vec3 vb = bodies_.velocity_of(string);
+  const Touch there = touch(world, a, xa, string, xb);
+  const Vec3& n = there.normal;
+  const Vec3 w = vb - va;
+
+  const double rounding = exact_tolerance::velocity_rounding * (va.norm() + vb.norm());
+  const double approach = -w.dot(n) > std::max(bodies_.negligible_speed(), rounding) ? -w.dot(n) : 0;
+  const Vec3 apart = bodies_.pull_of(string) - bodies_.pull_of(a);
+  const double press = -(n.dot(apart) + bending(world, a, xa, string, xb, there, w));
+  return {string,   a,     world.string(string).other,       there, world.string(string).restitution,
+          approach, press, bodies_.smaller_length(a, string)};
+}
+
+/// Whether the string holds from here on, or its ends spring back.
+bool ImpactRules::ends(const StringImpact& impact, bool again) {
+  const double press = impact.press;
+  const double left = impact.e * impact.approach;  // m/s
+  const auto fades = [&](Entity i) { return i != no_entity && bodies_.hops_fade(i, impact.approach, press); };
+  const auto collapses = [&](Entity i) {
+    return i != no_entity &&
+           collapses_.count_impact(i, impact.string, impact.e, impact.approach, press, impact.length, false, again);
+  };
+
+  const bool too_low = bodies_.too_low(bodies_.position(impact.a), left, press);
+  const bool faded = impact.e == 1 && (fades(impact.a) || fades(impact.b));
+  return left == 0 || collapses(impact.a) || collapses(impact.b) || (press > 0 && (too_low || faded));
+}
+
+}  // namespace carom

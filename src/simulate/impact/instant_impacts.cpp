@@ -1,0 +1,483 @@
+// All impacts at one instant: from the bodies to a set of rows, round by round, and back. What decides about a row is
+// decided before each round, from the velocities that it meets (impact_rules.h).
+#include "simulate/impact/instant_impacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/contact_time.h"
+#include "physics/impact.h"
+#include "physics/state.h"
+#include "physics/world.h"
+#include "simulate/contact/contact_list.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flight_changes.h"
+#include "simulate/impact/impact_rules.h"
+#include "simulate/impact/stall_guard.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+double InstantImpacts::close_times(const State& initial) const {
+  double extent = 0;   // m
+  double fastest = 0;  // m/s
+  for (const Vec3& x : initial.position) extent = std::max(extent, x.cwiseAbs().sum());
+  for (const Vec3& v : initial.velocity) fastest = std::max(fastest, v.norm());
+  for (const double radius : bodies_.world.radius) extent = std::max(extent, radius);
+  fastest = std::max(fastest, std::sqrt(bodies_.world.gravity.norm() * extent));
+  return tol::tie_of_places * (fastest > 0 ? extent / fastest : bodies_.options.duration);
+}
+
+bool InstantImpacts::strike(const Due& due) {
+  Moment now(parts_.group.numbers);
+  add_due(now, due);
+
+  // Impacts elsewhere belong to it where touching bodies connect them.
+  gather_all(now);
+  Rows approaching = find_approaching(now);
+
+  // The first one alone: an impact of two, or a string that goes taut without an impact.
+  const bool string = bodies_.world.is_string(now.touching.front().thing);
+  const bool meets = std::ranges::find(approaching, 0u) != approaching.end();
+  if (!string && (!meets || (approaching.size() == 1 && !now.linked))) return false;
+  if (!meets) hold_string(now);
+
+  while (!approaching.empty()) {
+    if (now.set.may_be_endless()) {
+      gather_all(now);
+      const auto& ended = now.set.end_endless(approaching);
+      if (now.set.without_room() && any_moves(now)) check_room(now);
+      if (!ended.empty()) {
+        apply(now, ended, true);
+        break;
+      }
+    }
+
+    end_steps(now, approaching);
+    for (const std::uint32_t c : approaching) decide(now, c);
+    const auto& impacts = now.set.strike(approaching);
+    if (now.set.certificate().verdict == Certificate::Verdict::infeasible) check_room(now);
+    if (impacts.empty()) break;  // what approaches is rounding beside the speeds of what links connect
+    apply(now, impacts, false);
+    parts_.guard.count(StallGuard::Happened::impact, bodies_.now.hi);
+    approaching = find_approaching(now);
+  }
+
+  apply(now, now.set.finish(), true);
+  book(now);
+  return true;
+}
+
+/// The number of body i in the set, to which it is added.
+std::uint32_t InstantImpacts::take_in(Moment& now, Entity i) const {
+  if (now.members.add(i)) {
+    now.set.add_body(bodies_.world.mass[i], bodies_.velocity(i));
+    now.gathered.push_back(0);
+    now.struck.push_back(0);
+  }
+  return now.members.number(i);
+}
+
+void InstantImpacts::add_row(Moment& now, Entity a, Entity thing, const Touch& there, ImpactSet::Kind kind) const {
+  const Entity b = bodies_.world.second_body(thing);
+  ImpactSet::Row row;
+  row.a = take_in(now, a);
+  row.b = b == no_entity ? ImpactSet::fixed : take_in(now, b);
+  row.normal = there.normal;
+  row.place = bodies_.position(a) + (b == no_entity ? bodies_.position(a) : bodies_.position(b));
+  row.kind = kind;
+  if (b == no_entity && !bodies_.world.is_string(thing)) row.surface = there.normal.dot(bodies_.fixed_velocity(thing));
+  now.set.add_row(row);
+  now.touching.push_back({a, thing, there.feature, there});
+}
+
+/// Whether the two things have a row.
+bool InstantImpacts::is_known(const Moment& now, Entity a, Entity thing) {
+  const std::uint32_t number = now.members.number(a);
+  return number != Numbering::none && std::ranges::any_of(now.set.rows_of(number), [&](std::uint32_t c) {
+           return now.touching[c].a == a && now.touching[c].thing == thing;
+         });
+}
+
+/// Adds an impact that is due. It is the row that was predicted, however rounding sees its gap.
+void InstantImpacts::add_due(Moment& now, const Due& due) const {
+  const World& world = bodies_.world;
+  const bool pair = world.is_body(due.thing);
+  const Entity a = pair                         ? std::min(due.body, due.thing)
+                   : world.is_string(due.thing) ? world.string(due.thing).body
+                                                : due.body;
+  const Entity thing = pair ? std::max(due.body, due.thing) : due.thing;
+  const Touch there = pair ? rules_.find_pair(a, thing, due.feature).there
+                      : world.is_string(thing)
+                          ? bodies_.string_now(thing)
+                          : bodies_.touch_at(a, bodies_.position(a), thing, bodies_.fixed_position(thing), due.feature);
+  add_row(now, a, thing, there, ImpactSet::Kind::touching);
+  now.touching.back().feature = due.feature;
+}
+
+/// The gap (m) of two things that touch. In lasting contact it is that of constrained motion, elsewhere the rounding of
+/// places.
+double InstantImpacts::near_gap(Entity i, Entity thing) const {
+  const Entity second = bodies_.world.second_body(thing);
+  const Vec3 x = bodies_.position(i);
+  const Vec3 xe = bodies_.position_of(thing);
+  const bool lasting =
+      in_lasting_contact(bodies_.mode(i)) && (second == no_entity || in_lasting_contact(bodies_.mode(second)));
+  const double rounding = tol::initial_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum() + bodies_.world.radius[i]);
+  if (bodies_.world.is_string(thing)) return std::max(rounding, bodies_.contact_gap(i, x, xe));
+  return lasting ? std::max(rounding, tol::drift * bodies_.world.radius[i]) : rounding;
+}
+
+/// Adds all that touches body i, and the strings and rods that hold it.
+void InstantImpacts::gather(Moment& now, Entity i) const {
+  const World& world = bodies_.world;
+  const std::uint32_t number = take_in(now, i);
+  if (now.gathered[number]) return;
+  now.gathered[number] = 1;
+  if (bodies_.ties.any()) gather_strings(now, i);
+  if (bodies_.mode(i) == Mode::stepped) return;
+
+  const Vec3 x = bodies_.position(i);
+  for (const Entity e : bodies_.neighbours_of(i)) {
+    const bool body = world.is_body(e);
+    if (body && (!is_in_world(bodies_.mode(e)) || bodies_.mode(e) == Mode::stepped)) continue;
+    const Entity a = body ? std::min(i, e) : i;
+    const Entity thing = body ? std::max(i, e) : e;
+    if (is_known(now, a, thing)) continue;
+
+    const Vec3 xe = bodies_.position_of(e);
+    const double near = near_gap(i, e);
+    if (body && (xe - x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
+
+    const Touch there = body ? rules_.find_pair(a, thing, no_feature).there : bodies_.touch_at(i, x, e, xe, no_feature);
+    if (there.gap <= near) add_row(now, a, thing, there, ImpactSet::Kind::touching);
+  }
+}
+
+/// The same for strings: those that hold are links, and slack ones that have reached their length are rows.
+void InstantImpacts::gather_strings(Moment& now, Entity i) const {
+  for (const Entity string : bodies_.ties.of(i)) {
+    const String& s = bodies_.world.string(string);
+    if (is_known(now, s.body, string)) continue;
+    const Touch there = bodies_.string_now(string);
+    const bool holds = bodies_.holds(string);
+    if (!holds && (s.rod || there.gap > near_gap(s.body, string))) continue;
+
+    now.linked = now.linked || holds;
+    const ImpactSet::Kind kind = !holds  ? ImpactSet::Kind::touching
+                                 : s.rod ? ImpactSet::Kind::rod
+                                         : ImpactSet::Kind::taut;
+    add_row(now, s.body, string, there, kind);
+    if (!holds) continue;
+    for (const Entity end : {s.body, s.other})
+      if (end != no_entity) gather(now, end);
+  }
+}
+
+/// Adds all that touches, directly or through others.
+void InstantImpacts::gather_all(Moment& now) const {
+  for (std::size_t k = 0; k < now.members.size(); ++k) gather(now, now.members[k]);
+}
+
+/// Whether a row that approaches can be struck, in the present modes of its bodies.
+bool InstantImpacts::may_strike(const Moment& now, std::uint32_t c) const {
+  const Touching& row = now.touching[c];
+  const Entity i = row.a;
+  const double approach = now.set.approach(c);
+  if (bodies_.world.is_string(row.thing)) return approach > bodies_.negligible_speed();
+  if (!(approach > bodies_.negligible_speed())) return false;
+
+  // The error of paths that constrained motion has. Its next step removes it.
+  if (bodies_.world.is_body(row.thing)) {
+    const Entity e = row.thing;
+    if (bodies_.mode(i) == Mode::held && bodies_.mode(e) == Mode::held &&
+        approach <= bodies_.drift_of(i, bodies_.velocity(i), bodies_.velocity(e)))
+      return false;
+    return bodies_.world.volume.empty() || meets_by_volume(row, bodies_.velocity(e) - bodies_.velocity(i));
+  }
+
+  if (lies_on_flat(bodies_.mode(i)) && (parts_.flat.carry(i, row.thing) || parts_.flat.hide(i, row.thing)))
+    return false;
+  if (bodies_.mode(i) == Mode::held && parts_.group.hides(i, row.thing)) return false;
+  return bodies_.world.volume.empty() || meets_by_volume(row, bodies_.fixed_velocity(row.thing) - bodies_.velocity(i));
+}
+
+/// Whether volumes that touch meet at this relative velocity (m/s). Faces that pass in one plane do not.
+bool InstantImpacts::meets_by_volume(const Touching& row, const Vec3& velocity) const {
+  const Vec3 between = bodies_.position_of(row.thing) - bodies_.position(row.a);
+  const double soon = 4 * near_gap(row.a, row.thing) / row.there.normal.dot(-velocity);  // s
+  const RelativeMotion motion{between, velocity, Vec3::Zero(), velocity.cwiseAbs().sum(), false};
+  return time_of_impact(bodies_.world, row.a, row.thing, motion, no_feature, soon).time <= soon;
+}
+
+/// The rows that approach, and can be struck. Bodies that take part bring all that touches them.
+InstantImpacts::Rows InstantImpacts::find_approaching(Moment& now) const {
+  Rows approaching;
+  for (std::uint32_t c = 0; c < now.set.rows(); ++c) {
+    if (!now.set.approaches(c) || !may_strike(now, c)) continue;
+    approaching.push_back(c);
+    const Entity second = bodies_.world.second_body(now.touching[c].thing);
+    for (const Entity i : {now.touching[c].a, second})
+      if (i != no_entity) gather(now, i);
+  }
+  return approaching;
+}
+
+/// Ends the steps of bodies with methods of their own, and the time steps of those that a string stops.
+void InstantImpacts::end_steps(Moment& now, const Rows& approaching) {
+  const bool ties = bodies_.ties.any();
+  if (!bodies_.in_steps && !ties) return;
+  for (const std::uint32_t c : approaching) {
+    const Entity second = bodies_.world.second_body(now.touching[c].thing);
+    for (const Entity i : {now.touching[c].a, second}) {
+      if (i == no_entity || now.struck[now.members.number(i)]) continue;
+      now.struck[now.members.number(i)] = 1;
+      parts_.flights.end_step(i);
+
+      // The rest of a time step is not to come: a step with the string follows at once.
+      if (bodies_.world.is_string(now.touching[c].thing) && may_be_kicked(bodies_.mode(i))) {
+        parts_.flights.begin(i, bodies_.position(i), bodies_.velocity(i), {});
+        parts_.flights.release(i);
+        parts_.group.let_go(i);
+      }
+      now.set.set_velocity(now.members.number(i), bodies_.velocity(i));
+      parts_.flights.note_changed(i);
+    }
+  }
+}
+
+/// Whether a fixed thing that moves takes part.
+bool InstantImpacts::any_moves(const Moment& now) const {
+  return std::ranges::any_of(now.touching, [&](const Touching& row) { return bodies_.world.moves(row.thing); });
+}
+
+/// Throws SimulationError where things that move leave a body no room, or strings hold it against one.
+void InstantImpacts::check_room(const Moment& now) const {
+  ContactList rows;
+  std::vector<Vec3> velocities;
+  for (std::uint32_t k = 0; k < now.set.bodies(); ++k) velocities.push_back(now.set.velocity(k));
+  for (std::uint32_t c = 0; c < now.set.rows(); ++c) {
+    const ImpactSet::Row& row = now.set.row(c);
+    ContactConstraint pair{row.a, row.b, row.normal};
+    pair.surface = row.surface;
+    pair.bilateral = row.kind == ImpactSet::Kind::rod;
+    rows.add(pair, {now.touching[c].a, now.touching[c].thing, now.touching[c].feature}, now.touching[c].there.gap);
+  }
+  rows.check_room(bodies_, velocities);
+}
+
+/// Decides how the next impact of a row ends.
+void InstantImpacts::decide(Moment& now, std::uint32_t c) {
+  Touching& row = now.touching[c];
+  if (bodies_.world.is_string(row.thing))
+    decide_string(row);
+  else
+    bodies_.world.is_body(row.thing) ? decide_pair(row) : decide_fixed(row);
+
+  row.counted = true;
+  bodies_.note_speed(row.a, bodies_.velocity(row.a));
+  parts_.guard.note_restitution(row.e, bodies_.world.moves(row.thing));
+  now.set.set_restitution(c, row.ends || row.rests ? 0 : row.e);
+}
+
+void InstantImpacts::decide_string(Touching& row) {
+  const StringImpact impact = rules_.find_string(row.thing);
+  row.e = impact.e;
+  row.press = impact.press;
+  row.length = impact.length;
+  row.ends = rules_.ends(impact, row.counted);
+}
+
+void InstantImpacts::decide_pair(Touching& row) {
+  const PairImpact impact = rules_.find_pair(row.a, row.thing, row.feature);
+  row.e = impact.e;
+  row.press = impact.press;
+  row.length = impact.length;
+  row.pressed = impact.press > 0 || rules_.pressed(row.a, row.thing) > 0;
+  row.ends = rules_.ends(impact, row.counted);
+  bodies_.note_speed(row.thing, impact.vb);
+  bodies_.log.note_overlap(-impact.there.gap);
+}
+
+void InstantImpacts::decide_fixed(Touching& row) {
+  const FixedImpact impact = rules_.find_fixed(row.a, row.thing, row.feature);
+  if (bodies_.moving.any()) rules_.check_room(impact);
+  row.e = impact.e;
+  row.press = impact.press;
+  row.length = bodies_.world.radius[row.a];
+  row.pressed = impact.press > 0 || rules_.pressed(row.a, row.thing) > 0;
+
+  row.rests = rules_.comes_to_rest(impact, row.contact);
+  row.ends = !row.rests && rules_.ends(impact, row.counted);
+  bodies_.log.note_overlap(-impact.there.gap);
+}
+
+/// Applies what a round has changed. `last`: the end of endless rounds, in contact.
+void InstantImpacts::apply(Moment& now, std::span<const ImpactSet::Impact> impacts, bool last) {
+  if (impacts.empty()) return;
+  for (const ImpactSet::Impact& impact : impacts) {
+    Touching& row = now.touching[impact.row];
+    if (last) {
+      row.ends = true;
+      row.rests = false;
+    }
+    note(now, impact, last);
+  }
+
+  begin_flights(now, impacts);
+  hold(now, impacts);
+}
+
+/// Begins the flights of the bodies that a round has struck.
+void InstantImpacts::begin_flights(Moment& now, std::span<const ImpactSet::Impact> impacts) {
+  const World& world = bodies_.world;
+  std::vector<FlightOrigin> origin(now.members.size());
+  std::vector<Vec3> down(now.members.size(), Vec3::Zero());  // m
+
+  for (const ImpactSet::Impact& impact : impacts) {
+    const Touching& row = now.touching[impact.row];
+    const Entity second = world.second_body(row.thing);
+    for (const Entity i : {row.a, second}) {
+      if (i == no_entity) continue;
+      if (row.ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
+      parts_.group.widen_margin(i, impact.approach);
+      const Entity other = i == row.a ? row.thing : world.is_string(row.thing) ? row.thing : row.a;
+      origin[now.members.number(i)] = {other, row.feature};
+    }
+    if (row.ends && second != no_entity) parts_.group.unite_fresh(row.a, second);
+
+    // A flat surface carries the body from here on.
+    if (!row.rests) continue;
+    if (!row.contact.settling) parts_.flat.remove_level(row.a, row.contact.normal);
+    if (!parts_.flat.carry(row.a, row.thing)) parts_.flat.add(row.a, row.contact);
+    down[now.members.number(row.a)] += row.there.gap * row.there.normal;
+  }
+
+  std::vector<std::uint32_t> changed = now.set.changed();
+  std::sort(changed.begin(), changed.end(),
+            [&](std::uint32_t k, std::uint32_t l) { return now.members[k] < now.members[l]; });
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (const std::uint32_t k : changed) {
+    const Entity i = now.members[k];
+    if (bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
+    bodies_.note_speed(i, bodies_.velocity(i));
+    parts_.flights.begin(i, bodies_.position(i) + down[k], parts_.flat.keep_at(i, now.set.velocity(k)), origin[k]);
+    now.set.set_velocity(k, bodies_.velocity(i));
+  }
+  for (const std::uint32_t k : changed) gather(now, now.members[k]);
+}
+
+/// Unites the bodies whose impacts have ended in contact.
+void InstantImpacts::hold(Moment& now, std::span<const ImpactSet::Impact> impacts) {
+  for (const ImpactSet::Impact& impact : impacts) {
+    const Touching& row = now.touching[impact.row];
+    if (!row.ends) continue;
+    const Entity second = bodies_.world.second_body(row.thing);
+    if (!bodies_.world.is_string(row.thing)) {
+      parts_.flights.hold(row.a);
+      if (second != no_entity) parts_.flights.hold(second);
+    }
+    if (second != no_entity) parts_.group.unite(row.a, second);
+
+    // A string that holds connects the islands of its bodies. Their next step is due.
+    if (bodies_.world.is_string(row.thing)) bodies_.islands.of(row.a).end = bodies_.now;
+  }
+}
+
+/// Lets the first row, a string that has reached its length without an approach, hold from here on.
+void InstantImpacts::hold_string(Moment& now) {
+  end_steps(now, {0});
+  const Touching& row = now.touching.front();
+  const Entity second = bodies_.world.second_body(row.thing);
+  for (const Entity i : {row.a, second}) {
+    if (i == no_entity) continue;
+    parts_.group.join(i);
+    parts_.flights.begin(i, bodies_.position(i), parts_.flat.keep_at(i, bodies_.velocity(i)), {row.thing, 0});
+    now.set.set_velocity(now.members.number(i), bodies_.velocity(i));
+  }
+  if (second != no_entity) parts_.group.unite(row.a, second);
+  bodies_.islands.of(row.a).end = bodies_.now;
+}
+
+/// Keeps what a round did to a row. An inelastic impact goes on until the end.
+void InstantImpacts::note(Moment& now, const ImpactSet::Impact& impact, bool last) const {
+  Touching& row = now.touching[impact.row];
+  const bool inelastic = now.set.row(impact.row).restitution == 0;
+  if (last) {
+    now.records.push_back({impact.row, true, row.e, impact.approach, 0, impact.impulse, impact.lost});
+    return;
+  }
+
+  if (inelastic && row.record != none) {
+    now.records[row.record].impulse += impact.impulse;
+    now.records[row.record].lost += impact.lost;
+    return;
+  }
+  row.record = inelastic && !row.rests ? now.records.size() : none;
+  now.records.push_back({impact.row, row.ends, row.e, impact.approach, impact.separation, impact.impulse, impact.lost});
+  Record& record = now.records.back();
+  if (inelastic) record.separation = 0;
+
+  // The record of a rest has the energy of bounces that are left out, unless a level surface has taken over.
+  if (!row.rests) return;
+  record.ends = !row.contact.settling;
+  if (record.ends) return;
+  record.separation = row.contact.residual_speed;
+  record.lost -= impact_loss(bodies_.world.mass[row.a], ExactBodies::immovable, record.separation, 0);
+}
+
+/// Shares what a row has given back among the others. Impulses of one round may end in a later one, through another
+/// row. Impacts with e above 1 make their energy themselves.
+void InstantImpacts::share_gains(Moment& now) {
+  double lost = 0;
+  double gained = 0;  // J
+  for (const Record& of : now.records)
+    if (of.e <= 1) (of.lost > 0 ? lost : gained) += of.lost;
+  if (gained == 0) return;
+
+  // More than all can only be rounding.
+  if (lost + gained < 0) bodies_.log.deviate(lost + gained);
+  const double share = lost > 0 ? std::max(lost + gained, 0.0) / lost : 0;
+  for (Record& of : now.records)
+    if (of.e <= 1) of.lost = of.lost > 0 ? share * of.lost : 0;
+}
+
+/// Books the energy of all impacts, and records those that have not ended in contact.
+void InstantImpacts::book(Moment& now) {
+  const World& world = bodies_.world;
+  bodies_.log.note(now.set.certificate());
+  share_gains(now);
+
+  for (const Record& of : now.records) {
+    const Touching& row = now.touching[of.row];
+    if (in_lasting_contact(bodies_.mode(row.a)))
+      parts_.group.note_parted(row.a, row.thing, of.separation > 0 && !row.pressed);
+    const bool string = world.is_string(row.thing);
+    const bool fixed = !string && !world.is_body(row.thing);
+    if (fixed && bodies_.moving.any())
+      bodies_.log.add_work(-of.impulse * row.there.normal.dot(bodies_.fixed_velocity(row.thing)));
+
+    const CollisionKind kind = string  ? CollisionKind::string
+                               : fixed ? CollisionKind::body_fixed
+                                       : CollisionKind::body_body;
+    Collision met = make_collision(world, kind, bodies_.now.hi, row.a, row.thing, row.there.point, row.there.normal,
+                                   of.approach, of.separation, of.e);
+    met.impulse = of.impulse;
+    met.energy_lost = of.lost;
+
+    // An impact that ends in contact is counted, unless it is fast and plastic.
+    if (!of.ends || rules_.is_plastic(met, row.press, row.length)) {
+      bodies_.log.lose(of.lost);
+      bodies_.log.record(met);
+    } else if (of.approach > 0) {
+      bodies_.log.lose(of.lost);
+      bodies_.log.take_up(of.approach, of.lost);
+    } else {
+      bodies_.log.absorb(of.lost);
+    }
+  }
+}
+
+}  // namespace carom
