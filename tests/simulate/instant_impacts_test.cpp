@@ -42,7 +42,7 @@ TEST(InstantImpacts, ABreakIsSymmetric) {
     for (const double e : {1.0, 0.9, 0.5, 0.0}) {
       const Problem problem = break_of(rows, e);
       const Outcome run = run_exact(problem);
-      EXPECT_LT(asymmetry(rows, run.end), 1e-12) << rows << ' ' << e;  // measured: 4e-14
+      EXPECT_LT(asymmetry(rows, run.end), 1e-14) << rows << ' ' << e;  // measured: 2e-16
       EXPECT_GE(run.collisions.size(), static_cast<std::size_t>(rows));
     }
 }
