@@ -37,6 +37,7 @@ class ConservativeAdvancement {
     if (s.gap <= 0 && set_.sharp(s.feature)) s = set_.at(m_.d, set_.foremost_face(m_.d, s.feature));
     double t = 0;
     if (s.gap <= 0) {
+      if (left == no_feature) s = over_the_edge(s, 0, m_.w);
       // From here on the gap is one that leaves from zero, whatever its rounding.
       left_ = s.feature;
       double speed = s.normal.dot(m_.w);
