@@ -62,7 +62,7 @@ class Tournament {
 
       // An entry that did not win before, and that comes later than the winner, changes nothing.
       if (up.winner[at] != i && up.time[at] < time) {
-        if (time <= up.time[at] + close_) [[unlikely]]
+        if (!(up.time[at] + close_ < time)) [[unlikely]]
           note_close(time);
         return;
       }
@@ -135,7 +135,7 @@ class Tournament {
     const __m128d first = _mm_min_pd(least, _mm_shuffle_pd(least, least, 1));
     time = _mm_cvtsd_f64(first);
     unsigned ties = 0;
-    const __m128d limit = _mm_add_pd(_mm_unpacklo_pd(first, first), _mm_set1_pd(close_));
+    const __m128d limit = _mm_add_pd(first, _mm_set1_pd(close_));
     for (int k = 0; k < 4; ++k) ties |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(pair[k], limit))) << (2 * k);
 #else
     time = *std::min_element(t, t + width);
@@ -143,27 +143,27 @@ class Tournament {
     for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] <= time + close_) << k;
 #endif
 
-    const auto entry = [&](unsigned k) {
-      return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
-    };
     if (time == never) {
       winner = none;
     } else if ((ties & (ties - 1)) == 0) [[likely]] {
-      winner = entry(static_cast<unsigned>(std::countr_zero(ties)));
+      winner = entry(l, game * width + static_cast<unsigned>(std::countr_zero(ties)));
     } else {
-      note_close(time);
-      winner = first_of(ties, t, time, entry);
+      winner = first_of(ties, l, game, time);
     }
   }
 
-  /// Of several entries with the least time or close to it, the one that comes before all others.
-  template <typename Entry>
-  [[gnu::noinline]] std::uint32_t first_of(unsigned ties, const double* t, double time, const Entry& entry) const {
+  std::uint32_t entry(std::size_t l, std::size_t place) const {
+    return l == 0 ? static_cast<std::uint32_t>(place) : levels_[l].winner[place];
+  }
+
+  /// Of several entries of a game with this time or close to it, the one that comes before all others.
+  [[gnu::noinline]] std::uint32_t first_of(unsigned ties, std::size_t l, std::size_t game, double time) const {
+    note_close(time);
     std::uint32_t winner = none;
     for (; ties != 0; ties &= ties - 1) {
-      const auto k = static_cast<unsigned>(std::countr_zero(ties));
-      if (t[k] != time) continue;
-      const std::uint32_t other = entry(k);
+      const std::size_t place = game * width + static_cast<unsigned>(std::countr_zero(ties));
+      if (levels_[l].time[place] != time) continue;
+      const std::uint32_t other = entry(l, place);
       if (winner == none || before_(other, winner)) winner = other;
     }
     return winner;

@@ -80,7 +80,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
 }
 
 /// Begins the flights of two bodies after their impact. Where it ends in contact, they join one island.
-void ExactImpacts::apply_pair(const PairImpact& impact, double impulse, bool ends) {
+inline void ExactImpacts::apply_pair(const PairImpact& impact, double impulse, bool ends) {
   const Entity a = impact.a;
   const Entity b = impact.b;
   const Vec3& n = impact.there.normal;

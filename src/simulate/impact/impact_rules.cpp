@@ -47,10 +47,11 @@ bool ImpactRules::too_slow_to_wake(const PairImpact& impact, Entity striker, Ent
 
 /// The acceleration that drives together two bodies (m/s^2), after their approach has ended.
 double ImpactRules::press_of(const PairImpact& impact) const {
-  const auto& [a, b, feature, xa, xb, va, vb, w, there, e, approach, unkicked, press, length] = impact;
+  const Entity a = impact.a;
+  const Entity b = impact.b;
   const Flight p = bodies_.flights[a];
   const Flight q = bodies_.flights[b];
-  const Vec3& n = there.normal;
+  const Vec3& n = impact.there.normal;
 
   double forces = n.dot(q.a - p.a);
   if (p.curve != nullptr || q.curve != nullptr) {
@@ -59,12 +60,12 @@ double ImpactRules::press_of(const PairImpact& impact) const {
   } else if (p.fade != 0 || q.fade != 0) {
     const double ma = bodies_.world.mass[a];
     const double mb = bodies_.world.mass[b];
-    const double share = -n.dot(w) / (ma + mb);
+    const double share = -n.dot(impact.w) / (ma + mb);
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
              (q.fade * ma + p.fade * mb) * share;
   }
 
-  return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
+  return -(forces + bending(bodies_.world, a, impact.xa, b, impact.xb, impact.there, impact.w));
 }
 
 /// The acceleration of body i, one of the two, after the impact has ended the approach (m/s^2).

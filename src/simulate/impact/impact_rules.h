@@ -110,7 +110,14 @@ inline PairImpact ImpactRules::find_pair(Entity a, Entity b, std::uint8_t featur
   const Flight& q = bodies_.flights[b];
   const double ta = bodies_.now - p.start;
   const double tb = bodies_.now - q.start;
-  PairImpact impact{a, b, feature, p.position(ta), q.position(tb), p.velocity(ta), q.velocity(tb)};
+  PairImpact impact;
+  impact.a = a;
+  impact.b = b;
+  impact.feature = feature;
+  impact.xa = p.position(ta);
+  impact.xb = q.position(tb);
+  impact.va = p.velocity(ta);
+  impact.vb = q.velocity(tb);
 
   // Far from the origin the relative path has more digits.
   impact.there = bodies_.touch_at(a, impact.xa, b, impact.xb, feature);

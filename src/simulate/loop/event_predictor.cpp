@@ -177,14 +177,14 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
       if (meets_[k].time < meets_[first].time) first = k;
     const Meet& meet = meets_[first];
     if (best.time.hi < meet.time.hi) {
-      if (is_tie(best, meet.time)) best.tied = true;
+      if (is_tie(best, meet.time) && best.partner != meet.with) best.tied = true;
       return;
     }
 
     ExactEvent& other = bodies_.body[meet.with].event;
     const bool taken =
         other.kind == ExactEvent::Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
-    if (taken && is_tie(other, meet.time)) other.tied = true;
+    if (taken && is_tie(other, meet.time) && other.partner != i) other.tied = true;
     if (!taken)
       offer(i, best, ExactEvent{meet.time, meet.with, bodies_.body[meet.with].version, 0, ExactEvent::Kind::body_body});
     meets_[first] = meets_[--count];
@@ -193,28 +193,27 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
 
 /// Whether an event and another impact, at a later time, may fall on one instant. Rounding makes their difference a
 /// small share of the time until then. Where that is itself rounding, both are at present.
-bool EventPredictor::is_tie(const ExactEvent& first, const Instant& later) const {
-  return later.hi - first.time.hi <= exact_tolerance::tie_of_flight * (first.time.hi - bodies_.now.hi) +
-                                         exact_tolerance::tie_of_clock * bodies_.now.hi;
+inline bool EventPredictor::is_tie(const ExactEvent& first, const Instant& later) const {
+  using namespace exact_tolerance;
+  return later.hi <= (1 + tie_of_flight) * first.time.hi + (tie_of_clock - tie_of_flight) * bodies_.now.hi;
 }
 
 /// Keeps the earlier of two events of body i, by the total order.
-void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) const {
+inline void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) const {
   if (!(candidate.time.hi <= bodies_.options.duration)) return;
 
   // This happens by rounding only.
   if (candidate.time < bodies_.now) candidate.time = bodies_.now;
-  const bool impact = ExactEvent::is_impact(candidate.kind);
+  const bool other = candidate.partner != best.partner && ExactEvent::is_impact(candidate.kind);
   if (best.time < candidate.time) {
-    if (impact && is_tie(best, candidate.time)) best.tied = true;
+    if (is_tie(best, candidate.time) && other) best.tied = true;
     return;
   }
-  candidate.tied = impact && ExactEvent::is_impact(best.kind) && is_tie(candidate, best.time);
+  if (is_tie(candidate, best.time) && other && ExactEvent::is_impact(best.kind)) best.tied = candidate.tied = true;
 
   // At one instant the kind decides, then the numbers of the bodies.
   if (candidate.time == best.time) {
     if (best.kind < candidate.kind) return;
-    best.tied = candidate.tied;
     if (best.kind == candidate.kind) {
       // A string has one event for both of its bodies.
       const auto key = [i](const ExactEvent& e) {

@@ -41,7 +41,7 @@ class EventPredictor {
 
  private:
   void predict_among(Entity i, std::span<const Entity> bodies);
-  void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
+  [[gnu::always_inline]] void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
   [[gnu::always_inline]] bool is_tie(const ExactEvent& first, const Instant& later) const;
   [[gnu::noinline]] void offer_beside_contacts(Entity i, ExactEvent& best);
   void offer_strings(Entity i, ExactEvent& best);

@@ -34,7 +34,11 @@ struct Flight {
   bool is_parabola() const { return is_straight() || (curve != nullptr && curve->is_parabola); }
   FadingPath path() const { return {x, v, a, fade}; }
   // t: s since start.
-  Vec3 position(double t) const { return is_straight() ? Vec3(x + t * (v + (0.5 * t) * a)) : bent_position(t); }
+  [[gnu::always_inline]] Vec3 position(double t) const {
+    if (!is_straight()) return bent_position(t);
+    const double half = 0.5 * t;
+    return {x.x() + t * (v.x() + half * a.x()), x.y() + t * (v.y() + half * a.y()), x.z() + t * (v.z() + half * a.z())};
+  }
   /// The displacement since start (m).
   Vec3 displacement(double t) const {
     return curve != nullptr ? curve->displacement_at(t) : Vec3(t * (v + displaced(fade, t) * a));
