@@ -92,12 +92,16 @@ inline constexpr double tie_of_flight = 0x1p-20;
 inline constexpr double tie_of_clock = 0x1p-36;
 // Share of the time in which the fastest body crosses the scene, or the duration: the same, by rounding of places.
 inline constexpr double tie_of_places = 0x1p-34;
+// So many events of one instant may be endless rounds. Whether they are is then looked at.
+inline constexpr std::uint32_t rounds_of_events = 1000;
 // Cosine of an angle: pushes at right angles.
 inline constexpr double right_angle = 0x1p-40;
 // Share of a speed: two approaches that are equal.
 inline constexpr double equal_speeds = 0x1p-32;
 // Share of the greatest speed of an instant: a component of a velocity that is zero.
 inline constexpr double nothing_left = 0x1p-90;
+// Share of the greatest impulse of an instant: an impulse that later rounds have taken back.
+inline constexpr double impulse_rounding = 0x1p-48;
 // Share of speeds: a string that shortens by more slackens.
 inline constexpr double slackening = 0x1p-40;
 // Share of the greatest speeds of an instant, by kinetic energy: the limit of endless rounds has not changed.

@@ -1,5 +1,7 @@
 #pragma once
 // Clusters of touching balls for tests of impacts at one instant: closed forms, and random ones.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -36,7 +38,8 @@ struct Resolved {
   bool leaves_open = false;
   bool tied = false;
   double change = 0;    // the worst certificate
-  double approach = 0;  // the greatest that is left, as a share of the greatest speed
+  double greatest = 0;  // m/s, of all before and after, and of walls
+  double approach = 0;  // the greatest that is left, as a share of it
   bool solved = true;
 };
 
@@ -46,23 +49,29 @@ inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'00
   for (const ImpactSet::Row& row : cluster.rows) set.add_row(row);
 
   Resolved outcome;
-  double greatest = 0;
+  double& greatest = outcome.greatest;
   for (const Vec3& v : cluster.v) greatest = std::max(greatest, v.norm());
+  for (const ImpactSet::Row& row : cluster.rows) greatest = std::max(greatest, std::abs(row.surface));
+
+  int idle = 0;
   for (;;) {
     std::vector<std::uint32_t> approaching;
     for (std::uint32_t c = 0; c < set.rows(); ++c)
       if (set.approaches(c)) approaching.push_back(c);
     if (approaching.empty()) break;
-    if (set.rounds() > most_rounds) {
+    if (set.rounds() > most_rounds || idle > 1) {
       outcome.finished = false;
       break;
     }
+
     if (set.may_be_endless()) {
       outcome.absorbed = set.end_endless(approaching);
       if (!outcome.absorbed.empty()) break;
     }
+
+    // A round without an impulse has found that what is left of the approaches is rounding.
     const auto& impacts = set.strike(approaching);
-    if (impacts.empty()) break;
+    idle = impacts.empty() ? idle + 1 : 0;
     outcome.impacts.insert(outcome.impacts.end(), impacts.begin(), impacts.end());
   }
 
@@ -76,7 +85,7 @@ inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'00
     outcome.approach = std::max(outcome.approach, set.approach(c) / std::max(greatest, 1e-300));
   outcome.rounds = set.rounds();
   outcome.without_room = set.without_room();
-  outcome.leaves_open = set.leaves_open();
+  outcome.leaves_open = set.open_outcome().has_value();
   outcome.tied = set.tied();
   outcome.change = set.certificate().change;
   outcome.solved = set.certificate().solved();
@@ -156,10 +165,16 @@ inline double draw_restitution(Draw& draw, Restitutions kind) {
   }
 }
 
+/// Whether the walls of a random cluster move: towards it and away; where strings or rods hold it, only away. Opposite
+/// walls do not close.
+enum class Walls : std::uint8_t { still, moving };
+
 /// Up to `most` balls, in the plane or in space, on a lattice or a tree of random touches, with up to two walls, masses
 /// over up to six decades, and in a third of the cases strings and rods.
-inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutions kind = Restitutions::all_kinds) {
+inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutions kind = Restitutions::all_kinds,
+                              Walls motion_of_walls = Walls::still) {
   Draw draw(seed);
+  Draw motion_draw(seed + 0x9e3779b97f4a7c15);
   const std::uint64_t n = 2 + draw.below(most - 1);
   const bool planar = draw.below(2) == 0;
   const bool on_lattice = draw.below(2) == 0;
@@ -201,12 +216,15 @@ inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutio
   // Walls that the outermost balls touch; some of them opposite to a pair.
   for (std::uint64_t k = 0; k < walls; ++k) {
     Vec3 normal = draw.direction(planar);
-    if (k == 1 && draw.below(2) == 0) normal = -cluster.rows.back().normal;
+    const bool opposite = k == 1 && draw.below(2) == 0;
+    if (opposite) normal = -cluster.rows.back().normal;
     double outermost = -1e9;
     for (std::size_t i = 0; i < x.size(); ++i) outermost = std::max(outermost, x[i].dot(normal) + radius[i]);
+    double surface = motion_of_walls == Walls::still ? 0 : motion_draw.between(tied ? 0 : -1, 1);
+    if (opposite) surface = std::max(surface, -cluster.rows.back().surface);
     for (std::uint32_t i = 0; i < x.size(); ++i)
       if (x[i].dot(normal) + radius[i] > outermost - 1e-9)
-        cluster.rows.push_back({i, fixed, normal, x[i] + x[i], 0, draw_restitution(draw, kind)});
+        cluster.rows.push_back({i, fixed, normal, x[i] + x[i], surface, draw_restitution(draw, kind)});
   }
 
   // Velocities: random ones, one ball alone, or all towards the middle.
@@ -272,82 +290,127 @@ inline Cluster renamed(const Cluster& given, std::uint64_t seed, std::vector<std
   return other;
 }
 
-/// What is wrong with the outcomes of many random clusters.
+/// The same cluster in a mirror: x becomes -x.
+inline Cluster mirrored(const Cluster& given) {
+  Cluster other = given;
+  for (Vec3& v : other.v) v.x() = -v.x();
+  for (ImpactSet::Row& r : other.rows) {
+    r.normal.x() = -r.normal.x();
+    r.place.x() = -r.place.x();
+  }
+  return other;
+}
+
+/// What is wrong with the outcomes of many random clusters. The energy of a cluster is the greatest of that before,
+/// that after, and the work of walls.
 struct Findings {
   std::uint64_t clusters = 0;
-  double gain = 0;               // share of the energy, the most that is made
-  double books = 0;              // share of the energy, the most that rows do not add up to
-  double momentum = 0;           // share of the sum of m v
-  double approach = 0;           // share of the greatest speed
-  double pull = 0;               // N s, over the momentum: the greatest impulse that pulls
-  double least_loss = 0;         // share of the energy, of a row
-  double projection = 0;         // e = 0: share of the speeds, from one projection
-  std::uint64_t other_bits = 0;  // under other names
+  double gain = 0;                // share of the energy, the most that is made
+  double books = 0;               // share of the energy, the most that rows do not add up to
+  double momentum = 0;            // share of the sum of m v
+  double approach = 0;            // share of the greatest speed
+  double pull = 0;                // share of the sum of m v: the greatest sum of impulses that pulls
+  double least_loss = 0;          // share of the energy, of a row with e > 0
+  double projection = 0;          // e = 0: share of the speeds, from one projection
+  double distance = 0;            // the same with strings and rods, of the distance from the start
+  double mirror = 0;              // share of the greatest speed, in the mirror
+  std::uint64_t other_bits = 0;   // under other names
+  std::uint64_t mirror_bits = 0;  // in the mirror
+  std::uint64_t mirror_far = 0;   // in the mirror, by more than 1e-15 of the greatest speed
   std::uint64_t unfinished = 0;
   std::uint64_t unsolved = 0;
-  std::uint64_t ended = 0;  // by their limit
+  std::uint64_t ended = 0;         // by their limit
+  std::uint64_t without_room = 0;  // of these
   std::uint32_t rounds = 0;
 };
 
-inline void examine(std::uint64_t seed, std::uint64_t most, Findings& all) {
-  const Cluster cluster = random_cluster(seed, most);
-  const Resolved outcome = resolve(cluster);
-  ++all.clusters;
-  all.unfinished += !outcome.finished;
-  all.unsolved += !outcome.solved;
-  all.ended += !outcome.absorbed.empty();
-  all.rounds = std::max(all.rounds, outcome.rounds);
-
-  const double before = cluster.energy(cluster.v);
-  if (before == 0) return;
-  double momentum = 0;
-  for (std::size_t i = 0; i < cluster.mass.size(); ++i) momentum += cluster.mass[i] * cluster.v[i].norm();
-
-  // Energy and books. A row of e = 0 has the sum of its impulses, which does not pull.
+/// The energy, the books and the impulses of an outcome.
+inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findings& all) {
   double lost = 0;
+  double work = 0;  // of walls
+  double of_walls = 0;
   std::vector<double> impulse(cluster.rows.size(), 0.0);
   for (const auto* const list : {&outcome.impacts, &outcome.absorbed})
     for (const ImpactSet::Impact& impact : *list) {
       lost += impact.lost;
       impulse[impact.row] += impact.impulse;
-      if (list == &outcome.impacts && cluster.rows[impact.row].restitution > 0)
-        all.least_loss = std::min(all.least_loss, impact.lost / before);
+      work -= impact.impulse * cluster.rows[impact.row].surface;
+      of_walls += std::abs(impact.impulse * cluster.rows[impact.row].surface);
     }
-  const double after = cluster.energy(outcome.v);
-  all.gain = std::max(all.gain, (after - before) / before);
-  all.books = std::max(all.books, std::abs(before - after - lost) / before);
-  for (const double j : impulse) all.pull = std::max(all.pull, -j / momentum);
-  all.approach = std::max(all.approach, outcome.approach);
 
-  // Momentum, which links to points take too.
+  const double before = cluster.energy(cluster.v);
+  const double after = cluster.energy(outcome.v);
+  const double energy = std::max({before, after, of_walls});
+  if (energy == 0) return;
+  all.gain = std::max(all.gain, (after - before - work) / energy);
+  all.books = std::max(all.books, std::abs(before + work - after - lost) / energy);
+  for (const ImpactSet::Impact& impact : outcome.impacts)
+    if (cluster.rows[impact.row].restitution > 0) all.least_loss = std::min(all.least_loss, impact.lost / energy);
+
+  // Momentum, which links to points take too. A row of e = 0 has the sum of its impulses, which does not pull.
+  double momentum = 0;
   Vec3 change = Vec3::Zero();
   bool tied = false;
-  bool inelastic = true;
-  for (std::size_t i = 0; i < cluster.mass.size(); ++i) change += cluster.mass[i] * (outcome.v[i] - cluster.v[i]);
+  for (std::size_t i = 0; i < cluster.mass.size(); ++i) {
+    momentum += cluster.mass[i] * std::max(cluster.v[i].norm(), outcome.v[i].norm());
+    change += cluster.mass[i] * (outcome.v[i] - cluster.v[i]);
+  }
   for (std::size_t c = 0; c < cluster.rows.size(); ++c) {
     const ImpactSet::Row& r = cluster.rows[c];
     if (r.b == fixed) change += impulse[c] * r.normal;
     tied = tied || r.kind != ImpactSet::Kind::touching;
-    inelastic = inelastic && r.restitution == 0;
   }
+  for (const double j : impulse) all.pull = std::max(all.pull, -j / momentum);
   if (!tied) all.momentum = std::max(all.momentum, change.norm() / momentum);
+}
 
-  // With e = 0 throughout: one projection.
-  if (inelastic) {
-    std::vector<double> inverse_mass;
-    std::vector<ContactConstraint> rows;
-    for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
-    for (const ImpactSet::Row& r : cluster.rows) {
-      rows.push_back({r.a, r.b, r.normal});
-      rows.back().bilateral = r.kind == ImpactSet::Kind::rod;
-      rows.back().slack = 1e-12;
-    }
-    std::vector<Vec3> v = cluster.v;
-    solve({inverse_mass, v, rows});
-    double off = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) off += cluster.mass[i] * (v[i] - outcome.v[i]).squaredNorm();
-    all.projection = std::max(all.projection, std::sqrt(off / (2 * before)));
+/// With e = 0 throughout, the outcome is one projection.
+inline void examine_projection(const Cluster& cluster, const Resolved& outcome, Findings& all) {
+  if (!std::ranges::all_of(cluster.rows, [](const ImpactSet::Row& r) { return r.restitution == 0; })) return;
+  std::vector<double> inverse_mass;
+  std::vector<ContactConstraint> rows;
+  for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
+  for (const ImpactSet::Row& r : cluster.rows) {
+    rows.push_back({r.a, r.b, r.normal});
+    rows.back().surface = r.surface;
+    rows.back().bilateral = r.kind == ImpactSet::Kind::rod;
+    rows.back().slack = 1e-12;
   }
+  std::vector<Vec3> v = cluster.v;
+  solve({inverse_mass, v, rows});
+
+  // Strings and rods may hold a cluster so that its motion is the smallest remainder. Its distance from the start is
+  // well-conditioned even then.
+  double off = 0;
+  double one = 0;
+  double other = 0;
+  bool tied = false;
+  for (const ImpactSet::Row& r : cluster.rows) tied = tied || r.kind != ImpactSet::Kind::touching;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    off += cluster.mass[i] * (v[i] - outcome.v[i]).squaredNorm();
+    one += cluster.mass[i] * (v[i] - cluster.v[i]).squaredNorm();
+    other += cluster.mass[i] * (outcome.v[i] - cluster.v[i]).squaredNorm();
+  }
+
+  const double energy = std::max(cluster.energy(cluster.v), cluster.energy(v));
+  if (energy == 0) return;
+  const double apart = tied ? std::abs(std::sqrt(one) - std::sqrt(other)) : std::sqrt(off);
+  double& greatest = tied ? all.distance : all.projection;
+  greatest = std::max(greatest, apart / std::sqrt(2 * energy));
+}
+
+inline void examine(std::uint64_t seed, std::uint64_t most, Findings& all, Walls walls = Walls::still) {
+  const Cluster cluster = random_cluster(seed, most, Restitutions::all_kinds, walls);
+  const Resolved outcome = resolve(cluster);
+  ++all.clusters;
+  all.unfinished += !outcome.finished;
+  all.unsolved += !outcome.solved;
+  all.ended += !outcome.absorbed.empty();
+  all.without_room += outcome.without_room;
+  all.rounds = std::max(all.rounds, outcome.rounds);
+  all.approach = std::max(all.approach, outcome.approach);
+  examine_books(cluster, outcome, all);
+  examine_projection(cluster, outcome, all);
 
   // Other names.
   std::vector<std::uint32_t> number;
@@ -355,6 +418,35 @@ inline void examine(std::uint64_t seed, std::uint64_t most, Findings& all) {
   bool same = true;
   for (std::size_t i = 0; i < number.size(); ++i) same = same && other.v[number[i]] == outcome.v[i];
   all.other_bits += !same;
+
+  // The mirror.
+  const Resolved image = resolve(mirrored(cluster));
+  double off = 0;
+  for (std::size_t i = 0; i < image.v.size(); ++i) {
+    const Vec3& v = image.v[i];
+    off = std::max(off, (Vec3(-v.x(), v.y(), v.z()) - outcome.v[i]).norm() / std::max(outcome.greatest, 1e-300));
+  }
+  all.mirror = std::max(all.mirror, off);
+  all.mirror_bits += off > 0;
+  all.mirror_far += off > 1e-15;
+}
+
+/// What every cluster keeps: energy, books, momentum, no approach and no pull at the end, e = 0 as one projection, and
+/// the same outcome under other names and in the mirror.
+inline void expect_guarantees(const Findings& all) {
+  EXPECT_LT(all.gain, 1e-12);
+  EXPECT_LT(all.books, 1e-12);
+  EXPECT_LT(all.momentum, 1e-12);
+  EXPECT_LT(all.approach, 1e-13);
+  EXPECT_LT(all.pull, 1e-15);
+  EXPECT_GT(all.least_loss, -1e-15);
+  EXPECT_LT(all.projection, 1e-12);
+  EXPECT_LT(all.distance, 1e-12);
+  EXPECT_EQ(all.other_bits, 0u);
+  // Where opposed approaches are equal but for rounding, the law is not continuous.
+  EXPECT_LT(100 * all.mirror_far, all.clusters);
+  EXPECT_EQ(all.unfinished, 0u);
+  EXPECT_EQ(all.unsolved, 0u);
 }
 
 }  // namespace carom::impact_clusters

@@ -254,5 +254,75 @@ TEST(ImpactSet, RestitutionAboveOneMakesEnergy) {
   expect_velocities(resolve(cue_on_two(2, 2)), {{-8, 0, 0}, {9, 3 * root_of_3, 0}, {9, -3 * root_of_3, 0}});
 }
 
+/// Balls of 0.5 m in a triangle with `rows` rows, the pairs that touch with restitution e. Returns their places (m).
+std::vector<Vec3> add_triangle(Cluster& c, int rows, double e) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j <= i; ++j) places.emplace_back(root_of_3 / 2 * i, j - 0.5 * i, 0);
+  for (std::uint32_t i = 0; i < places.size(); ++i)
+    for (std::uint32_t j = i + 1; j < places.size(); ++j)
+      if ((places[j] - places[i]).norm() < 1.001) join(c, i, j, (places[j] - places[i]).normalized(), e);
+  c.mass.resize(places.size(), 1);
+  c.v.resize(places.size(), Vec3::Zero());
+  return places;
+}
+
+/// The greatest change of a velocity (m/s).
+double change_of(const Resolved& one, const Resolved& other) {
+  double most = 0;
+  for (std::size_t i = 0; i < one.v.size(); ++i) most = std::max(most, (one.v[i] - other.v[i]).norm());
+  return most;
+}
+
+/// A pyramid of 15 that falls flat on the floor at 1 m/s, disturbed by up to `by` (m/s).
+Cluster fallen_pyramid(double by, std::uint64_t seed) {
+  Cluster c;
+  const std::vector<Vec3> places = add_triangle(c, 5, 0.9);
+  Draw draw(seed);
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    c.v[i] = Vec3(1 + by * draw.between(-1, 1), by * draw.between(-1, 1), 0);
+    if (places[i].x() > 3.4) join(c, i, fixed, Vec3::UnitX(), 0.9);
+  }
+  return c;
+}
+
+TEST(ImpactSet, APyramidThatFallsFlatIsContinuous) {
+  const Resolved flat = resolve(fallen_pyramid(0, 0));
+  double most = 0;
+  for (const double by : {1e-9, 1e-6, 1e-3})
+    for (std::uint64_t seed = 0; seed < 30; ++seed)
+      most = std::max(most, change_of(flat, resolve(fallen_pyramid(by, seed))) / by);
+  EXPECT_LT(most, 10);  // measured: 1.7
+}
+
+/// A rack of 15 that a ball strikes at 10 m/s, at an angle (rad) to its axis.
+Cluster struck_rack(double angle, double e) {
+  Cluster c;
+  add_triangle(c, 5, e);
+  c.mass.push_back(1);
+  c.v.emplace_back(10 * std::cos(angle), 10 * std::sin(angle), 0);
+  join(c, 15, 0, Vec3(std::cos(angle), std::sin(angle), 0), e);
+  return c;
+}
+
+TEST(ImpactSet, ARackStruckOffItsAxisIsContinuous) {
+  double most = 0;
+  for (const double e : {1.0, 0.9, 0.5}) {
+    const Resolved straight = resolve(struck_rack(0, e));
+    for (const double angle : {1e-9, 1e-6, 1e-3})
+      most = std::max(most, change_of(straight, resolve(struck_rack(angle, e))) / (10 * angle));
+  }
+  EXPECT_LT(most, 10);  // measured: 0.5
+}
+
+/// Rounding of a thousand random clusters.
+TEST(ImpactSet, RandomClustersKeepAllGuarantees) {
+  Findings all;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed)
+    examine(seed, 24, all, seed % 2 == 0 ? Walls::still : Walls::moving);
+  expect_guarantees(all);
+  EXPECT_GT(all.ended, 100u);
+}
+
 }  // namespace
 }  // namespace carom

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "numerics/compensated.h"
+#include "physics/impact.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -24,7 +26,7 @@ double twice_energy(double mass, const Vec3& dv) {
 }  // namespace
 
 std::uint32_t ImpactSet::add_body(double mass, const Vec3& v) {
-  bodies_.push_back({mass, v, v.norm(), {}});
+  bodies_.push_back({mass, v, v.norm(), v.norm(), {}});
   next_.push_back(v);
   return bodies() - 1;
 }
@@ -33,6 +35,7 @@ std::uint32_t ImpactSet::add_row(const Row& row) {
   const std::uint32_t c = rows();
   rows_.push_back({row});
   rows_.back().holds = row.kind != Kind::touching;
+  linked_ = linked_ || rows_.back().holds;
   bodies_[row.a].rows.push_back(c);
   if (row.b != fixed) bodies_[row.b].rows.push_back(c);
   return c;
@@ -42,6 +45,7 @@ void ImpactSet::set_velocity(std::uint32_t body, const Vec3& v) {
   Body& of = bodies_[body];
   of.v = next_[body] = v;
   of.top = std::max(of.top, v.norm());
+  of.near = std::max(of.near, of.top);
 }
 
 double ImpactSet::approach(std::uint32_t c) const {
@@ -57,14 +61,21 @@ double ImpactSet::separation(std::uint32_t c) const {
   return r.normal.dot(next_[r.b] - next_[r.a]);
 }
 
-/// The sum of the greatest speeds of a row's two things in this instant (m/s).
-double ImpactSet::top_of(std::uint32_t c) const {
+/// The sum of the speeds to which the velocities of a row's two things are rounded (m/s).
+double ImpactSet::speeds_near(std::uint32_t c) const {
   const Row& r = rows_[c];
-  return bodies_[r.a].top + (r.b == fixed ? std::abs(r.surface) : bodies_[r.b].top);
+  return bodies_[r.a].near + (r.b == fixed ? std::abs(r.surface) : bodies_[r.b].near);
+}
+
+/// A projection is right to rounding of the greatest speed in it. A slow body beside a fast one has no better digits.
+void ImpactSet::share_rounding(const Projection& solved) {
+  double greatest = 0;
+  for (const std::uint32_t body : solved.bodies) greatest = std::max(greatest, bodies_[body].near);
+  for (const std::uint32_t body : solved.bodies) bodies_[body].near = greatest;
 }
 
 bool ImpactSet::approaches(std::uint32_t c) const {
-  return !rows_[c].holds && approach(c) > tol::velocity_rounding * top_of(c);
+  return !rows_[c].holds && approach(c) > tol::velocity_rounding * speeds_near(c);
 }
 
 /// The order of rows: by what neither names nor a mirror change, and then by place, which names do not change.
@@ -81,6 +92,10 @@ bool ImpactSet::before(std::uint32_t c, std::uint32_t d) const {
     if (p.place[k] != q.place[k]) return p.place[k] < q.place[k];
   for (int k = 0; k < 3; ++k)
     if (p.b == fixed && q.b == fixed && p.normal[k] != q.normal[k]) return p.normal[k] < q.normal[k];
+
+  // Two bodies may have a row and links between them.
+  if (p.kind != q.kind) return p.kind < q.kind;
+  if (p.restitution != q.restitution) return p.restitution < q.restitution;
   return c < d;
 }
 
@@ -91,6 +106,8 @@ void ImpactSet::sort(Rows& rows) const {
 /// The links that hold and are connected with these rows, directly or through other links.
 ImpactSet::Rows ImpactSet::links_at(std::span<const std::uint32_t> rows) const {
   Rows links;
+  if (!linked_) return links;
+
   Rows todo(rows.begin(), rows.end());
   for (std::size_t k = 0; k < todo.size(); ++k)
     for (const std::uint32_t body : {rows_[todo[k]].a, rows_[todo[k]].b}) {
@@ -146,7 +163,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_
     constraint.surface = relative ? 0 : r.surface;
     constraint.target = r.holds ? 0 : target;
     constraint.bilateral = r.kind == Kind::rod;
-    constraint.slack = constraint.bilateral ? tol::step_error * top_of(c) : 0;
+    constraint.slack = constraint.bilateral ? tol::step_error * speeds_near(c) : 0;
     constraints.push_back(constraint);
   }
 
@@ -240,8 +257,11 @@ bool ImpactSet::waits(std::uint32_t c, const std::vector<std::uint8_t>& approach
       for (const std::uint32_t d : bodies_[body].rows) {
         if (d == c || !approaching[d]) continue;
         const double along = cosine(c, d, links.empty() ? nullptr : &through);
-        if (std::abs(along) > tol::right_angle && (e > 0 || rows_[d].restitution > 0)) leaves_open_ = true;
-        if (!(along < -tol::right_angle)) continue;
+        if (!(std::abs(along) > tol::right_angle)) continue;
+        const bool open = e > 0 || rows_[d].restitution > 0;
+        if (open && !open_outcome_) open_outcome_ = {body, c, d};
+        if (open && one_by_one_ && before(d, c)) return true;
+        if (one_by_one_ || along > 0) continue;
 
         // The faster one goes first, of equal ones that with the smaller e.
         const double other = approach(d);
@@ -313,6 +333,10 @@ const std::vector<ImpactSet::Impact>& ImpactSet::strike(std::span<const std::uin
     // Rows that stayed closed stay so no longer: an impact with e > 0 goes through them.
     for (const Rows* const list : {&set.rows, &set.open, &set.links})
       for (const std::uint32_t c : *list) rows_[c].open = 0;
+    if (set.open.empty()) {
+      strike_together(set);
+      continue;
+    }
     for (const Together& part : connect(set.rows, false)) strike_together(part);
   }
 
@@ -342,7 +366,7 @@ void ImpactSet::strike_one(std::uint32_t c) {
     change(r.a, bodies_[r.a].v - (u + separation) * r.normal);
   } else {
     const double mb = bodies_[r.b].mass;
-    impulse = (u + separation) / (1 / ma + 1 / mb);
+    impulse = impact_impulse(ma, mb, u, separation);
     change(r.a, bodies_[r.a].v - (impulse / ma) * r.normal);
     change(r.b, bodies_[r.b].v + (impulse / mb) * r.normal);
   }
@@ -369,20 +393,17 @@ void ImpactSet::strike_inelastic(const Together& set) {
 
   const Projection p = project(rows, set.links, start);
   certificate_.merge(p.certificate);
+  share_rounding(p);
   for (std::size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
 
   const std::size_t first = impacts_.size();
-  double by_links = 0;  // J
   for (std::size_t k = 0; k < all.size(); ++k) {
     RowState& r = rows_[all[k]];
     const double more = p.impulse[k] - r.open;
     r.open = p.impulse[k];
-    if (r.holds)
-      by_links += 0.5 * more * (approach(all[k]) - separation(all[k]));
-    else
-      note(all[k], more, approach(all[k]), separation(all[k]));
+    if (!r.holds) note(all[k], more, approach(all[k]), separation(all[k]));
   }
-  if (!set.links.empty()) share_losses(first, by_links);
+  if (!set.links.empty()) share_losses(p.bodies, first);
 }
 
 /// By body of the compression: the sum of its impulses of expansion over its mass (m/s).
@@ -405,25 +426,17 @@ std::vector<ImpactSet::Sum3> ImpactSet::expansion(const Rows& rows, const Projec
   return gained;
 }
 
-/// The same change of velocities (m/s), to which links answer that compression has left tight. The others slacken.
-void ImpactSet::answer(const Rows& links, const Projection& compressed, std::vector<Vec3>& dv) {
-  Rows tight;
+/// Strings that compression slackens hold no longer.
+void ImpactSet::slacken(const Rows& links, const Projection& compressed) {
   const auto of = [&](std::uint32_t body) {
     return body == fixed ? Vec3(Vec3::Zero()) : compressed.v[compressed.place_of(body)];
   };
   for (const std::uint32_t link : links) {
     RowState& r = rows_[link];
     const double parts = r.normal.dot(of(r.b) - of(r.a)) + r.surface;
-    const double speeds = top_of(link) + of(r.a).norm() + of(r.b).norm();
+    const double speeds = speeds_near(link) + of(r.a).norm() + of(r.b).norm();
     if (r.kind == Kind::taut && parts > tol::slackening * speeds) r.holds = false;
-    if (r.holds) tight.push_back(link);
   }
-
-  std::vector<Vec3> all(bodies_.size(), Vec3::Zero());
-  for (std::size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
-  const Projection answered = project({}, tight, all, true);
-  certificate_.merge(answered.certificate);
-  for (std::size_t k = 0; k < answered.bodies.size(); ++k) dv[compressed.place_of(answered.bodies[k])] = answered.v[k];
 }
 
 /// The share of an expansion that gives back no more energy than compression has taken.
@@ -438,58 +451,94 @@ double ImpactSet::allowed_share(const Projection& compressed, const std::vector<
   return back > took ? std::sqrt(took / back) : 1;
 }
 
+/// One e for all: the velocities after an expansion that repeats e times what compression has changed. The shares of
+/// rows and links do not matter. Each velocity is rounded once.
+std::vector<Vec3> ImpactSet::expand_alike(const Projection& compressed, double e) const {
+  std::vector<Vec3> after = compressed.v;
+  for (std::size_t k = 0; k < after.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double middle = compressed.v[k][axis];
+      const DoubleDouble changed = two_sum(middle, -bodies_[compressed.bodies[k]].v[axis]);
+      after[k][axis] = (DoubleDouble{middle, 0} + DoubleDouble{e, 0} * changed).value();
+    }
+  return after;
+}
+
+/// The velocities after an expansion of each row by its own e, and the share of it that energy allows.
+std::vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compressed, double& share) {
+  const std::vector<Sum3> gained = expansion(set.rows, compressed);
+  std::vector<Vec3> dv;
+  for (const Sum3& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
+
+  // Links that are still tight answer to it.
+  if (!set.links.empty()) {
+    Rows tight;
+    std::ranges::copy_if(set.links, std::back_inserter(tight), [&](std::uint32_t c) { return rows_[c].holds; });
+    std::vector<Vec3> all(bodies_.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
+
+    const Projection answer = project({}, tight, all, true);
+    certificate_.merge(answer.certificate);
+    for (std::size_t k = 0; k < answer.bodies.size(); ++k) dv[compressed.place_of(answer.bodies[k])] = answer.v[k];
+  }
+
+  // With e above 1 energy may be made.
+  const bool limited = std::ranges::all_of(set.rows, [&](std::uint32_t c) { return rows_[c].restitution <= 1; });
+  share = limited ? allowed_share(compressed, dv) : 1;
+
+  // The velocities are rounded once where links and limits have not changed the sums.
+  std::vector<Vec3> after = compressed.v;
+  for (std::size_t k = 0; k < dv.size(); ++k) {
+    after[k] += share * dv[k];
+    if (!set.links.empty() || share < 1) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      after[k][axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][static_cast<std::size_t>(axis)]).value();
+  }
+  return after;
+}
+
 /// Compression, then expansion by e times the impulses of compression.
 void ImpactSet::strike_elastic(const Together& set) {
   const Projection compressed = project(set.rows, set.links, velocities());
   certificate_.merge(compressed.certificate);
-  const std::vector<Sum3> gained = expansion(set.rows, compressed);
-  std::vector<Vec3> dv;
-  for (const Sum3& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
-  if (!set.links.empty()) answer(set.links, compressed, dv);
+  share_rounding(compressed);
+  slacken(set.links, compressed);
 
-  const auto [least, most] = std::ranges::minmax(set.rows, {}, [&](std::uint32_t c) { return rows_[c].restitution; });
-  const bool one = rows_[least].restitution == rows_[most].restitution;
-  const double share = rows_[most].restitution <= 1 && !one ? allowed_share(compressed, dv) : 1;
-
-  // The velocities are rounded once where links and limits have not changed the sums.
-  const bool plain = set.links.empty() && share == 1;
-  for (std::size_t k = 0; k < dv.size(); ++k) {
-    Vec3 after = compressed.v[k] + share * dv[k];
-    for (int axis = 0; plain && axis < 3; ++axis)
-      after[axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][static_cast<std::size_t>(axis)]).value();
-    change(compressed.bodies[k], after);
-  }
+  const double first_e = rows_[set.rows.front()].restitution;
+  const bool one = std::ranges::all_of(set.rows, [&](std::uint32_t c) { return rows_[c].restitution == first_e; });
+  double share = 1;
+  const std::vector<Vec3> after = one ? expand_alike(compressed, first_e) : expand_each(set, compressed, share);
+  for (std::size_t k = 0; k < after.size(); ++k) change(compressed.bodies[k], after[k]);
 
   // With one e for all, each row separates by it.
   const std::size_t first = impacts_.size();
   for (std::size_t k = 0; k < set.rows.size(); ++k) {
     const std::uint32_t c = set.rows[k];
     const double e = rows_[c].restitution;
-    note(c, (1 + share * e) * compressed.impulse[k], approach(c), plain && one ? e * approach(c) : separation(c));
+    note(c, (1 + share * e) * compressed.impulse[k], approach(c), one ? e * approach(c) : separation(c));
   }
 
-  // A string that compression has pulled, and that slackens in the expansion, gives energy back.
-  if (set.links.empty()) return;
-  double by_links = 0;  // J
-  for (std::size_t k = 0; k < set.links.size(); ++k) {
-    const std::uint32_t c = set.links[k];
-    by_links += 0.5 * compressed.impulse[set.rows.size() + k] * (approach(c) - separation(c));
-  }
-  share_losses(first, by_links);
+  if (!set.links.empty()) share_losses(compressed.bodies, first);
 }
 
-/// Shares the losses of a set, those of its links (J) included, among its impacts from number `first` on, by the work
-/// of each against its approach. The energy that a link takes or gives is that of impacts.
-void ImpactSet::share_losses(std::size_t first, double by_links) {
-  double lost = by_links;
+/// Shares the energy that these bodies lose in this round among its impacts from number `first` on, by the work of each
+/// against its approach. What links take or give is that of impacts: a string that compression has pulled, and that
+/// slackens in the expansion, gives energy back.
+void ImpactSet::share_losses(const Rows& bodies, std::size_t first) {
+  Sum lost;        // J
   double all = 0;  // J
+  for (const std::uint32_t body : bodies) {
+    const Body& of = bodies_[body];
+    lost.add(0.5 * of.mass * (of.v - next_[body]).dot(of.v + next_[body]));
+  }
   const auto work = [](const Impact& impact) { return std::max(impact.impulse * impact.approach, 0.0); };
   for (std::size_t k = first; k < impacts_.size(); ++k) {
-    lost += impacts_[k].lost;
+    lost.add(-impacts_[k].impulse * rows_[impacts_[k].row].surface);
     all += work(impacts_[k]);
   }
+
   if (!(all > 0)) return;
-  for (std::size_t k = first; k < impacts_.size(); ++k) impacts_[k].lost = lost * (work(impacts_[k]) / all);
+  for (std::size_t k = first; k < impacts_.size(); ++k) impacts_[k].lost = lost.value() * (work(impacts_[k]) / all);
 }
 
 void ImpactSet::change(std::uint32_t body, const Vec3& v) {
@@ -510,7 +559,8 @@ void ImpactSet::note(std::uint32_t c, double impulse, double approach, double se
 void ImpactSet::count() {
   for (const Impact& impact : impacts_) {
     if (!(impact.impulse > 0)) continue;
-    const Row& r = rows_[impact.row];
+    RowState& r = rows_[impact.row];
+    r.struck = true;
     const double lost = std::max(1 - r.restitution, 0.0);
     endless_.sum += lost;
     for (const std::uint32_t body : {r.a, r.b}) {
@@ -527,17 +577,21 @@ void ImpactSet::close_parted() {
     RowState& r = rows_[c];
     if (r.kind == Kind::rod || (r.open == 0 && !r.holds)) continue;
     const double parts = -approach(c);
-    if (r.kind == Kind::taut && parts > tol::slackening * top_of(c)) r.holds = false;
-    if (parts > 16 * tol::velocity_rounding * top_of(c)) r.open = 0;
+    if (r.kind == Kind::taut && parts > tol::slackening * speeds_near(c)) r.holds = false;
+    if (parts > 16 * tol::velocity_rounding * speeds_near(c)) r.open = 0;
   }
 }
 
-/// Whether some motion opens all of these rows at once.
+bool ImpactSet::has_room() const {
+  Rows touching;
+  Rows links;
+  for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
+  return has_room(touching, links);
+}
+
+/// The same of some rows.
 bool ImpactSet::has_room(const Rows& rows, const Rows& links) const {
-  const Projection p = project(rows, links, std::vector<Vec3>(bodies_.size(), Vec3::Zero()), true, 1);
-  const auto of = [&](std::uint32_t body) { return body == fixed ? Vec3(Vec3::Zero()) : p.v[p.place_of(body)]; };
-  return std::ranges::all_of(
-      rows, [&](std::uint32_t c) { return rows_[c].normal.dot(of(rows_[c].b) - of(rows_[c].a)) >= 0.5; });
+  return project(rows, links, std::vector<Vec3>(bodies_.size(), Vec3::Zero()), true, 1).certificate.solved();
 }
 
 const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std::uint32_t> approaching) {
@@ -572,14 +626,21 @@ const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std
 
   const auto pressing = static_cast<double>(std::ranges::count_if(p.impulse, [](double j) { return j > 0; }));
   const bool same = known && moved <= tol::same_limit * tol::same_limit * greatest;
-  const bool elastic = std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution >= 1; });
+  const bool elastic = std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution == 1; });
   const bool worn = std::ranges::any_of(approaching, [&](std::uint32_t c) {
     const Row& r = rows_[c];
     return bodies_[r.a].lost > tol::worn_out || (r.b != fixed && bodies_[r.b].lost > tol::worn_out);
   });
   bool over = away <= tol::limit_reached * tol::limit_reached * greatest || worn ||
               (same && endless_.sum - endless_.sum_at_limit >= tol::rounds_of_limit * pressing);
-  if (!over && elastic && !has_room(touching, links)) over = endless_.without_room = true;
+
+  // Only rows that strike again and again need room. All of them have struck since the last look.
+  if (!over && elastic) {
+    Rows again;
+    std::ranges::copy_if(touching, std::back_inserter(again), [&](std::uint32_t c) { return rows_[c].struck; });
+    over = endless_.without_room = !has_room(again, links);
+  }
+  for (RowState& r : rows_) r.struck = false;
 
   if (!same) {
     endless_.limit = limit;
@@ -594,9 +655,8 @@ void ImpactSet::end_by(const Projection& limit, const Rows& rows) {
   endless_.ended = true;
   ++rounds_;
   for (std::size_t k = 0; k < limit.bodies.size(); ++k) change(limit.bodies[k], limit.v[k]);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    note(rows[k], limit.impulse[k], approach(rows[k]), separation(rows[k]));
-  }
+  for (std::size_t k = 0; k < rows.size(); ++k) note(rows[k], limit.impulse[k], approach(rows[k]), separation(rows[k]));
+  share_losses(limit.bodies, 0);
   for (const std::uint32_t body : changed_) set_velocity(body, next_[body]);
 }
 

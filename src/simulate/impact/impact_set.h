@@ -20,6 +20,7 @@
 // Rows are taken in an order of places, so that no number of a body or a row has an effect.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,9 @@ class ImpactSet {
     double lost;        // J
   };
 
+  /// `one_by_one`: rows with e > 0 that share a body act one after the other, the fastest first. That is another law.
+  explicit ImpactSet(bool one_by_one = false) : one_by_one_(one_by_one) {}
+
   /// Adds a body and returns its number. mass: kg; v: m/s.
   std::uint32_t add_body(double mass, const Vec3& v);
   /// Adds a row and returns its number.
@@ -79,6 +83,8 @@ class ImpactSet {
   /// The bodies with velocities that the last round has changed; some of them more than once.
   const std::vector<std::uint32_t>& changed() const { return changed_; }
 
+  /// Whether some motion opens all rows at once. It keeps the lengths of rods, and lengthens no taut string.
+  bool has_room() const;
   /// Whether it is time to look for the end of endless rounds. The caller adds all that touches before.
   bool may_be_endless() const { return endless_.most_struck >= endless_.next_check; }
   /// Ends the rounds, of which these rows would be the next, by their limit, if that is known. Returns the rows with an
@@ -90,8 +96,14 @@ class ImpactSet {
   std::uint32_t rounds() const { return rounds_; }
   /// Whether the rounds have been ended because some row cannot open.
   bool without_room() const { return endless_.without_room; }
-  /// Whether impacts with e > 0 have shared a body in a round, so that rigid bodies alone leave the outcome open.
-  bool leaves_open() const { return leaves_open_; }
+  /// A body that two impacts of a round share, not both with e = 0. Rigid bodies alone leave the outcome open.
+  struct OpenOutcome {
+    std::uint32_t body;
+    std::uint32_t row;
+    std::uint32_t other;  // the second row
+  };
+  /// The first such body; none: the outcome is not open.
+  const std::optional<OpenOutcome>& open_outcome() const { return open_outcome_; }
   /// Whether two of them pushed it from opposite sides at equal speeds.
   bool tied() const { return tied_; }
   /// That of all projections (contact_problem.h).
@@ -103,13 +115,15 @@ class ImpactSet {
     double mass;  // kg
     Vec3 v;       // m/s
     double top;   // m/s, its greatest speed in this instant
+    double near;  // m/s, the greatest of what was solved together with it in this instant: the scale of its rounding
     Rows rows;
     std::uint32_t struck = 0;  // strikes in this instant
     double lost = 0;           // the sum of 1 - e of these
   };
   struct RowState : Row {
-    bool holds = false;  // a link that does
-    double open = 0;     // N s, the impulse of a row with e = 0 that stays closed
+    bool holds = false;   // a link that does
+    bool struck = false;  // since the last look for the end of endless rounds
+    double open = 0;      // N s, the impulse of a row with e = 0 that stays closed
   };
   /// Rows that act together, and the open rows and links connected with them.
   struct Together {
@@ -140,7 +154,8 @@ class ImpactSet {
   bool before(std::uint32_t c, std::uint32_t d) const;
   void sort(Rows& rows) const;
   double separation(std::uint32_t c) const;
-  double top_of(std::uint32_t c) const;
+  double speeds_near(std::uint32_t c) const;
+  void share_rounding(const Projection& solved);
   Rows links_at(std::span<const std::uint32_t> rows) const;
   Projection project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v, bool relative = false,
                      double target = 0) const;
@@ -154,12 +169,14 @@ class ImpactSet {
   void strike_one(std::uint32_t c);
   void strike_inelastic(const Together& set);
   std::vector<Sum3> expansion(const Rows& rows, const Projection& compressed) const;
-  void answer(const Rows& links, const Projection& compressed, std::vector<Vec3>& dv);
+  void slacken(const Rows& links, const Projection& compressed);
   double allowed_share(const Projection& compressed, const std::vector<Vec3>& dv) const;
+  std::vector<Vec3> expand_alike(const Projection& compressed, double e) const;
+  std::vector<Vec3> expand_each(const Together& set, const Projection& compressed, double& share);
   void strike_elastic(const Together& set);
   void change(std::uint32_t body, const Vec3& v);
   void note(std::uint32_t c, double impulse, double approach, double separation);
-  void share_losses(std::size_t first, double by_links);
+  void share_losses(const Rows& bodies, std::size_t first);
   void count();
   bool has_room(const Rows& rows, const Rows& links) const;
   void end_by(const Projection& limit, const Rows& rows);
@@ -172,7 +189,9 @@ class ImpactSet {
   std::vector<Vec3> next_;       // m/s, by body, after this round
   Endless endless_;
   std::uint32_t rounds_ = 0;
-  bool leaves_open_ = false;
+  bool linked_ = false;  // it has links
+  const bool one_by_one_;
+  std::optional<OpenOutcome> open_outcome_;
   bool tied_ = false;
   Certificate certificate_;
 };
