@@ -43,11 +43,20 @@ std::string chaos_text(const Assessment& assessment) {
                      quantity(growth.large_at, "s"));
 }
 
+std::string order_text(const Assessment& assessment) {
+  if (!assessment.order) return "rigid bodies leave no impacts of one instant open";
+  return fmt::format("{} at most, if impacts of one instant act one by one, the fastest first",
+                     quantity(*assessment.order, "m"));
+}
+
 std::string right_text(const Assessment& assessment) {
   const std::string to = quantity(assessment.tolerance, "m");
-  return std::isfinite(assessment.right_until)
-             ? fmt::format("positions are right to {} until {}", to, quantity(assessment.right_until, "s"))
-             : fmt::format("positions are right to {} until the end", to);
+  std::string text = fmt::format("positions are right to {} until ", to);
+  text += std::isfinite(assessment.right_until) ? quantity(assessment.right_until, "s") : "the end";
+  if (assessment.order.value_or(0) > assessment.tolerance)
+    text += fmt::format(", under carom's law for impacts of one instant; another one changes them by {}",
+                        quantity(*assessment.order, "m"));
+  return text;
 }
 
 Json json_of(const Assessment& assessment) {
@@ -57,6 +66,7 @@ Json json_of(const Assessment& assessment) {
           {"integrator_m", assessment.integrator ? finite_or_null(*assessment.integrator) : Json(nullptr)},
           {"stepped_contact_s", assessment.stepped_contact},
           {"method_error_J", assessment.method_error},
+          {"order_m", assessment.order ? Json(*assessment.order) : Json(nullptr)},
           {"chaotic", assessment.growth.chaotic},
           {"lyapunov_time_s", finite_or_null(assessment.growth.lyapunov_time)},
           {"growth", assessment.growth.factor}};
@@ -73,6 +83,7 @@ AccuracyReport report_accuracy(const Scene& scene, EngineChoice engine) {
              {"rounding", fmt::format("{} at most", quantity(all.rounding, "m"))},
              {"integrator", integrator_text(all)},
              {"contact", contact_text(all)},
+             {"order", order_text(all)},
              {"chaos", chaos_text(all)}},
             json_of(all)};
   } catch (const SimulationError& error) {

@@ -81,6 +81,18 @@ std::string energy_text(const Summary& summary) {
   return text + fmt::format(", residual {}", quantity(summary.energy.residual, "J"));
 }
 
+/// Impacts of one instant, whose outcome is the law's choice; empty: there were none.
+std::string shared_text(const Summary& summary) {
+  const SharedImpacts& shared = summary.contact.shared;
+  if (shared.instants == 0) return {};
+  std::string text = fmt::format("rigid bodies leave {} open with several impacts on a body, first {}",
+                                 counted(shared.instants, "instant", "instants"), summary.contact.first_shared);
+  if (shared.ties > 0)
+    text += fmt::format("; at {} they come from both sides at one speed, where the slightest difference decides",
+                        grouped(shared.ties));
+  return text;
+}
+
 std::string work_text(const Summary& summary) {
   std::vector<std::string> each;
   for (const ForceWork& force : summary.energy.of_forces)
@@ -171,6 +183,11 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
+  if (const std::string text = shared_text(summary); !text.empty()) block.line("at once", text);
+  if (const SharedImpacts& shared = summary.contact.shared; shared.without_room > 0)
+    block.line("no room",
+               fmt::format("bodies could not rebound at {}, and absorbed {}",
+                           counted(shared.without_room, "instant", "instants"), quantity(shared.absorbed, "J")));
   if (summary.contact.removed > 0)
     block.line("removed", fmt::format("{} by regions, with {}", counted(summary.contact.removed, "body", "bodies"),
                                       quantity(summary.energy.removed, "J")));
@@ -234,7 +251,13 @@ Json contact_json(const Summary& s) {
           {"impacts_taken_up",
            {{"impacts", s.contact.taken_up.impacts},
             {"fastest_m_per_s", s.contact.taken_up.fastest},
-            {"energy_J", s.contact.taken_up.energy}}}};
+            {"energy_J", s.contact.taken_up.energy}}},
+          {"impacts_at_once",
+           {{"instants", s.contact.shared.instants},
+            {"ties", s.contact.shared.ties},
+            {"first", s.contact.first_shared},
+            {"without_room", s.contact.shared.without_room},
+            {"absorbed_J", s.contact.shared.absorbed}}}};
 }
 
 Json facts_json(const RunResult& result) {

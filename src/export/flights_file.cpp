@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
@@ -25,7 +26,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
-constexpr std::uint32_t version = 5, byte_order = 0x01020304, last_entry = 0xffffffff;
+constexpr std::uint32_t version = 6, byte_order = 0x01020304, last_entry = 0xffffffff;
 enum Has : std::uint32_t {
   has_acceleration = 1,
   has_from = 2,
@@ -37,8 +38,25 @@ enum Has : std::uint32_t {
   has_all = 127
 };
 
-constexpr std::size_t header_size = 32, tail_size = 8 + 17 * 8, end_size = 8 * 8;
+constexpr std::size_t header_size = 32, tail_size = 8 + 25 * 8, end_size = 8 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 1 + 3 * PolynomialPath::terms) * 8;
+
+/// The counts of the tail, in its order.
+template <typename Sums>
+auto counts_of(Sums& tally) {
+  return std::array{&tally.body_body,          &tally.body_fixed,      &tally.merges,
+                    &tally.tautened,           &tally.collapses,       &tally.resting,
+                    &tally.taken_up.impacts,   &tally.shared.instants, &tally.shared.ties,
+                    &tally.shared.without_room};
+}
+
+/// The values of the tail, in its order.
+template <typename Sums>
+auto values_of(Sums& tally) {
+  return std::array{&tally.first_collision, &tally.last_collision, &tally.energy_lost,     &tally.work,
+                    &tally.max_overlap,     &tally.fastest.speed,  &tally.stepped_contact, &tally.taken_up.fastest,
+                    &tally.taken_up.energy, &tally.shared.first,   &tally.shared.absorbed};
+}
 
 /// The default of `from` where an entry has none.
 double first_double(const DoubleDouble& start) {
@@ -145,13 +163,11 @@ void FlightsFile::end(const Tally& tally) {
   }
   writer.put(last_entry);
   writer.put(std::uint32_t{has_end});
-  for (const std::uint64_t count : {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.tautened,
-                                    tally.collapses, tally.resting, tally.taken_up.impacts})
-    writer.put(count);
-  for (const double value :
-       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap,
-        tally.fastest.speed, tally.stepped_contact, tally.taken_up.fastest, tally.taken_up.energy})
-    writer.put(value);
+  writer.put(entries_);
+  for (const std::uint64_t* count : counts_of(tally)) writer.put(*count);
+  for (const Entity entity : {tally.shared.body, tally.shared.one, tally.shared.other})
+    writer.put(std::uint64_t{entity});
+  for (const double* value : values_of(tally)) writer.put(*value);
   file_->written(writer.end());
 }
 
@@ -194,13 +210,13 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   const auto has_end = take<std::uint32_t>();
   if (has_end > 1 || (has_end == 1 && size < header_size + end_size + tail_size)) refuse("it is truncated");
   entries_ = take<std::uint64_t>();
-  for (std::uint64_t* count : {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.tautened,
-                               &tally_.collapses, &tally_.resting, &tally_.taken_up.impacts})
-    *count = take<std::uint64_t>();
-  for (double* value :
-       {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work, &tally_.max_overlap,
-        &tally_.fastest.speed, &tally_.stepped_contact, &tally_.taken_up.fastest, &tally_.taken_up.energy})
-    *value = take<double>();
+  for (std::uint64_t* count : counts_of(tally_)) *count = take<std::uint64_t>();
+  for (Entity* entity : {&tally_.shared.body, &tally_.shared.one, &tally_.shared.other}) {
+    const auto number = take<std::uint64_t>();
+    if (tally_.shared.instants > 0 && number >= scene.world.entity_count()) refuse("it is damaged");
+    *entity = static_cast<Entity>(number);
+  }
+  for (double* value : values_of(tally_)) *value = take<double>();
 
   at_ = end_ = 0;
   left_ = size - tail_size - header_size;

@@ -2,7 +2,7 @@
 // flights.bin: the paths of a run's bodies, from which the state at any instant can be computed, bit for bit.
 //
 // The format is little-endian, with doubles as in IEEE 754. A header of 32 bytes comes first:
-//   8 bytes "caromfly", u32 version (5), u32 0x01020304, u64 number of bodies, f64 duration (s)
+//   8 bytes "caromfly", u32 version (6), u32 0x01020304, u64 number of bodies, f64 duration (s)
 // Then come entries, sorted by the time from which they hold.
 // Each is u32 body (in the order of the scene file), u32 flags, and for each flag set, in this order:
 //   always   start: f64 hi, f64 lo (s, their sum); x, y, z (m) and vx, vy, vz (m/s) at start
@@ -19,10 +19,12 @@
 //
 // The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
 //   u64: entries, body-body collisions, body-fixed collisions, merges, strings that went taut, clusters that became
-//        lasting contacts, bodies at rest at the end, impacts that contact took up
+//        lasting contacts, bodies at rest at the end, impacts that contact took up; instants with impacts that share a
+//        body, of these with ties, and with bodies that had no room; such a body, and two things that it met at once
 //   f64: first and last collision (s, NaN: none), energy lost (J), work (J), deepest overlap (m), greatest speed (m/s),
 //        lasting contact computed by time stepping (s, summed over bodies), and of the impacts that contact took up
-//        the fastest (m/s) and their energy (J)
+//        the fastest (m/s) and their energy (J); the first instant with impacts that share a body (s, NaN: none), and
+//        the energy absorbed by bodies that had no room (J)
 // A run that has ended before its duration, or has lost bodies to regions, has 1 instead of the 0 of the tail. Then 64
 // bytes come before the tail:
 //   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region, u64 removed bodies,

@@ -44,6 +44,8 @@ struct ContactCounts {
   std::uint64_t removed = 0;    // bodies
   std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
+  SharedImpacts shared;
+  std::string first_shared{};  // "cue with up and low at 0.3 s"; empty: there was none
 };
 
 /// A measure of a run: a number, or a text.

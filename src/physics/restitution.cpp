@@ -29,6 +29,14 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
   return 0;
 }
 
+bool may_be_plastic(const World& world) {
+  const auto plastic = [](const auto& thing) { return thing.restitution == 0; };
+  return std::ranges::find(world.restitution, 0) != world.restitution.end() ||
+         std::ranges::any_of(world.planes, plastic) || std::ranges::any_of(world.walls, plastic) ||
+         std::ranges::any_of(world.obstacles, plastic) ||
+         std::ranges::any_of(world.pairs, [](const PairRestitution& pair) { return pair.value == 0; });
+}
+
 double pair_restitution(const World& world, Entity a, Entity b) {
   const auto within = [](Entity e, Entity first, Entity count) { return e >= first && e - first < count; };
   for (auto pair = world.pairs.rbegin(); pair != world.pairs.rend(); ++pair) {

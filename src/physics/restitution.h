@@ -14,4 +14,7 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
 /// the pair's.
 double pair_restitution(const World& world, Entity a, Entity b);
 
+/// Whether some pair may have e = 0, because something has.
+bool may_be_plastic(const World& world);
+
 }  // namespace carom

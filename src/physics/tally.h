@@ -19,6 +19,19 @@ struct TakenUp {
   double energy = 0;   // J, a part of the energy lost
 };
 
+/// Several impacts on a body at one instant, not all with e = 0. Rigid bodies leave their outcome open.
+struct SharedImpacts {
+  std::uint64_t instants = 0;
+  std::uint64_t ties = 0;          // of these: with opposed impacts of equal speed, where a slight difference decides
+  std::uint64_t without_room = 0;  // instants with bodies that had no room to rebound
+  double absorbed = 0;             // J, by these; a part of the energy lost
+  // When (s) it was so first, for which body, and the two things that it met. NaN: never.
+  double first = std::numeric_limits<double>::quiet_NaN();
+  Entity body = no_entity;
+  Entity one = no_entity;
+  Entity other = no_entity;
+};
+
 /// What regions have taken out of the world.
 struct Removed {
   std::uint64_t bodies = 0;
@@ -63,6 +76,8 @@ struct Unbalanced {
 
 /// What may make a run doubtful (run/warnings.h).
 struct Doubts {
+  // Contact problems with a solution that may be off by more than rounding.
+  std::uint64_t contacts = 0;
   StiffStep stiffest;     // the step with the greatest angle, for a method with steps of one length
   Unbalanced unbalanced;  // that with the longest way
 };
@@ -76,8 +91,6 @@ struct Tally {
   std::uint64_t collapses = 0;
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
-  // Contact problems with a solution that may be off by more than rounding.
-  std::uint64_t doubtful = 0;
   // J, by impacts: those recorded, and those that contact absorbed.
   double energy_lost = 0;
   // J, lost in lasting contact beside impacts (below 0: made). This is the method's own error.
@@ -92,6 +105,7 @@ struct Tally {
   // s, summed over bodies: lasting contact in time steps.
   double stepped_contact = 0;
   TakenUp taken_up;
+  SharedImpacts shared;
   Removed removed;
   std::optional<RunEnd> end;  // none: the run goes on until its duration
 

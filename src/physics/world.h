@@ -88,6 +88,7 @@ struct World {
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
+  Entity entity_count() const { return static_cast<Entity>(strings_from() + strings.size()); }
   bool is_body(Entity e) const { return e < body_count(); }
   /// Whether it is a plane, a wall or an obstacle.
   bool is_fixed(Entity e) const { return e >= body_count() && e < strings_from(); }

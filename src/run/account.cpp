@@ -52,6 +52,14 @@ std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, cons
   return all;
 }
 
+/// The first instant with several impacts on a body, in words; empty: there was none.
+std::string first_shared(const Scene& scene, const SharedImpacts& shared) {
+  if (shared.instants == 0) return {};
+  const auto name = [&](Entity e) { return scene.roster.name(e); };
+  return fmt::format("`{}` with `{}` and `{}` at {:.4g} s", name(shared.body), name(shared.one), name(shared.other),
+                     shared.first);
+}
+
 std::string ended_by(const Scene& scene, const Tally& tally) {
   if (!tally.end) return "duration";
   switch (tally.end->reason) {
@@ -112,7 +120,13 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.max_speed = tally.fastest.speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
-  summary.contact = {tally.merges, tally.tautened, tally.removed.bodies, tally.collapses, tally.taken_up};
+  summary.contact = {tally.merges,
+                     tally.tautened,
+                     tally.removed.bodies,
+                     tally.collapses,
+                     tally.taken_up,
+                     tally.shared,
+                     first_shared(scene, tally.shared)};
   summary.energy.of_forces = work_of_forces(scene, end, tally);
   return summary;
 }

@@ -317,6 +317,13 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
     assessment.integrator = unknown ? std::numeric_limits<double>::quiet_NaN() : finer_off.back();
     for (std::size_t k = 0; k < off.size(); ++k) off[k] = std::max(off[k], finer_off[k]);
   }
+  // Impacts at one instant: what the choice of their law changes. It is no error of the run.
+  if (run.tally.shared.instants + run.tally.shared.without_room > 0) {
+    StepChoice steps = engine.steps;
+    steps.one_by_one = true;
+    assessment.order = Runs::differences(run, runs.track(way, steps)).back();
+  }
+
   if (const std::size_t good = within(off, assessment.tolerance); good < off.size())
     assessment.right_until = good > 0 ? runs.instants()[good - 1] : 0;
   assessment.growth = growth_of(scene, way, engine.steps, stop_check);

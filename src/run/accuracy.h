@@ -55,6 +55,9 @@ struct Assessment {
   /// In m: the difference of two accuracies of steps. None: all paths have closed forms. NaN: not known, because a
   /// smaller error of each step changes nothing, as where positions are rounded by more.
   std::optional<double> integrator{};
+  /// In m: the difference of a run in which impacts of one instant act one after the other. None: rigid bodies leave
+  /// none of them open.
+  std::optional<double> order{};
   double stepped_contact = 0;  // s, summed over bodies
   double method_error = 0;     // J: energy that lasting contact removed, besides impacts
   Growth growth;

@@ -36,6 +36,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.watch = request.recording.watch;
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
+  options.one_by_one = request.steps.one_by_one;
   if (request.steps.error > 0) options.step_error = request.steps.error;
   return options;
 }

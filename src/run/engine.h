@@ -24,6 +24,8 @@ struct StepChoice {
   double error = 0;
   /// dop853 also follows paths that have closed forms, as a method independent of these.
   bool numerical = false;
+  /// Impacts of one instant act one after the other, the fastest first. It shows what the choice of their law changes.
+  bool one_by_one = false;
   friend bool operator==(const StepChoice&, const StepChoice&) = default;
 };
 

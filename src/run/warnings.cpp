@@ -117,12 +117,12 @@ class Warnings {
   }
 
   void check_contact() {
-    if (tally_.doubtful == 0) return;
+    if (tally_.doubts.contacts == 0) return;
     const auto [least, most] = std::minmax_element(scene_.world.mass.begin(), scene_.world.mass.end());
     const bool unequal = least != scene_.world.mass.end() && *most > unequal_masses * *least;
     add("contact",
-        fmt::format("{} contact problem{} not solved to rounding: {}", tally_.doubtful,
-                    tally_.doubtful == 1 ? " was" : "s were",
+        fmt::format("{} contact problem{} not solved to rounding: {}", tally_.doubts.contacts,
+                    tally_.doubts.contacts == 1 ? " was" : "s were",
                     unequal ? fmt::format("make masses less unequal, which are from {:.3g} to {:.3g} kg", *least, *most)
                             : "compare dependent figures with those of a start that differs slightly"));
   }

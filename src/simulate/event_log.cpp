@@ -34,6 +34,16 @@ void EventLog::remove(double energy, const Vec3& momentum) {
   all.momentum += momentum;
 }
 
+void EventLog::note(const SharedImpacts& now) {
+  SharedImpacts& all = tally_.shared;
+  const SharedImpacts before = all;
+  if (before.instants == 0 && now.instants > 0) all = now;
+  all.instants = before.instants + now.instants;
+  all.ties = before.ties + now.ties;
+  all.without_room = before.without_room + now.without_room;
+  all.absorbed = before.absorbed + now.absorbed;
+}
+
 void EventLog::take_up(double approach, double energy) {
   TakenUp& all = tally_.taken_up;
   ++all.impacts;

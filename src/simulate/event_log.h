@@ -95,13 +95,15 @@ class EventLog {
     absorb(energy);
     deviate(-energy);
   }
+  /// Counts impacts of one instant that rigid bodies leave open: one instant, with the first of them.
+  void note(const SharedImpacts& now);
   void count_collapse() { ++tally_.collapses; }
   /// Books a body that leaves the world, with its energy (J) and momentum (kg m/s).
   void remove(double energy, const Vec3& momentum);
   void end(const RunEnd& end) { tally_.end = end; }
   /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {
-    if (certificate.verdict == Certificate::Verdict::doubtful) ++tally_.doubtful;
+    if (certificate.verdict == Certificate::Verdict::doubtful) ++tally_.doubts.contacts;
   }
   const Tally& tally() const { return tally_; }
 

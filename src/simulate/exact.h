@@ -28,6 +28,7 @@ struct ExactOptions {
   // false: dop853 computes all flights that bend.
   bool closed_forms = true;
   bool merge = false;             // bodies that meet become one
+  bool one_by_one = false;        // impacts of one instant act one after the other, the fastest first
   bool record_collisions = true;  // false: there is no buffer, and collisions() stays empty
   bool record_paths = false;      // false: there is no buffer for paths()
   // What ends the run before the duration, beside regions of the World.

@@ -1,6 +1,7 @@
 // Runs with wrong energy balances are reported as doubtful everywhere; runs that cannot go on end with a remedy.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
@@ -105,6 +106,41 @@ TEST(Accuracy, CheckReportsTheErrorAndItsParts) {
   EXPECT_GT(accuracy.at("rounding_m"), 0);
   EXPECT_LT(accuracy.at("rounding_m"), 1e-11);
   EXPECT_FALSE(accuracy.at("chaotic"));
+}
+
+/// A ball that strikes two touching ones on their axis: rigid bodies alone leave the outcome open.
+TEST(Accuracy, CheckSaysWhatTheLawOfImpactsAtOneInstantIsWorth) {
+  const Workplace here;
+  here.write("three.yaml", R"(scene: 1
+balls:
+  cue: {mass: 1, radius: 0.5, position: [-3, 0, 0], velocity: [10, 0, 0]}
+  up: {mass: 1, radius: 0.5, position: [0, 0.5, 0]}
+  low: {mass: 1, radius: 0.5, position: [0, -0.5, 0]}
+simulate: {duration: 1}
+)");
+  const Finished run = here.carom({"run", "three.yaml"});
+  EXPECT_NE(run.out.find("at once     rigid bodies leave 1 instant open with several impacts on a body"),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("`low` at 0.2134 s"), std::string::npos) << run.out;
+
+  // Together each ball leaves at 4 sqrt(3) m/s. One by one the second one has 2.5 sqrt(3) m/s.
+  const Finished check = here.carom({"check", "three.yaml", "--accuracy"});
+  EXPECT_NE(check.out.find("until the end, under carom's law for impacts"), std::string::npos) << check.out;
+  const Json json = Json::parse(here.carom({"check", "three.yaml", "--accuracy", "--json"}).out);
+  const double order = json.at("scenes").at(0).at("accuracy").at("order_m");
+  EXPECT_NEAR(order, 1.5 * std::sqrt(3.0) * (0.7 + 0.05 * std::sqrt(3.0)), 1e-12);
+
+  // From one side there is one impact after the other in any order.
+  here.write("row.yaml", R"(scene: 1
+balls:
+  cue: {mass: 1, radius: 0.5, position: [-3, 0, 0], velocity: [10, 0, 0]}
+  b: {mass: 1, radius: 0.5, position: [0, 0, 0]}
+  c: {mass: 1, radius: 0.5, position: [1, 0, 0]}
+simulate: {duration: 1}
+)");
+  const Finished row = here.carom({"check", "row.yaml", "--accuracy"});
+  EXPECT_NE(row.out.find("rigid bodies leave no impacts of one instant open"), std::string::npos) << row.out;
 }
 
 TEST(Accuracy, CheckComparesStepErrorsWhereIslandsHaveThem) {

@@ -57,10 +57,29 @@ TEST(Report, ReportsTheImpactsThatContactHasReplaced) {
             std::string::npos);
 }
 
+TEST(Report, ReportsWhatRigidBodiesLeaveOpen) {
+  RunResult result = result_with(0, 0);
+  EXPECT_EQ(lines_of(result).find("at once"), std::string::npos);
+  result.summary.contact.shared = {2, 1, 0, 0, 0.3, 0, 1, 2};
+  result.summary.contact.first_shared = "`cue` with `up` and `low` at 0.3 s";
+  EXPECT_NE(lines_of(result).find(
+                "  at once     rigid bodies leave 2 instants open with several impacts on a body, first `cue` with\n"
+                "              `up` and `low` at 0.3 s; at 1 they come from both sides at one speed, where the\n"
+                "              slightest difference decides\n"),
+            std::string::npos)
+      << lines_of(result);
+
+  result.summary.contact.shared = {0, 0, 1, 0.5};
+  EXPECT_NE(lines_of(result).find("  no room     bodies could not rebound at 1 instant, and absorbed 0.5 J\n"),
+            std::string::npos)
+      << lines_of(result);
+}
+
 TEST(Report, JsonHasThemBesideTheSummary) {
-  EXPECT_EQ(
-      contact_json(result_with(2, 1).summary).dump(),
-      R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"impacts_taken_up":{"impacts":0,"fastest_m_per_s":0.0,"energy_J":0.0}})");
+  EXPECT_EQ(contact_json(result_with(2, 1).summary).dump(),
+            R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"impacts_taken_up":{"impacts":0,)"
+            R"("fastest_m_per_s":0.0,"energy_J":0.0},"impacts_at_once":{"instants":0,"ties":0,"first":"",)"
+            R"("without_room":0,"absorbed_J":0.0}})");
 }
 
 }  // namespace

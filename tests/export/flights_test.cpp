@@ -54,6 +54,7 @@ Tally some_tally() {
   tally.fastest.speed = 12;
   tally.stepped_contact = 0.5;
   tally.taken_up = {4, 0.125, 0.375};
+  tally.shared = {3, 1, 2, 0.625, 0.25, 2, 0, 3};
   return tally;
 }
 
@@ -124,12 +125,17 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_EQ(reader.tally().taken_up.impacts, 4u);
   EXPECT_EQ(reader.tally().taken_up.fastest, 0.125);
   EXPECT_EQ(reader.tally().taken_up.energy, 0.375);
+  const SharedImpacts& shared = reader.tally().shared;
+  const SharedImpacts stored = some_tally().shared;
+  EXPECT_TRUE(shared.instants == stored.instants && shared.ties == stored.ties && shared.first == stored.first);
+  EXPECT_TRUE(shared.without_room == stored.without_room && shared.absorbed == stored.absorbed);
+  EXPECT_TRUE(shared.body == stored.body && shared.one == stored.one && shared.other == stored.other);
 }
 
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {
   const TempFolder folder;
   store(folder, small_scene());
-  const std::uintmax_t ends = 32 + 144, first = 4 * 96, bounce = 96, late = 80, step = 136, curve = 72 + 8 + 8 * 24,
+  const std::uintmax_t ends = 32 + 208, first = 4 * 96, bounce = 96, late = 80, step = 136, curve = 72 + 8 + 8 * 24,
                        part = 104, joint = 136;
   EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + curve + part + joint);
 }
@@ -176,7 +182,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   const std::string whole = read(folder / "flights.bin");
   // Of the first entry: start, its lower part, x, vy, az; of a curve: length, a term; of the last
   // one, of a joint body: mass, radius, half.
-  const std::size_t first = 32 + 8, end = whole.size() - 144, curve = end - 136 - 104 - 200;
+  const std::size_t first = 32 + 8, end = whole.size() - 208, curve = end - 136 - 104 - 200;
   for (const std::size_t at :
        {first, first + 8, first + 16, first + 48, first + 80, curve, curve + 56, end - 40, end - 32, end - 8}) {
     std::string damaged = whole;

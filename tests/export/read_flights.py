@@ -8,8 +8,8 @@ import sys
 
 data, time, at = open(sys.argv[1], "rb").read(), float(sys.argv[2]), 32
 magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
-assert (magic, version, order) == (b"caromfly", 5, 0x01020304)
-(entries,) = struct.unpack_from("<Q", data, len(data) - 136)
+assert (magic, version, order) == (b"caromfly", 6, 0x01020304)
+(entries,) = struct.unpack_from("<Q", data, len(data) - 200)
 path, whole, a = [None] * bodies, list(range(bodies)), [None] * bodies
 for _ in range(entries):
     (body, has), at = struct.unpack_from("<II", data, at), at + 8

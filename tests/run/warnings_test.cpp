@@ -179,7 +179,7 @@ std::string contact_warning(std::vector<double> masses, std::uint64_t problems) 
   Scene scene;
   scene.world.mass = std::move(masses);
   Tally tally;
-  tally.doubtful = problems;
+  tally.doubts.contacts = problems;
   const std::vector<Warning> warnings = warnings_of(scene, EngineChoice{}, scene.initial, Summary{}, tally);
   return warnings.empty() ? "" : warnings.back().text;
 }

@@ -35,7 +35,7 @@ TEST(ConstrainedMotion, ARowOfAnyNumberIsPushedAsOneBody) {
             << n << ": " << i;  // measured: 0
       EXPECT_TRUE(run.collisions.empty()) << n;
       EXPECT_EQ(run.tally.stepped_contact, 0) << n;
-      EXPECT_EQ(run.tally.doubtful, 0u) << n;
+      EXPECT_EQ(run.tally.doubts.contacts, 0u) << n;
     }
 }
 

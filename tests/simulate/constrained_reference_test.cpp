@@ -47,7 +47,7 @@ Errors compare(const ConstrainedReference& reference, const ConstrainedReference
     }
     EXPECT_TRUE(run.collisions.empty());
     EXPECT_EQ(run.tally.stepped_contact, 0);
-    EXPECT_EQ(run.tally.doubtful, 0u);
+    EXPECT_EQ(run.tally.doubts.contacts, 0u);
     std::reverse(order.begin(), order.end());
   }
   return errors;

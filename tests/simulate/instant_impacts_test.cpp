@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "simulate/build.h"
 
@@ -150,6 +151,137 @@ TEST(InstantImpacts, TheBooksBalance) {
     EXPECT_NEAR(50 - after, run.tally.energy_lost, 1e-11) << e;
     EXPECT_NEAR(rows, run.tally.energy_lost, 1e-11) << e;
   }
+}
+
+/// A ball that just fits between two planes, and that moves along and across them.
+Problem in_a_shaft(double e) {
+  Problem problem;
+  problem.ball({0, 0, 0}, {1, 2, 0}, 1, 0.5, e);
+  problem.plane({-0.5, 0, 0}, {1, 0, 0});
+  problem.plane({0.5, 0, 0}, {-1, 0, 0});
+  problem.options.duration = 1;
+  return problem;
+}
+
+TEST(InstantImpacts, WithoutRoomAnElasticBallStopsAcrossItsShaft) {
+  const Outcome run = run_exact(in_a_shaft(1));
+  EXPECT_EQ(run.end.velocity[0], Vec3(0, 2, 0));
+  EXPECT_EQ(run.tally.shared.without_room, 1u);
+  EXPECT_EQ(run.tally.shared.absorbed, 0.5);
+  EXPECT_EQ(run.tally.energy_lost, 0.5);
+  EXPECT_EQ(run.tally.shared.instants, 0u);
+}
+
+TEST(InstantImpacts, WithRestitutionAboveOneThatIsAnError) {
+  EXPECT_THROW(run_exact(in_a_shaft(1.1)), SimulationError);
+}
+
+/// A hundred touching balls: more rounds at one instant than the loop takes one by one.
+TEST(InstantImpacts, ALongChainPassesABlowOnAndEndsInItsLimit) {
+  for (const double e : {1.0, 0.9, 0.5}) {
+    Problem problem;
+    problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5, e);
+    for (int i = 0; i < 100; ++i) problem.ball({1.0 * i, 0, 0}, {0, 0, 0}, 1, 0.5, e);
+    problem.options.duration = 2;
+    const Outcome run = run_exact(problem);
+    for (std::size_t i = 0; i < 101; ++i) {
+      const double expected = e < 1 ? 1.0 / 101 : i == 100 ? 1 : 0;
+      EXPECT_NEAR(run.end.velocity[i].x(), expected, e < 1 ? 1e-14 : 0) << e << ' ' << i;
+    }
+  }
+}
+
+/// Several impacts on a body, not all with e = 0, are counted, and the first such body is named.
+TEST(InstantImpacts, WhatRigidBodiesLeaveOpenIsCounted) {
+  const SharedImpacts elastic = run_exact(break_of(2, 1)).tally.shared;
+  EXPECT_EQ(elastic.instants, 1u);
+  EXPECT_EQ(elastic.ties, 0u);
+  EXPECT_NEAR(elastic.first, 0.2, 1e-15);
+  EXPECT_EQ(elastic.body, 1u);
+  EXPECT_EQ(std::set({elastic.one, elastic.other}), std::set({Entity{2}, Entity{3}}));
+  EXPECT_EQ(run_exact(break_of(2, 0)).tally.shared.instants, 0u);
+
+  // From both sides at one speed: the outcome is the mean of two that a slight difference chooses between.
+  Problem row;
+  for (int i = -1; i <= 1; ++i) row.ball({2.0 * i, 0, 0}, {-1.0 * i, 0, 0}, 1, 0.5, 0.5);
+  row.options.duration = 2;
+  const Outcome run = run_exact(row);
+  EXPECT_EQ(run.tally.shared.ties, 1u);
+  for (int i = -1; i <= 1; ++i) EXPECT_EQ(run.end.velocity[static_cast<std::size_t>(i + 1)].x(), 0.5 * i);
+}
+
+/// One by one, the fastest first, is another law. It is what `check --accuracy` compares with.
+TEST(InstantImpacts, OneByOneTheFirstOfTwoEqualImpactsTakesMore) {
+  Problem problem = break_of(2, 1);
+  problem.options.one_by_one = true;
+  const Outcome run = run_exact(problem);
+  const double first = std::max(run.end.velocity[2].norm(), run.end.velocity[3].norm());
+  const double second = std::min(run.end.velocity[2].norm(), run.end.velocity[3].norm());
+  EXPECT_NEAR(first, 5 * std::sqrt(3.0), 1e-13);
+  EXPECT_NEAR(second, 2.5 * std::sqrt(3.0), 1e-13);
+  EXPECT_NEAR(run.tally.energy_lost, 0, 1e-13);
+}
+
+/// With e = 0 what touches stays closed, although at first one pair alone approaches: one row for each pair.
+TEST(InstantImpacts, APlasticBlowOnAColumnIsOneProjection) {
+  Problem problem;
+  problem.plane(Vec3::Zero(), Vec3::UnitY());
+  problem.ball({0, 2.5, 0}, {0, -1, 0}, 1, 0.5, 0);
+  problem.ball({0, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0);
+  problem.options.duration = 2;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 2u);
+  for (const Collision& collision : run.collisions) EXPECT_EQ(collision.impulse, 1);
+  EXPECT_EQ(run.collisions[0].energy_lost + run.collisions[1].energy_lost, 0.5);
+}
+
+/// Two crates, one on the other, land together: the floor stops both.
+TEST(InstantImpacts, CratesThatLandTogetherHaveOneRowForEachPair) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.plane(Vec3::Zero(), Vec3::UnitY());
+  for (int k = 0; k < 2; ++k) problem.body(Volume::box(Vec3::Ones()), {0, 5.5 + k, 0}, Vec3::Zero(), 2, 0);
+  problem.options.duration = 2;
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 2u);
+  EXPECT_EQ(run.collisions[0].kind, CollisionKind::body_fixed);
+  EXPECT_NEAR(run.collisions[0].impulse, 40, 1e-12);
+  EXPECT_NEAR(run.collisions[1].impulse, 20, 1e-12);
+  EXPECT_NEAR(run.tally.energy_lost, 200, 1e-12);
+}
+
+/// Boxes that share an edge alone do not touch.
+TEST(InstantImpacts, BoxesPassAlongASharedEdge) {
+  for (const Vec3& corner : {Vec3(1, 0, 1), Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
+    Problem problem;
+    problem.body(Volume::box(Vec3::Ones()), Vec3::Zero(), {1, 0, 0});
+    problem.body(Volume::box(Vec3::Ones()), corner, Vec3::Zero());
+    problem.options.duration = 3;
+    EXPECT_EQ(run_exact(problem).collisions.size(), 0u) << corner.transpose();
+  }
+}
+
+/// In a block of boxes those struck in front push those behind, and no others.
+TEST(InstantImpacts, ABlowPassesStraightThroughABlockOfBoxes) {
+  Problem problem;
+  problem.body(Volume::box({1, 1, 2}), {-3, 0, 0}, {20, 0, 0}, 20, 0);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) problem.body(Volume::box(Vec3::Ones()), {1.0 * i, 0, j - 2.5}, Vec3::Zero(), 1, 0);
+  problem.options.duration = 0.5;
+  const Outcome run = run_exact(problem);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      EXPECT_NEAR(run.end.velocity[1 + 6 * i + j].x(), j == 2 || j == 3 ? 12.5 : 0, 1e-13) << i << ' ' << j;
+}
+
+/// A shaft that moves as a whole leaves its ball as little room as one at rest, and no less.
+TEST(InstantImpacts, WallsThatMoveTogetherCarryTheBallBetweenThem) {
+  Problem problem = in_a_shaft(1);
+  problem.initial.velocity[0] = Vec3::Zero();
+  for (const Entity wall : {Entity{1}, Entity{2}}) problem.move(wall, {{0, 10, {1, 0, 0}}});
+  const Outcome run = run_exact(problem);
+  EXPECT_NEAR(run.end.velocity[0].x(), 1, 1e-15);
+  EXPECT_EQ(run.tally.shared.without_room, 1u);
 }
 
 }  // namespace

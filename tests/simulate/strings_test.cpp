@@ -800,7 +800,7 @@ TEST(Strings, NeitherLengthsNorEnergyDriftAmongBallsTiedAtRandom) {
     EXPECT_LE(fastest, tally.fastest.speed * (1 + 1e-12)) << seed;
     residue = std::max(
         residue, std::abs(energy(problem, simulator->state()) - energy(problem, problem.initial) + tally.energy_lost));
-    EXPECT_EQ(tally.doubtful, 0u) << seed;
+    EXPECT_EQ(tally.doubts.contacts, 0u) << seed;
     EXPECT_EQ(tally.stepped_contact, 0) << seed;
   }
   EXPECT_LT(farthest, 2e-12);
@@ -824,7 +824,7 @@ TEST(Strings, AFrameWithMoreRodsThanItNeedsMovesAsARigidBody) {
       for (Entity j = 0; j < i; ++j) problem.between(i, j, (at[i] - at[j]).norm()).rod = true;
     problem.options.duration = 2;
     const Outcome run = run_exact(problem);
-    EXPECT_EQ(run.tally.doubtful, 0u) << flat;
+    EXPECT_EQ(run.tally.doubts.contacts, 0u) << flat;
     for (Entity i = 0; i < at.size(); ++i)
       for (Entity j = 0; j < i; ++j)
         EXPECT_NEAR((run.end.position[i] - run.end.position[j]).norm(), (at[i] - at[j]).norm(), 1e-12) << flat;

@@ -206,9 +206,9 @@ class Check {
   }
 
   /// The greatest coefficient of the impacts of that instant that share bodies with others, or 0. Where these differ,
-  /// or some of them end in contact, each separates at less than that times its approach.
+  /// or some of them end in contact, without a record, each separates at less than that times its approach.
   double shared_coefficient(const Collision& c) const {
-    double greatest = 0;
+    double greatest = first_.tally.shared.instants > 0 ? c.restitution : 0;
     for (const Collision& other : first_.records) {
       const auto is = [&](Entity e) { return world_.is_body(e) && (other.a == e || other.b == e); };
       if (other.time == c.time && &other != &c && (is(c.a) || is(c.b)))

@@ -20,8 +20,8 @@ class CollapseDetector;
 /// A flat surface that carries a body.
 struct FlatContact {
   Entity surface;
-  std::uint8_t feature;  // of the pair (touch.h; of a ball and a wall: contact_time.h)
-  Vec3 normal;           // unit, from the surface to the body
+  std::uint8_t feature;        // of the pair (touch.h; of a ball and a wall: contact_time.h)
+  Vec3 normal = Vec3::Zero();  // unit, from the surface to the body
   // Bounces have not ended. They end at the time below.
   bool settling;
   Instant rest_time;      // s

@@ -31,25 +31,31 @@ double InstantImpacts::close_times(const State& initial) const {
 }
 
 bool InstantImpacts::strike(const Due& due) {
-  Moment now(parts_.group.numbers);
+  Moment now(parts_.group.numbers, bodies_.options.one_by_one);
   add_due(now, due);
 
   // Impacts elsewhere belong to it where touching bodies connect them.
   gather_all(now);
   Rows approaching = find_approaching(now);
 
-  // The first one alone: an impact of two, or a string that goes taut without an impact.
-  const bool string = bodies_.world.is_string(now.touching.front().thing);
+  // The first one alone: an impact of two, or a string that goes taut without an impact. Without room to rebound,
+  // impacts of two have no end, and with e = 0 what touches stays closed.
+  const Touching& first = now.touching.front();
+  const bool string = bodies_.world.is_string(first.thing);
   const bool meets = std::ranges::find(approaching, 0u) != approaching.end();
-  if (!string && (!meets || (approaching.size() == 1 && !now.linked))) return false;
+  const bool stays =
+      now.set.rows() > 1 && pair_restitution(bodies_.world, first.a, first.thing) == 0 && !leaves_asleep(first);
+  const bool endless = parts_.guard.may_be_endless() && !now.set.has_room();
+  if (!string && (!meets || (approaching.size() == 1 && !now.linked && !stays && !endless))) return false;
   if (!meets) hold_string(now);
 
   while (!approaching.empty()) {
     if (now.set.may_be_endless()) {
       gather_all(now);
       const auto& ended = now.set.end_endless(approaching);
-      if (now.set.without_room() && any_moves(now)) check_room(now);
+      if (now.set.certificate().verdict == Certificate::Verdict::infeasible) check_room(now);
       if (!ended.empty()) {
+        for (const ImpactSet::Impact& impact : ended) now.absorbed += now.set.without_room() ? impact.lost : 0;
         apply(now, ended, true);
         break;
       }
@@ -67,6 +73,7 @@ bool InstantImpacts::strike(const Due& due) {
 
   apply(now, now.set.finish(), true);
   book(now);
+  note_open(now);
   return true;
 }
 
@@ -152,7 +159,8 @@ void InstantImpacts::gather(Moment& now, Entity i) const {
     if (body && (xe - x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
 
     const Touch there = body ? rules_.find_pair(a, thing, no_feature).there : bodies_.touch_at(i, x, e, xe, no_feature);
-    if (there.gap <= near) add_row(now, a, thing, there, ImpactSet::Kind::touching);
+    if (there.gap <= near && presses({a, thing, there.feature, there}))
+      add_row(now, a, thing, there, ImpactSet::Kind::touching);
   }
 }
 
@@ -212,6 +220,22 @@ bool InstantImpacts::meets_by_volume(const Touching& row, const Vec3& velocity) 
   return time_of_impact(bodies_.world, row.a, row.thing, motion, no_feature, soon).time <= soon;
 }
 
+/// Whether an impact is too slow to wake one of its bodies, which counts as fixed then.
+bool InstantImpacts::leaves_asleep(const Touching& row) const {
+  const Entity b = row.thing;
+  if (!bodies_.world.is_body(b)) return false;
+  if (bodies_.mode(row.a) != Mode::asleep && bodies_.mode(b) != Mode::asleep) return false;
+  const PairImpact impact = rules_.find_pair(row.a, b, row.feature);
+  return (bodies_.mode(row.a) == Mode::asleep && rules_.too_slow_to_wake(impact, b, row.a)) ||
+         (bodies_.mode(b) == Mode::asleep && rules_.too_slow_to_wake(impact, row.a, b));
+}
+
+/// Whether two things that touch would press on each other if they were pushed together. Those that share an edge of
+/// volumes alone do not.
+bool InstantImpacts::presses(const Touching& row) const {
+  return bodies_.world.volume.empty() || meets_by_volume(row, -row.there.normal);
+}
+
 /// The rows that approach, and can be struck. Bodies that take part bring all that touches them.
 InstantImpacts::Rows InstantImpacts::find_approaching(Moment& now) const {
   Rows approaching;
@@ -246,11 +270,6 @@ void InstantImpacts::end_steps(Moment& now, const Rows& approaching) {
       parts_.flights.note_changed(i);
     }
   }
-}
-
-/// Whether a fixed thing that moves takes part.
-bool InstantImpacts::any_moves(const Moment& now) const {
-  return std::ranges::any_of(now.touching, [&](const Touching& row) { return bodies_.world.moves(row.thing); });
 }
 
 /// Throws SimulationError where things that move leave a body no room, or strings hold it against one.
@@ -415,33 +434,67 @@ void InstantImpacts::note(Moment& now, const ImpactSet::Impact& impact, bool las
     now.records[row.record].lost += impact.lost;
     return;
   }
-  row.record = inelastic && !row.rests ? now.records.size() : none;
-  now.records.push_back({impact.row, row.ends, row.e, impact.approach, impact.separation, impact.impulse, impact.lost});
+  const bool settles = row.rests && row.contact.settling;
+  row.record = inelastic && !(settles && row.contact.residual_speed > 0) ? now.records.size() : none;
+  const double approach = std::max(impact.approach, 0.0);  // of a pair that others press, rounding
+  now.records.push_back({impact.row, row.ends, row.e, approach, impact.separation, impact.impulse, impact.lost});
   Record& record = now.records.back();
   if (inelastic) record.separation = 0;
 
   // The record of a rest has the energy of bounces that are left out, unless a level surface has taken over.
   if (!row.rests) return;
-  record.ends = !row.contact.settling;
-  if (record.ends) return;
+  record.ends = !settles;
+  if (!settles) return;
   record.separation = row.contact.residual_speed;
   record.lost -= impact_loss(bodies_.world.mass[row.a], ExactBodies::immovable, record.separation, 0);
 }
 
-/// Shares what a row has given back among the others. Impulses of one round may end in a later one, through another
-/// row. Impacts with e above 1 make their energy themselves.
+/// Shares among the others what a row has given back, and what it has lost where later rounds have taken back all of
+/// its impulse. Such a row is dropped. Impulses of one round may end in a later one, through another row. Impacts with
+/// e above 1 make their energy themselves.
 void InstantImpacts::share_gains(Moment& now) {
-  double lost = 0;
-  double gained = 0;  // J
-  for (const Record& of : now.records)
-    if (of.e <= 1) (of.lost > 0 ? lost : gained) += of.lost;
-  if (gained == 0) return;
+  double greatest = 0;  // N s
+  for (const Record& of : now.records) greatest = std::max(greatest, of.impulse);
+
+  double lost = 0;    // J
+  double others = 0;  // J
+  for (Record& of : now.records) {
+    if (of.e > 1) continue;
+    if (of.impulse <= tol::impulse_rounding * greatest) of.impulse = 0;
+    const bool keeps = of.impulse > 0 && of.lost > 0;
+    (keeps ? lost : others) += of.lost;
+    if (!keeps) of.lost = 0;
+  }
+  std::erase_if(now.records, [](const Record& of) { return of.impulse == 0; });
+  if (others == 0) return;
 
   // More than all can only be rounding.
-  if (lost + gained < 0) bodies_.log.deviate(lost + gained);
-  const double share = lost > 0 ? std::max(lost + gained, 0.0) / lost : 0;
+  if (lost + others < 0) bodies_.log.deviate(lost + others);
+  const double share = lost > 0 ? std::max(lost + others, 0.0) / lost : 0;
   for (Record& of : now.records)
-    if (of.e <= 1) of.lost = of.lost > 0 ? share * of.lost : 0;
+    if (of.e <= 1) of.lost *= share;
+}
+
+/// Counts an outcome that rigid bodies leave open, and impacts without room.
+void InstantImpacts::note_open(const Moment& now) {
+  const std::optional<ImpactSet::OpenOutcome>& open = now.set.open_outcome();
+  if (!open && !now.set.without_room()) return;
+  SharedImpacts all;
+  all.without_room = now.set.without_room();
+  all.absorbed = now.absorbed;
+
+  if (open) {
+    all.instants = 1;
+    all.ties = now.set.tied();
+    all.first = bodies_.now.hi;
+    all.body = now.members[open->body];
+    const auto met = [&](std::uint32_t c) {
+      return now.touching[c].a == all.body ? now.touching[c].thing : now.touching[c].a;
+    };
+    all.one = met(open->row);
+    all.other = met(open->other);
+  }
+  bodies_.log.note(all);
 }
 
 /// Books the energy of all impacts, and records those that have not ended in contact.

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/restitution.h"
 #include "simulate/contact/flat_contacts.h"
 #include "simulate/contact/numbering.h"
 #include "simulate/impact/impact_parts.h"
@@ -25,10 +26,16 @@ struct State;
 class InstantImpacts {
  public:
   InstantImpacts(ExactBodies& bodies, const ImpactParts& parts, ImpactRules& rules)
-      : bodies_(bodies), parts_(parts), rules_(rules) {}
+      : bodies_(bodies),
+        parts_(parts),
+        rules_(rules),
+        some_act_at_once_(bodies.ties.any() || may_be_plastic(bodies.world)) {}
 
   /// Returns the time by which rounding of places may separate impacts of one instant (s).
   double close_times(const State& initial) const;
+  /// Whether impacts of some pairs, although they are alone at first, belong together with all that touches: those with
+  /// e = 0, and those beside strings and rods.
+  bool some_act_at_once() const { return some_act_at_once_; }
   /// An impact that is due at the present instant.
   struct Due {
     Entity body;
@@ -73,7 +80,7 @@ class InstantImpacts {
 
   /// The set of one instant.
   struct Moment {
-    explicit Moment(Numbering::Numbers& numbers) : members(numbers) {}
+    Moment(Numbering::Numbers& numbers, bool one_by_one) : members(numbers), set(one_by_one) {}
 
     Numbering members;
     ImpactSet set;
@@ -82,6 +89,7 @@ class InstantImpacts {
     std::vector<std::uint8_t> struck;    // by member
     std::vector<Record> records;
     bool linked = false;  // strings or rods take part
+    double absorbed = 0;  // J, for want of room
   };
 
   std::uint32_t take_in(Moment& now, Entity i) const;
@@ -94,9 +102,10 @@ class InstantImpacts {
   void gather_all(Moment& now) const;
   bool may_strike(const Moment& now, std::uint32_t c) const;
   bool meets_by_volume(const Touching& row, const Vec3& velocity) const;
+  bool presses(const Touching& row) const;
+  bool leaves_asleep(const Touching& row) const;
   Rows find_approaching(Moment& now) const;
   void end_steps(Moment& now, const Rows& approaching);
-  bool any_moves(const Moment& now) const;
   void check_room(const Moment& now) const;
   void decide(Moment& now, std::uint32_t c);
   void decide_string(Touching& row);
@@ -108,11 +117,13 @@ class InstantImpacts {
   void hold_string(Moment& now);
   void note(Moment& now, const ImpactSet::Impact& impact, bool last) const;
   void share_gains(Moment& now);
+  void note_open(const Moment& now);
   void book(Moment& now);
 
   ExactBodies& bodies_;
   const ImpactParts parts_;
   ImpactRules& rules_;
+  const bool some_act_at_once_;
 };
 
 }  // namespace carom

@@ -15,6 +15,12 @@ void StallGuard::count(Happened what, double now) {
   const bool impact = what == Happened::impact;
   const bool elastic = what == Happened::region_left || (impact && restitution_ == 1 && !moving_);
 
+  if (now - instant_ > close_) {
+    instant_ = now;
+    at_instant_ = 0;
+  }
+  ++at_instant_;
+
   if (impact) {
     highest_ = std::max(highest_, restitution_);
     lowest_ = std::min(lowest_, restitution_);

@@ -5,6 +5,8 @@
 // clock's rounding.
 #include <cstdint>
 
+#include "simulate/tolerances.h"
+
 namespace carom {
 
 class StallGuard {
@@ -23,6 +25,11 @@ class StallGuard {
   /// Counts an event at `now` (s). Throws SimulationError where the clock stands still.
   void count(Happened what, double now);
 
+  /// Events within this span (s) count as those of one instant.
+  void set_close(double span) { close_ = span; }
+  /// Whether so many events have happened at this instant that their rounds may be endless.
+  bool may_be_endless() const { return at_instant_ >= exact_tolerance::rounds_of_events; }
+
  private:
   /// The progress of the clock over many events.
   struct Watch {
@@ -37,6 +44,10 @@ class StallGuard {
   Watch elastic_, lossy_;
   double restitution_ = 0;  // of the last impact
   bool moving_ = false;     // a moving thing took part in it
+  // The present instant (s), its length (s) and its events.
+  double instant_ = 0;
+  double close_ = 0;
+  std::uint32_t at_instant_ = 0;
   // Of recent impacts: the greatest restitution and the least one, and whether moving things took part.
   double highest_ = 0, lowest_ = 1;
   bool moved_ = false;

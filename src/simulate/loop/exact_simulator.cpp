@@ -5,10 +5,10 @@
 #include "simulate/loop/exact_simulator.h"
 
 #include <algorithm>
-
 #include <cmath>
 #include <utility>
 
+#include "physics/restitution.h"
 #include "physics/world.h"
 
 namespace carom {
@@ -84,7 +84,9 @@ void ExactSimulator::start(const State& initial) {
     bodies_.note_speed(i, v);
   }
 
-  queue_.set_close(impacts_.at_once.close_times(initial));
+  const double close = impacts_.at_once.close_times(initial);
+  queue_.set_close(close);
+  guard_.set_close(close);
   bodies_.neighbours.start(initial.position);
 
   // Contacts at the start: with flat surfaces, with other things, along strings.
@@ -190,22 +192,23 @@ std::uint32_t ExactSimulator::process(Entity i) {
 
   switch (event.kind) {
     case Kind::body_body:
-    case Kind::body_fixed:
-    case Kind::string:
-      if (!is_current(i, event)) {
+      if (bodies_.body[event.partner].version != event.partner_version) {
         // The partner's path has changed since.
         flights_.note_changed(i);
-      } else if (!may_be_simultaneous(i, event) || !impacts_.at_once.strike({i, event.partner, event.feature})) {
-        flights_.end_step(i);
-        if (event.kind == Kind::body_fixed) {
-          impacts_.of_two.collide_fixed(i, event.partner, event.feature);
-        } else {
-          flights_.end_step(event.partner);
-          impacts_.of_two.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
-        }
+      } else if (!strike_at_once(i, event)) {
+        for (const Entity k : {i, event.partner}) flights_.end_step(k);
+        impacts_.of_two.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
       }
       break;
 
+    case Kind::body_fixed:
+      if (strike_at_once(i, event)) break;
+      flights_.end_step(i);
+      impacts_.of_two.collide_fixed(i, event.partner, event.feature);
+      break;
+    case Kind::string:
+      go_taut(i, event);
+      break;
     case Kind::force:
       take_switch(i);
       break;
@@ -236,23 +239,30 @@ std::uint32_t ExactSimulator::process(Entity i) {
   return weight;
 }
 
-/// Whether an impact is still that of the paths from which it was predicted.
-bool ExactSimulator::is_current(Entity i, const ExactEvent& event) const {
-  if (event.kind == ExactEvent::Kind::body_fixed) return true;
-  const Entity other = event.kind == ExactEvent::Kind::string ? bodies_.ties.other(event.partner, i) : event.partner;
-  return other == no_entity || bodies_.body[other].version == event.partner_version;
+/// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.
+void ExactSimulator::go_taut(Entity i, const ExactEvent& event) {
+  const Entity other = bodies_.ties.other(event.partner, i);
+  if (other != no_entity && bodies_.body[other].version != event.partner_version) return flights_.note_changed(i);
+  impacts_.at_once.strike({i, event.partner, event.feature});
 }
 
-/// Whether other impacts may happen at the instant of this one, to the same bodies or to others that touch them. Time
+/// Resolves an impact together with others of its instant. Returns false, and changes nothing, where there are none.
+inline bool ExactSimulator::strike_at_once(Entity i, const ExactEvent& event) {
+  if (!event.tied && !queue_.close_at(bodies_.now.hi) && !impacts_.at_once.some_act_at_once() &&
+      !guard_.may_be_endless()) [[likely]]
+    return false;
+  return may_be_simultaneous(i, event) && impacts_.at_once.strike({i, event.partner, event.feature});
+}
+
+/// Whether other impacts may happen at the instant of this one, which may be tied, plastic or near one of strings. Time
 /// steps resolve theirs by themselves, and bodies that merge do so one after the other.
 bool ExactSimulator::may_be_simultaneous(Entity i, const ExactEvent& event) {
-  if (bodies_.options.merge) return false;
-  if (event.kind == ExactEvent::Kind::string) return true;
-  if (bodies_.mode(i) == Mode::stepped) return false;
   const bool body = event.kind == ExactEvent::Kind::body_body;
+  if (bodies_.options.merge || bodies_.mode(i) == Mode::stepped) return false;
   if (body && bodies_.mode(event.partner) == Mode::stepped) return false;
-  if (event.tied || queue_.close_at(bodies_.now.hi)) return true;
-  return bodies_.ties.any() && (!bodies_.ties.of(i).empty() || (body && !bodies_.ties.of(event.partner).empty()));
+  if (event.tied || queue_.close_at(bodies_.now.hi) || guard_.may_be_endless()) return true;
+  if (pair_restitution(bodies_.world, i, event.partner) == 0) return true;
+  return !bodies_.ties.of(i).empty() || (body && !bodies_.ties.of(event.partner).empty());
 }
 
 /// Applies a switch at the present instant to body i: of a force on it, or of the velocity of things that carry it.

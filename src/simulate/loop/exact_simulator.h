@@ -53,8 +53,9 @@ class ExactSimulator final : public Simulator {
   std::uint32_t take_event(Entity i);
   std::uint32_t process(Entity i);
   [[gnu::always_inline]] void predict_changed();
-  [[gnu::always_inline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
-  bool is_current(Entity i, const ExactEvent& event) const;
+  void go_taut(Entity i, const ExactEvent& event);
+  [[gnu::always_inline]] bool strike_at_once(Entity i, const ExactEvent& event);
+  [[gnu::noinline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);
