@@ -79,6 +79,7 @@ AccuracyReport report_accuracy(const Scene& scene, EngineChoice engine) {
   try {
     if (!engine.steps.length && engine.steps.error == 0) settle_steps(scene, engine, stop_if_interrupted);
     const Assessment all = assess(scene, engine, stop_if_interrupted);
+
     return {{{"accuracy", right_text(all)},
              {"rounding", fmt::format("{} at most", quantity(all.rounding, "m"))},
              {"integrator", integrator_text(all)},

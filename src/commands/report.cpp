@@ -173,6 +173,8 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("engine", engine.why.empty() ? std::string(name) : fmt::format("{} ({})", name, engine.why));
   if (summary.ended_by != "duration")
     block.line("ended", fmt::format("at {}, by {}", quantity(summary.duration, "s"), summary.ended_by));
+
+  // What happened: impacts, contact, and what regions took away.
   block.line("collisions", collisions_text(summary));
   block.line("contact", contact_text(summary));
   if (summary.stepped_contact > 0)
@@ -191,10 +193,14 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   if (summary.contact.removed > 0)
     block.line("removed", fmt::format("{} by regions, with {}", counted(summary.contact.removed, "body", "bodies"),
                                       quantity(summary.energy.removed, "J")));
+
+  // How the energy balances, and what may be wrong.
   block.line("energy", energy_text(summary));
   if (!summary.energy.of_forces.empty()) block.line("work", work_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
   describe(block, summary.warnings);
+
+  // Files and time.
   for (const LeftOut& file : result.facts.left_out)
     block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), written_files(planned)));

@@ -161,6 +161,7 @@ void FlightsFile::end(const Tally& tally) {
     writer.put(tally.removed.momentum);
     writer.put(0.0);
   }
+
   writer.put(last_entry);
   writer.put(std::uint32_t{has_end});
   writer.put(entries_);

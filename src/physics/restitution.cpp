@@ -44,9 +44,11 @@ double pair_restitution(const World& world, Entity a, Entity b) {
         (within(b, pair->a_first, pair->a_count) && within(a, pair->b_first, pair->b_count)))
       return pair->value;
   }
+
   const double ea = world.restitution[a];
   const double ma = world.mass[a];
   if (world.is_body(b)) return combine_restitution(world.combine, ea, ma, world.restitution[b], world.mass[b]);
+
   const bool plane = world.is_plane(b), wall = !plane && world.is_wall(b);
   if (!plane && !wall && world.is_string(b)) return world.string(b).restitution;
   const std::optional<double>& own = plane  ? world.plane(b).restitution

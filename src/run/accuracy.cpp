@@ -302,12 +302,15 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
   way.engine = engine.engine;
   const double least = *std::min_element(scene.world.radius.begin(), scene.world.radius.end());
   assessment.tolerance = way.tolerance.value_or(default_tolerance * least);
+
   const Runs runs(scene, stop_check);
   const TrackedRun run = runs.track(way, engine.steps);
   assessment.stepped_contact = run.tally.stepped_contact;
   assessment.method_error = run.tally.method_error;
   std::vector<double> off = Runs::differences(run, runs.track(way, engine.steps, disturbance));
   assessment.rounding = off.back();
+
+  // The error of steps, where there are any.
   const bool inexact_flights = way.engine != Engine::exact && force_without_closed_form(scene.world) != nullptr;
   if (inexact_flights || run.inexact_islands) {
     const std::vector<double> finer_off =

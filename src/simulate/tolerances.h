@@ -104,6 +104,12 @@ inline constexpr double nothing_left = 0x1p-90;
 inline constexpr double impulse_rounding = 0x1p-48;
 // Share of speeds: a string that shortens by more slackens.
 inline constexpr double slackening = 0x1p-40;
+// Share of speeds: a pair that separates faster stays closed no longer.
+inline constexpr double parted = 0x1p-44;
+// So many strikes of one body at an instant may be endless rounds.
+inline constexpr std::uint32_t many_strikes = 32;
+// Share of the greatest speeds of an instant, by kinetic energy: what rounding leaves of approaches after many rounds.
+inline constexpr double left_by_rounds = 0x1p-40;
 // Share of the greatest speeds of an instant, by kinetic energy: the limit of endless rounds has not changed.
 inline constexpr double same_limit = 1e-13;
 // The same: the limit is reached.

@@ -50,9 +50,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (bodies_.options.merge) return parts_.merging.merge(a, b, impact.there);
 
   parts_.guard.note_restitution(impact.e);
-  for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
-    if (bodies_.mode(struck) == Mode::asleep && rules_.too_slow_to_wake(impact, striker, struck)) [[unlikely]]
-      return bounce_off(impact, striker, struck);
+  if (const Entity struck = rules_.left_asleep(impact); struck != no_entity) [[unlikely]]
+    return bounce_off(impact, struck == b ? a : b, struck);
 
   // The impulse, by which the two separate at e times their approach, or not at all.
   const double ma = world.mass[a];

@@ -83,8 +83,8 @@ class ImpactRules {
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
   /// The acceleration (m/s^2) with which two things in lasting contact were pressed together last.
   double pressed(Entity i, Entity e) const;
-  /// Whether the striker is too slow to wake the struck body, which sleeps.
-  bool too_slow_to_wake(const PairImpact& impact, Entity striker, Entity struck) const;
+  /// The one of two bodies that sleeps, and that the impact is too slow to wake; no_entity: none.
+  Entity left_asleep(const PairImpact& impact) const;
   /// Whether an impact ends in contact because its restitution is zero, at any speed.
   bool is_plastic(const Collision& met, double press, double length) const;
   /// Throws SimulationError where the thing that a body strikes and a surface opposite to it certainly leave the body
@@ -92,6 +92,7 @@ class ImpactRules {
   void check_room(const FixedImpact& impact) const;
 
  private:
+  [[gnu::noinline]] bool too_slow_to_wake(const PairImpact& impact, Entity striker, Entity struck) const;
   [[gnu::noinline]] double press_of(const PairImpact& impact) const;
   Vec3 pull_after(const PairImpact& impact, Entity i) const;
   [[gnu::noinline]] double holding(double press, Entity i, Entity e) const;
@@ -140,6 +141,12 @@ inline PairImpact ImpactRules::find_pair(Entity a, Entity b, std::uint8_t featur
   const PairImpact copy = impact;
   impact.press = press_of(copy);
   return impact;
+}
+
+inline Entity ImpactRules::left_asleep(const PairImpact& impact) const {
+  if (bodies_.mode(impact.b) == Mode::asleep && too_slow_to_wake(impact, impact.a, impact.b)) return impact.b;
+  if (bodies_.mode(impact.a) == Mode::asleep && too_slow_to_wake(impact, impact.b, impact.a)) return impact.a;
+  return no_entity;
 }
 
 inline bool ImpactRules::ends(const PairImpact& impact, bool again) {

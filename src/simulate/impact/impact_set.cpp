@@ -578,14 +578,19 @@ void ImpactSet::close_parted() {
     if (r.kind == Kind::rod || (r.open == 0 && !r.holds)) continue;
     const double parts = -approach(c);
     if (r.kind == Kind::taut && parts > tol::slackening * speeds_near(c)) r.holds = false;
-    if (parts > 16 * tol::velocity_rounding * speeds_near(c)) r.open = 0;
+    if (parts > tol::parted * speeds_near(c)) r.open = 0;
   }
 }
 
+/// The rows that can be struck, and the links that hold.
+std::pair<ImpactSet::Rows, ImpactSet::Rows> ImpactSet::touching_and_links() const {
+  std::pair<Rows, Rows> rows;
+  for (std::uint32_t c = 0; c < rows_.size(); ++c) (rows_[c].holds ? rows.second : rows.first).push_back(c);
+  return rows;
+}
+
 bool ImpactSet::has_room() const {
-  Rows touching;
-  Rows links;
-  for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
+  const auto [touching, links] = touching_and_links();
   return has_room(touching, links);
 }
 
@@ -594,92 +599,87 @@ bool ImpactSet::has_room(const Rows& rows, const Rows& links) const {
   return project(rows, links, std::vector<Vec3>(bodies_.size(), Vec3::Zero()), true, 1).certificate.solved();
 }
 
+/// The limit of endless rounds: the projection of the present velocities on all rows.
+ImpactSet::Limit ImpactSet::find_limit() {
+  Limit limit;
+  std::tie(limit.touching, limit.links) = touching_and_links();
+  limit.reached = project(limit.touching, limit.links, velocities());
+  certificate_.merge(limit.reached.certificate);
+
+  const Projection& p = limit.reached;
+  limit.v = velocities();
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) limit.v[p.bodies[k]] = p.v[k];
+  limit.away = distance(velocities(), limit.v);
+
+  Sum greatest;
+  for (const Body& of : bodies_) greatest.add(of.mass * of.top * of.top);
+  limit.greatest = greatest.value();
+  return limit;
+}
+
+/// Twice the kinetic energy of a change of all velocities (J). It is summed with compensation, so that no number of a
+/// body matters.
+double ImpactSet::distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const {
+  Sum sum;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) sum.add(twice_energy(bodies_[i].mass, to[i] - from[i]));
+  return sum.value();
+}
+
 const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std::uint32_t> approaching) {
   impacts_.clear();
   changed_.clear();
   endless_.next_check *= 2;
+  const Limit limit = find_limit();
 
-  Rows touching;
-  Rows links;
-  for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
-  const Projection p = project(touching, links, velocities());
-  certificate_.merge(p.certificate);
-
-  // How far the limit is, and how far it is from the last one.
-  std::vector<Vec3> limit = velocities();
-  Sum away_sum;  // with compensation: no number of a body matters
-  Sum greatest_sum;
-  Sum moved_sum;
-  for (std::size_t k = 0; k < p.bodies.size(); ++k) limit[p.bodies[k]] = p.v[k];
-
-  const bool known = endless_.limit.size() == limit.size();
-  for (std::uint32_t i = 0; i < bodies(); ++i) {
-    const Body& of = bodies_[i];
-    away_sum.add(twice_energy(of.mass, limit[i] - of.v));
-    greatest_sum.add(of.mass * of.top * of.top);
-    if (known) moved_sum.add(twice_energy(of.mass, limit[i] - endless_.limit[i]));
-  }
-
-  const double away = away_sum.value();
-  const double greatest = greatest_sum.value();
-  const double moved = moved_sum.value();
-
-  const auto pressing = static_cast<double>(std::ranges::count_if(p.impulse, [](double j) { return j > 0; }));
-  const bool same = known && moved <= tol::same_limit * tol::same_limit * greatest;
+  // Whether it is that of the last look.
+  const auto pressing =
+      static_cast<double>(std::ranges::count_if(limit.reached.impulse, [](double j) { return j > 0; }));
+  const bool known = endless_.limit.size() == limit.v.size();
+  const bool same = known && distance(endless_.limit, limit.v) <= tol::same_limit * tol::same_limit * limit.greatest;
   const bool elastic = std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution == 1; });
   const bool worn = std::ranges::any_of(approaching, [&](std::uint32_t c) {
     const Row& r = rows_[c];
     return bodies_[r.a].lost > tol::worn_out || (r.b != fixed && bodies_[r.b].lost > tol::worn_out);
   });
-  bool over = away <= tol::limit_reached * tol::limit_reached * greatest || worn ||
+  bool over = limit.away <= tol::limit_reached * tol::limit_reached * limit.greatest || worn ||
               (same && endless_.sum - endless_.sum_at_limit >= tol::rounds_of_limit * pressing);
 
   // Only rows that strike again and again need room. All of them have struck since the last look.
   if (!over && elastic) {
     Rows again;
-    std::ranges::copy_if(touching, std::back_inserter(again), [&](std::uint32_t c) { return rows_[c].struck; });
-    over = endless_.without_room = !has_room(again, links);
+    std::ranges::copy_if(limit.touching, std::back_inserter(again), [&](std::uint32_t c) { return rows_[c].struck; });
+    over = endless_.without_room = !has_room(again, limit.links);
   }
   for (RowState& r : rows_) r.struck = false;
 
   if (!same) {
-    endless_.limit = limit;
+    endless_.limit = limit.v;
     endless_.sum_at_limit = endless_.sum;
   }
-  if (over) end_by(p, touching);
+  if (over) end_by(limit);
   return impacts_;
 }
 
-/// Ends the rounds with the velocities of a projection.
-void ImpactSet::end_by(const Projection& limit, const Rows& rows) {
+/// Ends the rounds with the velocities of their limit.
+void ImpactSet::end_by(const Limit& limit) {
   endless_.ended = true;
   ++rounds_;
-  for (std::size_t k = 0; k < limit.bodies.size(); ++k) change(limit.bodies[k], limit.v[k]);
-  for (std::size_t k = 0; k < rows.size(); ++k) note(rows[k], limit.impulse[k], approach(rows[k]), separation(rows[k]));
-  share_losses(limit.bodies, 0);
+  const Projection& p = limit.reached;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
+  for (std::size_t k = 0; k < limit.touching.size(); ++k) {
+    const std::uint32_t c = limit.touching[k];
+    note(c, p.impulse[k], approach(c), separation(c));
+  }
+  share_losses(p.bodies, 0);
   for (const std::uint32_t body : changed_) set_velocity(body, next_[body]);
 }
 
 const std::vector<ImpactSet::Impact>& ImpactSet::finish() {
   impacts_.clear();
   changed_.clear();
-  if (endless_.ended || endless_.most_struck <= 32) return impacts_;
-
-  Rows touching;
-  Rows links;
-  for (std::uint32_t c = 0; c < rows(); ++c) (rows_[c].holds ? links : touching).push_back(c);
-  const Projection p = project(touching, links, velocities());
-  certificate_.merge(p.certificate);
-
-  // Only a change that is rounding.
-  double away = 0;
-  double greatest = 0;
-  for (std::size_t k = 0; k < p.bodies.size(); ++k) {
-    const Body& of = bodies_[p.bodies[k]];
-    away += twice_energy(of.mass, p.v[k] - of.v);
-    greatest += of.mass * of.top * of.top;
-  }
-  if (away > 0 && away <= 0x1p-80 * greatest) end_by(p, touching);
+  if (endless_.ended || endless_.most_struck <= tol::many_strikes) return impacts_;
+  const Limit limit = find_limit();
+  if (limit.away > 0 && limit.away <= tol::left_by_rounds * tol::left_by_rounds * limit.greatest) end_by(limit);
   return impacts_;
 }
 

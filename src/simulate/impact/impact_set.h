@@ -22,10 +22,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
+#include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
@@ -94,6 +96,8 @@ class ImpactSet {
   const std::vector<Impact>& finish();
 
   std::uint32_t rounds() const { return rounds_; }
+  /// Whether rods, or strings that have been taut in this instant, take part.
+  bool linked() const { return linked_; }
   /// Whether the rounds have been ended because some row cannot open.
   bool without_room() const { return endless_.without_room; }
   /// A body that two impacts of a round share, not both with e = 0. Rigid bodies alone leave the outcome open.
@@ -146,9 +150,19 @@ class ImpactSet {
     double sum_at_limit = 0;  // when the limit was first found
     std::vector<Vec3> limit;  // m/s, the last one
     std::uint32_t most_struck = 0;
-    std::uint32_t next_check = 32;
+    std::uint32_t next_check = exact_tolerance::many_strikes;
     bool ended = false;
     bool without_room = false;
+  };
+
+  /// The limit of endless rounds.
+  struct Limit {
+    Rows touching;
+    Rows links;
+    Projection reached;   // on these
+    std::vector<Vec3> v;  // m/s, by body
+    double away = 0;      // J, twice the energy of the change to it
+    double greatest = 0;  // J, twice the energy of the greatest speeds of this instant
   };
 
   bool before(std::uint32_t c, std::uint32_t d) const;
@@ -178,8 +192,11 @@ class ImpactSet {
   void note(std::uint32_t c, double impulse, double approach, double separation);
   void share_losses(const Rows& bodies, std::size_t first);
   void count();
+  std::pair<Rows, Rows> touching_and_links() const;
   bool has_room(const Rows& rows, const Rows& links) const;
-  void end_by(const Projection& limit, const Rows& rows);
+  double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
+  Limit find_limit();
+  void end_by(const Limit& limit);
   void close_parted();
 
   std::vector<Body> bodies_;

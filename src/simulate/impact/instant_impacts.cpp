@@ -46,7 +46,7 @@ bool InstantImpacts::strike(const Due& due) {
   const bool stays =
       now.set.rows() > 1 && pair_restitution(bodies_.world, first.a, first.thing) == 0 && !leaves_asleep(first);
   const bool endless = parts_.guard.may_be_endless() && !now.set.has_room();
-  if (!string && (!meets || (approaching.size() == 1 && !now.linked && !stays && !endless))) return false;
+  if (!string && (!meets || (approaching.size() == 1 && !now.set.linked() && !stays && !endless))) return false;
   if (!meets) hold_string(now);
 
   while (!approaching.empty()) {
@@ -173,7 +173,6 @@ void InstantImpacts::gather_strings(Moment& now, Entity i) const {
     const bool holds = bodies_.holds(string);
     if (!holds && (s.rod || there.gap > near_gap(s.body, string))) continue;
 
-    now.linked = now.linked || holds;
     const ImpactSet::Kind kind = !holds  ? ImpactSet::Kind::touching
                                  : s.rod ? ImpactSet::Kind::rod
                                          : ImpactSet::Kind::taut;
@@ -222,12 +221,8 @@ bool InstantImpacts::meets_by_volume(const Touching& row, const Vec3& velocity) 
 
 /// Whether an impact is too slow to wake one of its bodies, which counts as fixed then.
 bool InstantImpacts::leaves_asleep(const Touching& row) const {
-  const Entity b = row.thing;
-  if (!bodies_.world.is_body(b)) return false;
-  if (bodies_.mode(row.a) != Mode::asleep && bodies_.mode(b) != Mode::asleep) return false;
-  const PairImpact impact = rules_.find_pair(row.a, b, row.feature);
-  return (bodies_.mode(row.a) == Mode::asleep && rules_.too_slow_to_wake(impact, b, row.a)) ||
-         (bodies_.mode(b) == Mode::asleep && rules_.too_slow_to_wake(impact, row.a, b));
+  return bodies_.world.is_body(row.thing) &&
+         rules_.left_asleep(rules_.find_pair(row.a, row.thing, row.feature)) != no_entity;
 }
 
 /// Whether two things that touch would press on each other if they were pushed together. Those that share an edge of

@@ -88,7 +88,6 @@ class InstantImpacts {
     std::vector<std::uint8_t> gathered;  // by member: its rows are in the set
     std::vector<std::uint8_t> struck;    // by member
     std::vector<Record> records;
-    bool linked = false;  // strings or rods take part
     double absorbed = 0;  // J, for want of room
   };
 
