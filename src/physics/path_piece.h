@@ -20,9 +20,9 @@ struct PathPiece {
   Vec3 x = Vec3::Zero();     // m, at start
   Vec3 v = Vec3::Zero();     // m/s, at start
   Vec3 a = Vec3::Zero();     // m/s^2
-  // A time step kicked the body: v contains the effect of forces until the step's end from the start on.
+  // In a crowd v is the velocity of the step's middle, `until`, from the start on.
   bool kicked = false;
-  DoubleDouble until{0, 0};  // s, the end of that step
+  DoubleDouble until{0, 0};  // s, the middle of that step
   Vec3 kick = Vec3::Zero();  // m/s^2
   // The displacement since start, until the next piece. None: a parabola.
   std::shared_ptr<const PolynomialPath> curve{};

@@ -78,8 +78,10 @@ struct Unbalanced {
 struct Doubts {
   // Contact problems with a solution that may be off by more than rounding.
   std::uint64_t contacts = 0;
-  StiffStep stiffest;     // the step with the greatest angle, for a method with steps of one length
-  Unbalanced unbalanced;  // that with the longest way
+  double contact_made = 0;           // J, by errors of the steps of crowds; a part of the method's error
+  std::uint64_t unsolved_steps = 0;  // of crowds: forces were less accurate than they should be
+  StiffStep stiffest;                // the step with the greatest angle, for a method with steps of one length
+  Unbalanced unbalanced;             // that with the longest way
 };
 
 struct Tally {
@@ -102,7 +104,7 @@ struct Tally {
   double max_overlap = 0;     // m, deepest seen
   Fastest fastest;            // seen
   std::uint64_t resting = 0;  // bodies in lasting contact
-  // s, summed over bodies: lasting contact in time steps.
+  // s, summed over bodies: lasting contact in crowds.
   double stepped_contact = 0;
   TakenUp taken_up;
   SharedImpacts shared;

@@ -90,11 +90,13 @@ class EventLog {
     hold(energy);
     lose(energy);
   }
-  /// Books energy (J) of impacts that are already counted, in lasting contact.
-  void go_on_taking(double energy) {
-    absorb(energy);
+  /// Books energy (J) that errors of a crowd's step have made.
+  void make(double energy) {
+    made_.add(energy);
+    tally_.doubts.contact_made = made_.value();
     deviate(-energy);
   }
+  void count_unsolved_step() { ++tally_.doubts.unsolved_steps; }
   /// Counts impacts of one instant that rigid bodies leave open: one instant, with the first of them.
   void note(const SharedImpacts& now);
   void count_collapse() { ++tally_.collapses; }
@@ -120,8 +122,8 @@ class EventLog {
   const bool record_collisions_;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_, absorbed_, method_error_, work_, removed_;  // J
-  std::vector<Sum> force_work_;                                 // J
+  Sum energy_lost_, absorbed_, made_, method_error_, work_, removed_;  // J
+  std::vector<Sum> force_work_;                                        // J
 };
 
 }  // namespace carom

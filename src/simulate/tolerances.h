@@ -54,7 +54,7 @@ inline constexpr std::uint8_t many_explicit_steps = 8;
 inline constexpr double negligible_speed = 0x1p-200;
 // Share of the squared speed of falling by a radius: below it, a body is at rest.
 inline constexpr double negligible_hop = 0x1p-120;
-// Share of speeds: an approach that is rounding, where nothing presses or with a kick.
+// Share of speeds: an approach that is rounding, where nothing presses.
 inline constexpr double approach_rounding = 0x1p-50;
 
 // Impacts that end in contact (collapse_detector.h).
@@ -81,9 +81,6 @@ inline constexpr double least_gap = 0x1p-10;
 
 // Share of a radius: bodies within this gap of a waking body wake too.
 inline constexpr double waking_gap = 1e-6;
-// Share of a radius: greatest margin of bodies that were just struck.
-inline constexpr double widest_margin = 2e-2;
-
 // Impacts at one instant (impact_set.h).
 
 // Share of the time until an impact: another one may fall on the same instant.
@@ -119,19 +116,6 @@ inline constexpr double rounds_of_limit = 36;
 // Sum of 1 - e over the impacts of one body, from which on the limit is taken as it is: masses over six decades.
 inline constexpr double worn_out = 1024;
 
-// Simultaneous impacts of crowds (simultaneous_impacts.h).
-
-// So many impacts of a member between two steps are resolved one by one. [2e-11 1e-10]
-inline constexpr std::uint32_t few_impacts = 3;
-// Share of the fastest approach: speed of separation of bodies that are struck at once.
-inline constexpr double simultaneous_parting = 0.01;
-// Share of the fastest approach: allowed rest of an approach. [1e-14 7e-15]
-inline constexpr double simultaneous_slack = 1e-3;
-// Share of the widest margin: with a wider margin, bodies that are struck at once separate.
-inline constexpr double open_margin = 0.5;
-// Pairs for each member: a solution for so many costs as much as a step.
-inline constexpr std::size_t pairs_of_a_step = 16;
-
 // Constrained motion (constrained_motion.h).
 
 // Share of a radius: a gap that counts as contact. [5e-16 4e-16]
@@ -156,9 +140,11 @@ inline constexpr double opening = 1e-12;
 inline constexpr double opened = 10;
 // Multiple of that: greatest acceleration of a gap at the instant that is found for an opening.
 inline constexpr double wide_open = 1000;
-// Changes of contact in the time of a time step. With more, the island moves in time steps.
+// Share of the time of falling by a radius, in which changes of contact are counted.
+inline constexpr double time_of_changes = 0.04;
+// Changes of contact in that time. With more, the island moves as a crowd.
 inline constexpr std::uint32_t many_changes = 64;
-// Time steps without a change of contact. After so many, the island returns to constrained motion.
+// Steps of a crowd without a change of contact. After so many, the island returns to constrained motion.
 inline constexpr std::uint32_t calm_steps = 8;
 // Share of the greatest acceleration: forces are in balance.
 inline constexpr double constrained_balance = 1e-11;
@@ -169,48 +155,47 @@ inline constexpr double velocity_change = 0x1p-40;
 // Multiple of a radius over the greatest speed: time in which an unloaded body may return to contact.
 inline constexpr double free_time = 1e-6;
 
-// Time stepping (time_stepping.h).
+// Crowds (crowd_motion.h, crowd_list.h). The table of qualities has the others (contact_quality.h).
 
-// Share of the time of falling by a radius. [1e-2 6e-3]
-inline constexpr double shortest_step = 0.04;
-// Multiple of the shortest step. [- 6e-3]
-inline constexpr double longest_step = 25;
-// Share of a radius: displacement of the fastest body in longer steps. [1e-1 3e-2]
-inline constexpr double step_displacement = 0.04;
-// Multiple of slow_speed: bodies with a faster approach strike each other.
-inline constexpr double fast_impact = 8;
-// Share of the fastest slow approach: part that may be left to a step's forces.
-inline constexpr double slow_slack = 1e-2;
-// Share of a radius: bodies no farther apart may press in a step.
-inline constexpr double pressing_gap = 1e-3;
-// Share of a step's displacement: margin for it.
-inline constexpr double margin_of_displacement = 1e-3;
-// Share of the margin: allowed shortfall.
-inline constexpr double margin_slack = 0.05;
-// Share of the gap within the margin: allowed shortfall.
-inline constexpr double gap_share = 0.2;
-// Share of the margin that a step leaves. [* -]
-inline constexpr double margin_decay = 0.5;
-// Share of a radius: margin of slow bodies.
-inline constexpr double least_margin = 1e-10;
-// Share of a radius: with a wider margin, touching bodies separate.
-inline constexpr double parting_margin = 1e-3;
-// Share of a radius: a group with smaller displacements is not solved again.
-inline constexpr double converged_displacement = 5e-4;
-// Steps without a force, after which a body leaves its island.
+// Steps for which a list is made, at most.
+inline constexpr double steps_of_list = 6;
+// Share of a radius: what bodies may go before the list is made anew, at least and at most.
+inline constexpr double least_reach = 0.01;
+inline constexpr double greatest_reach = 0.2;
+// Multiple of what a body may go in a step: the same.
+inline constexpr double reach_of_need = 1.25;
+// Share of a radius: room of a member's region, at least.
+inline constexpr double room_of_region = 0.5;
+// Share of the last step: a shorter one begins anew.
+inline constexpr double restart = 0.5;
+// Steps without a force, after which a body that is near nothing leaves its crowd.
 inline constexpr std::uint8_t idle_steps = 8;
-// Share of a radius: bodies at rest no farther apart may press.
-inline constexpr double resting_gap = 3e-8;
-// Share of the greatest acceleration: slack of the forces at rest.
-inline constexpr double rest_slack = 1e-13;
-// Share of gravity: a body is held by forces with a smaller sum.
+// Multiple of the last step: the longest one.
+inline constexpr double step_growth = 1.25;
+// Share of a gap that errors of a step may take.
+inline constexpr double share_of_gap = 0.7;
+// Share of a radius, and of speeds: rounding of a gap and of forces.
+inline constexpr double gap_rounding = 1e-10;
+// Share of the speed of bodies in contact: what forces may leave, where a step gives bodies more.
+inline constexpr double force_of_speed = 0.3;
+// The same, where it gives them less.
+inline constexpr double least_force = 0.01;
+// Ratio of masses, beyond which the contact solver takes steps that sweeps have not solved.
+inline constexpr double unequal_masses = 1e3;
+// Sweeps after which a step is shortened, and how often.
+inline constexpr int more_sweeps = 32;
+inline constexpr int most_shortenings = 6;
+// What a step leaves of the shells of a crowd that is calm.
+inline constexpr double shell_decay = 0.875;
+// Share of a radius: a crowd with narrower shells can go over to constrained motion.
+inline constexpr double closed_shell = 1e-10;
+// Share of the greatest acceleration: a body is held by forces with a smaller sum.
 inline constexpr double balance = 1e-11;
-// Share of the speed of falling by a radius: a slower body counts as at rest.
+// Share of the speed of falling by a radius: slower bodies may be at rest.
 inline constexpr double standstill = 1e-5;
-// Share of the speed of falling by a radius: in a jam slower bodies stop.
-inline constexpr double jammed_speed = 1e-3;
-// Consecutive steps ended at once by simultaneous impacts: more are a jam.
-inline constexpr std::uint32_t many_short_steps = 8;
+// The same, where bodies rest by their speed; and for how many times of falling by a radius.
+inline constexpr double slow_preview = 0.03;
+inline constexpr double slow_for = 5;
 
 }  // namespace carom::exact_tolerance
 

@@ -14,7 +14,6 @@
 #include "solver/active_set.h"
 #include "solver/contact_interior_point.h"
 #include "solver/contact_island.h"
-#include "solver/contact_projected_gradients.h"
 #include "solver/least_forces.h"
 
 namespace carom {
@@ -182,7 +181,6 @@ struct ContactSolver::Workspace {
   CachedIsland uncached;                         // where nothing is kept
   ContactIslands islands;
   ContactIsland island;
-  ContactProjectedGradients gradients;
   ContactSolution solution;
   ContactSolution attempt;
   std::vector<std::uint32_t> place;   // by body: its number in the island
@@ -193,7 +191,6 @@ struct ContactSolver::Workspace {
   void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
   Certificate solve_exactly(ExactCost& cost, CachedIsland& last);
-  Certificate solve_to_slack(ContactAccuracy accuracy);
   Certificate solve_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   Certificate solve(const ContactProblem& problem);
 };
@@ -228,7 +225,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.bilateral = from.bilateral;
     row.normal = from.normal;
     row.target = from.target - from.surface;
-    row.slack = problem.accuracy == ContactAccuracy::rounding && !from.bilateral ? 0 : from.slack;
+    row.slack = from.bilateral ? from.slack : 0;
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }
 
@@ -257,8 +254,8 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
   }
 }
 
-/// This function and solve_to_slack choose a method: the cheaper one, or orthogonal factors where masses are too
-/// unequal for sparse ones. If one method fails, the other follows, and then orthogonal factors from nothing.
+/// Chooses a method: the cheaper one, or orthogonal factors where masses are too unequal for sparse ones. If one method
+/// fails, the other follows, and then orthogonal factors from nothing.
 Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIsland& last) {
   // Solutions for which factors are reused: factors may cost so many times more.
   constexpr double worth_while = 8;
@@ -313,19 +310,6 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
   return best;
 }
 
-/// Projected gradients run until they have cost as much as an exact solution, which is then computed. Both together
-/// cost at most about twice the cheaper one.
-Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
-  ExactCost cost(island);
-  gradients.start(island);
-  bool done = gradients.run(accuracy, std::min(cost.dense(), cost.least_sparse()));
-  if (!done && cost.least_sparse() < cost.dense())
-    done = gradients.run(accuracy, std::min(cost.dense(), cost.sparse()));
-  if (done) return {Certificate::Verdict::solved, gradients.finish(solution)};
-  gradients.guess(island);
-  return solve_exactly(cost, uncached);
-}
-
 Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem,
                                                    std::span<const std::uint32_t> contacts) {
   Certificate certificate;
@@ -344,24 +328,19 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
     return certificate;
   }
 
-  const bool exact = problem.accuracy == ContactAccuracy::rounding || !island.unilateral;
-  if (!exact) {
-    certificate = solve_to_slack(problem.accuracy);
-  } else {
-    CachedIsland& last = caches ? cached[bodies.front()] : uncached;
-    ExactCost cost(island);
-    certificate = solve_exactly(cost, last);
-    // A later solution may start from this one.
-    if (caches) {
-      last.inverse_mass = island.inverse_mass;
-      last.rows = island.rows;
-      for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = solution.force[c].hi;
-    }
+  CachedIsland& last = caches ? cached[bodies.front()] : uncached;
+  ExactCost cost(island);
+  certificate = solve_exactly(cost, last);
+  // A later solution may start from this one.
+  if (caches) {
+    last.inverse_mass = island.inverse_mass;
+    last.rows = island.rows;
+    for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = solution.force[c].hi;
   }
 
   give_back(problem, contacts);
   for (const std::uint32_t c : contacts) problem.contacts[c].independent = problem.contacts[c].force;
-  if (problem.least_forces && exact && certificate.solved() && take_least_forces(island, solution, by_factors))
+  if (problem.least_forces && certificate.solved() && take_least_forces(island, solution, by_factors))
     give_back(problem, contacts);
   return certificate;
 }

@@ -8,8 +8,7 @@
 // Two methods solve it to rounding. Each is the other's fallback, and one certificate judges both (contact_island.h). A
 // dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
 // the last one. An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h)
-// serves large ones. The cheaper method is chosen, unless masses are too unequal for the sparse one. Where contacts may
-// be off by their slack, projected gradients (contact_projected_gradients.h) go first, while they are cheaper.
+// serves large ones. The cheaper method is chosen, unless masses are too unequal for the sparse one.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -27,13 +26,13 @@ struct ContactConstraint {
   std::uint32_t a, b;
   Vec3 normal;        // from a to b; unit up to rounding
   double target = 0;  // lower bound of normal . (u_b - u_a); in the unit of u
-  double slack = 0;   // allowed shortfall from the target; in the unit of u; see `bilateral`
+  double slack = 0;   // of bilateral contacts; in the unit of u
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral
   // out: the same, by contacts that do not depend on each other. Where the motion leaves forces open, it differs from
   // the least force.
   double independent = 0;
   // normal . (u_b - u_a) must equal the target, and the force may pull too. Where others determine it already, it may
-  // contradict them by its slack, in every accuracy: lengths of a frame with more rods than it needs.
+  // contradict them by its slack: lengths of a frame with more rods than it needs.
   bool bilateral = false;
   // normal . u_b of a fixed thing that moves; in the unit of u. Otherwise 0.
   double surface = 0;
@@ -52,23 +51,12 @@ inline double inverse_mass_of_b(std::span<const double> inverse_mass, const Cont
   return c.b == ContactConstraint::fixed ? 0 : inverse_mass[c.b];
 }
 
-/// The required accuracy of a solution. A contact that is off by its slack s has the kinetic energy of the correcting
-/// motion: s^2 / (2/m_a + 2/m_b).
-enum class ContactAccuracy : std::uint8_t {
-  rounding,  // exact to rounding, for every slack
-  contacts,  // every contact is within its slack
-  // Or an iterative method gains little in the second half of its work: less, for each contact, than the least such
-  // energy.
-  energy
-};
-
 struct ContactProblem {
   std::span<const double> inverse_mass;  // 1/kg, > 0, by body
   std::span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
   std::span<ContactConstraint> contacts;
-  ContactAccuracy accuracy = ContactAccuracy::rounding;
   // Of the forces that give this motion, those of equally stiff contacts: the sum of their squares is the least. They
-  // do not depend on the order of contacts. Only where the accuracy is `rounding`.
+  // do not depend on the order of contacts.
   bool least_forces = false;
 };
 

@@ -6,12 +6,11 @@
 #include "simulate/contact/collapse_detector.h"
 #include "simulate/contact/exact_group.h"
 #include "simulate/contact/flight_changes.h"
+#include "simulate/crowd/crowd_motion.h"
 #include "simulate/impact/body_merging.h"
 #include "simulate/impact/impacts.h"
-#include "simulate/impact/simultaneous_impacts.h"
 #include "simulate/impact/stall_guard.h"
 #include "simulate/island/constrained_motion.h"
-#include "simulate/island/time_stepping.h"
 #include "simulate/path/crossings.h"
 #include "simulate/path/path_log.h"
 
@@ -28,12 +27,11 @@ struct ExactParts {
         flat(bodies, modes, collapses),
         group(bodies, modes, flat, collapses, paths),
         flights(bodies, flat, paths),
-        simultaneous(bodies, group, flights),
-        stepping(bodies, modes, group, flights),
+        crowds(bodies, modes, group, flights),
         constrained(bodies, modes, group, flat, collapses, flights),
         merging(bodies, modes, group, flat, flights, paths),
         guard(problem.world.body_count(), problem.options.duration),
-        all_impacts(bodies, {collapses, flat, group, flights, simultaneous, merging, guard}),
+        all_impacts(bodies, {collapses, flat, group, flights, merging, guard}),
         impacts(all_impacts.of_two) {
     for (Entity i = 0; i < bodies.world.body_count(); ++i)
       bodies.flights.set(i, {{}, problem.initial.position[i], problem.initial.velocity[i], problem.world.gravity});
@@ -49,8 +47,7 @@ struct ExactParts {
   FlatContacts flat;
   ExactGroup group;
   FlightChanges flights;
-  SimultaneousImpacts simultaneous;
-  TimeStepping stepping;
+  CrowdMotion crowds;
   ConstrainedMotion constrained;
   BodyMerging merging;
   StallGuard guard;

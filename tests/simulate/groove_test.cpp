@@ -41,7 +41,7 @@ TEST(Corner, ABallInACornerOfARoomStandsStill) {
 }
 
 /// A groove along z that gravity tilts towards its end at z = 0.
-Problem groove() {
+Problem groove_of_planes() {
   Problem problem;
   problem.world.gravity = Vec3(0, -10, -1);
   problem.plane({0, 0, 0}, {1, 1, 0});
@@ -51,7 +51,7 @@ Problem groove() {
 }
 
 TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
-  Problem problem = groove();
+  Problem problem = groove_of_planes();
   const double height = 0.5 * std::sqrt(2.0);
   for (double z : {0.5, 1.5, 2.5 + 1e-9}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
   problem.options.duration = 1;
@@ -66,7 +66,7 @@ TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
 }
 
 TEST(Groove, BallsAtRestInItStandStillWhileAnotherRollsOffABall) {
-  Problem problem = groove();
+  Problem problem = groove_of_planes();
   const double height = 0.5 * std::sqrt(2.0);
   for (double z : {0.5, 1.5}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
   problem.obstacle({10, 20, 10}, Volume::sphere(2));

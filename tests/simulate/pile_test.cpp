@@ -21,7 +21,7 @@ TEST(Pile, AWokenPileComesToRestAgain) {
   expect_pile_at_rest(problem, *simulator, {58, 60}, 1e-9, 1e-9, 0, 2);
 }
 
-/// Impacts within time steps may raise the energy: by 1.1e-6 at most in 20 piles of 54 balls that differ by 1e-9 m.
+/// Errors of a crowd may raise the energy, by less than 5e-5 of it.
 TEST(Pile, GainsHardlyAnyEnergyAsItSettles) {
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);
@@ -31,7 +31,7 @@ TEST(Pile, GainsHardlyAnyEnergyAsItSettles) {
       go_to(*simulator, t);
       const State& state = simulator->state();
       const double energy = kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
-      EXPECT_LT(energy, (1 + 5e-6) * least) << side << " at " << t;
+      EXPECT_LT(energy, (1 + 5e-5) * least) << side << " at " << t;
       least = std::min(least, energy);
     }
   }

@@ -21,10 +21,10 @@ struct Standing {
   std::vector<ContactConstraint> contacts;
 
   /// The forces (N) by contact, as the solver gives them.
-  std::vector<double> forces(ContactAccuracy accuracy = ContactAccuracy::rounding) const {
+  std::vector<double> forces() const {
     std::vector<Vec3> a(inverse_mass.size(), Vec3(0, -10, 0));
     std::vector<ContactConstraint> solved = contacts;
-    EXPECT_TRUE(solve({inverse_mass, a, solved, accuracy, true}).solved());
+    EXPECT_TRUE(solve({inverse_mass, a, solved, true}).solved());
     std::vector<double> all;
     for (const ContactConstraint& c : solved) all.push_back(c.force);
     return all;

@@ -13,7 +13,6 @@ namespace carom::stress {
 namespace {
 
 constexpr double relative_rounding = 2e-14;
-constexpr double in_islands = 1e-10;   // of the smaller one's radius
 constexpr int most_evaluations = 100;  // at a pair's gap between two outputs
 
 double extent_of(const Vec3& x) {
@@ -26,16 +25,16 @@ Long3 on(const Long3& x, const Long3& v, const Long3& a, long double t) {
 
 }  // namespace
 
-Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
-             const std::vector<Collision>& records, bool islands)
-    : scene_(scene), times_(times), seen_(seen), islands_(islands), recorded_(scene.world.body_count()) {
+Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const Watched& seen,
+             const std::vector<Collision>& records, double in_contact)
+    : scene_(scene), times_(times), seen_(seen), in_contact_(in_contact), recorded_(scene.world.body_count()) {
   const World& world = scene.world;
   for (const Collision& c : records)
     for (Entity i : {c.a, c.b})
       if (world.is_body(i)) recorded_[i].push_back(c.time);
   for (Entity i = 0; i < world.body_count(); ++i) {
     double extent = extent_of(scene.initial.position[i]) + world.radius[i];
-    for (const State& s : seen) extent = std::max(extent, extent_of(s.position[i]) + world.radius[i]);
+    for (const State& s : seen.seen) extent = std::max(extent, extent_of(s.position[i]) + world.radius[i]);
     extent_.push_back(extent);
   }
   const auto farthest = [&](Entity e) {
@@ -56,13 +55,21 @@ double Paths::rounding(Entity a, Entity b) const {
 double Paths::allowed(Entity a, Entity b) const {
   const World& world = scene_.world;
   const double smaller = world.is_body(b) ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
-  return rounding(a, b) + (islands_ ? in_islands * smaller : 0);
+  return rounding(a, b) + in_contact_ * smaller;
+}
+
+/// Whether body i drifts straight all the time.
+bool Paths::drifts(Entity i, double from, double until) const {
+  const std::vector<Piece>& pieces = seen_.pieces[i];
+  const auto next =
+      std::upper_bound(pieces.begin(), pieces.end(), from, [](double t, const Piece& p) { return t < p.from; });
+  return next != pieces.begin() && std::prev(next)->drifts && (next == pieces.end() || next->from >= until);
 }
 
 /// The paths from sample k to the next.
 std::vector<Paths::Path> Paths::between(std::size_t k) const {
   const World& world = scene_.world;
-  const State &now = seen_[k], &then = seen_[k + 1];
+  const State &now = seen_.seen[k], &then = seen_.seen[k + 1];
   const double h = times_[k + 1] - times_[k];
   std::vector<Path> paths;
   for (Entity i = 0; i < world.body_count(); ++i) {
@@ -73,6 +80,12 @@ std::vector<Paths::Path> Paths::between(std::size_t k) const {
     const auto next = std::upper_bound(recorded_[i].begin(), recorded_[i].end(), times_[k]);
     path.known = (next == recorded_[i].end() || *next >= times_[k + 1]) &&
                  (end - then.position[i]).norm() <= 1e-14 * (extent_[i] + way);
+    // In a step of a crowd bodies drift straight, whatever their velocities are at its instants.
+    if (drifts(i, times_[k], times_[k + 1])) {
+      path.v = (then.position[i] - now.position[i]) / h;
+      path.a.setZero();
+      path.known = true;
+    }
     paths.push_back(path);
   }
   return paths;
@@ -127,7 +140,7 @@ std::vector<std::string> Paths::overlaps() const {
   World world = scene_.world;
   const Entity bodies = world.body_count(), all = bodies + world.fixed_count();
   for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
-    const State& s = seen_[k];
+    const State& s = seen_.seen[k];
     if (!s.part_of.empty()) {
       world.mass = s.mass;
       world.radius = s.radius;

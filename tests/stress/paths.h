@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "stress/scene.h"
+#include "stress/watch.h"
 
 namespace carom::stress {
 
 class Paths {
  public:
-  Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
-        const std::vector<Collision>& records, bool islands);
+  Paths(const RandomScene& scene, const std::vector<double>& times, const Watched& seen,
+        const std::vector<Collision>& records, double in_contact);
 
   /// Every overlap beyond the allowed one, as text (the first of each pair).
   std::vector<std::string> overlaps() const;
@@ -24,15 +25,16 @@ class Paths {
  private:
   struct Path {
     Vec3 x, v, a;  // at the beginning
-    bool known;    // it is a parabola: the body has no record on the way, and the ends fit
+    bool known;    // it is a parabola: the body has no record on the way, and the ends fit; or a drift in a crowd
   };
   std::vector<Path> between(std::size_t k) const;
+  bool drifts(Entity i, double from, double until) const;
   double deepest(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double length) const;
 
   const RandomScene& scene_;
   const std::vector<double>& times_;
-  const std::vector<State>& seen_;
-  const bool islands_;
+  const Watched& seen_;
+  const double in_contact_;
   std::vector<double> extent_;                 // m, by entity
   std::vector<std::vector<double>> recorded_;  // s, by body: when it collided, ascending
 };

@@ -27,9 +27,14 @@ Watched watch(const RandomScene& scene, const std::vector<double>& times, double
   std::unique_ptr<Simulator> simulator;
   const auto keep = [&] {
     run.records.insert(run.records.end(), simulator->collisions().begin(), simulator->collisions().end());
+    for (const PathPiece& piece : simulator->paths()) run.pieces[piece.body].push_back({piece.from, piece.kicked});
   };
   try {
-    simulator = make_exact_simulator(scene.world, scene.initial, scene.options);
+    ExactOptions options = scene.options;
+    options.record_paths = !times.empty();
+    run.pieces.resize(scene.world.body_count());
+    simulator = make_exact_simulator(scene.world, scene.initial, options);
+    keep();
     run.start = simulator->state();
     const auto go_to = [&](double time) {
       do {

@@ -8,7 +8,14 @@
 
 namespace carom::stress {
 
+/// The start of a piece of a body's path, and whether the body drifts straight along it, in a crowd.
+struct Piece {
+  double from;  // s
+  bool drifts;
+};
+
 struct Watched {
+  std::vector<std::vector<Piece>> pieces;  // by body, with states at requested times only
   std::vector<Collision> records;
   std::vector<State> seen;  // at the requested times
   State start, end;

@@ -12,13 +12,7 @@ void ContactWork::change(Entity i, const Instant& now, double power) {
   const Power& last = power_[i];
   if (last.power == 0 && power == 0) return;
   if (last.power != 0) log_.carry(last.power * (now - last.since));
-  power_.write(i) = {now, power, 0};
-}
-
-void ContactWork::renew(Entity i, const Instant& now, double power) {
-  const double pushes = power_[i].pushes;
-  change(i, now, power + pushes);
-  if (pushes != 0) power_.write(i).pushes = pushes;
+  power_.write(i) = {now, power};
 }
 
 void ContactWork::follow(const std::vector<Entity>& members, const Instant& now, std::function<double(double)> by) {
@@ -35,12 +29,6 @@ void ContactWork::end_paths(const std::vector<Entity>& members, const Instant& n
     path.work = nullptr;
     path_.write(i) = nullptr;
   }
-}
-
-void ContactWork::push(Entity i, const Instant& now, double power) {
-  const double pushes = power_[i].pushes + power;
-  change(i, now, power_[i].power + power);
-  power_.write(i).pushes = pushes;
 }
 
 }  // namespace carom

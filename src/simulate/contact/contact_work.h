@@ -19,21 +19,16 @@ class ContactWork {
 
   /// From this instant on, such things do work on body i at this rate (W). The work until then is booked.
   void change(Entity i, const Instant& now, double power);
-  /// The same, with the rate of pushes kept.
-  void renew(Entity i, const Instant& now, double power);
   /// Along a path from this instant on, such things do the work (J) that `by` gives for so many seconds. `members`: the
   /// bodies on the path.
   void follow(const std::vector<Entity>& members, const Instant& now, std::function<double(double)> by);
   /// Books the work along the paths of these bodies, which end at this instant.
   void end_paths(const std::vector<Entity>& members, const Instant& now);
-  /// A push adds this much to the rate (W), until the rate changes.
-  void push(Entity i, const Instant& now, double power);
 
  private:
   struct Power {
     Instant since;
-    double power = 0;   // W
-    double pushes = 0;  // W, the part of pushes
+    double power = 0;  // W
   };
 
   /// The work along a path of several bodies.

@@ -1,7 +1,5 @@
 // Membership in islands: bodies join, leave and wake.
 // A struck sleeper wakes with all that rest in contact with it, because their forces depend on each other.
-// Impacts between two time steps see flights with a kick. The queries here remove it where an approach must be
-// physical.
 #include "simulate/contact/exact_group.h"
 
 #include <fmt/format.h>
@@ -44,13 +42,15 @@ void ExactGroup::enlist(Entity i) {
   Islands& islands = bodies_.islands;
   bodies_.kick.write(i) = {bodies_.now};
   IslandMember& kept = member.write(i);
-  kept.margin = 0;
-  kept.impacts = 0;
-  kept.idle = 0;
   kept.needed = bodies_.now;
 
   if (!islands.any()) bodies_.log.count_collapse();
   islands.create(i, bodies_.now);
+}
+
+void ExactGroup::await_step(Entity i) {
+  if (bodies_.flights.curve(i) == nullptr) bodies_.flights.accelerate(i, Vec3::Zero());
+  bodies_.islands.of(i).end = bodies_.now;
 }
 
 void ExactGroup::unite(Entity a, Entity b) {
@@ -59,32 +59,22 @@ void ExactGroup::unite(Entity a, Entity b) {
     if (bodies_.moving.any())
       for (const Entity i : {a, b}) bodies_.contact_work.end_paths(islands.of(i).members, bodies_.now);
 
-    // A time step of one goes on if the other has not taken a step.
-    const Mode of_a = bodies_.mode(a);
-    const Mode of_b = bodies_.mode(b);
-    const Mode united = std::max(of_a, of_b);
-    Instant end = bodies_.now;
-    if (united == Mode::stepped && std::min(of_a, of_b) == Mode::fresh)
-      end = islands.of(of_a == Mode::stepped ? a : b).end;
-
+    const Mode united = std::max(bodies_.mode(a), bodies_.mode(b));
     // An island in another mode takes that of the united one.
     for (const Entity i : {a, b}) {
       if (bodies_.mode(i) == united) continue;
       for (const Entity k : islands.of(i).members) united == Mode::held ? modes_.hold(k) : modes_.step(k);
     }
-    islands.merge(a, b, end);
+    islands.merge(a, b, bodies_.now);
   }
-
-  // Time steps would let strings lengthen.
-  if (Island& island = islands.of(a); bodies_.any_taut(island.members)) island.end = bodies_.now;
 }
 
-bool ExactGroup::wake(Entity i) {
-  bool stepped = false;
+void ExactGroup::wake(Entity i) {
+  bool crowd = false;
   std::vector<Entity> todo;
   const auto rouse = [&](Entity k) {
     // Constrained motion rests on its partners.
-    stepped = stepped || modes_.partners(k).empty();
+    crowd = crowd || modes_.partners(k).empty();
     enlist(k);
     todo.push_back(k);
   };
@@ -97,11 +87,7 @@ bool ExactGroup::wake(Entity i) {
 
     for (const Entity e : asleep_beside(k)) rouse(e);
   }
-  return stepped;
-}
-
-void ExactGroup::stir(Entity i) {
-  if (!wake(i)) return;
+  if (!crowd) return;
   Island& island = bodies_.islands.of(i);
   island.busy = true;
   island.calm_needed = std::max(island.calm_needed, exact_tolerance::calm_steps);
@@ -109,7 +95,7 @@ void ExactGroup::stir(Entity i) {
 
 /// The sleeping bodies that touch body i, and those at the other ends of its taut strings and of its rods, each once.
 std::vector<Entity> ExactGroup::asleep_beside(Entity i) const {
-  const double near = exact_tolerance::waking_gap * bodies_.world.radius[i];  // m
+  const double near = std::max(exact_tolerance::waking_gap * bodies_.world.radius[i], member[i].gap);  // m
   const Vec3 x = bodies_.position(i);
   std::vector<Entity> asleep;
   for (const Entity e : bodies_.neighbours_of(i)) {
@@ -225,7 +211,7 @@ void ExactGroup::join_by_strings() {
   for (const Vec3& acceleration : a) greatest = std::max(greatest, acceleration.norm());
   for (ContactConstraint& row : rows)
     if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
-  solve({inverse_mass, a, rows, ContactAccuracy::rounding, true});
+  solve({inverse_mass, a, rows, true});
 
   // Other strings hold if they are under tension.
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -257,25 +243,6 @@ double ExactGroup::initial_rounding(Entity string) const {
          (bodies_.position(s.body).cwiseAbs().sum() + bodies_.position_of(string).cwiseAbs().sum() + s.length);
 }
 
-void ExactGroup::widen_margin(Entity i, double approach) {
-  if (!is_member(bodies_.mode(i))) return;
-  IslandMember& kept = member.write(i);
-  kept.needed = bodies_.now;
-  kept.margin = std::max(kept.margin, std::min(0.5 * approach * bodies_.islands.of(i).step_length,
-                                               exact_tolerance::widest_margin * bodies_.world.radius[i]));
-}
-
-double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
-  const bool body = bodies_.world.is_body(e);
-  if (approach == 0 || !(may_be_kicked(bodies_.mode(i)) || (body && may_be_kicked(bodies_.mode(e))))) return approach;
-  const Vec3 vi = bodies_.unkicked_velocity_of(i);
-  const Vec3 ve = bodies_.unkicked_velocity_of(e);
-  const double met = n.dot(vi - ve);
-  // A difference that is only rounding is no impact. It would be one for ever, because the kick brings the two
-  // together.
-  return met > exact_tolerance::approach_rounding * (vi.norm() + ve.norm() + approach) ? met : 0;
-}
-
 void ExactGroup::note_parted(Entity a, Entity thing, bool parted) {
   const std::pair pair(a, thing);
   const auto at = std::lower_bound(parted_.begin(), parted_.end(), pair);
@@ -298,28 +265,6 @@ void ExactGroup::forget_apart() {
 
 bool ExactGroup::has_parted(Entity a, Entity thing) const {
   return std::binary_search(parted_.begin(), parted_.end(), std::pair(a, thing));
-}
-
-bool ExactGroup::opens(Entity i) const {
-  if (!may_be_kicked(bodies_.mode(i)) || !(bodies_.now < bodies_.kick[i].until)) return false;
-
-  const Vec3 x = bodies_.position(i);
-  const Vec3 v = bodies_.velocity(i);
-  const auto parts_from = [&](Entity e) {
-    const Vec3 ve = bodies_.velocity_of(e);
-    const Vec3 n = touch(bodies_.world, i, x, e, bodies_.position_of(e)).normal;
-    return n.dot(ve - v) > bodies_.slow_speed(bodies_.applied[i].norm(), bodies_.smaller_length(i, e));
-  };
-
-  for (const PressingContact& p : pressing[i])
-    if (parts_from(p.partner)) return true;
-  // The list of the lower body has the contact.
-  for (const Entity e : bodies_.neighbours_of(i)) {
-    if (!bodies_.world.is_body(e) || e > i) continue;
-    for (const PressingContact& p : pressing[e])
-      if (p.partner == i && parts_from(e)) return true;
-  }
-  return false;
 }
 
 bool ExactGroup::strikes(Entity i, Entity e, double approach, double slow, bool apart) const {
@@ -391,25 +336,8 @@ void ExactGroup::note_power(Entity i) {
   bodies_.contact_work.change(i, bodies_.now, power(i));
 }
 
-void ExactGroup::let_go(Entity i) {
-  if (!bodies_.moving.any()) return;
-  pressing.write(i).clear();
-  for (const Entity e : bodies_.neighbours_of(i))
-    if (bodies_.world.is_body(e) && e < i)
-      std::erase_if(pressing.write(e), [&](const PressingContact& p) { return p.partner == i; });
-}
-
-void ExactGroup::carry(Entity i, double approach, double surface) {
-  const double work = -bodies_.world.mass[i] * approach * surface;
-  const Instant& until = bodies_.kick[i].until;
-  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < until)
-    bodies_.contact_work.push(i, bodies_.now, work / (until - bodies_.now));
-  else
-    bodies_.log.carry(work);
-}
-
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
-  if (bodies_.mode(i) != Mode::asleep && !may_be_kicked(bodies_.mode(i))) return;
+  if (bodies_.mode(i) != Mode::asleep) return;
   for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
 }
 

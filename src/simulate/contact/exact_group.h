@@ -1,8 +1,7 @@
 #pragma once
 // Bodies of the exact simulator in lasting contact with each other or with things that are not flat. Their paths have
-// no closed form. Each island moves in steps of its own: by constrained motion (constrained_motion.h), or by time
-// stepping where contacts change too often (time_stepping.h). This class holds the data of these bodies, and the
-// effects of impacts on them between steps.
+// no closed form. Each island moves in steps of its own: by constrained motion (constrained_motion.h), or as a
+// crowd where contacts change too often (crowd_motion.h). This class holds the data of these bodies.
 #include <utility>
 #include <vector>
 
@@ -34,9 +33,7 @@ struct IslandMember {
   // The last time at which it was struck, or pressed on by things other than flat surfaces.
   Instant needed;
   std::vector<Floor> floors;  // the flat fixed things that carry it
-  double margin = 0;          // m, the gap that time stepping leaves around it
-  std::uint32_t impacts = 0;  // impacts that ended in contact since the last step
-  std::uint8_t idle = 0;      // time steps since a thing last pressed on it
+  double gap = 0;             // m: the widest gap at which things press on it while it sleeps
 };
 
 class ExactGroup {
@@ -50,41 +47,35 @@ class ExactGroup {
 
   /// Puts body i into an island. If it sleeps, all that rest in contact with it wake too.
   void join(Entity i);
-  /// Unites the islands of members a and b. The next step of the united island is due. A time step of one goes on if
-  /// the other is fresh.
+  /// Unites the islands of members a and b. The next step of the united island is due.
   void unite(Entity a, Entity b);
   /// The same, if one of them is fresh.
   void unite_fresh(Entity a, Entity b) {
     if (bodies_.mode(a) == Mode::fresh || bodies_.mode(b) == Mode::fresh) unite(a, b);
   }
-  /// Wakes a sleeping body and all that rest in contact with it. They make up an island. Returns whether time steps
-  /// have put one of them to rest.
-  bool wake(Entity i);
-  /// The same where forces change, or the velocity of things: the island goes on in time steps if these have put it to
-  /// rest. They leave gaps, and constrained motion would let bodies fall through these.
-  void stir(Entity i);
+  /// Wakes a sleeping body and all that rest in contact with it. They make up an island, which is a crowd if one has
+  /// put them to rest: crowds leave gaps, and constrained motion would let bodies fall through these.
+  void wake(Entity i);
   /// At the start, a body may touch others or a curved surface, without speed along the normal, and be pressed on.
   /// Such a body joins an island, and so does all that it touches.
   void join_initial(Entity first);
   /// The same for bodies that taut strings pull, and for those on rods. The tensions are those under the forces at the
   /// start: a taut string without tension holds nothing. Throws SimulationError where a string is too short.
   void join_by_strings();
-  /// Widens the margin of member i after an impact at this speed (m/s).
-  /// For a while, bodies keep about the distance that they could move at that speed until the next step.
-  void widen_margin(Entity i, double approach);
-  /// The part of an approach (m/s) along n that is already there. In time stepping, flights contain a kick by forces of
-  /// the rest of the step. It is 0 where the part is only rounding.
-  double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
+  /// Lets member i, whose impact has ended in contact, fall no more. The next step of its island is due.
+  void await_step(Entity i);
+  /// Notes an impact of body i, which a member needs for a while.
+  void note_needed(Entity i) {
+    if (is_member(bodies_.mode(i))) member.write(i).needed = bodies_.now;
+  }
   /// Notes that an impact has let two members part, or that it has not. Until they meet again, their speed is no error
   /// of paths, however small it is.
   void note_parted(Entity a, Entity thing, bool parted);
   /// Whether the last impact of the two has let them part.
   bool has_parted(Entity a, Entity thing) const;
-  /// Whether member i separates from a thing that pressed on it in the last time step.
-  bool opens(Entity i) const;
   /// Whether members i and e approach each other (m/s) for an impact of their own: not below `slow` (m/s), and one that
   /// bounces, or if they are `apart`. Contact must not take that speed.
-  bool strikes(Entity i, Entity e, double approach, double slow, bool apart = false) const;
+  bool strikes(Entity i, Entity e, double approach, double slow, bool apart) const;
 
   /// The force between member i and a thing in the last step (N).
   double pressing_force(Entity i, Entity e) const;
@@ -100,15 +91,7 @@ class ExactGroup {
   bool switches(Entity i) const;
   /// Stores the power of the moving things that press on member i from this instant on.
   void note_power(Entity i);
-  /// The same within a time step, in which pushes go on.
-  void renew_power(Entity i) { bodies_.contact_work.renew(i, bodies_.now, power(i)); }
-  /// Where things move: nothing presses on member i any more.
-  void let_go(Entity i);
-  /// The same for an impulse that stops member i's approach (m/s) in the rest of its time step. `surface`: the speed of
-  /// the thing along the normal (m/s).
-  void carry(Entity i, double approach, double surface);
-
-  /// Appends the forces of sleeping bodies, and of members between steps of time stepping.
+  /// Appends the forces of sleeping bodies.
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:

@@ -21,8 +21,7 @@ FlatSolution solve_one_body(const Vec3& u, std::span<const FlatSurface> surfaces
   constexpr double unit_mass = 1;
   FlatSolution solution;
   solution.u = u;
-  solution.certificate =
-      solve({{&unit_mass, 1}, {&solution.u, 1}, {contacts.data(), surfaces.size()}, ContactAccuracy::rounding, true});
+  solution.certificate = solve({{&unit_mass, 1}, {&solution.u, 1}, {contacts.data(), surfaces.size()}, true});
 
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     if (contacts[k].force > 0) solution.active |= 1u << k;

@@ -389,7 +389,7 @@ std::vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const 
 
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
-  solve({{&inverse_mass, 1}, {&a, 1}, pairs, ContactAccuracy::rounding, true});
+  solve({{&inverse_mass, 1}, {&a, 1}, pairs, true});
   for (std::size_t k = 0; k < pairs.size(); ++k) forces[k].force = std::max(pairs[k].force, 0.0);
   return forces;
 }

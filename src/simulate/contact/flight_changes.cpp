@@ -1,7 +1,5 @@
 // Begins and ends flights, and books the work of forces and the method's own error on each flight that ends.
 // Work is booked from the flight as a whole, in closed form where forces are constant.
-// In time stepping a flight has the step's forces in its velocity from the start (the kick). Changes within the step
-// adjust it.
 #include "simulate/contact/flight_changes.h"
 
 #include <algorithm>
@@ -28,16 +26,22 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   book(i, x, bodies_.now);
 
   const Mode mode = bodies_.mode(i);
-  const Contact contact = mode == Mode::stepped ? Contact::stepped : Contact::none;
-  if (contact != in_contact_[i].by) {
+  const Contact contact = mode == Mode::stepped ? Contact::crowd : Contact::none;
+  if (contact != in_contact_[i]) {
     // The next step of its own does not continue one of contact.
-    if (in_contact_[i].by == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
-    in_contact_.write(i) = {contact};
+    if (in_contact_[i] == Contact::followed) bodies_.flights.accelerate(i, bodies_.flights.acceleration(i));
+    in_contact_.write(i) = contact;
+  }
+  // Its crowd gives it the next drift.
+  if (contact == Contact::crowd) {
+    bodies_.flights.set(i, {bodies_.now, x, v, Vec3::Zero()});
+    bodies_.kick.write(i) = {bodies_.now};
+    return end_change(i, origin);
   }
 
-  // The body falls through a time step.
+  // A body that has just joined an island falls until its first step.
   const bool falls =
-      may_be_kicked(mode) && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
+      mode == Mode::fresh && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
 
   // A negligible speed becomes zero, on a flat surface also one with a negligible hop.
   const double negligible = bodies_.negligible_speed();
@@ -143,59 +147,11 @@ void FlightChanges::let_fall(Entity i) {
     bodies_.flights.accelerate(i, bodies_.force_at(i, f.x, f.v), bodies_.fade[i]);
 }
 
-void FlightChanges::release(Entity i) {
-  Islands& islands = bodies_.islands;
-  book_taking(i, bodies_.now);
-  take(i, 0);
-  bodies_.contact_work.change(i, bodies_.now, 0);
-
-  // The velocity loses the part that forces in the rest of the step have given it in advance.
-  const Vec3 pending = bodies_.kick[i].rest(bodies_.now);
-  bodies_.kick.write(i) = {bodies_.now};
-  change(i, -pending);
-  let_fall(i);
-
-  // The time step is cut to the shortest one of the method.
-  Island& island = islands.of(i);
-  const double excess = (island.end - bodies_.now) - island.shortest_step;
-  if (!(excess > 0)) return;
-  island.end = bodies_.now + island.shortest_step;
-  island.step_length -= excess;
-}
-
-void FlightChanges::hold(Entity i) {
-  bodies_.flights.accelerate(i, Vec3::Zero());
-  Islands& islands = bodies_.islands;
-  if (!may_be_kicked(bodies_.mode(i)) || bodies_.now < bodies_.kick[i].until || !(bodies_.now < islands.of(i).end))
-    return;
-  bodies_.kick.write(i) = {islands.of(i).end};
-  push(i, by_forces(i, islands.of(i).end - bodies_.now));
-}
-
-Vec3 FlightChanges::by_forces(Entity i, double seconds) const {
-  const double drag = seconds * bodies_.fade[i];
-  return (seconds * bodies_.applied[i] - drag * bodies_.velocity(i)) / (1 + drag);
-}
-
-void FlightChanges::push(Entity i, const Vec3& dv) {
-  change(i, dv);
-  if (may_be_kicked(bodies_.mode(i)) && bodies_.now < bodies_.kick[i].until)
-    bodies_.kick.write(i).a += dv / (bodies_.kick[i].until - bodies_.now);
-}
-
-void FlightChanges::change(Entity i, const Vec3& dv) {
-  Flight f = bodies_.flights[i];
-  bodies_.log.deviate(-0.5 * bodies_.world.mass[i] * dv.dot(2 * f.v + dv));
-  f.v += dv;
-  bodies_.note_speed(i, f.v);
-  bodies_.flights.set(i, {f.start, f.x, f.v, f.a, f.fade});
-}
-
 void FlightChanges::follow(Entity i, const PolynomialPath& path) {
   Flight f = bodies_.flights[i];
   f.a = path.acceleration(0);
   bodies_.flights.set(i, f, path);
-  in_contact_.write(i).by = Contact::followed;
+  in_contact_.write(i) = Contact::followed;
 }
 
 void FlightChanges::count(Entity i) {
@@ -214,20 +170,9 @@ void FlightChanges::count_anew(Entity i) {
         event.partner_version = 0;
 }
 
-/// Books what contact does to body i besides its forces. Returns whether these are booked too.
-bool FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
-  if (in_contact_[i].by == Contact::followed) {
-    bodies_.bent[i] ? book_varying(i, x, end) : book_followed(i, x, end);
-    return true;
-  }
-  bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
-  book_taking(i, end);
-  return false;
-}
-
-void FlightChanges::book_taking(Entity i, const Instant& end) {
-  const double power = in_contact_[i].taking;
-  if (power != 0) bodies_.log.go_on_taking(power * (end - bodies_.flights[i].start));
+/// Books a flight in contact. A crowd books its own steps.
+void FlightChanges::book_contact(Entity i, const Vec3& x, const Instant& end) {
+  if (in_contact_[i] == Contact::followed) bodies_.bent[i] ? book_varying(i, x, end) : book_followed(i, x, end);
 }
 
 void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
@@ -243,9 +188,10 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   if (!world.forces.empty()) book_work(i, f.start.hi, displacement, fade == 0 ? 0 : dragged / fade);
 }
 
-/// Books the work of forces that are constant except for linear drag. Drag acts by an integral of the squared speed
-/// (m^2/s).
-void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
+/// Books the work of forces that are constant except for linear drag, and returns it (J). Drag acts by an integral of
+/// the squared speed (m^2/s).
+double FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
+  double all = 0;
   const World& world = bodies_.merged.given();
   const std::span<const Entity> parts = bodies_.merged.parts_of(i);
 
@@ -261,7 +207,14 @@ void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, d
       const double work =
           world.mass[part] * standing.dot(displacement) - (drag != nullptr ? drag->linear * squared_speed : 0);
       if (work != 0) bodies_.log.add_work(k, work);
+      all += work;
     }
+  return all;
+}
+
+double FlightChanges::book_drift(Entity i, const Flight& drift, double length) {
+  if (bodies_.bent[i]) return curved_.book_work(i, drift, length);
+  return book_work(i, drift.start.hi, length * drift.v, length * drift.v.squaredNorm());
 }
 
 /// The greatest speed of a flight on a curve (m/s) in `length` (s) of it, by the scene's method. Within a step the
@@ -288,7 +241,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   if (!(length > 0)) return;
   const double work = curved_.book_work(i, f, length);
   if (f.curve != nullptr) bodies_.log.note_speed(i, greatest_speed(i, f, length));
-  if (f.curve != nullptr && in_contact_[i].by != Contact::followed) return;
+  if (f.curve != nullptr && in_contact_[i] != Contact::followed) return;
   bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
                       work);
 }
@@ -314,7 +267,7 @@ double FlightChanges::kinetic_loss(Entity i, const Flight& f, double length) con
 }
 
 void FlightChanges::take_out(Entity i, const Vec3& x, const Vec3& v) {
-  if (in_contact_[i].by != Contact::none) in_contact_.write(i) = {};
+  if (in_contact_[i] != Contact::none) in_contact_.write(i) = Contact::none;
   bodies_.flights.set(i, {bodies_.now, x, v, Vec3::Zero()});
   bodies_.body[i].set_origin({});
   count(i);
@@ -324,13 +277,11 @@ void FlightChanges::take_out(Entity i, const Vec3& x, const Vec3& v) {
 Vec3 FlightChanges::book_until(Entity i, const Instant& at) {
   const Flight f = bodies_.flights[i];
   const Vec3 x = f.position(at - f.start);
-  const Vec3 kicked = f.velocity(at - f.start);
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   bodies_.hold_to_bounds(i, at.hi, x, v);
   bodies_.note_speed(i, v);
   book(i, x, at);
   bodies_.contact_work.change(i, at, 0);
-  if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
   return v;
 }
 

@@ -39,40 +39,28 @@ class FlightChanges {
   void take_step(Entity i);
   /// Lets body i's flight, which has just begun, continue as if it were free.
   void let_fall(Entity i);
-  /// Lets member i fall from this instant on. Nothing presses on it in the rest of its time step, which is cut to a
-  /// short one.
-  void release(Entity i);
-  /// Lets member i, which a thing presses on from this instant on, fly straight. Its velocity contains the effect of
-  /// forces in the rest of its time step.
-  void hold(Entity i);
-  /// The change of body i's velocity by forces in so many seconds from the present (m/s). Drag is implicit.
-  Vec3 by_forces(Entity i, double seconds) const;
-  /// Changes member i's velocity by dv (m/s) from this instant on, by a force in the rest of the time step.
-  void push(Entity i, const Vec3& dv);
-  /// From this instant on, impacts within member i's time step take energy at this rate (W), until the step ends.
-  void take(Entity i, double power) {
-    if (power != in_contact_[i].taking) in_contact_.write(i).taking = power;
-  }
   /// Lets the flight of member i, which has just begun, follow this path of constrained motion.
   void follow(Entity i, const PolynomialPath& path);
   /// Books the effect of forces on body i for the flight that ends at x (m) and `end`.
   /// These are the World's forces, and contact forces against them.
   [[gnu::always_inline]] void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
-    if (in_contact_[i].by != Contact::none && book_contact(i, x, end)) [[unlikely]]
-      return;
+    if (in_contact_[i] != Contact::none) [[unlikely]]
+      return book_contact(i, x, end);
     if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
+  /// Books the work of forces on body i in `length` (s) of a drift, and returns it (J).
+  double book_drift(Entity i, const Flight& drift, double length);
   /// Leaves body i at x (m) with velocity v (m/s), out of all contact. What has ended is booked already.
   void take_out(Entity i, const Vec3& x, const Vec3& v);
-  /// Books body i's flight up to an instant, with the energy that its kick has in advance. Returns its velocity there
-  /// (m/s).
+  /// Books body i's flight up to an instant. Returns its velocity there (m/s).
   Vec3 book_until(Entity i, const Instant& at);
   /// Books all flights up to `time` (s), the run's end. Only the first call has an effect.
   /// Between collisions a speed is greatest at an end of a flight.
   void book_last(double time);
+  bool has_ended() const { return ended_; }
   /// Makes all events with body i stale.
   void count(Entity i);
   /// Notes that body i's next event is to be predicted. The event loop does so at the end of the present event. Bodies
@@ -93,15 +81,13 @@ class FlightChanges {
   [[gnu::noinline]] void count_anew(Entity i);
   void end_verlets(Entity i);
   void end_closed(Entity i);
-  void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
   [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
   [[gnu::noinline]] void note_power(Entity i);
 
-  bool book_contact(Entity i, const Vec3& x, const Instant& end);
+  void book_contact(Entity i, const Vec3& x, const Instant& end);
   void book_followed(Entity i, const Vec3& x, const Instant& end);
-  void book_taking(Entity i, const Instant& end);
-  void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);
+  double book_work(Entity i, double time, const Vec3& displacement, double squared_speed);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);
   double greatest_speed(Entity i, const Flight& f, double length) const;
@@ -111,16 +97,12 @@ class FlightChanges {
   FlatContacts& flat_;
   PathLog& paths_;
   CurvedFlights curved_;
-  // What moves a body in its flight: parabolas or free motion, time stepping, or a path of constrained motion.
-  enum class Contact : std::uint8_t { none, stepped, followed };
-  struct InContact {
-    Contact by = Contact::none;
-    double taking = 0;  // W, taken by impacts within its time step
-  };
-  LazyArray<InContact> in_contact_;  // by body, of its present flight
-  std::vector<Entity> changed_;      // longer than the list of noted bodies
-  std::size_t changed_count_ = 0;    // in that list
-  bool ended_ = false;               // the last flights are booked
+  // What moves a body in its flight: parabolas or free motion, a crowd, or a path of constrained motion.
+  enum class Contact : std::uint8_t { none, crowd, followed };
+  LazyArray<Contact> in_contact_;  // by body, of its present flight
+  std::vector<Entity> changed_;    // longer than the list of noted bodies
+  std::size_t changed_count_ = 0;  // in that list
+  bool ended_ = false;             // the last flights are booked
 };
 
 }  // namespace carom

@@ -52,11 +52,9 @@ void Islands::merge(Entity a, Entity b, const Instant& end) {
   one.calm = 0;
   one.calm_needed = std::max(one.calm_needed, other.calm_needed);
 
-  // Time steps, and impacts within them.
-  one.step_length = std::max(one.step_length, other.step_length);
-  one.shortest_step = std::max(one.shortest_step, other.shortest_step);
-  one.impact_pairs += other.impact_pairs;
-  one.short_steps = std::max(one.short_steps, other.short_steps);
+  // Crowds, and what is near them.
+  one.crowds.insert(one.crowds.end(), other.crowds.begin(), other.crowds.end());
+  one.watched.insert(one.watched.end(), other.watched.begin(), other.watched.end());
 
   release(from);
 }

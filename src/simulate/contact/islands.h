@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "simulate/path/instant.h"
 
 namespace carom {
+
+struct Crowd;
 
 struct Island {
   std::vector<Entity> members;  // ascending after each step
@@ -27,17 +30,14 @@ struct Island {
   // The last change of contact.
   Instant changed;
   std::uint32_t changes = 0;  // changes of contact since `counted`
-  std::uint32_t calm = 0;     // consecutive time steps in which the same pairs pressed
+  std::uint32_t calm = 0;     // consecutive steps of a crowd in which the same pairs pressed
   // After so many of these the island is not busy.
   std::uint32_t calm_needed = 0;
   std::uint64_t pressing = 0;  // a hash of the pairs that pressed
-  double step_length = 0;      // s, of the last time step
-  // s: length of the shortest step of the method.
-  double shortest_step = 0;
-  // Pairs in simultaneous impacts since that step.
-  std::size_t impact_pairs = 0;
-  // Consecutive time steps that simultaneous impacts ended at once.
-  std::uint32_t short_steps = 0;
+  // What is left of the crowds of its members: that of its last step, or those that have united or split since.
+  std::vector<std::shared_ptr<Crowd>> crowds;
+  // Bodies of other kinds near it, with a new path since its last step.
+  std::vector<Entity> watched;
 };
 
 class Islands {

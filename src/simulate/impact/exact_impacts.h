@@ -20,8 +20,6 @@ class ExactImpacts {
  private:
   void bounce_off(const PairImpact& impact, Entity striker, Entity struck);
   [[gnu::always_inline]] void apply_pair(const PairImpact& impact, double impulse, bool ends);
-  void hold_together(Entity a, Entity b, const Vec3& n);
-  void release(Entity i);
 
   ExactBodies& bodies_;
   const ImpactParts parts_;

@@ -10,7 +10,6 @@ class CollapseDetector;
 class ExactGroup;
 class FlatContacts;
 class FlightChanges;
-class SimultaneousImpacts;
 class StallGuard;
 
 struct ImpactParts {
@@ -18,7 +17,6 @@ struct ImpactParts {
   FlatContacts& flat;
   ExactGroup& group;
   FlightChanges& flights;
-  SimultaneousImpacts& simultaneous;
   BodyMerging& merging;
   StallGuard& guard;
 };

@@ -1,6 +1,5 @@
 // Decisions about impacts. An impact ends in lasting contact if it is slow under load, or part of a collapse. The
-// bodies then join an island instead of bouncing for ever. In time stepping, velocities contain a kick by later forces.
-// Impacts use the approach without it.
+// bodies then join an island instead of bouncing for ever.
 #include "simulate/impact/impact_rules.h"
 
 #include <algorithm>
@@ -82,14 +81,14 @@ Vec3 ImpactRules::pull_after(const PairImpact& impact, Entity i) const {
 }
 
 /// The acceleration that drives the two together (m/s^2), for which impacts are slow. Loads that cancel but for
-/// rounding do not press. In time steps flights hold forces in advance, and any load may press.
+/// rounding do not press. Between steps of a crowd any load may press.
 double ImpactRules::holding(double press, Entity i, Entity e) const {
   double loads = 0;
   bool stepped = false;
   for (const Entity k : {i, e}) {
     if (!bodies_.world.is_body(k)) continue;
     loads = std::max(loads, bodies_.applied[k].norm());
-    stepped = stepped || bodies_.mode(k) == Mode::stepped || bodies_.now < bodies_.kick[k].until;
+    stepped = stepped || bodies_.mode(k) == Mode::stepped;
   }
   if (stepped) return std::max(press, loads);
   press = std::max(press, pressed(i, e));
@@ -143,24 +142,14 @@ FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, std::uint8_t featu
     pull = without.u.dot(n) + flat_.drag_along(i, n, surface);
   }
 
-  return {i,
-          surface,
-          feature,
-          flat,
-          f.start == bodies_.now,
-          x,
-          v,
-          u,
-          there,
-          pair_restitution(world, i, surface),
-          approach,
-          group_.approach_without_kick(approach, n, i, surface),
-          pull - bend};
+  return {i,        surface,    feature, flat,  f.start == bodies_.now,
+          x,        v,          u,       there, pair_restitution(world, i, surface),
+          approach, pull - bend};
 }
 
 bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
-  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
-  const double separation = e * unkicked;
+  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
+  const double separation = e * approach;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
   const std::size_t carrying = flat_.of(i).count;
 
@@ -196,12 +185,12 @@ bool ImpactRules::over_at_once(const FixedImpact& impact, double left) const {
 }
 
 bool ImpactRules::ends(const FixedImpact& impact, bool again) {
-  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, unkicked, press] = impact;
-  if (unkicked == 0 && (approach > 0 || bodies_.path_bends(i))) return true;
+  const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
+  if (approach == 0 && bodies_.path_bends(i)) return true;
   const bool alone = flat && !collapses_.among_bodies(i);
   const double held = holding(press, i, surface);
-  if (collapses_.count_impact(i, surface, e, unkicked, held, bodies_.world.radius[i], alone, again)) return true;
-  const double separation = e * unkicked;
+  if (collapses_.count_impact(i, surface, e, approach, held, bodies_.world.radius[i], alone, again)) return true;
+  const double separation = e * approach;
   if (!(press > 0)) return false;
   if (flat && bodies_.bent[i] && !in_lasting_contact(bodies_.mode(i)) && e < 1)
     return over_at_once(impact, 2 * separation / (press * (1 - e)));

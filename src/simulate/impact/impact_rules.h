@@ -29,7 +29,6 @@ struct PairImpact {
   Touch there;      // the normal points from a to b
   double e;         // restitution
   double approach;  // m/s
-  double unkicked;  // m/s, without the effect of later forces
   double press;     // m/s^2, drives the two together
   double length;    // m, on which the two are slow
 };
@@ -47,7 +46,6 @@ struct FixedImpact {
   Touch there;      // the normal points into the thing
   double e;         // restitution
   double approach;  // m/s
-  double unkicked;  // m/s, without the effect of later forces
   double press;     // m/s^2, drives the two together
 };
 
@@ -133,7 +131,6 @@ inline PairImpact ImpactRules::find_pair(Entity a, Entity b, std::uint8_t featur
   const double closing = -impact.w.dot(impact.there.normal);
   impact.approach = closing > bodies_.negligible_speed() ? closing : 0;
   impact.e = pair_restitution(bodies_.world, a, b);
-  impact.unkicked = group_.approach_without_kick(impact.approach, impact.there.normal, a, b);
   impact.length = bodies_.smaller_length(a, b);
   impact.press = 0;
   if (p.a == q.a && p.fade == q.fade) [[likely]]
@@ -152,7 +149,7 @@ inline Entity ImpactRules::left_asleep(const PairImpact& impact) const {
 inline bool ImpactRules::ends(const PairImpact& impact, bool again) {
   const Entity a = impact.a;
   const Entity b = impact.b;
-  const double met = impact.unkicked;
+  const double met = impact.approach;
   const double press = impact.press;
   const double speeds = impact.va.norm() + impact.vb.norm();
 
@@ -166,8 +163,7 @@ inline bool ImpactRules::ends(const PairImpact& impact, bool again) {
   const bool enters = met == 0 && side_by_side() && (bodies_.path_bends(a) || bodies_.path_bends(b));
   const auto fades = [&] { return bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press); };
 
-  return (impact.approach > 0 && met == 0) || enters ||
-         (is_member(bodies_.mode(a)) && move_as_one(a, b, impact.approach)) ||
+  return enters || (is_member(bodies_.mode(a)) && move_as_one(a, b, impact.approach)) ||
          (real && collapses_.count_impact(a, b, impact.e, met, held, impact.length, false, again)) ||
          (press > 0 &&
           (impact.e * met == 0 || bodies_.too_low(impact.xa, impact.e * met, press) || (impact.e == 1 && fades())));

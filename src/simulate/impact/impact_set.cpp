@@ -172,7 +172,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_
     inverse_mass.push_back(1 / bodies_[body].mass);
     p.v.push_back(v[body]);
   }
-  p.certificate = solve({inverse_mass, p.v, constraints, ContactAccuracy::rounding, true});
+  p.certificate = solve({inverse_mass, p.v, constraints, true});
 
   // In the order of the rows that were given.
   std::vector<double> impulse(rows_.size(), 0.0);

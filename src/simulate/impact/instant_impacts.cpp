@@ -244,7 +244,7 @@ InstantImpacts::Rows InstantImpacts::find_approaching(Moment& now) const {
   return approaching;
 }
 
-/// Ends the steps of bodies with methods of their own, and the time steps of those that a string stops.
+/// Ends the steps of bodies with methods of their own.
 void InstantImpacts::end_steps(Moment& now, const Rows& approaching) {
   const bool ties = bodies_.ties.any();
   if (!bodies_.in_steps && !ties) return;
@@ -254,13 +254,6 @@ void InstantImpacts::end_steps(Moment& now, const Rows& approaching) {
       if (i == no_entity || now.struck[now.members.number(i)]) continue;
       now.struck[now.members.number(i)] = 1;
       parts_.flights.end_step(i);
-
-      // The rest of a time step is not to come: a step with the string follows at once.
-      if (bodies_.world.is_string(now.touching[c].thing) && may_be_kicked(bodies_.mode(i))) {
-        parts_.flights.begin(i, bodies_.position(i), bodies_.velocity(i), {});
-        parts_.flights.release(i);
-        parts_.group.let_go(i);
-      }
       now.set.set_velocity(now.members.number(i), bodies_.velocity(i));
       parts_.flights.note_changed(i);
     }
@@ -356,7 +349,7 @@ void InstantImpacts::begin_flights(Moment& now, std::span<const ImpactSet::Impac
     for (const Entity i : {row.a, second}) {
       if (i == no_entity) continue;
       if (row.ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
-      parts_.group.widen_margin(i, impact.approach);
+      parts_.group.note_needed(i);
       const Entity other = i == row.a ? row.thing : world.is_string(row.thing) ? row.thing : row.a;
       origin[now.members.number(i)] = {other, row.feature};
     }
@@ -390,8 +383,11 @@ void InstantImpacts::hold(Moment& now, std::span<const ImpactSet::Impact> impact
     if (!row.ends) continue;
     const Entity second = bodies_.world.second_body(row.thing);
     if (!bodies_.world.is_string(row.thing)) {
-      parts_.flights.hold(row.a);
-      if (second != no_entity) parts_.flights.hold(second);
+      for (const Entity i : {row.a, second}) {
+        if (i == no_entity) continue;
+        parts_.group.await_step(i);
+        parts_.flights.note_changed(i);
+      }
     }
     if (second != no_entity) parts_.group.unite(row.a, second);
 

@@ -4,7 +4,7 @@
 //
 // The set begins with the impacts that are due. It grows by what touches a body that approaches something or has been
 // struck, and by what strings and rods connect with it. Every round applies to the bodies before the next one: flights
-// begin, sleepers wake, bodies come to rest. Members of islands in time steps are not taken in. Their impacts are those
+// begin, sleepers wake, bodies come to rest. Members of crowds are not taken in. Their impacts are those
 // of two (exact_impacts.h).
 #include <algorithm>
 #include <span>

@@ -1,5 +1,5 @@
 // Takes the steps of islands by constrained motion, and applies them: flights, modes and contacts until the step's end,
-// and what is booked. An island with too many changes of contact in the time of a time step is left to time stepping.
+// and what is booked. An island with too many changes of contact in a short time is left to move as a crowd.
 #include "simulate/island/constrained_motion.h"
 
 #include <algorithm>
@@ -30,10 +30,10 @@ ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ModeChanges& modes, Ex
       following_(bodies.body.size()) {}
 
 /// Counts a change of the contacts of an island of this load (m/s^2) and least radius (m). Returns whether the changes
-/// in the time of a time step are not too many.
+/// in a short time are not too many.
 bool ConstrainedMotion::count_change(Island& island, double load, double smallest) const {
   if (load == 0 || island.changed == bodies_.now) return true;
-  if (bodies_.now - island.counted > tol::shortest_step * std::sqrt(2 * smallest / load)) {
+  if (bodies_.now - island.counted > tol::time_of_changes * std::sqrt(2 * smallest / load)) {
     island.counted = bodies_.now;
     island.changes = 0;
   }
@@ -49,7 +49,7 @@ bool ConstrainedMotion::count_change(Island& island, double load, double smalles
 
 bool ConstrainedMotion::advance(Entity i) {
   const bool undisturbed = bodies_.mode(i) == Mode::held && bodies_.now == bodies_.islands.of(i).planned;
-  const bool may_be_busy = !undisturbed && !bodies_.any_taut(bodies_.islands.of(i).members);
+  const bool may_be_busy = !undisturbed && !bodies_.options.merge && !bodies_.any_taut(bodies_.islands.of(i).members);
   if (!undisturbed) take_in_touching(i);
 
   Island& island = bodies_.islands.of(i);
@@ -100,7 +100,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
   }
 }
 
-/// The position (m) and velocity (m/s) of member i at present, on the path that it follows or without a kick.
+/// The position (m) and velocity (m/s) of member i at present, on the path that it follows or on its flight.
 std::pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
   const Following& following = following_[i];
   if (following.path && following.version == bodies_.body[i].version) {
@@ -110,9 +110,7 @@ std::pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
             path.motion->velocity(following.place, t)};
   }
 
-  Vec3 v = bodies_.velocity(i);
-  if (bodies_.mode(i) != Mode::held && bodies_.now < bodies_.kick[i].until) v -= bodies_.kick[i].rest(bodies_.now);
-  return {bodies_.position(i), v};
+  return {bodies_.position(i), bodies_.velocity_without_kick(i, bodies_.now)};
 }
 
 /// The members of a step, and their contacts.
@@ -230,8 +228,6 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
   }
 
   modes_.press(i, fate.pressed);
-  bodies_.kick.write(i) = {bodies_.now};
-
   // A thing that it has just struck stays its origin, if nothing has changed since.
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;
@@ -277,7 +273,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     }
   }
 
-  solve({step.inverse_mass, step.a, pairs, ContactAccuracy::rounding, true});
+  solve({step.inverse_mass, step.a, pairs, true});
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});
 }

@@ -218,7 +218,7 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
   }
 
   if (rods) allow_contradictions(a, rows);
-  certificate.merge(solve({inverse_mass_, a, rows, ContactAccuracy::rounding, least}));
+  certificate.merge(solve({inverse_mass_, a, rows, least}));
   return a;
 }
 

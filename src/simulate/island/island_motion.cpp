@@ -11,9 +11,20 @@ void IslandMotion::advance(Entity i) {
   for (const Entity k : island.members) paths_.note_change(k);
 
   if (bodies_.any_taut(island.members)) island.busy = false;
-  if (!island.busy && constrained_.advance(i)) return;
-  // It has united with an island that has taut strings.
-  if (!stepping_.advance(i)) advance(i);
+  if (!island.busy && island.crowds.empty() && constrained_.advance(i)) return;
+  // It has united with an island that has taut strings, or it has been calm.
+  if (!crowds_.advance(i)) return advance(i);
+  if (!is_member(bodies_.mode(i))) return;
+  for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
+}
+
+void IslandMotion::interrupt(Entity i) {
+  for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
+  crowds_.interrupt(i);
+}
+
+void IslandMotion::book_last(double time) const {
+  bodies_.islands.for_each([&](const Island& island) { crowds_.book_last(island, time); });
 }
 
 }  // namespace carom

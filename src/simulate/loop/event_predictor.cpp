@@ -28,9 +28,34 @@ EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const Mod
       plain_(!bodies.ties.any() && bodies.world.forces.empty() && !bodies.moving.any()) {}
 
 void EventPredictor::predict(Entity i) {
+  if (bodies_.mode(i) == Mode::stepped) [[unlikely]]
+    return predict_crowd(i);
   if (bodies_.neighbours.bodies(i).size() > 128 && bodies_.neighbours.room(i) > 0.05 * bodies_.world.radius[i])
     bodies_.neighbours.shrink(i, bodies_.position(i));
   predict_among(i, bodies_.neighbours.bodies(i));
+}
+
+/// Predicts the next step of body i's crowd, which the first of its members has. The others have no events, but for
+/// strings that go taut.
+void EventPredictor::predict_crowd(Entity i) {
+  const Island& island = bodies_.islands.of(i);
+  for (const Entity k : {i, island.members.front()}) {
+    ExactEvent best;
+    if (bodies_.ties.any()) offer_strings(k, best);
+    if (k == island.members.front())
+      offer(k, best, ExactEvent{island.end, no_entity, 0, no_feature, ExactEvent::Kind::step});
+    bodies_.body[k].event = best;
+    queue_.schedule(k, never);
+  }
+}
+
+/// Lets the crowds near body i, which has a new path or a new region, look whether it comes near.
+void EventPredictor::be_watched(Entity i) {
+  for (const Entity e : bodies_.neighbours.bodies(i))
+    if (bodies_.mode(e) == Mode::stepped) {
+      std::vector<Entity>& watched = bodies_.islands.of(e).watched;
+      if (watched.empty() || watched.back() != i) watched.push_back(i);
+    }
 }
 
 void EventPredictor::predict_all() {
@@ -67,6 +92,7 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
     offer(i, best, ExactEvent{bodies_.flight_end(i), no_entity, 0, no_feature, ExactEvent::Kind::step});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
+  if (bodies_.islands.any()) be_watched(i);
 }
 
 /// Offers what neither a contact nor a region is: strings, and switches of forces and of things that move.
@@ -234,6 +260,7 @@ void EventPredictor::renew_region(Entity i) {
   meet_each(i, bodies_.neighbours.surfaces(i), best);
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
+  if (bodies_.islands.any()) be_watched(i);
 }
 
 }  // namespace carom

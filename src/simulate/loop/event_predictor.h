@@ -40,6 +40,8 @@ class EventPredictor {
   std::uint64_t surface_tests() const { return surface_tests_; }
 
  private:
+  [[gnu::noinline]] void predict_crowd(Entity i);
+  [[gnu::noinline]] void be_watched(Entity i);
   void predict_among(Entity i, std::span<const Entity> bodies);
   [[gnu::always_inline]] void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
   [[gnu::always_inline]] bool is_tie(const ExactEvent& first, const Instant& later) const;

@@ -42,11 +42,10 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       queue_(bodies_),
       prefetch_(bodies_, queue_),
       predictor_(bodies_, queue_, modes_, flat_, group_),
-      simultaneous_(bodies_, group_, flights_),
       islands_(bodies_, modes_, group_, flat_, collapses_, flights_, paths_),
       merging_(bodies_, modes_, group_, flat_, flights_, paths_),
       guard_(world.body_count(), options.duration),
-      impacts_(bodies_, {collapses_, flat_, group_, flights_, simultaneous_, merging_, guard_}),
+      impacts_(bodies_, {collapses_, flat_, group_, flights_, merging_, guard_}),
       attends_(watches() || world.body_count() > cached_bodies) {
   start(initial);
 }
@@ -166,7 +165,7 @@ void ExactSimulator::advance_to(double time) {
   // At the run's end, the last flights and the work along paths are booked.
   if (time_ < bodies_.options.duration) return;
   bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time_, 0}); });
-  flights_.book_last(time_);
+  book_last(time_);
 }
 
 /// Takes body i's next event, or its exit from its region. Returns how many events take as long.
@@ -195,7 +194,10 @@ std::uint32_t ExactSimulator::process(Entity i) {
       if (bodies_.body[event.partner].version != event.partner_version) {
         // The partner's path has changed since.
         flights_.note_changed(i);
-      } else if (!strike_at_once(i, event)) {
+        break;
+      }
+      interrupt(event.partner);
+      if (!strike_at_once(i, event)) {
         for (const Entity k : {i, event.partner}) flights_.end_step(k);
         impacts_.of_two.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
       }
@@ -239,10 +241,16 @@ std::uint32_t ExactSimulator::process(Entity i) {
   return weight;
 }
 
+/// A body of a crowd is struck: the crowd's step ends.
+void ExactSimulator::interrupt(Entity thing) {
+  if (thing != no_entity && bodies_.mode(thing) == Mode::stepped) islands_.interrupt(thing);
+}
+
 /// A string of body i goes taut, unless the path of the body at its other end has changed since it was predicted.
 void ExactSimulator::go_taut(Entity i, const ExactEvent& event) {
   const Entity other = bodies_.ties.other(event.partner, i);
   if (other != no_entity && bodies_.body[other].version != event.partner_version) return flights_.note_changed(i);
+  for (const Entity k : {i, other}) interrupt(k);
   impacts_.at_once.strike({i, event.partner, event.feature});
 }
 
@@ -254,8 +262,8 @@ inline bool ExactSimulator::strike_at_once(Entity i, const ExactEvent& event) {
   return may_be_simultaneous(i, event) && impacts_.at_once.strike({i, event.partner, event.feature});
 }
 
-/// Whether other impacts may happen at the instant of this one, which may be tied, plastic or near one of strings. Time
-/// steps resolve theirs by themselves, and bodies that merge do so one after the other.
+/// Whether other impacts may happen at the instant of this one, which may be tied, plastic or near one of strings.
+/// Crowds resolve theirs by themselves, and bodies that merge do so one after the other.
 bool ExactSimulator::may_be_simultaneous(Entity i, const ExactEvent& event) {
   const bool body = event.kind == ExactEvent::Kind::body_body;
   if (bodies_.options.merge || bodies_.mode(i) == Mode::stepped) return false;
@@ -280,20 +288,13 @@ void ExactSimulator::take_switch(Entity i) {
 /// Ends body i's flight, and begins the next under the present forces and on the present surfaces.
 void ExactSimulator::switch_forces(Entity i) {
   const Vec3 x = bodies_.position(i);
-  Vec3 v = bodies_.velocity(i);
+  const Vec3 v = bodies_.velocity(i);
   paths_.note_change(i);
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
-  if (bodies_.mode(i) == Mode::asleep) group_.stir(i);
+  if (bodies_.mode(i) == Mode::asleep) group_.wake(i);
 
-  // The last step contained the old forces until its end.
-  if (is_member(bodies_.mode(i))) {
-    const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
-    bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
-    v = slower;
-    bodies_.kick.write(i).until = bodies_.now;
-    bodies_.islands.of(i).end = bodies_.now;
-  }
+  if (is_member(bodies_.mode(i))) bodies_.islands.of(i).end = bodies_.now;
 
   bodies_.apply_forces(i, x, v);
   if (bodies_.bent[i]) flat_.clear(i);
@@ -362,6 +363,7 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
     // The islands that lose the body take a step at once.
     if (bodies_.now < taken.at) bodies_.now = taken.at;
     paths_.note_change(crossing.body);
+    interrupt(crossing.body);
     for (const Entity k : BodyRemoval(bodies_, modes_, group_, flat_, flights_).remove(crossing.body))
       if (is_member(bodies_.mode(k))) islands_.advance(k);
     predict_changed();
@@ -384,6 +386,12 @@ void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region
   time = std::max({time, time_, paths_.latest()});
   bodies_.log.end({time, reason, region});
   paths_.end(time);
+  book_last(time);
+}
+
+/// Books all that goes on at `time` (s), the run's end.
+void ExactSimulator::book_last(double time) {
+  if (!flights_.has_ended()) islands_.book_last(time);
   flights_.book_last(time);
 }
 
@@ -404,7 +412,7 @@ bool ExactSimulator::rests(Entity i) const {
   if (bodies_.mode(i) == Mode::settling) return false;
 
   const Flight f = bodies_.flights[i];
-  if (!f.v.isZero(0) || may_be_kicked(bodies_.mode(i))) return false;
+  if (!f.v.isZero(0) || is_kicked(bodies_.mode(i))) return false;
   if (f.curve == nullptr) return f.a.isZero(0);
   return std::all_of(f.curve->displacement.begin(), f.curve->displacement.end(),
                      [](const Vec3& term) { return term.isZero(0); });
@@ -462,7 +470,7 @@ std::span<const ContactForce> ExactSimulator::contacts() {
     group_.report(i, answers_.contact_forces);
   }
   bodies_.islands.for_each([&](const Island& island) {
-    if (bodies_.mode(island.members.front()) == Mode::held) islands_.report(island, time_, answers_.contact_forces);
+    if (bodies_.mode(island.members.front()) != Mode::fresh) islands_.report(island, time_, answers_.contact_forces);
   });
   std::sort(answers_.contact_forces.begin(), answers_.contact_forces.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });

@@ -10,7 +10,6 @@
 #include "simulate/impact/body_merging.h"
 #include "simulate/impact/body_removal.h"
 #include "simulate/impact/impacts.h"
-#include "simulate/impact/simultaneous_impacts.h"
 #include "simulate/impact/stall_guard.h"
 #include "simulate/island/island_motion.h"
 #include "simulate/loop/event_predictor.h"
@@ -54,6 +53,7 @@ class ExactSimulator final : public Simulator {
   std::uint32_t process(Entity i);
   [[gnu::always_inline]] void predict_changed();
   void go_taut(Entity i, const ExactEvent& event);
+  [[gnu::noinline]] void interrupt(Entity thing);
   [[gnu::always_inline]] bool strike_at_once(Entity i, const ExactEvent& event);
   [[gnu::noinline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
@@ -64,6 +64,7 @@ class ExactSimulator final : public Simulator {
   bool happens_before(const Instant& next, bool at_it);
   void take_crossing(const Crossings::Taken& taken);
   void end_by(const Crossings::Taken& taken);
+  void book_last(double time);
   void end_run(double time, EndReason reason, std::uint32_t region);
   bool is_over() const { return tally().end.has_value(); }
   bool rests(Entity i) const;
@@ -80,7 +81,6 @@ class ExactSimulator final : public Simulator {
   EventQueue queue_;
   EventPrefetch prefetch_;
   EventPredictor predictor_;
-  SimultaneousImpacts simultaneous_;
   IslandMotion islands_;
   BodyMerging merging_;
   StallGuard guard_;

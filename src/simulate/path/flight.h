@@ -78,7 +78,7 @@ struct VelocityBeyond {
   Vec3 slope(double t) const { return terms[1] + 2 * t * terms[2]; }
 };
 
-/// What time stepping adds to a velocity in advance: the effect of forces until an instant.
+/// What separates the drift of a crowd from the velocity of an instant: the effect of forces until the step's middle.
 struct Kick {
   Instant until;
   Vec3 a = Vec3::Zero();  // m/s^2: the average of these forces

@@ -9,7 +9,7 @@
 //     carried   forces and flat surfaces: it slides, or lies    along the surfaces, or zero
 //     fresh     its island, which has not taken a step yet      as the impact left it
 //     held      its island, by constrained motion               along what it touches
-//     stepped   its island, by time stepping                    straight, or falling, until the step's end
+//     stepped   its island, as a crowd                          straight, until the step's end
 //     asleep    nothing: contact forces are in balance          exactly zero
 //     part      the body that it has merged into                none of its own
 //     gone      nothing: it has left the world                  none
@@ -25,13 +25,13 @@
 //     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces
 //     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode
 //                           stepped
-//     held               -> stepped    ExactGroup::unite: its island becomes one with an island in time steps
+//     held               -> stepped    ExactGroup::unite: its island becomes one with a crowd
 //     fresh, stepped     -> held       ConstrainedMotion::begin_flights: its island takes a step this way
-//     fresh, held        -> stepped    TimeStepping::begin_flights: its island takes a step that way
+//     fresh, held        -> stepped    CrowdMotion::take_in: its island takes a step as a crowd
 //     held               -> asleep     ConstrainedMotion::begin_flight: it and all that it touches neither move nor can
-//     stepped            -> asleep     TimeStepping::begin_flight: the same
+//     stepped            -> asleep     CrowdSleep::falls_asleep: the same
 //     held               -> flying     ConstrainedMotion::begin_flight: nothing presses on it, or only flat surfaces do
-//     stepped            -> flying     TimeStepping::begin_flight: nothing has pressed on it for some steps
+//     stepped            -> flying     CrowdMotion::let_go: nothing has pressed on it for some steps
 //     asleep             -> fresh      ExactGroup::wake: it is struck, pressed on or removed, or forces change
 //     fresh, held,       -> flying     BodyMerging::end_flight: it merges, and leaves its island before
 //       stepped
@@ -67,9 +67,9 @@ constexpr bool is_member(Mode mode) {
 constexpr bool in_lasting_contact(Mode mode) {
   return Mode::fresh <= mode && mode <= Mode::asleep;
 }
-/// Whether its velocity may contain a kick: its island takes time steps, or may join one that does.
-constexpr bool may_be_kicked(Mode mode) {
-  return mode == Mode::fresh || mode == Mode::stepped;
+/// Whether its flight is a drift at the velocity of the middle of a crowd's step.
+constexpr bool is_kicked(Mode mode) {
+  return mode == Mode::stepped;
 }
 /// Whether it is neither a part of another body nor gone.
 constexpr bool is_in_world(Mode mode) {

@@ -159,7 +159,7 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
   const double to = until - f.start;
   const double mass = bodies_.world.mass[i];
   Part part{f, {}};
-  if (may_be_kicked(bodies_.mode(i)) && !bodies_.kick[i].a.isZero(0)) {
+  if (is_kicked(bodies_.mode(i)) && !bodies_.kick[i].a.isZero(0)) {
     part.more.terms[0] = -bodies_.kick[i].rest(f.start);
     part.more.terms[1] = bodies_.kick[i].a;
   } else if (f.curve != nullptr) {

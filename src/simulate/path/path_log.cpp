@@ -67,7 +67,7 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
   const World& given = bodies_.merged.given();
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
 
-  if (may_be_kicked(bodies_.mode(i))) {
+  if (is_kicked(bodies_.mode(i))) {
     const Instant until = bodies_.kick[i].until;
     piece.kicked = true;
     piece.until = {until.hi, until.lo};

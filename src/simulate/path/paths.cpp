@@ -29,7 +29,7 @@ BodyPaths::BodyPaths(const World& given, const ExactOptions& given_options)
 Vec3 BodyPaths::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
   const Vec3 v = flights[i].velocity(t);
-  if (!may_be_kicked(mode(i))) return v;
+  if (!is_kicked(mode(i))) return v;
   return v - kick[i].rest(at);
 }
 

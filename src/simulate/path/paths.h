@@ -41,7 +41,7 @@ struct BodyPaths {
   // By body: whether forces that bend paths act on it. All three are values of the last evaluation.
   LazyArray<std::uint8_t> bent;
   Flights flights;
-  LazyArray<Kick> kick;  // by body, in its velocity while it is fresh or stepped
+  LazyArray<Kick> kick;  // by body, of its drift while it is stepped
   LargeVector<ExactBody> body;
   EventLog log;
 
@@ -55,9 +55,9 @@ struct BodyPaths {
   }
 
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present
-  /// The present velocity in its flight (m/s), with the kick of time stepping.
+  /// The present velocity in its flight (m/s), in a crowd that of the drift.
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
-  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step.
+  /// The velocity at an instant of its flight (m/s), in a crowd not that of the drift.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
   /// The acceleration of body i by forces at x (m) and v (m/s), in m/s^2.
   Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {
@@ -113,11 +113,6 @@ struct BodyPaths {
   Vec3 pull_of(Entity thing) const {
     const Entity i = world.second_body(thing);
     return i != no_entity ? flights[i].acceleration(now - flights[i].start) : Vec3(Vec3::Zero());
-  }
-  /// The present velocity of a thing (m/s), without the effect of forces later in a step.
-  Vec3 unkicked_velocity_of(Entity thing) const {
-    const Entity i = world.second_body(thing);
-    return i != no_entity ? velocity_without_kick(i, now) : fixed_velocity(thing);
   }
   /// The position (m) and velocity (m/s) of a fixed thing, at present or at an instant.
   Vec3 fixed_position(Entity e) const { return fixed_position(e, now); }

@@ -1,0 +1,81 @@
+#pragma once
+// The state of a crowd: an island with contacts that change too often to be followed one by one. It moves in
+// synchronous leapfrog steps. From the step's start on, bodies drift at the velocity of the step's middle.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/contact_time.h"
+#include "numerics/vec3.h"
+#include "simulate/crowd/crowd_rows.h"
+#include "simulate/path/instant.h"
+
+namespace carom {
+
+/// How long a list of near pairs holds: until a body has gone `reach`.
+struct CrowdReach {
+  bool listed = false;
+  double reach = 0;               // m
+  double most = never;            // m, of the next list
+  double gone = 0;                // m, so far
+  double need = 0;                // m, what a body goes in a step, at least
+  double room = 0;                // m, from its members, within which all bodies are their neighbours
+  std::vector<Entity> outsiders;  // neighbours of other kinds, or of other crowds
+};
+
+/// The present step.
+struct CrowdStep {
+  Instant start;
+  Instant end;
+  double length = 0;           // s
+  double last_length = never;  // s, of the step before
+  bool open = false;           // it has begun, and is not booked
+  bool valid = true;           // places and drifts are those of the bodies
+  double kinetic = 0;          // J, at its start
+  double speed = 0;            // m/s, of pairs that press on each other
+  double shell = 0;            // m, that contacts keep
+};
+
+/// What precedes rest, or constrained motion.
+struct CrowdRest {
+  bool closing = false;          // shells shrink, because the crowd is calm
+  Instant slow_since{never, 0};  // all members have been slow since then
+  double next_try = 0;           // s: forces are not tried for balance before
+  double try_after = 0;          // s, between two tries
+};
+
+struct Crowd {
+  // By number: members, then things that forces do not move in a step, then one for lanes without a row.
+  std::vector<Entity> members;  // ascending
+  std::vector<Entity> things;   // fixed or asleep
+  std::vector<Four> x;          // m, and radii
+  std::vector<Four> v;          // m/s, of the drift, and inverse masses (1/kg)
+
+  // By member.
+  std::vector<Vec3> a;             // m/s^2: the last step's change of velocity by its time, contact included
+  std::vector<double> lag;         // s: how much older v is than the step's start
+  std::vector<std::uint8_t> idle;  // steps since a thing last pressed on it
+  std::vector<std::uint8_t> pressed;
+
+  CrowdRows rows;
+  // Crowds with forces and shells for the next list: those of which this one is made.
+  std::vector<std::shared_ptr<Crowd>> earlier;
+  CrowdReach list;
+  CrowdStep step;
+  CrowdRest rest;
+
+  double smallest = never;  // m, the least radius
+  bool unequal = false;     // masses differ so much that sweeps may fail
+  double load = 0;          // m/s^2, the greatest acceleration by forces
+  double next_switch = 0;   // s, of forces on members, and of things that move
+  double taken = 0;         // J, by contacts so far
+  double made = 0;          // J, by errors so far
+
+  std::uint32_t movable() const { return static_cast<std::uint32_t>(members.size()); }
+  Vec3 position(std::size_t k) const { return {x[k].at[0], x[k].at[1], x[k].at[2]}; }
+  Vec3 drift(std::size_t k) const { return {v[k].at[0], v[k].at[1], v[k].at[2]}; }
+  /// The velocity of member k (m/s) when its drift is so old (s).
+  Vec3 velocity(std::size_t k, double age) const { return drift(k) + age * a[k]; }
+};
+
+}  // namespace carom

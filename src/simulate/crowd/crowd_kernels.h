@@ -1,0 +1,65 @@
+#pragma once
+// The loops over the rows of a crowd, in vectors. Each is compiled for each vector width, and chosen by the processor
+// at run time. All widths have the same arithmetic in the same order, so that the bits do not depend on the processor.
+#include <vector>
+
+#include "simulate/crowd/crowd_rows.h"
+
+namespace carom {
+
+/// What rows aim at in a step.
+struct StepTarget {
+  double length;  // s
+  double push;    // share of a missing gap that a step restores
+  double back;    // the same, of an overlap by rounding
+  double share;   // of a gap and of the shell: what errors may take
+  double least;   // m: what rounding may take
+  double shell;   // m: the gap that rows keep once they have had it
+};
+
+/// What rows are like at the start of a step.
+struct AimResult {
+  bool strikes = false;  // a row has an impact in the step
+  double least_gap = 0;  // m, or greater than 0
+};
+
+/// What a sweep has found.
+struct SweepResult {
+  double change = 0;      // (m/s)^2: the sum of the squares of (1/m_a + 1/m_b) times a row's change
+  bool is_short = false;  // a row was short by more than its slack
+};
+
+/// The sums by which all impulses are scaled so that they do no work beyond their targets.
+struct GuardSums {
+  double aim = 0;   // J: impulses times (base / h + speed without them)
+  double gain = 0;  // J: impulses times the change of speed by them
+};
+
+struct CrowdKernels {
+  /// Gaps and normals of groups [0, count), which are pairs of balls at x.
+  void (*measure)(RowGroup* hot, RowState* state, std::size_t count, const Four* x);
+  /// Bases and slacks of groups [0, count), from gaps.
+  AimResult (*aim)(RowGroup* hot, RowChange* change, RowState* state, std::size_t count, const Four* v,
+                   const StepTarget& target);
+  /// The first group from `from` on with an impact in the step, and which of its rows: a bit each; count: there is
+  /// none.
+  std::size_t (*next_strike)(const RowGroup* hot, const RowState* state, std::size_t from, std::size_t count,
+                             const Four* v, double length, unsigned& which);
+  /// Applies the impulses of all groups.
+  void (*push)(const RowGroup* hot, std::size_t count, Four* v);
+  /// One sweep of projected Gauss-Seidel.
+  SweepResult (*sweep)(RowGroup* hot, RowChange* change, std::size_t count, Four* v, double length);
+  /// Adds `beta` times the last direction to all impulses and velocities. The new direction is that and the last
+  /// change.
+  void (*conjugate)(RowGroup* hot, RowChange* change, std::size_t count, Four* v, const Four* before, Four* direction,
+                    std::size_t bodies, double beta);
+  GuardSums (*guard)(const RowGroup* hot, std::size_t count, const Four* v, const Four* free, double length);
+  /// The longest drift (s) after which no listed pair overlaps by more than `rounding` (m).
+  double (*safe_drift)(const RowGroup* hot, const RowState* state, std::size_t count, const Four* v, double rounding);
+};
+
+/// The kernels that this processor can run, the widest last.
+std::vector<CrowdKernels> crowd_kernels();
+const CrowdKernels& widest_crowd_kernels();
+
+}  // namespace carom

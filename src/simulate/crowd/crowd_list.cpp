@@ -1,0 +1,248 @@
+// Lists of near pairs, from the regions of bodies (neighbours.h). A list holds until some body has gone as far as the
+// list reaches. What is measured in each step is the gap along a normal whose half space contains the other body.
+#include "simulate/crowd/crowd_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/contact/contact_list.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+namespace tol = exact_tolerance;
+
+void CrowdList::hold_regions(Crowd& crowd, double need) const {
+  crowd.list.reach =
+      std::clamp(tol::steps_of_list * need, tol::least_reach * crowd.smallest, tol::greatest_reach * crowd.smallest);
+  crowd.list.reach = std::max(std::min(crowd.list.reach, crowd.list.most), tol::reach_of_need * need);
+  crowd.list.most = never;
+  crowd.list.room = std::max(crowd.list.reach, tol::room_of_region * crowd.smallest);
+  crowd.list.gone = 0;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    const Vec3 x = crowd.position(k);
+    bodies_.hold_to_bounds(crowd.members[k], bodies_.now.hi, x, crowd.drift(k));
+    bodies_.neighbours.hold(crowd.members[k], x, crowd.list.room);
+  }
+
+  crowd.list.outsiders.clear();
+  for (const Entity i : crowd.members)
+    for (const Entity e : bodies_.neighbours.bodies(i)) {
+      const Mode mode = bodies_.mode(e);
+      if (mode != Mode::asleep && !(is_member(mode) && bodies_.islands.same(e, i))) crowd.list.outsiders.push_back(e);
+    }
+  std::sort(crowd.list.outsiders.begin(), crowd.list.outsiders.end());
+  crowd.list.outsiders.erase(std::unique(crowd.list.outsiders.begin(), crowd.list.outsiders.end()),
+                             crowd.list.outsiders.end());
+}
+
+CrowdList::Outlook CrowdList::outlook(const Crowd& crowd, Entity e, double seconds) const {
+  Outlook all = Outlook::apart;
+  const Entity first = crowd.members.front();
+  for (const Entity m : bodies_.neighbours.bodies(e))
+    if (is_member(bodies_.mode(m)) && bodies_.islands.same(m, first))
+      all = std::max(all, outlook_on(crowd, m, e, seconds));
+  return all;
+}
+
+/// The same for one member. A member goes no farther than the list reaches. Another body keeps to its path, or to the
+/// reach of its own crowd's list.
+CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Entity e, double seconds) const {
+  const Vec3 between = bodies_.position(e) - bodies_.position(member);
+  const double sizes = bodies_.world.radius[member] + bodies_.world.radius[e];
+  if (bodies_.mode(e) == Mode::stepped) {
+    double reach = crowd.list.reach;
+    for (const std::shared_ptr<Crowd>& its : bodies_.islands.of(e).crowds) reach += its->list.reach;
+    if (!(between.norm() < sizes + reach)) return Outlook::apart;
+    const double gap = touch(bodies_.world, member, bodies_.position(member), e, bodies_.position(e)).gap;
+    return gap < reach ? Outlook::joins : Outlook::apart;
+  }
+
+  // The nearest point of its path, as a straight line, and how far the path bends from it.
+  const Flight f = bodies_.flights[e];
+  const double since = bodies_.now - f.start;
+  const auto meets = [&](double time, double reach) {
+    const Vec3 way = time * f.velocity(since);
+    const double bend = 0.5 * time * time * std::max(f.greatest_acceleration(), f.acceleration(since).norm());
+    const double along = way.squaredNorm() > 0 ? std::clamp(-between.dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
+    return (between + along * way).norm() < sizes + bend + reach;
+  };
+
+  // Near enough, all that may come nearer are neighbours. Farther away that would depend on other bodies.
+  if (between.norm() < sizes + crowd.list.room - crowd.list.gone)
+    return meets(seconds, crowd.list.reach) ? Outlook::joins : Outlook::apart;
+  return meets(crowd.step.length, crowd.list.reach) ? Outlook::may_strike : Outlook::apart;
+}
+
+/// The number of a fixed or sleeping thing in the crowd. It is given one, unless it has one.
+std::uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
+  std::uint32_t& number = thing_number_[thing];
+  if (number != Numbering::none) return number;
+  number = crowd.movable() + static_cast<std::uint32_t>(crowd.things.size());
+  crowd.things.push_back(thing);
+  const Vec3 x = bodies_.position_of(thing);
+  const Vec3 v = bodies_.world.is_body(thing) ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(thing);
+  crowd.x.push_back({{x.x(), x.y(), x.z(), bodies_.world.is_body(thing) ? bodies_.world.radius[thing] : 0}});
+  crowd.v.push_back({{v.x(), v.y(), v.z(), 0}});
+  return number;
+}
+
+/// Adds the pairs of member k with members of higher numbers and with things.
+void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
+  const World& world = bodies_.world;
+  const Entity i = crowd.members[k];
+  const Vec3 x = crowd.position(k);
+  const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
+  const std::size_t first = pairs_.size();
+  ContactList fixed;  // besides planes, to find those that others hide
+
+  const auto add = [&](std::uint32_t b, Entity e, bool balls) {
+    CrowdRows::Pair pair;
+    pair.a = k;
+    pair.b = b;
+    pair.name = {i, e};
+    pair.balls = balls;
+
+    pair.inverse = 1 / world.mass[i] + (b < crowd.movable() ? 1 / world.mass[e] : 0);
+    pair.e = pair_restitution(world, i, e);
+    const double slow = crowd.load > 0 || bodies_.options.rest_speed > 0
+                            ? bodies_.slow_speed(crowd.load, bodies_.smaller_length(i, e))
+                            : 0;
+    pair.slow = pair.e < 1 ? slow : 0;
+    pair.shell = CrowdRows::new_pair;
+    pair.force = 0;
+    pairs_.push_back(pair);
+  };
+
+  for (const Entity e : bodies_.neighbours.bodies(i)) {
+    std::uint32_t b = numbers_[e];
+    const bool asleep = b == Numbering::none && bodies_.mode(e) == Mode::asleep;
+    if (asleep ? false : b == Numbering::none || b < k) continue;
+    const Vec3 xe = asleep ? bodies_.position(e) : crowd.position(b);
+    const double near = world.radius[i] + world.radius[e] + skin;
+    if ((xe - x).squaredNorm() >= near * near) continue;
+    const bool balls = ball && (world.volume.empty() || world.volume[e].shape == Shape::sphere);
+    if (!balls && touch(world, i, x, e, xe).gap >= skin) continue;
+    add(asleep ? number_of(crowd, e) : b, e, balls);
+  }
+
+  for (const Entity e : bodies_.neighbours.surfaces(i)) {
+    const Vec3 xe = bodies_.fixed_position(e);
+    const Touch there = touch(world, i, x, e, xe);
+    if (there.gap < skin) fixed.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
+  }
+  if (fixed.names.size() > 1) fixed.drop_hidden(bodies_, x, 0);
+  for (const Contact& contact : fixed.names) add(number_of(crowd, contact.e), contact.e, false);
+
+  // The order of lists of neighbours has no effect.
+  std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end(),
+            [](const CrowdRows::Pair& p, const CrowdRows::Pair& q) { return p.name.e < q.name.e; });
+}
+
+/// Gives the new pairs the forces and shells that the same pairs have in the rows of `crowd`.
+void CrowdList::take_over_forces(const Crowd& crowd) {
+  struct Kept {
+    Entity e;
+    double force;
+    double shell;
+  };
+
+  std::vector<std::uint32_t> start(bodies_.body.empty() ? 0 : numbers_count_ + 2, 0);
+  const auto number = [&](std::size_t g, std::size_t lane) { return numbers_[crowd.rows.names[g][lane].a]; };
+  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    if (const std::uint32_t a = number(g, lane); a != Numbering::none) ++start[a + 2];
+  });
+
+  for (std::size_t a = 2; a < start.size(); ++a) start[a] += start[a - 1];
+  std::vector<Kept> kept(start.back());
+  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    const std::uint32_t a = number(g, lane);
+    if (a == Numbering::none) return;
+    const RowState& state = crowd.rows.state[g];
+    kept[start[a + 1]++] = {crowd.rows.names[g][lane].e, state.force[lane], state.shell[lane]};
+  });
+
+  for (CrowdRows::Pair& pair : pairs_)
+    for (std::uint32_t k = start[pair.a]; k < start[pair.a + 1]; ++k)
+      if (kept[k].e == pair.name.e) {
+        pair.force = kept[k].force;
+        pair.shell = kept[k].shell;
+      }
+}
+
+void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before) {
+  const Numbering members(numbers_, crowd.members);
+  numbers_count_ = crowd.members.size();
+  if (thing_number_.empty()) thing_number_.assign(bodies_.world.entity_count(), Numbering::none);
+  crowd.x.resize(crowd.members.size());
+  crowd.v.resize(crowd.members.size());
+  crowd.things.clear();
+
+  pairs_.clear();
+  for (std::uint32_t k = 0; k < crowd.movable(); ++k) list_member(crowd, k, 2 * crowd.list.reach);
+  for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other);
+  for (const Entity thing : crowd.things) thing_number_[thing] = Numbering::none;
+
+  const auto dummy = static_cast<std::uint32_t>(crowd.x.size());
+  crowd.x.push_back({});
+  crowd.v.push_back({});
+  crowd.rows.list(pairs_, crowd.movable(), dummy);
+}
+
+/// The gap of member k and thing e at present, along the normal that is best for a relative displacement (m). Volumes
+/// that do not turn are apart along any axis along which their extents are, so that this is a choice.
+Touch CrowdList::closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3& xe, const Vec3& moved) const {
+  const World& world = bodies_.world;
+  const Entity i = crowd.members[k];
+  const Vec3 x = crowd.position(k);
+  Touch best = touch(world, i, x, e, xe);
+  if (world.is_plane(e)) return best;
+
+  double after = best.gap + best.normal.dot(moved);  // m
+  const auto offer = [&](double gap, const Vec3& normal) {
+    const double then = gap + normal.dot(moved);
+    if (gap < 0 || !(then > after)) return;
+    best.gap = gap;
+    best.normal = normal;
+    after = then;
+  };
+
+  const Volume volume = world.volume_of(i);
+  if (world.is_wall(e)) {
+    const Vec3& n = world.wall(e).normal;
+    const double off = n.dot(x - xe);
+    offer(std::abs(off) - volume.support(n), off > 0 ? Vec3(-n) : n);
+    return best;
+  }
+
+  const Volume other = world.volume_of(e);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double off = xe[axis] - x[axis];
+    Vec3 normal = Vec3::Zero();
+    normal[axis] = off > 0 ? 1 : -1;
+    offer(std::abs(off) - (volume.half[axis] + other.half[axis]), normal);
+  }
+  return best;
+}
+
+void CrowdList::measure(Crowd& crowd, double seconds) const {
+  CrowdRows& rows = crowd.rows;
+  kernels_.measure(rows.hot.data(), rows.state.data(), rows.ball_groups, crowd.x.data());
+  for (std::size_t g = rows.ball_groups; g < rows.groups(); ++g)
+    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+      RowGroup& row = rows.hot[g];
+      if (row.share[lane] == 0) continue;
+      const std::uint32_t a = row.a[lane];
+      const std::uint32_t b = row.b[lane];
+      const Vec3 moved = seconds * (crowd.drift(b) - crowd.drift(a));
+
+      const Touch there = closest(crowd, a, rows.names[g][lane].e, crowd.position(b), moved);
+      row.nx[lane] = there.normal.x();
+      row.ny[lane] = there.normal.y();
+      row.nz[lane] = there.normal.z();
+      rows.state[g].gap[lane] = there.gap;
+    }
+}
+
+}  // namespace carom

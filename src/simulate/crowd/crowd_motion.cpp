@@ -1,0 +1,457 @@
+// How bodies come into a crowd, take steps in it and leave it.
+//
+// A body that joins has no velocity of an earlier middle of a step: its first kick is half of a step. So it is with all
+// members where a step is cut short. Both keep the step a leapfrog.
+#include "simulate/crowd/crowd_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/disjoint_sets.h"
+#include "physics/force.h"
+#include "physics/world.h"
+#include "simulate/contact/exact_group.h"
+#include "simulate/contact/flight_changes.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+CrowdMotion::CrowdMotion(ExactBodies& bodies, ModeChanges& modes, ExactGroup& group, FlightChanges& flights)
+    : bodies_(bodies),
+      modes_(modes),
+      group_(group),
+      flights_(flights),
+      quality_(*bodies.options.quality),
+      list_(bodies, group.numbers),
+      steps_(bodies, quality_),
+      sleep_(bodies, modes, group, flights, quality_) {}
+
+bool CrowdMotion::advance(Entity i) {
+  for (;;) {
+    Island& island = bodies_.islands.of(i);
+    for (const std::shared_ptr<Crowd>& crowd : island.crowds) close(*crowd, bodies_.now);
+    if (bodies_.any_taut(island.members) || !island.busy) {
+      for (const std::shared_ptr<Crowd>& crowd : island.crowds) free_flights(*crowd);
+      island.crowds.clear();
+      return false;
+    }
+
+    Crowd& crowd = gather(island);
+    if (Instant{crowd.next_switch, 0} <= bodies_.now || bodies_.varying) renew_forces(crowd);
+    crowd.step.length = longest_step(crowd);
+    if (take_guests(i)) continue;
+    if (!crowd.list.listed && list(crowd)) {
+      // Members have left, and the others take the step without them.
+      if (!is_member(bodies_.mode(i))) return true;
+      continue;
+    }
+    if (!solve_step(crowd)) continue;
+
+    // The island is no more if it falls asleep.
+    const std::shared_ptr<Crowd> kept = bodies_.islands.of(i).crowds.front();
+    if (sleep_.falls_asleep(*kept)) return true;
+    if (!bodies_.islands.same(i, kept->members.front()) || bodies_.islands.of(i).crowds.size() != 1) continue;
+    begin(*kept);
+    count_calm(bodies_.islands.of(i), *kept);
+    return true;
+  }
+}
+
+void CrowdMotion::interrupt(Entity i) {
+  Island& island = bodies_.islands.of(i);
+  for (const std::shared_ptr<Crowd>& crowd : island.crowds) {
+    close(*crowd, bodies_.now);
+    free_flights(*crowd);
+  }
+  island.end = bodies_.now;
+  for (const Entity k : island.members) flights_.count(k);
+  flights_.note_changed(island.members.front());
+}
+
+void CrowdMotion::book_last(const Island& island, double time) const {
+  for (const std::shared_ptr<Crowd>& crowd : island.crowds)
+    if (crowd->step.open) book(*crowd, std::min(Instant{time, 0} - crowd->step.start, crowd->step.length));
+}
+
+/// Ends a crowd's present step at an instant. Where that is before its end, the drift becomes the velocity of then.
+void CrowdMotion::close(Crowd& crowd, const Instant& at) const {
+  if (!crowd.step.open) return;
+  const bool full = crowd.step.end <= at;
+  const double since = full ? crowd.step.length : at - crowd.step.start;
+  book(crowd, since);
+  crowd.step.open = false;
+  crowd.step.last_length = full ? crowd.step.length : crowd.step.last_length;
+  crowd.list.gone += since * greatest(crowd.v);
+
+  const double age = since - 0.5 * crowd.step.length;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    add(crowd.x[k], since * crowd.drift(k));
+    if (!full) add(crowd.v[k], age * crowd.a[k]);
+    crowd.lag[k] = full ? age : 0;
+  }
+}
+
+/// Books `since` (s) of the present step: the work of forces and of things that move, and what contacts have taken.
+void CrowdMotion::book(Crowd& crowd, double since) const {
+  const double age = since - 0.5 * crowd.step.length;
+  const World& world = bodies_.world;
+
+  // Energy, less the work of forces.
+  double gain = -crowd.step.kinetic;  // J
+  std::size_t pressed = 0;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    gain += 0.5 * world.mass[crowd.members[k]] * crowd.velocity(k, age).squaredNorm() - work_on(crowd, k, since);
+    pressed += crowd.pressed[k];
+  }
+
+  bodies_.log.add_stepped_contact(since * static_cast<double>(pressed));
+
+  // Things that move push a against the normal. Velocities of the step's ends have parts of two steps' forces.
+  if (bodies_.moving.any())
+    crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+      const RowGroup& row = crowd.rows.hot[g];
+      if (row.b[lane] < crowd.movable()) return;
+      const RowState& state = crowd.rows.state[g];
+      const Vec3 normal = crowd.rows.normal(g, lane);
+      const double impulse =
+          state.force[lane] * (0.5 * crowd.step.length + crowd.lag[row.a[lane]] + age) - state.carried[lane];
+
+      const double work = -impulse * normal.dot(crowd.drift(row.b[lane]));
+      if (work == 0) return;
+      bodies_.log.add_work(work);
+      gain -= work;
+    });
+
+  steps_.take(crowd, -gain);
+}
+
+/// The work of forces on member k in `since` (s) of its drift, and what it loses of potential energy (J).
+double CrowdMotion::work_on(const Crowd& crowd, std::size_t k, double since) const {
+  const Entity i = crowd.members[k];
+  const World& world = bodies_.world;
+  const Vec3 moved = since * crowd.drift(k);
+  if (world.forces.empty()) return world.mass[i] * world.gravity.dot(moved);
+  const Vec3 x = crowd.position(k);
+  return flights_.book_drift(i, {crowd.step.start, x, crowd.drift(k), Vec3::Zero()}, since) + potential(world, i, x) -
+         potential(world, i, x + moved);
+}
+
+/// Lets the members of a crowd fly straight from the present instant on, without a kick in advance.
+void CrowdMotion::free_flights(Crowd& crowd) const {
+  if (!crowd.step.valid) return;
+  crowd.step.valid = false;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    const Entity i = crowd.members[k];
+    if (bodies_.mode(i) != Mode::stepped) continue;
+    bodies_.flights.set(i, {bodies_.now, crowd.position(k), crowd.velocity(k, crowd.lag[k]), Vec3::Zero()});
+    bodies_.kick.write(i) = {bodies_.now};
+  }
+}
+
+/// The crowd of all members of an island, at present.
+Crowd& CrowdMotion::gather(Island& island) {
+  std::sort(island.members.begin(), island.members.end());
+  if (island.crowds.size() == 1 && island.crowds[0].use_count() == 1 && island.crowds[0]->step.valid &&
+      island.crowds[0]->members == island.members)
+    return *island.crowds[0];
+
+  const auto made = std::make_shared<Crowd>();
+  Crowd& crowd = *made;
+  crowd.members = island.members;
+  const std::size_t n = crowd.members.size();
+  crowd.x.resize(n);
+  crowd.v.resize(n);
+  crowd.a.resize(n, Vec3::Zero());
+  crowd.lag.resize(n, 0);
+  crowd.idle.resize(n, 0);
+  crowd.pressed.resize(n, 0);
+
+  // Members of crowds go on as they are.
+  std::vector<std::uint8_t> known(n, 0);
+  for (const std::shared_ptr<Crowd>& other : island.crowds) {
+    take_over(crowd, *other, known);
+    crowd.earlier.push_back(other);
+    crowd.earlier.insert(crowd.earlier.end(), other->earlier.begin(), other->earlier.end());
+  }
+
+  // Others come from their flights.
+  double lightest = never;  // kg
+  double heaviest = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (known[k] < 2) take_in(crowd, k, known[k] == 0);
+    crowd.smallest = std::min(crowd.smallest, bodies_.world.radius[crowd.members[k]]);
+    lightest = std::min(lightest, bodies_.world.mass[crowd.members[k]]);
+    heaviest = std::max(heaviest, bodies_.world.mass[crowd.members[k]]);
+  }
+  crowd.unequal = heaviest > tol::unequal_masses * lightest;
+  renew_forces(crowd);
+  island.crowds = {made};
+  return crowd;
+}
+
+/// Takes over what an earlier crowd has of these members. `known`, by member: 1 if it was in that crowd, and 2 if its
+/// place and drift there are still its own.
+void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std::uint8_t>& known) const {
+  const Numbering numbers(group_.numbers, crowd.members);
+  for (std::size_t k = 0; k < earlier.members.size(); ++k) {
+    const std::uint32_t number = numbers.number(earlier.members[k]);
+    if (number == Numbering::none || bodies_.mode(earlier.members[k]) != Mode::stepped) continue;
+    crowd.idle[number] = earlier.idle[k];
+    crowd.pressed[number] = earlier.pressed[k];
+    known[number] = earlier.step.valid ? 2 : 1;
+    if (!earlier.step.valid) continue;
+    crowd.x[number] = earlier.x[k];
+    crowd.v[number] = earlier.v[k];
+    crowd.a[number] = earlier.a[k];
+    crowd.lag[number] = earlier.lag[k];
+  }
+
+  // A part that has split off must not reach farther at once than the whole: they would unite again.
+  const bool part = earlier.members.size() > crowd.members.size();
+  const double last = earlier.step.last_length / (part ? tol::step_growth : 1);
+  crowd.step.last_length = std::min(crowd.step.last_length, last);
+  if (part) {
+    crowd.list.most = std::min(crowd.list.most, earlier.list.reach);
+    return;
+  }
+  crowd.taken += earlier.taken;
+  crowd.made += earlier.made;
+}
+
+/// Takes member k from its flight at present. `comes`: it was in no crowd before.
+void CrowdMotion::take_in(Crowd& crowd, std::size_t k, bool comes) {
+  const Entity i = crowd.members[k];
+  const Vec3 x = bodies_.position(i);
+  const Vec3 v = bodies_.velocity_without_kick(i, bodies_.now);
+  crowd.x[k] = four_of(x, bodies_.world.radius[i]);
+  crowd.v[k] = four_of(v, 1 / bodies_.world.mass[i]);
+  if (!comes) return;
+  modes_.clear_partners(i);
+  modes_.step(i);
+  bodies_.contact_work.change(i, bodies_.now, 0);
+  if (!group_.pressing[i].empty()) group_.pressing.write(i).clear();
+  flights_.begin(i, x, v, {});
+}
+
+/// Finds the forces on all members, the greatest of them, and when they change.
+void CrowdMotion::renew_forces(Crowd& crowd) const {
+  const World& world = bodies_.world;
+  crowd.load = 0;
+  crowd.next_switch = bodies_.moving.any() ? bodies_.moving.next_switch(bodies_.now.floor()) : never;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    const Entity i = crowd.members[k];
+    if (!world.forces.empty()) {
+      bodies_.apply_forces(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]));
+      crowd.next_switch = std::min(crowd.next_switch, bodies_.merged.next_switch(i, bodies_.now.floor()));
+    }
+    crowd.load = std::max(crowd.load, bodies_.applied[i].norm());
+  }
+}
+
+/// The longest step that speeds and forces allow (s).
+double CrowdMotion::longest_step(const Crowd& crowd) const {
+  const double fastest = greatest(crowd.v);
+  double length = fastest > 0 ? quality_.displacement * crowd.smallest / fastest : never;
+  if (crowd.load > 0) length = std::min(length, quality_.longest_step * std::sqrt(2 * crowd.smallest / crowd.load));
+  if (bodies_.varying)
+    for (std::size_t k = 0; k < crowd.members.size(); ++k)
+      if (const Entity i = crowd.members[k]; bodies_.bent[i]) {
+        const double rate = force_rate(bodies_.world, i, crowd.position(k), crowd.drift(k));
+        if (rate > 0) length = std::min(length, quality_.longest_step / rate);
+      }
+  length = std::min(length, tol::step_growth * crowd.step.last_length);
+  return std::min(length, Instant{crowd.next_switch, 0} - bodies_.now);
+}
+
+/// Lets bodies join that a member may meet before the list is made anew. Returns whether there are some.
+bool CrowdMotion::take_guests(Entity i) {
+  Island& island = bodies_.islands.of(i);
+  Crowd& crowd = *island.crowds.front();
+  const double need =
+      std::max(crowd.list.need, crowd.step.length * (greatest(crowd.v) + 0.5 * crowd.step.length * crowd.load));
+  const bool anew = !(crowd.list.gone + need <= crowd.list.reach);
+  if (anew) {
+    list_.hold_regions(crowd, need);
+    crowd.list.listed = false;
+    crowd.list.need = 0;
+  }
+
+  crowd.list.outsiders.insert(crowd.list.outsiders.end(), island.watched.begin(), island.watched.end());
+  island.watched.clear();
+
+  // Those that join bring others only when the list is made: it takes as long as a step.
+  const double seconds = (anew ? tol::steps_of_list : 1) * crowd.step.length;
+  std::vector<Entity> guests;
+  for (const Entity e : crowd.list.outsiders) {
+    const Mode mode = bodies_.mode(e);
+    if (!is_in_world(mode) || mode == Mode::asleep || (is_member(mode) && bodies_.islands.same(e, i))) continue;
+    const CrowdList::Outlook outlook = list_.outlook(crowd, e, seconds);
+    if (outlook == CrowdList::Outlook::joins) guests.push_back(e);
+    if (outlook == CrowdList::Outlook::may_strike) flights_.note_changed(e);
+  }
+
+  for (const Entity e : guests) {
+    group_.join(e);
+    group_.unite(i, e);
+  }
+  return !guests.empty();
+}
+
+/// Lists the pairs that may press. Returns whether members have left.
+bool CrowdMotion::list(Crowd& crowd) {
+  crowd.earlier.push_back(bodies_.islands.of(crowd.members.front()).crowds.front());
+  list_.list(crowd, crowd.earlier);
+  crowd.earlier.clear();
+  crowd.list.listed = true;
+  return let_go(crowd) || split(crowd);
+}
+
+/// Lets members fly that nothing has pressed on for a while, and that are so far from the others that they would not
+/// join again. Returns whether there are some.
+bool CrowdMotion::let_go(Crowd& crowd) {
+  const auto is_near = [&](std::size_t k) {
+    const Entity i = crowd.members[k];
+    const Vec3 x = crowd.position(k);
+    return std::ranges::any_of(bodies_.neighbours.bodies(i), [&](Entity e) {
+      const double sizes = bodies_.world.radius[i] + bodies_.world.radius[e];
+      return (bodies_.position(e) - x).norm() < sizes + crowd.list.room && is_member(bodies_.mode(e)) &&
+             bodies_.islands.same(i, e);
+    });
+  };
+
+  std::vector<Entity> stay;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    const Entity i = crowd.members[k];
+    if (crowd.idle[k] < tol::idle_steps || is_near(k)) {
+      stay.push_back(i);
+      continue;
+    }
+    modes_.leave(i);
+    flights_.begin(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]), {});
+  }
+  if (stay.size() == crowd.members.size()) return false;
+
+  // The island may be no more, and its crowd with it.
+  const std::vector<Entity> members = crowd.members;
+  if (!stay.empty()) flights_.note_changed(stay.front());
+  bodies_.islands.of(members.front()).end = bodies_.now;
+  bodies_.islands.retain(members.front(), std::move(stay));
+  return true;
+}
+
+/// Splits off parts that no near pairs connect, and in which contacts press. They become islands of their own. Returns
+/// whether there are some.
+bool CrowdMotion::split(Crowd& crowd) {
+  const std::size_t n = crowd.members.size();
+  DisjointSets sets(n);
+  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    const RowGroup& row = crowd.rows.hot[g];
+    if (row.b[lane] < crowd.movable()) sets.join(row.a[lane], row.b[lane]);
+  });
+
+  // Parts with contacts, each by its first member. All others stay with the first of them.
+  std::vector<std::uint8_t> presses(n, 0);
+  for (std::uint32_t k = 0; k < n; ++k)
+    if (crowd.pressed[k] != 0) presses[sets.root(k)] = 1;
+  std::vector<std::uint32_t> first(n, ContactConstraint::fixed);
+  std::vector<std::uint32_t> label(n);
+  std::uint32_t whole = ContactConstraint::fixed;
+  std::size_t parts = 0;
+
+  for (std::uint32_t k = 0; k < n; ++k) {
+    std::uint32_t& of_part = presses[sets.root(k)] != 0 ? first[sets.root(k)] : whole;
+    if (of_part == ContactConstraint::fixed) {
+      of_part = k;
+      ++parts;
+    }
+    label[k] = of_part;
+  }
+  if (parts < 2) return false;
+
+  const Entity member = crowd.members.front();
+  bodies_.islands.of(member).end = bodies_.now;
+  // Each part has a crowd of its own from here on, so that no member is in two.
+  for (const Entity i : bodies_.islands.split(member, label)) {
+    gather(bodies_.islands.of(i));
+    flights_.note_changed(i);
+  }
+  return true;
+}
+
+/// Moves the things that move to their present places.
+void CrowdMotion::move_things(Crowd& crowd) const {
+  for (std::size_t k = 0; k < crowd.things.size(); ++k) {
+    if (!bodies_.world.moves(crowd.things[k])) continue;
+    crowd.x[crowd.members.size() + k] = four_of(bodies_.fixed_position(crowd.things[k]), 0);
+    crowd.v[crowd.members.size() + k] = four_of(bodies_.fixed_velocity(crowd.things[k]), 0);
+  }
+}
+
+/// Solves the step. False: other bodies take part, or it needs a longer list.
+bool CrowdMotion::solve_step(Crowd& crowd) {
+  if (bodies_.moving.any()) move_things(crowd);
+  list_.measure(crowd, crowd.step.length);
+  return !sleep_.wake_pressed(crowd) && steps_.solve(crowd);
+}
+
+/// Lets the step begin, with flights of members until its end.
+void CrowdMotion::begin(Crowd& crowd) {
+  steps_.finish(crowd);
+  crowd.step.start = bodies_.now;
+  crowd.step.end = bodies_.now + crowd.step.length;
+  // Rounding must not leave a step of nothing before a switch.
+  if (crowd.step.end.hi >= crowd.next_switch) crowd.step.end = {crowd.next_switch, 0};
+  crowd.step.open = true;
+  bodies_.islands.of(crowd.members.front()).end = crowd.step.end;
+  flights_.note_changed(crowd.members.front());
+
+  const Instant middle = bodies_.now + 0.5 * crowd.step.length;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    const Entity i = crowd.members[k];
+    modes_.press(i, crowd.pressed[k] != 0);
+    bodies_.note_speed(i, crowd.drift(k));
+    bodies_.flights.set(i, {crowd.step.start, crowd.position(k), crowd.drift(k), Vec3::Zero()});
+    bodies_.kick.write(i) = {middle, crowd.a[k]};
+  }
+}
+
+void CrowdMotion::report(const Island& island, std::vector<ContactForce>& forces) {
+  for (const std::shared_ptr<Crowd>& crowd : island.crowds)
+    crowd->rows.for_each([&](std::size_t g, std::size_t lane) {
+      const auto& [i, e] = crowd->rows.names[g][lane];
+      const double force = crowd->rows.state[g].force[lane];
+      if (force > 0) forces.push_back({i, e, force});
+    });
+}
+
+/// Counts steps in which the same pairs press. After some of them the shells close, and constrained motion follows.
+void CrowdMotion::count_calm(Island& island, Crowd& crowd) {
+  std::uint64_t hash = 0;
+  double widest = 0;
+  std::size_t pressing = 0;
+  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    if (!(crowd.rows.state[g].force[lane] > 0)) return;
+    const auto& [i, e] = crowd.rows.names[g][lane];
+    hash += (std::uint64_t{i} << 32 | e) * 0x9e3779b97f4a7c15u;
+    widest = std::max(widest, crowd.rows.state[g].shell[lane]);
+    ++pressing;
+  });
+
+  island.calm = hash == island.pressing ? island.calm + 1 : 0;
+  island.pressing = hash;
+  crowd.rest.closing = island.calm >= std::max<std::size_t>(island.calm_needed, pressing);
+  if (!crowd.rest.closing) return;
+
+  // Shells close bit by bit, so that bodies do not fall.
+  if (widest <= tol::closed_shell * crowd.smallest) {
+    island.busy = false;
+    island.calm = 0;
+    return;
+  }
+  for (RowState& state : crowd.rows.state)
+    for (double& shell : state.shell) shell *= tol::shell_decay;
+}
+
+}  // namespace carom

@@ -1,0 +1,79 @@
+// Lists pairs in colours, greedily by a bit for each colour of a body. Bodies with many contacts run out of bits: their
+// other rows have groups of their own.
+#include "simulate/crowd/crowd_rows.h"
+
+#include <bit>
+
+namespace carom {
+
+namespace {
+
+constexpr std::uint32_t colours = 64;
+
+/// Numbers of pairs, by colour. The last list has the pairs without a colour.
+using Colours = std::array<std::vector<std::uint32_t>, colours + 1>;
+
+}  // namespace
+
+void CrowdRows::list(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy) {
+  hot.clear();
+  change.clear();
+  state.clear();
+  names.clear();
+  rows_ = pairs.size();
+
+  const auto fill = [&](std::size_t group, std::size_t lane, const Pair& pair) {
+    hot[group].a[lane] = pair.a;
+    hot[group].b[lane] = pair.b;
+    hot[group].share[lane] = 1 / pair.inverse;
+    change[group].inverse[lane] = pair.inverse;
+    state[group].force[lane] = pair.force;
+    state[group].slow[lane] = pair.slow;
+    state[group].shell[lane] = pair.shell;
+    state[group].e[lane] = pair.e;
+    names[group][lane] = pair.name;
+  };
+
+  const auto open_group = [&] {
+    hot.push_back({});
+    change.push_back({});
+    state.push_back({});
+    names.push_back({});
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      hot.back().a[lane] = hot.back().b[lane] = dummy;
+      state.back().gap[lane] = 1;
+    }
+    return hot.size() - 1;
+  };
+
+  // Pairs of balls come first.
+  Colours by_colour;
+  std::vector<std::uint64_t> used;
+  for (const bool balls : {true, false}) {
+    used.assign(movable, 0);
+    for (std::vector<std::uint32_t>& colour : by_colour) colour.clear();
+    for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+      const Pair& pair = pairs[k];
+      if (pair.balls != balls) continue;
+      const std::uint64_t taken = used[pair.a] | (pair.b < movable ? used[pair.b] : 0);
+      const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
+      by_colour[colour].push_back(k);
+
+      if (colour == colours) continue;
+      used[pair.a] |= std::uint64_t{1} << colour;
+      if (pair.b < movable) used[pair.b] |= std::uint64_t{1} << colour;
+    }
+
+    // Groups of four, but for pairs without a colour.
+    for (std::uint32_t colour = 0; colour <= colours; ++colour) {
+      const std::size_t together = colour == colours ? 1 : lanes;
+      for (std::size_t k = 0; k < by_colour[colour].size(); ++k) {
+        if (k % together == 0) open_group();
+        fill(hot.size() - 1, k % together, pairs[by_colour[colour][k]]);
+      }
+    }
+    if (balls) ball_groups = hot.size();
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+#pragma once
+// The impulses that hold a crowd apart in a step: 0 <= p, 0 <= base + h u, and p (base + h u) = 0 for each row.
+//
+// Projected Gauss-Seidel sweeps from the last step's forces, with nonsmooth nonlinear conjugate gradients between them
+// (Silcowitz, Niebe & Erleben, Visual Computer 26 (2010) 893). A sweep changes velocities at once. They are therefore
+// always those of the impulses, and momentum is kept to rounding.
+#include <span>
+#include <vector>
+
+#include "simulate/crowd/crowd_kernels.h"
+
+namespace carom {
+
+class CrowdSolver {
+ public:
+  struct Goal {
+    double length;  // s, of the step
+    double change;  // (m/s)^2, of a sweep: see SweepResult
+    int sweeps;     // at most
+  };
+
+  /// Changes the velocities `v` of all bodies, which contain the effect of the rows' present impulses, and the
+  /// impulses. Returns whether the goal was reached.
+  bool hold(CrowdRows& rows, std::vector<Four>& v, const Goal& goal);
+  /// Sweeps without directions, up to so many.
+  void sweep(CrowdRows& rows, std::vector<Four>& v, double length, int sweeps);
+  /// Scales all impulses by one factor, so that they do no work beyond their targets. free: velocities without them.
+  void scale(CrowdRows& rows, std::vector<Four>& v, const std::vector<Four>& free, double length) const;
+
+ private:
+  const CrowdKernels& kernels_ = widest_crowd_kernels();
+  std::vector<Four> before_;
+  std::vector<Four> direction_;
+};
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+#pragma once
+// A step of a crowd, as changes of its drifts: impacts, the kick by forces, and the impulses of contacts.
+//
+// Impacts use the velocities of the instant, not those of the drift: with the latter elastic balls lose energy, and
+// resting bodies strike their floor in each step.
+#include <vector>
+
+#include "physics/contact_quality.h"
+#include "simulate/contact/exact_bodies.h"
+#include "simulate/crowd/crowd.h"
+#include "simulate/crowd/crowd_solver.h"
+
+namespace carom {
+
+class CrowdSteps {
+ public:
+  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality) : bodies_(bodies), quality_(quality) {}
+
+  /// Solves the step of a crowd whose gaps are measured, and shortens it where that is necessary. False: a body has
+  /// become too fast for the list. Drifts then have the impacts alone.
+  bool solve(Crowd& crowd);
+  /// Finds the forces of rows in the solved step, the accelerations of members, and which of them are pressed.
+  void finish(Crowd& crowd);
+  /// Books what contacts have taken (J). Errors may make it negative.
+  void take(Crowd& crowd, double energy) const;
+
+ private:
+  double return_of_step(const Crowd& crowd) const;
+  void strike(Crowd& crowd);
+  void strike(Crowd& crowd, std::size_t group, std::size_t lane);
+  void restart(Crowd& crowd) const;
+  double push(Crowd& crowd, std::size_t group, std::size_t lane, double impulse, std::vector<Four>& drifts);
+  double kinetic_energy(const Crowd& crowd) const;
+  double approach(const Crowd& crowd, std::size_t group, std::size_t lane) const;
+  void kick(Crowd& crowd);
+  static double speed_in_contact(const Crowd& crowd);
+  CrowdSolver::Goal goal(const Crowd& crowd) const;
+  bool hold(Crowd& crowd);
+  double safe_length(const Crowd& crowd) const;
+  bool solve_exactly(Crowd& crowd) const;
+  void absorb_approaches(Crowd& crowd);
+
+  ExactBodies& bodies_;
+  const ContactQuality& quality_;
+  const CrowdKernels& kernels_ = widest_crowd_kernels();
+  CrowdSolver solver_;
+  std::vector<Four> now_;     // velocities of the instant, by number
+  std::vector<Four> before_;  // those of the drift before the kick
+  std::vector<Four> free_;    // and after it, without contacts
+};
+
+}  // namespace carom

@@ -1,0 +1,229 @@
+// Crowds: steps of islands with contacts that change too often to be followed one by one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "physics/world.h"
+#include "simulate/crowd/crowd_kernels.h"
+#include "simulate/exact_parts.h"
+#include "simulate/pile.h"
+#include "simulate/random.h"
+
+namespace carom {
+namespace {
+
+constexpr double gravity = 9.80665;
+
+/// Balls at random places, and all near pairs of them.
+struct NearBalls {
+  std::vector<Four> x;
+  std::vector<Four> v;
+  CrowdRows rows;
+};
+
+NearBalls near_balls(int seed) {
+  Random random(seed);
+  NearBalls balls;
+  for (int k = 0; k < 60; ++k) {
+    const double place[3] = {random(0, 4), random(0, 4), random(0, 4)};
+    const double speed[3] = {random(-1, 1), random(-1, 1), random(-1, 1)};
+    balls.x.push_back({{place[0], place[1], place[2], random(0.4, 0.5)}});
+    balls.v.push_back({{speed[0], speed[1], speed[2], random(0.1, 10)}});
+  }
+  std::vector<CrowdRows::Pair> pairs;
+  for (std::uint32_t a = 0; a < 60; ++a)
+    for (std::uint32_t b = a + 1; b < 60; ++b) {
+      if ((vector_of(balls.x[a]) - vector_of(balls.x[b])).norm() > 1.5) continue;
+      pairs.push_back({a, b, {a, b}, true, balls.v[a].at[3] + balls.v[b].at[3], 0.5, 0.1, 1e-3, random(0, 1)});
+    }
+  balls.x.push_back({});
+  balls.v.push_back({});
+  balls.rows.list(pairs, 60, 60);
+  return balls;
+}
+
+/// All numbers that a step's kernels leave, by one width of vectors.
+std::vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
+  NearBalls balls = near_balls(seed);
+  CrowdRows& rows = balls.rows;
+  const double h = 0.01;
+  kernels.measure(rows.hot.data(), rows.state.data(), rows.ball_groups, balls.x.data());
+  const AimResult aim = kernels.aim(rows.hot.data(), rows.change.data(), rows.state.data(), rows.groups(),
+                                    balls.v.data(), {h, 0.1, 0.1, 0.7, 1e-10, 1e-3});
+  unsigned which = 0;
+  const std::size_t first =
+      kernels.next_strike(rows.hot.data(), rows.state.data(), 0, rows.groups(), balls.v.data(), h, which);
+  for (RowGroup& group : rows.hot)
+    for (double& impulse : group.impulse) impulse = 0.01;
+  const std::vector<Four> free = balls.v;
+  kernels.push(rows.hot.data(), rows.groups(), balls.v.data());
+  std::vector<Four> direction(balls.v.size());
+  std::vector<double> all{aim.strikes ? 1.0 : 0.0, aim.least_gap, static_cast<double>(first),
+                          static_cast<double>(which)};
+  for (int sweep = 0; sweep < 5; ++sweep) {
+    const std::vector<Four> before = balls.v;
+    const SweepResult found = kernels.sweep(rows.hot.data(), rows.change.data(), rows.groups(), balls.v.data(), h);
+    kernels.conjugate(rows.hot.data(), rows.change.data(), rows.groups(), balls.v.data(), before.data(),
+                      direction.data(), balls.v.size(), 0.5);
+    all.insert(all.end(), {found.change, found.is_short ? 1.0 : 0.0});
+  }
+  const GuardSums sums = kernels.guard(rows.hot.data(), rows.groups(), balls.v.data(), free.data(), h);
+  all.insert(all.end(), {sums.aim, sums.gain,
+                         kernels.safe_drift(rows.hot.data(), rows.state.data(), rows.groups(), balls.v.data(), 1e-10)});
+  for (const Four& v : balls.v) all.insert(all.end(), std::begin(v.at), std::end(v.at));
+  for (const RowGroup& group : rows.hot) all.insert(all.end(), std::begin(group.impulse), std::end(group.impulse));
+  return all;
+}
+
+TEST(CrowdKernels, OfEveryWidthGiveTheSameBits) {
+  const std::vector<CrowdKernels> widths = crowd_kernels();
+  for (int seed = 0; seed < 20; ++seed) {
+    const std::vector<double> first = numbers_of(widths.front(), seed);
+    for (const CrowdKernels& kernels : widths) {
+      const std::vector<double> again = numbers_of(kernels, seed);
+      ASSERT_EQ(again.size(), first.size());
+      EXPECT_EQ(std::memcmp(again.data(), first.data(), first.size() * sizeof(double)), 0) << seed;
+    }
+  }
+}
+
+/// Rows of one group share no body, also with more contacts than there are colours.
+TEST(CrowdRows, OfOneGroupShareNoBody) {
+  std::vector<CrowdRows::Pair> pairs;
+  for (std::uint32_t k = 1; k < 200; ++k) pairs.push_back({0, k, {0, k}, true, 2, 0, 0, 0, 0});
+  for (std::uint32_t k = 1; k + 1 < 200; ++k) pairs.push_back({k, k + 1, {k, k + 1}, k % 2 == 0, 2, 0, 0, 0, 0});
+  CrowdRows rows;
+  rows.list(pairs, 200, 200);
+  std::size_t seen = 0;
+  for (const RowGroup& group : rows.hot) {
+    std::vector<std::uint32_t> bodies;
+    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+      if (group.share[lane] == 0) continue;
+      ++seen;
+      bodies.insert(bodies.end(), {group.a[lane], group.b[lane]});
+    }
+    std::sort(bodies.begin(), bodies.end());
+    EXPECT_EQ(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  }
+  EXPECT_EQ(seen, pairs.size());
+}
+
+/// A crowd of all bodies of a problem, which takes steps until `time` (s).
+class AloneInACrowd {
+ public:
+  explicit AloneInACrowd(const Problem& problem) : parts(problem) {
+    for (Entity i = 0; i < parts.bodies.world.body_count(); ++i) {
+      parts.bodies.applied.write(i) = problem.world.gravity;
+      parts.group.join(i);
+      parts.group.unite(0, i);
+    }
+    parts.bodies.islands.of(0).end = {};
+  }
+
+  /// Takes the next step of a part of the crowd. Returns whether all bodies are still in crowds.
+  bool step() {
+    Entity next = 0;
+    for (Entity i = 0; i < parts.bodies.world.body_count(); ++i) {
+      if (!is_member(parts.bodies.mode(i))) return false;
+      if (end_of(i) < end_of(next)) next = i;
+    }
+    parts.bodies.now = end_of(next);
+    parts.bodies.islands.of(next).busy = true;
+    parts.crowds.advance(next);
+    return is_member(parts.bodies.mode(next));
+  }
+  const Instant& end_of(Entity i) const { return parts.bodies.islands.of(i).end; }
+
+  Vec3 velocity(Entity i) const { return parts.bodies.velocity_without_kick(i, parts.bodies.now); }
+  double energy(const Problem& problem) const {
+    double sum = 0;
+    for (Entity i = 0; i < problem.world.body_count(); ++i)
+      sum += problem.world.mass[i] *
+             (0.5 * velocity(i).squaredNorm() - problem.world.gravity.dot(parts.bodies.position(i)));
+    return sum;
+  }
+
+  ExactParts parts;
+};
+
+/// A ball that slides down a globe. It starts 0.1 rad from the top, and is followed while it stays on.
+double error_of_a_slide(const ContactQuality& quality) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -gravity, 0);
+  problem.obstacle(Vec3::Zero(), Volume::sphere(1));
+  problem.ball(1.05 * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 1, 0.05, 0.5);
+  problem.options.quality = &quality;
+  AloneInACrowd crowd(problem);
+  const double start = crowd.energy(problem);
+  double worst = 0;
+  while (crowd.step() && crowd.parts.bodies.position(0).y() > 0.8)
+    worst = std::max(worst, std::abs(crowd.energy(problem) - start));
+  return worst;
+}
+
+TEST(CrowdMotion, SlidesDownAGlobeToOrderTwo) {
+  std::vector<double> errors;
+  for (const double step : {0.04, 0.02, 0.01}) {
+    ContactQuality quality = normal_quality;
+    quality.longest_step = step;
+    quality.displacement = 10 * step;
+    quality.accuracy = 1e-3;
+    errors.push_back(error_of_a_slide(quality));
+  }
+  for (std::size_t k = 1; k < errors.size(); ++k) EXPECT_GT(errors[k - 1] / errors[k], 3.5) << errors[k];
+}
+
+TEST(CrowdMotion, KeepsTheMomentumOfClusters) {
+  Random random(3);
+  Problem problem;
+  problem.world.gravity = Vec3::Zero();
+  for (int cluster = 0; cluster < 2; ++cluster)
+    for (int k = 0; k < 64; ++k) {
+      const Vec3 place(k % 4 * 0.1 + 0.5 * cluster, k / 4 % 4 * 0.1 + 0.03 * cluster, k / 16 * 0.1 + 0.02 * cluster);
+      problem.ball(place, Vec3(cluster == 0 ? 1 : -1, 0, 0), std::pow(10, random(-2, 2)), 0.05, 0.5);
+    }
+  AloneInACrowd crowd(problem);
+  Vec3 start = Vec3::Zero();
+  double size = 0;
+  for (Entity i = 0; i < 128; ++i) {
+    start += problem.world.mass[i] * problem.initial.velocity[i];
+    size += problem.world.mass[i];
+  }
+  double energy = crowd.energy(problem);
+  for (int k = 0; k < 300 && crowd.step(); ++k) {
+    Vec3 now = Vec3::Zero();
+    for (Entity i = 0; i < 128; ++i) now += problem.world.mass[i] * crowd.velocity(i);
+    ASSERT_LT((now - start).norm(), 1e-12 * size) << k;
+    ASSERT_LT(crowd.energy(problem), energy * (1 + 1e-5)) << k;
+    energy = std::min(energy, crowd.energy(problem));
+  }
+}
+
+TEST(CrowdMotion, PutsATowerOfAHundredToRestWithExactForces) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -gravity, 0);
+  for (int k = 0; k < 100; ++k) problem.ball({0, 0.05 + 0.1 * k, 0}, Vec3::Zero(), 1, 0.05, 0.5);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  AloneInACrowd crowd(problem);
+  EXPECT_FALSE(crowd.step());
+  EXPECT_EQ(crowd.parts.bodies.mode(99), Mode::asleep);
+  double on_floor = 0;
+  for (const PressingContact& p : crowd.parts.group.pressing[0])
+    if (p.partner == 100) on_floor = p.force;
+  EXPECT_NEAR(on_floor, 100 * gravity, 1e-9);
+}
+
+TEST(CrowdMotion, LetsNoTwoOverlapAndMakesHardlyAnyEnergy) {
+  for (const int side : {3, 5}) {
+    const Problem problem = loose_pile(side, 6, 6);
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    go_to(*simulator, 6);
+    EXPECT_GT(simulator->tally().stepped_contact, 0);
+    EXPECT_LT(simulator->tally().max_overlap, 1e-9);
+    EXPECT_LT(simulator->tally().doubts.contact_made, 3e-4 * simulator->tally().energy_lost);
+  }
+}
+
+}  // namespace
+}  // namespace carom
