@@ -22,7 +22,7 @@
 //        lasting contacts, bodies at rest at the end, impacts that contact took up; instants with impacts that share a
 //        body, of these with ties, and with bodies that had no room; such a body, and two things that it met at once
 //   f64: first and last collision (s, NaN: none), energy lost (J), work (J), deepest overlap (m), greatest speed (m/s),
-//        lasting contact computed by time stepping (s, summed over bodies), and of the impacts that contact took up
+//        lasting contact in crowds (s, summed over bodies), and of the impacts that contact took up
 //        the fastest (m/s) and their energy (J); the first instant with impacts that share a body (s, NaN: none), and
 //        the energy absorbed by bodies that had no room (J)
 // A run that has ended before its duration, or has lost bodies to regions, has 1 instead of the 0 of the tail. Then 64

@@ -71,7 +71,7 @@ struct Summary : RunLength {
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
   std::uint64_t resting = 0, frames = 0;
-  /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
+  /// In s, summed over bodies: the time in lasting contact in crowds.
   double stepped_contact = 0;
 
   std::vector<Measured> measures;  // those that the scene defines, columns after all others

@@ -99,7 +99,7 @@ TEST(Collapse, OfColumnsDroppedOnTheFloorEndsAtRest) {
     problem.plane({0, 0, 0}, {0, 1, 0});
     for (int i = 0; i < n; ++i) problem.ball({0, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1, 0.25, 0.5);
     problem.options.duration = 10;
-    // 20 balls move by time stepping: within a step a path is straight, and the energy balance holds at its end.
+    // 20 balls move as a crowd: within a step a path is straight, and the energy balance holds at its end.
     // Measured: 1.2e-6.
     const double tolerance = n < 20 ? 1e-12 : 1e-5;
     const Outcome run = run_and_watch_energy(problem, 0.0625, tolerance, "column of " + std::to_string(n));

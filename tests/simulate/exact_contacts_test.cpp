@@ -179,7 +179,7 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   EXPECT_NEAR(forces[0].force, pull - 0.25 / 1.5, 1e-12);  // m (pull - v^2 / r)
 }
 
-TEST(ConstrainedMotion, LeavesAnIslandWhoseContactsChangeTooOftenToTimeStepping) {
+TEST(ConstrainedMotion, LeavesAnIslandWhoseContactsChangeTooOftenToACrowd) {
   Problem p;
   p.world.gravity = Vec3(0, -pull, 0);
   p.obstacle(Vec3::Zero(), Volume::sphere(1));

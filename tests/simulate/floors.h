@@ -75,7 +75,7 @@ inline std::string fault_of(const Crossing& crossing) {
         off, (run.end.position[k] - crossing.start[k] - crossing.problem.options.duration * crossing.velocity).norm());
   if (!run.collisions.empty()) return std::to_string(run.collisions.size()) + " collisions";
   if (!(off < 1e-12)) return "off by " + std::to_string(1e12 * off) + "e-12 m";  // measured: 1e-13
-  if (run.tally.stepped_contact > 0) return "by time stepping";
+  if (run.tally.stepped_contact > 0) return "as a crowd";
   return run.tally.taken_up.impacts > 0 ? "impacts are taken up" : "";
 }
 

@@ -181,7 +181,7 @@ TEST(Rest, ABodyThatLiesStillCostsNothing) {
 }
 
 TEST(Rest, AColumnThrowsBackABallThatFallsOnIt) {
-  // As many balls as time stepping moves, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
+  // As many balls as move as a crowd, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
   for (int n : {2, 16, 17, 18, 24, 40}) {
     Problem problem;
     problem.world.gravity = Vec3(0, -g_n, 0);

@@ -83,8 +83,8 @@ std::uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
   crowd.things.push_back(thing);
   const Vec3 x = bodies_.position_of(thing);
   const Vec3 v = bodies_.world.is_body(thing) ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(thing);
-  crowd.x.push_back({{x.x(), x.y(), x.z(), bodies_.world.is_body(thing) ? bodies_.world.radius[thing] : 0}});
-  crowd.v.push_back({{v.x(), v.y(), v.z(), 0}});
+  crowd.x.push_back(four_of(x, bodies_.world.is_body(thing) ? bodies_.world.radius[thing] : 0));
+  crowd.v.push_back(four_of(v, 0));
   return number;
 }
 
@@ -95,7 +95,7 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
   const Vec3 x = crowd.position(k);
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
   const std::size_t first = pairs_.size();
-  ContactList fixed;  // besides planes, to find those that others hide
+  ContactList fixed;  // to find those that others hide
 
   const auto add = [&](std::uint32_t b, Entity e, bool balls) {
     CrowdRows::Pair pair;
@@ -116,9 +116,9 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
   };
 
   for (const Entity e : bodies_.neighbours.bodies(i)) {
-    std::uint32_t b = numbers_[e];
+    const std::uint32_t b = numbers_[e];
     const bool asleep = b == Numbering::none && bodies_.mode(e) == Mode::asleep;
-    if (asleep ? false : b == Numbering::none || b < k) continue;
+    if (!asleep && (b == Numbering::none || b < k)) continue;
     const Vec3 xe = asleep ? bodies_.position(e) : crowd.position(b);
     const double near = world.radius[i] + world.radius[e] + skin;
     if ((xe - x).squaredNorm() >= near * near) continue;
@@ -140,15 +140,15 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
             [](const CrowdRows::Pair& p, const CrowdRows::Pair& q) { return p.name.e < q.name.e; });
 }
 
-/// Gives the new pairs the forces and shells that the same pairs have in the rows of `crowd`.
-void CrowdList::take_over_forces(const Crowd& crowd) {
+/// Gives the new pairs, of so many members, the forces and shells that the same pairs have in the rows of `crowd`.
+void CrowdList::take_over_forces(const Crowd& crowd, std::size_t members) {
   struct Kept {
     Entity e;
     double force;
     double shell;
   };
 
-  std::vector<std::uint32_t> start(bodies_.body.empty() ? 0 : numbers_count_ + 2, 0);
+  std::vector<std::uint32_t> start(members + 2, 0);
   const auto number = [&](std::size_t g, std::size_t lane) { return numbers_[crowd.rows.names[g][lane].a]; };
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
     if (const std::uint32_t a = number(g, lane); a != Numbering::none) ++start[a + 2];
@@ -173,7 +173,6 @@ void CrowdList::take_over_forces(const Crowd& crowd) {
 
 void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before) {
   const Numbering members(numbers_, crowd.members);
-  numbers_count_ = crowd.members.size();
   if (thing_number_.empty()) thing_number_.assign(bodies_.world.entity_count(), Numbering::none);
   crowd.x.resize(crowd.members.size());
   crowd.v.resize(crowd.members.size());
@@ -181,7 +180,7 @@ void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> befor
 
   pairs_.clear();
   for (std::uint32_t k = 0; k < crowd.movable(); ++k) list_member(crowd, k, 2 * crowd.list.reach);
-  for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other);
+  for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other, crowd.members.size());
   for (const Entity thing : crowd.things) thing_number_[thing] = Numbering::none;
 
   const auto dummy = static_cast<std::uint32_t>(crowd.x.size());

@@ -38,14 +38,13 @@ class CrowdList {
   Touch closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3& xe, const Vec3& moved) const;
   std::uint32_t number_of(Crowd& crowd, Entity thing);
   void list_member(Crowd& crowd, std::uint32_t k, double skin);
-  void take_over_forces(const Crowd& crowd);
+  void take_over_forces(const Crowd& crowd, std::size_t members);
 
   ExactBodies& bodies_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   Numbering::Numbers& numbers_;
   std::vector<std::uint32_t> thing_number_;  // by entity, while a crowd is listed
   std::vector<CrowdRows::Pair> pairs_;       // scratch
-  std::size_t numbers_count_ = 0;            // of members of the crowd that is listed
 };
 
 }  // namespace carom

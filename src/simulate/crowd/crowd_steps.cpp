@@ -204,8 +204,7 @@ double CrowdSteps::safe_length(const Crowd& crowd) const {
                              tol::gap_rounding * crowd.smallest);
 }
 
-/// The same impulses by the contact solver, where sweeps converge too slowly: masses are unequal, or many bodies stand
-/// on one another.
+/// The same impulses by the contact solver, where sweeps converge too slowly because masses are unequal.
 bool CrowdSteps::solve_exactly(Crowd& crowd) const {
   std::vector<Vec3> motion;
   std::vector<double> inverse_mass;
@@ -218,8 +217,8 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
     const bool body = row.b[lane] < crowd.movable();
-    ContactConstraint pair{row.a[lane], body ? row.b[lane] : ContactConstraint::fixed,
-                           Vec3(row.nx[lane], row.ny[lane], row.nz[lane]), -row.base[lane] / crowd.step.length};
+    ContactConstraint pair{row.a[lane], body ? row.b[lane] : ContactConstraint::fixed, crowd.rows.normal(g, lane),
+                           -row.base[lane] / crowd.step.length};
     pair.force = row.impulse[lane];
     if (!body) pair.surface = pair.normal.dot(crowd.drift(row.b[lane]));
     pairs.push_back(pair);
