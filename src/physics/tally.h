@@ -78,7 +78,8 @@ struct Unbalanced {
 struct Doubts {
   // Contact problems with a solution that may be off by more than rounding.
   std::uint64_t contacts = 0;
-  double contact_made = 0;           // J, by errors of the steps of crowds; a part of the method's error
+  double contact_made = 0;  // J, by errors of the steps of crowds; a part of the method's error
+  std::uint64_t crowd_steps = 0;
   std::uint64_t unsolved_steps = 0;  // of crowds: forces were less accurate than they should be
   StiffStep stiffest;                // the step with the greatest angle, for a method with steps of one length
   Unbalanced unbalanced;             // that with the longest way

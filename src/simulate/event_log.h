@@ -96,7 +96,11 @@ class EventLog {
     tally_.doubts.contact_made = made_.value();
     deviate(-energy);
   }
-  void count_unsolved_step() { ++tally_.doubts.unsolved_steps; }
+  /// Counts a step of a crowd. solved: its forces are as accurate as they should be.
+  void count_crowd_step(bool solved) {
+    ++tally_.doubts.crowd_steps;
+    if (!solved) ++tally_.doubts.unsolved_steps;
+  }
   /// Counts impacts of one instant that rigid bodies leave open: one instant, with the first of them.
   void note(const SharedImpacts& now);
   void count_collapse() { ++tally_.collapses; }

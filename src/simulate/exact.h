@@ -28,11 +28,11 @@ struct ExactOptions {
   double step_error = exact_tolerance::step_error;
   // false: dop853 computes all flights that bend.
   bool closed_forms = true;
-  const ContactQuality* quality = &normal_quality;  // of crowds
-  bool merge = false;                               // bodies that meet become one
-  bool one_by_one = false;                          // impacts of one instant act one after the other, the fastest first
-  bool record_collisions = true;                    // false: there is no buffer, and collisions() stays empty
-  bool record_paths = false;                        // false: there is no buffer for paths()
+  const ContactQuality* quality = &quality_of(QualityLevel::normal);  // of crowds
+  bool merge = false;                                                 // bodies that meet become one
+  bool one_by_one = false;        // impacts of one instant act one after the other, the fastest first
+  bool record_collisions = true;  // false: there is no buffer, and collisions() stays empty
+  bool record_paths = false;      // false: there is no buffer for paths()
   // What ends the run before the duration, beside regions of the World.
   bool stop_at_rest = false;
   std::uint64_t stop_collisions = 0;     // 0: none

@@ -161,7 +161,7 @@ inline constexpr double free_time = 1e-6;
 inline constexpr double steps_of_list = 6;
 // Share of a radius: what bodies may go before the list is made anew, at least and at most.
 inline constexpr double least_reach = 0.01;
-inline constexpr double greatest_reach = 0.2;
+inline constexpr double greatest_reach = 0.4;
 // Multiple of what a body may go in a step: the same.
 inline constexpr double reach_of_need = 1.25;
 // Share of a radius: room of a member's region, at least.
@@ -174,14 +174,16 @@ inline constexpr std::uint8_t idle_steps = 8;
 inline constexpr double step_growth = 1.25;
 // Share of a gap that errors of a step may take.
 inline constexpr double share_of_gap = 0.7;
+// The same where less than half of the shell is left.
+inline constexpr double share_below = 0.3;
 // Share of a radius, and of speeds: rounding of a gap and of forces.
 inline constexpr double gap_rounding = 1e-10;
 // Share of the speed of bodies in contact: what forces may leave, where a step gives bodies more.
 inline constexpr double force_of_speed = 0.3;
 // The same, where it gives them less.
 inline constexpr double least_force = 0.01;
-// Ratio of masses, beyond which the contact solver takes steps that sweeps have not solved.
-inline constexpr double unequal_masses = 1e3;
+// Members of a crowd, up to which the contact solver takes steps that sweeps have not solved.
+inline constexpr std::size_t exact_members = 200;
 // Sweeps after which a step is shortened, and how often.
 inline constexpr int more_sweeps = 32;
 inline constexpr int most_shortenings = 6;
@@ -192,7 +194,12 @@ inline constexpr double closed_shell = 1e-10;
 // Share of the greatest acceleration: a body is held by forces with a smaller sum.
 inline constexpr double balance = 1e-11;
 // Share of the speed of falling by a radius: slower bodies may be at rest.
-inline constexpr double standstill = 1e-5;
+inline constexpr double standstill = 1e-4;
+// The same: forces of slower bodies need not be finer. Their errors add up to tremors at a tenth of a standstill.
+inline constexpr double tremor = 1e-5;
+// Steps from one look at the parts of a crowd to the next, and looks after which a part that slow rests.
+inline constexpr std::uint32_t steps_to_look = 8;
+inline constexpr std::uint8_t still_looks = 8;
 // The same, where bodies rest by their speed; and for how many times of falling by a radius.
 inline constexpr double slow_preview = 0.03;
 inline constexpr double slow_for = 5;

@@ -7,12 +7,13 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/vec3.h"
+#include "physics/world.h"
 #include "simulate/crowd/crowd_rows.h"
 #include "simulate/path/instant.h"
 
 namespace carom {
 
-/// How long a list of near pairs holds: until a body has gone `reach`.
+/// How long a list of near pairs holds: until a body has gone `reach`. Outsiders keep to their paths.
 struct CrowdReach {
   bool listed = false;
   double reach = 0;               // m
@@ -20,7 +21,9 @@ struct CrowdReach {
   double gone = 0;                // m, so far
   double need = 0;                // m, what a body goes in a step, at least
   double room = 0;                // m, from its members, within which all bodies are their neighbours
+  Instant sure;                   // until then no other outsiders than those of `coming` come near
   std::vector<Entity> outsiders;  // neighbours of other kinds, or of other crowds
+  std::vector<Entity> coming;     // those that may come near until `sure`
 };
 
 /// The present step.
@@ -40,6 +43,7 @@ struct CrowdStep {
 struct CrowdRest {
   bool closing = false;          // shells shrink, because the crowd is calm
   Instant slow_since{never, 0};  // all members have been slow since then
+  std::uint32_t steps = 0;       // in which not all were slow
   double next_try = 0;           // s: forces are not tried for balance before
   double try_after = 0;          // s, between two tries
 };
@@ -56,6 +60,7 @@ struct Crowd {
   std::vector<double> lag;         // s: how much older v is than the step's start
   std::vector<std::uint8_t> idle;  // steps since a thing last pressed on it
   std::vector<std::uint8_t> pressed;
+  std::vector<std::uint8_t> still;  // looks at hardly any speed, with all that press on one another with it
 
   CrowdRows rows;
   // Crowds with forces and shells for the next list: those of which this one is made.
@@ -65,7 +70,6 @@ struct Crowd {
   CrowdRest rest;
 
   double smallest = never;  // m, the least radius
-  bool unequal = false;     // masses differ so much that sweeps may fail
   double load = 0;          // m/s^2, the greatest acceleration by forces
   double next_switch = 0;   // s, of forces on members, and of things that move
   double taken = 0;         // J, by contacts so far
@@ -74,6 +78,11 @@ struct Crowd {
   std::uint32_t movable() const { return static_cast<std::uint32_t>(members.size()); }
   Vec3 position(std::size_t k) const { return {x[k].at[0], x[k].at[1], x[k].at[2]}; }
   Vec3 drift(std::size_t k) const { return {v[k].at[0], v[k].at[1], v[k].at[2]}; }
+  /// Whether a row presses on a sleeping body.
+  bool presses_on_sleeper(std::size_t group, std::size_t lane, const World& world) const {
+    const RowGroup& row = rows.hot[group];
+    return row.impulse[lane] > 0 && row.b[lane] >= movable() && world.is_body(rows.names[group][lane].e);
+  }
   /// The velocity of member k (m/s) when its drift is so old (s).
   Vec3 velocity(std::size_t k, double age) const { return drift(k) + age * a[k]; }
 };

@@ -1,6 +1,7 @@
 #pragma once
 // The loops over the rows of a crowd, in vectors. Each is compiled for each vector width, and chosen by the processor
 // at run time. All widths have the same arithmetic in the same order, so that the bits do not depend on the processor.
+#include <span>
 #include <vector>
 
 #include "simulate/crowd/crowd_rows.h"
@@ -9,12 +10,13 @@ namespace carom {
 
 /// What rows aim at in a step.
 struct StepTarget {
-  double length;  // s
-  double push;    // share of a missing gap that a step restores
-  double back;    // the same, of an overlap by rounding
-  double share;   // of a gap and of the shell: what errors may take
-  double least;   // m: what rounding may take
-  double shell;   // m: the gap that rows keep once they have had it
+  double length = 0;  // s
+  double push = 0;    // share of a missing gap that a step restores
+  double back = 0;    // the same, of an overlap by rounding
+  double share = 0;   // of a gap and of the shell: what errors may take
+  double below = 0;   // the same, of a gap of less than half of the shell
+  double least = 0;   // m: what rounding may take
+  double shell = 0;   // m: the gap that rows keep once they have had it
 };
 
 /// What rows are like at the start of a step.
@@ -47,12 +49,15 @@ struct CrowdKernels {
                              const Four* v, double length, unsigned& which);
   /// Applies the impulses of all groups.
   void (*push)(const RowGroup* hot, std::size_t count, Four* v);
-  /// One sweep of projected Gauss-Seidel.
-  SweepResult (*sweep)(RowGroup* hot, RowChange* change, std::size_t count, Four* v, double length);
-  /// Adds `beta` times the last direction to all impulses and velocities. The new direction is that and the last
-  /// change.
-  void (*conjugate)(RowGroup* hot, RowChange* change, std::size_t count, Four* v, const Four* before, Four* direction,
-                    std::size_t bodies, double beta);
+  /// Marks the groups with an impulse, or with a gap (m) of less than this at the step's end. Returns whether some are
+  /// new.
+  bool (*mark)(const RowGroup* hot, std::size_t count, const Four* v, double length, double gap, std::uint8_t* marks);
+  /// One sweep of projected Gauss-Seidel over these groups.
+  SweepResult (*sweep)(RowGroup* hot, RowChange* change, std::span<const std::uint32_t> which, Four* v, double length);
+  /// Adds `beta` times the last direction to the impulses of these groups and to all velocities. The new direction is
+  /// that and the last change.
+  void (*conjugate)(RowGroup* hot, RowChange* change, std::span<const std::uint32_t> which, Four* v, const Four* before,
+                    Four* direction, std::size_t bodies, double beta);
   GuardSums (*guard)(const RowGroup* hot, std::size_t count, const Four* v, const Four* free, double length);
   /// The longest drift (s) after which no listed pair overlaps by more than `rounding` (m).
   double (*safe_drift)(const RowGroup* hot, const RowState* state, std::size_t count, const Four* v, double rounding);

@@ -13,42 +13,56 @@
 namespace carom {
 namespace tol = exact_tolerance;
 
-void CrowdList::hold_regions(Crowd& crowd, double need) const {
-  crowd.list.reach =
-      std::clamp(tol::steps_of_list * need, tol::least_reach * crowd.smallest, tol::greatest_reach * crowd.smallest);
-  crowd.list.reach = std::max(std::min(crowd.list.reach, crowd.list.most), tol::reach_of_need * need);
-  crowd.list.most = never;
-  crowd.list.room = std::max(crowd.list.reach, tol::room_of_region * crowd.smallest);
-  crowd.list.gone = 0;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
-    const Vec3 x = crowd.position(k);
-    bodies_.hold_to_bounds(crowd.members[k], bodies_.now.hi, x, crowd.drift(k));
-    bodies_.neighbours.hold(crowd.members[k], x, crowd.list.room);
-  }
-
-  crowd.list.outsiders.clear();
-  for (const Entity i : crowd.members)
-    for (const Entity e : bodies_.neighbours.bodies(i)) {
-      const Mode mode = bodies_.mode(e);
-      if (mode != Mode::asleep && !(is_member(mode) && bodies_.islands.same(e, i))) crowd.list.outsiders.push_back(e);
-    }
-  std::sort(crowd.list.outsiders.begin(), crowd.list.outsiders.end());
-  crowd.list.outsiders.erase(std::unique(crowd.list.outsiders.begin(), crowd.list.outsiders.end()),
-                             crowd.list.outsiders.end());
+/// Nearer surfaces are listed (m).
+double CrowdList::surface_skin(const Crowd& crowd) const {
+  return (bodies_.moving.any() ? 2 : 1) * crowd.list.reach;
 }
 
-CrowdList::Outlook CrowdList::outlook(const Crowd& crowd, Entity e, double seconds) const {
+void CrowdList::begin(Crowd& crowd, double need) const {
+  CrowdReach& list = crowd.list;
+  list.reach =
+      std::clamp(tol::steps_of_list * need, tol::least_reach * crowd.smallest, tol::greatest_reach * crowd.smallest);
+  list.reach = std::max(std::min(list.reach, list.most), tol::reach_of_need * need);
+  list.most = never;
+  list.room = std::max(surface_skin(crowd), tol::room_of_region * crowd.smallest);
+  list.gone = 0;
+  list.need = 0;
+  list.listed = false;
+}
+
+std::vector<Entity> CrowdList::hold_regions(const Crowd& crowd, std::span<const Entity> members) {
+  for (const Entity i : members) {
+    const Vec3 x = bodies_.position(i);
+    bodies_.hold_to_bounds(i, bodies_.now.hi, x, bodies_.velocity_without_kick(i, bodies_.now));
+    bodies_.neighbours.hold(i, x, crowd.list.room);
+  }
+
+  // Each once.
+  std::vector<Entity> near;
+  seen_.resize(bodies_.world.body_count());
+  for (const Entity i : members)
+    for (const Entity e : bodies_.neighbours.bodies(i)) {
+      if (seen_[e] != 0) continue;
+      const Mode mode = bodies_.mode(e);
+      if (mode == Mode::asleep || (is_member(mode) && bodies_.islands.same(e, i))) continue;
+      seen_[e] = 1;
+      near.push_back(e);
+    }
+  for (const Entity e : near) seen_[e] = 0;
+  return near;
+}
+
+CrowdList::Outlook CrowdList::outlook(const Crowd& crowd, Entity e) const {
   Outlook all = Outlook::apart;
   const Entity first = crowd.members.front();
   for (const Entity m : bodies_.neighbours.bodies(e))
-    if (is_member(bodies_.mode(m)) && bodies_.islands.same(m, first))
-      all = std::max(all, outlook_on(crowd, m, e, seconds));
+    if (is_member(bodies_.mode(m)) && bodies_.islands.same(m, first)) all = std::max(all, outlook_on(crowd, m, e));
   return all;
 }
 
 /// The same for one member. A member goes no farther than the list reaches. Another body keeps to its path, or to the
 /// reach of its own crowd's list.
-CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Entity e, double seconds) const {
+CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Entity e) const {
   const Vec3 between = bodies_.position(e) - bodies_.position(member);
   const double sizes = bodies_.world.radius[member] + bodies_.world.radius[e];
   if (bodies_.mode(e) == Mode::stepped) {
@@ -70,9 +84,10 @@ CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Enti
   };
 
   // Near enough, all that may come nearer are neighbours. Farther away that would depend on other bodies.
-  if (between.norm() < sizes + crowd.list.room - crowd.list.gone)
-    return meets(seconds, crowd.list.reach) ? Outlook::joins : Outlook::apart;
-  return meets(crowd.step.length, crowd.list.reach) ? Outlook::may_strike : Outlook::apart;
+  const double left = crowd.list.reach - crowd.list.gone;
+  if (!meets(crowd.list.sure - bodies_.now, left)) return Outlook::apart;
+  if (between.norm() < sizes + crowd.list.room - crowd.list.gone) return Outlook::joins;
+  return meets(crowd.step.length, left) ? Outlook::may_strike : Outlook::may_come;
 }
 
 /// The number of a fixed or sleeping thing in the crowd. It is given one, unless it has one.
@@ -97,7 +112,8 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
   const std::size_t first = pairs_.size();
   ContactList fixed;  // to find those that others hide
 
-  const auto add = [&](std::uint32_t b, Entity e, bool balls) {
+  const double soon = 2 * crowd.list.reach / tol::steps_of_list;  // m
+  const auto add = [&](std::uint32_t b, Entity e, bool balls, double gap) {
     CrowdRows::Pair pair;
     pair.a = k;
     pair.b = b;
@@ -112,6 +128,7 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
     pair.slow = pair.e < 1 ? slow : 0;
     pair.shell = CrowdRows::new_pair;
     pair.force = 0;
+    pair.near = gap < soon;
     pairs_.push_back(pair);
   };
 
@@ -120,20 +137,23 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
     const bool asleep = b == Numbering::none && bodies_.mode(e) == Mode::asleep;
     if (!asleep && (b == Numbering::none || b < k)) continue;
     const Vec3 xe = asleep ? bodies_.position(e) : crowd.position(b);
-    const double near = world.radius[i] + world.radius[e] + skin;
-    if ((xe - x).squaredNorm() >= near * near) continue;
+    const double within = asleep ? crowd.list.reach : skin;
+    const double sizes = world.radius[i] + world.radius[e];
+    const double squared = (xe - x).squaredNorm();
+    if (squared >= (sizes + within) * (sizes + within)) continue;
     const bool balls = ball && (world.volume.empty() || world.volume[e].shape == Shape::sphere);
-    if (!balls && touch(world, i, x, e, xe).gap >= skin) continue;
-    add(asleep ? number_of(crowd, e) : b, e, balls);
+    const double gap = balls ? std::sqrt(squared) - sizes : touch(world, i, x, e, xe).gap;
+    if (gap < within) add(asleep ? number_of(crowd, e) : b, e, balls, gap);
   }
 
   for (const Entity e : bodies_.neighbours.surfaces(i)) {
     const Vec3 xe = bodies_.fixed_position(e);
     const Touch there = touch(world, i, x, e, xe);
-    if (there.gap < skin) fixed.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
+    if (there.gap < surface_skin(crowd))
+      fixed.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
   }
   if (fixed.names.size() > 1) fixed.drop_hidden(bodies_, x, 0);
-  for (const Contact& contact : fixed.names) add(number_of(crowd, contact.e), contact.e, false);
+  for (const Contact& contact : fixed.names) add(number_of(crowd, contact.e), contact.e, false, 0);
 
   // The order of lists of neighbours has no effect.
   std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end(),
@@ -174,19 +194,45 @@ void CrowdList::take_over_forces(const Crowd& crowd, std::size_t members) {
 void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before) {
   const Numbering members(numbers_, crowd.members);
   if (thing_number_.empty()) thing_number_.assign(bodies_.world.entity_count(), Numbering::none);
-  crowd.x.resize(crowd.members.size());
-  crowd.v.resize(crowd.members.size());
-  crowd.things.clear();
+  drop_things(crowd);
 
   pairs_.clear();
   for (std::uint32_t k = 0; k < crowd.movable(); ++k) list_member(crowd, k, 2 * crowd.list.reach);
   for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other, crowd.members.size());
-  for (const Entity thing : crowd.things) thing_number_[thing] = Numbering::none;
+  for (CrowdRows::Pair& pair : pairs_) pair.near = pair.near || pair.force > 0;
+  write(crowd, pairs_);
+}
 
+void CrowdList::list_part(Crowd& part, const Crowd& whole) {
+  const Numbering members(numbers_, part.members);
+  drop_things(part);
+
+  std::vector<CrowdRows::Pair> pairs;
+  for (const CrowdRows::Pair& pair : pairs_) {
+    const std::uint32_t a = numbers_[pair.name.a];
+    if (a == Numbering::none) continue;
+    const bool body = pair.b < whole.movable();
+    pairs.push_back(pair);
+    pairs.back().a = a;
+    pairs.back().b = body ? numbers_[pair.name.e] : number_of(part, pair.name.e);
+  }
+  write(part, pairs);
+}
+
+void CrowdList::drop_things(Crowd& crowd) {
+  crowd.x.resize(crowd.members.size());
+  crowd.v.resize(crowd.members.size());
+  crowd.things.clear();
+}
+
+/// Writes the rows of these pairs.
+void CrowdList::write(Crowd& crowd, std::span<const CrowdRows::Pair> pairs) {
+  for (const Entity thing : crowd.things) thing_number_[thing] = Numbering::none;
   const auto dummy = static_cast<std::uint32_t>(crowd.x.size());
   crowd.x.push_back({});
   crowd.v.push_back({});
-  crowd.rows.list(pairs_, crowd.movable(), dummy);
+  crowd.rows.list(pairs, crowd.movable(), dummy);
+  crowd.list.listed = true;
 }
 
 /// The gap of member k and thing e at present, along the normal that is best for a relative displacement (m). Volumes

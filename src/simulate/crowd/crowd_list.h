@@ -19,32 +19,41 @@ class CrowdList {
   /// What a body of another kind, or of another crowd, may do to a crowd in some time to come.
   enum class Outlook : std::uint8_t {
     apart,       // it meets no member
-    may_strike,  // it is still far away, and may strike one in the step to come
+    may_come,    // it is still far away, and may meet one
+    may_strike,  // the same in the step to come
     joins        // it is near, and may meet one
   };
 
-  /// Makes the region of each member so wide that it holds while the list does, and finds the bodies of other kinds
-  /// that are near. need: m, what a body may go in a step.
-  void hold_regions(Crowd& crowd, double need) const;
-  Outlook outlook(const Crowd& crowd, Entity e, double seconds) const;
+  /// Begins a list that holds for some steps. need: m, what a body may go in a step.
+  void begin(Crowd& crowd, double need) const;
+  /// Makes the regions of these members so wide that they hold while the list does. Returns the bodies of other kinds
+  /// that are near.
+  std::vector<Entity> hold_regions(const Crowd& crowd, std::span<const Entity> members);
+  Outlook outlook(const Crowd& crowd, Entity e) const;
   /// Lists the pairs that may press while the list holds. Forces are those of the same pairs in the crowds `before`,
   /// which may be this one.
   void list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before);
+  /// The same for a part of the crowd that was listed last. No pair connects it to other parts.
+  void list_part(Crowd& part, const Crowd& whole);
   /// Measures gaps and normals. `seconds`: of the drift to come.
   void measure(Crowd& crowd, double seconds) const;
 
  private:
-  Outlook outlook_on(const Crowd& crowd, Entity member, Entity e, double seconds) const;
+  double surface_skin(const Crowd& crowd) const;
+  Outlook outlook_on(const Crowd& crowd, Entity member, Entity e) const;
   Touch closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3& xe, const Vec3& moved) const;
   std::uint32_t number_of(Crowd& crowd, Entity thing);
   void list_member(Crowd& crowd, std::uint32_t k, double skin);
   void take_over_forces(const Crowd& crowd, std::size_t members);
+  static void drop_things(Crowd& crowd);
+  void write(Crowd& crowd, std::span<const CrowdRows::Pair> pairs);
 
   ExactBodies& bodies_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   Numbering::Numbers& numbers_;
   std::vector<std::uint32_t> thing_number_;  // by entity, while a crowd is listed
   std::vector<CrowdRows::Pair> pairs_;       // scratch
+  std::vector<std::uint8_t> seen_;           // by body, while near ones are found
 };
 
 }  // namespace carom

@@ -42,16 +42,18 @@ bool CrowdMotion::advance(Entity i) {
     if (Instant{crowd.next_switch, 0} <= bodies_.now || bodies_.varying) renew_forces(crowd);
     crowd.step.length = longest_step(crowd);
     if (take_guests(i)) continue;
-    if (!crowd.list.listed && list(crowd)) {
+    if (!crowd.list.listed && (let_go(crowd) || list(crowd))) {
       // Members have left, and the others take the step without them.
       if (!is_member(bodies_.mode(i))) return true;
       continue;
     }
-    if (!solve_step(crowd)) continue;
+    if (bodies_.moving.any()) move_things(crowd);
+    list_.measure(crowd, crowd.step.length);
 
-    // The island is no more if it falls asleep.
+    // The island may be no more if members fall asleep.
     const std::shared_ptr<Crowd> kept = bodies_.islands.of(i).crowds.front();
     if (sleep_.falls_asleep(*kept)) return true;
+    if (!solve_step(crowd)) continue;
     if (!bodies_.islands.same(i, kept->members.front()) || bodies_.islands.of(i).crowds.size() != 1) continue;
     begin(*kept);
     count_calm(bodies_.islands.of(i), *kept);
@@ -167,6 +169,7 @@ Crowd& CrowdMotion::gather(Island& island) {
   crowd.lag.resize(n, 0);
   crowd.idle.resize(n, 0);
   crowd.pressed.resize(n, 0);
+  crowd.still.resize(n, 0);
 
   // Members of crowds go on as they are.
   std::vector<std::uint8_t> known(n, 0);
@@ -177,15 +180,10 @@ Crowd& CrowdMotion::gather(Island& island) {
   }
 
   // Others come from their flights.
-  double lightest = never;  // kg
-  double heaviest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     if (known[k] < 2) take_in(crowd, k, known[k] == 0);
     crowd.smallest = std::min(crowd.smallest, bodies_.world.radius[crowd.members[k]]);
-    lightest = std::min(lightest, bodies_.world.mass[crowd.members[k]]);
-    heaviest = std::max(heaviest, bodies_.world.mass[crowd.members[k]]);
   }
-  crowd.unequal = heaviest > tol::unequal_masses * lightest;
   renew_forces(crowd);
   island.crowds = {made};
   return crowd;
@@ -200,7 +198,9 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std:
     if (number == Numbering::none || bodies_.mode(earlier.members[k]) != Mode::stepped) continue;
     crowd.idle[number] = earlier.idle[k];
     crowd.pressed[number] = earlier.pressed[k];
+    crowd.still[number] = earlier.still[k];
     known[number] = earlier.step.valid ? 2 : 1;
+
     if (!earlier.step.valid) continue;
     crowd.x[number] = earlier.x[k];
     crowd.v[number] = earlier.v[k];
@@ -267,45 +267,86 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
 
 /// Lets bodies join that a member may meet before the list is made anew. Returns whether there are some.
 bool CrowdMotion::take_guests(Entity i) {
-  Island& island = bodies_.islands.of(i);
-  Crowd& crowd = *island.crowds.front();
-  const double need =
-      std::max(crowd.list.need, crowd.step.length * (greatest(crowd.v) + 0.5 * crowd.step.length * crowd.load));
-  const bool anew = !(crowd.list.gone + need <= crowd.list.reach);
+  const std::shared_ptr<Crowd> crowd = bodies_.islands.of(i).crowds.front();
+  CrowdReach& list = crowd->list;
+  std::vector<Entity> near = std::exchange(bodies_.islands.of(i).watched, {});
+  const double length = crowd->step.length;
+  const double need = std::max(list.need, length * (greatest(crowd->v) + 0.5 * length * crowd->load));
+
+  const bool anew = !(list.gone + need <= list.reach);
   if (anew) {
-    list_.hold_regions(crowd, need);
-    crowd.list.listed = false;
-    crowd.list.need = 0;
+    list_.begin(*crowd, need);
+    list.outsiders = list_.hold_regions(*crowd, crowd->members);
+    near.clear();
   }
-
-  crowd.list.outsiders.insert(crowd.list.outsiders.end(), island.watched.begin(), island.watched.end());
-  island.watched.clear();
-
-  // Those that join bring others only when the list is made: it takes as long as a step.
-  const double seconds = (anew ? tol::steps_of_list : 1) * crowd.step.length;
-  std::vector<Entity> guests;
-  for (const Entity e : crowd.list.outsiders) {
-    const Mode mode = bodies_.mode(e);
-    if (!is_in_world(mode) || mode == Mode::asleep || (is_member(mode) && bodies_.islands.same(e, i))) continue;
-    const CrowdList::Outlook outlook = list_.outlook(crowd, e, seconds);
-    if (outlook == CrowdList::Outlook::joins) guests.push_back(e);
-    if (outlook == CrowdList::Outlook::may_strike) flights_.note_changed(e);
+  list.outsiders.insert(list.outsiders.end(), near.begin(), near.end());
+  if (anew || list.sure < bodies_.now + length) {
+    list.sure = bodies_.now + tol::steps_of_list * length;
+    near = list.outsiders;
+  } else {
+    near.insert(near.end(), list.coming.begin(), list.coming.end());
   }
+  list.coming.clear();
 
-  for (const Entity e : guests) {
-    group_.join(e);
-    group_.unite(i, e);
+  // Those that join bring others.
+  bool any = false;
+  for (;;) {
+    const std::vector<Entity> guests = choose_guests(*crowd, near);
+    if (guests.empty()) break;
+    any = true;
+    near = list_.hold_regions(*crowd, unite(i, guests));
+    list.outsiders.insert(list.outsiders.end(), near.begin(), near.end());
   }
-  return !guests.empty();
+  if (any) go_on_with(i, *crowd);
+  return any;
 }
 
-/// Lists the pairs that may press. Returns whether members have left.
+/// Lets these bodies join the island of member i. Returns all that are new in it.
+std::vector<Entity> CrowdMotion::unite(Entity i, std::span<const Entity> guests) {
+  std::vector<Entity> came;
+  for (const Entity e : guests) {
+    group_.join(e);
+    if (bodies_.islands.same(i, e)) continue;
+    const std::vector<Entity>& members = bodies_.islands.of(e).members;
+    came.insert(came.end(), members.begin(), members.end());
+    group_.unite(i, e);
+  }
+  return came;
+}
+
+/// Gathers the crowd of member i, whose regions are those of the list of an earlier crowd.
+void CrowdMotion::go_on_with(Entity i, Crowd& earlier) {
+  Island& island = bodies_.islands.of(i);
+  for (const std::shared_ptr<Crowd>& crowd : island.crowds) close(*crowd, bodies_.now);
+  Crowd& crowd = gather(island);
+  crowd.list = std::move(earlier.list);
+  crowd.list.listed = false;
+}
+
+/// Of these outsiders, those that are to join. Others that come nearer are looked at again.
+std::vector<Entity> CrowdMotion::choose_guests(Crowd& crowd, std::span<const Entity> near) {
+  std::vector<Entity> guests;
+  for (const Entity e : near) {
+    const Mode mode = bodies_.mode(e);
+    if (!is_in_world(mode) || mode == Mode::asleep) continue;
+    if (is_member(mode) && bodies_.islands.same(e, crowd.members.front())) continue;
+
+    const CrowdList::Outlook outlook = list_.outlook(crowd, e);
+    if (outlook == CrowdList::Outlook::joins) guests.push_back(e);
+    if (outlook == CrowdList::Outlook::may_strike) flights_.note_changed(e);
+    if (outlook == CrowdList::Outlook::may_strike || outlook == CrowdList::Outlook::may_come)
+      crowd.list.coming.push_back(e);
+  }
+  std::sort(guests.begin(), guests.end());
+  return guests;
+}
+
+/// Lists the pairs that may press. Returns whether the island has split.
 bool CrowdMotion::list(Crowd& crowd) {
   crowd.earlier.push_back(bodies_.islands.of(crowd.members.front()).crowds.front());
   list_.list(crowd, crowd.earlier);
   crowd.earlier.clear();
-  crowd.list.listed = true;
-  return let_go(crowd) || split(crowd);
+  return split(crowd);
 }
 
 /// Lets members fly that nothing has pressed on for a while, and that are so far from the others that they would not
@@ -316,8 +357,8 @@ bool CrowdMotion::let_go(Crowd& crowd) {
     const Vec3 x = crowd.position(k);
     return std::ranges::any_of(bodies_.neighbours.bodies(i), [&](Entity e) {
       const double sizes = bodies_.world.radius[i] + bodies_.world.radius[e];
-      return (bodies_.position(e) - x).norm() < sizes + crowd.list.room && is_member(bodies_.mode(e)) &&
-             bodies_.islands.same(i, e);
+      return (bodies_.position(e) - x).norm() < sizes + crowd.list.room - crowd.list.gone &&
+             is_member(bodies_.mode(e)) && bodies_.islands.same(i, e);
     });
   };
 
@@ -334,10 +375,13 @@ bool CrowdMotion::let_go(Crowd& crowd) {
   if (stay.size() == crowd.members.size()) return false;
 
   // The island may be no more, and its crowd with it.
-  const std::vector<Entity> members = crowd.members;
-  if (!stay.empty()) flights_.note_changed(stay.front());
-  bodies_.islands.of(members.front()).end = bodies_.now;
-  bodies_.islands.retain(members.front(), std::move(stay));
+  const std::shared_ptr<Crowd> whole = bodies_.islands.of(crowd.members.front()).crowds.front();
+  const Entity first = stay.empty() ? no_entity : stay.front();
+  bodies_.islands.of(crowd.members.front()).end = bodies_.now;
+  bodies_.islands.retain(crowd.members.front(), std::move(stay));
+  if (first == no_entity) return true;
+  flights_.note_changed(first);
+  go_on_with(first, *whole);
   return true;
 }
 
@@ -357,11 +401,11 @@ bool CrowdMotion::split(Crowd& crowd) {
     if (crowd.pressed[k] != 0) presses[sets.root(k)] = 1;
   std::vector<std::uint32_t> first(n, ContactConstraint::fixed);
   std::vector<std::uint32_t> label(n);
-  std::uint32_t whole = ContactConstraint::fixed;
+  std::uint32_t rest = ContactConstraint::fixed;
   std::size_t parts = 0;
 
   for (std::uint32_t k = 0; k < n; ++k) {
-    std::uint32_t& of_part = presses[sets.root(k)] != 0 ? first[sets.root(k)] : whole;
+    std::uint32_t& of_part = presses[sets.root(k)] != 0 ? first[sets.root(k)] : rest;
     if (of_part == ContactConstraint::fixed) {
       of_part = k;
       ++parts;
@@ -370,11 +414,15 @@ bool CrowdMotion::split(Crowd& crowd) {
   }
   if (parts < 2) return false;
 
-  const Entity member = crowd.members.front();
-  bodies_.islands.of(member).end = bodies_.now;
+  const std::shared_ptr<Crowd> whole = bodies_.islands.of(crowd.members.front()).crowds.front();
+  bodies_.islands.of(crowd.members.front()).end = bodies_.now;
   // Each part has a crowd of its own from here on, so that no member is in two.
-  for (const Entity i : bodies_.islands.split(member, label)) {
-    gather(bodies_.islands.of(i));
+  for (const Entity i : bodies_.islands.split(crowd.members.front(), label)) {
+    Crowd& part = gather(bodies_.islands.of(i));
+    part.list = whole->list;
+    part.list.most = whole->list.reach;
+    part.earlier.clear();
+    list_.list_part(part, *whole);
     flights_.note_changed(i);
   }
   return true;
@@ -391,9 +439,9 @@ void CrowdMotion::move_things(Crowd& crowd) const {
 
 /// Solves the step. False: other bodies take part, or it needs a longer list.
 bool CrowdMotion::solve_step(Crowd& crowd) {
-  if (bodies_.moving.any()) move_things(crowd);
-  list_.measure(crowd, crowd.step.length);
-  return !sleep_.wake_pressed(crowd) && steps_.solve(crowd);
+  if (steps_.solve(crowd)) return true;
+  sleep_.wake_pressed(crowd);
+  return false;
 }
 
 /// Lets the step begin, with flights of members until its end.

@@ -51,6 +51,9 @@ class CrowdMotion {
   void renew_forces(Crowd& crowd) const;
   double longest_step(const Crowd& crowd) const;
   bool take_guests(Entity i);
+  std::vector<Entity> choose_guests(Crowd& crowd, std::span<const Entity> near);
+  std::vector<Entity> unite(Entity i, std::span<const Entity> guests);
+  void go_on_with(Entity i, Crowd& earlier);
   bool list(Crowd& crowd);
   bool let_go(Crowd& crowd);
   bool split(Crowd& crowd);

@@ -2,6 +2,7 @@
 // other rows have groups of their own.
 #include "simulate/crowd/crowd_rows.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace carom {
@@ -64,9 +65,11 @@ void CrowdRows::list(std::span<const Pair> pairs, std::uint32_t movable, std::ui
       if (pair.b < movable) used[pair.b] |= std::uint64_t{1} << colour;
     }
 
-    // Groups of four, but for pairs without a colour.
+    // Groups of four, but for pairs without a colour. Those that press are together.
     for (std::uint32_t colour = 0; colour <= colours; ++colour) {
       const std::size_t together = colour == colours ? 1 : lanes;
+      std::stable_partition(by_colour[colour].begin(), by_colour[colour].end(),
+                            [&](std::uint32_t k) { return pairs[k].near; });
       for (std::size_t k = 0; k < by_colour[colour].size(); ++k) {
         if (k % together == 0) open_group();
         fill(hot.size() - 1, k % together, pairs[by_colour[colour][k]]);

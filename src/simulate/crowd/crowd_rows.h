@@ -88,9 +88,10 @@ class CrowdRows {
     bool balls;      // both are balls
     double inverse;  // 1/kg
     double e;
-    double slow;   // m/s
-    double shell;  // m
-    double force;  // N
+    double slow;        // m/s
+    double shell;       // m
+    double force;       // N
+    bool near = false;  // it may close its gap soon
   };
 
   /// Lists these pairs, in this order but for colours. `movable`: the number of bodies. `dummy`: the number of a thing

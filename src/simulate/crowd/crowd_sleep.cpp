@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
+#include "numerics/disjoint_sets.h"
 #include "physics/world.h"
 #include "simulate/contact/exact_group.h"
 #include "simulate/contact/flight_changes.h"
@@ -15,65 +17,96 @@ namespace carom {
 
 namespace tol = exact_tolerance;
 
-bool CrowdSleep::wake_pressed(const Crowd& crowd) {
-  std::vector<std::pair<Entity, Entity>> pressed;
+void CrowdSleep::wake_pressed(const Crowd& crowd) {
+  std::vector<RowName> pressed;
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
-    const RowGroup& row = crowd.rows.hot[g];
-    const auto& [i, e] = crowd.rows.names[g][lane];
-    if (row.b[lane] < crowd.movable() || !bodies_.world.is_body(e)) return;
-    const std::uint32_t k = row.a[lane];
-    const Vec3 v = crowd.velocity(k, crowd.lag[k]) + (0.5 * crowd.step.length + crowd.lag[k]) * bodies_.applied[i];
-    const Vec3 normal = crowd.rows.normal(g, lane);
-    const RowState& state = crowd.rows.state[g];
-    if (state.gap[lane] - state.shell[lane] < crowd.step.length * normal.dot(v)) pressed.emplace_back(i, e);
+    if (crowd.presses_on_sleeper(g, lane, bodies_.world)) pressed.push_back(crowd.rows.names[g][lane]);
   });
 
   for (const auto& [i, e] : pressed) {
     if (bodies_.mode(e) == Mode::asleep) group_.wake(e);
     group_.unite(i, e);
   }
-  return !pressed.empty();
 }
 
-/// Whether all members press on something and hardly move. Where bodies rest by their speed: for a while.
-bool CrowdSleep::is_slow(Crowd& crowd) const {
-  const double unit = std::sqrt(crowd.load * crowd.smallest);  // m/s
-  const double limit = (quality_.rests_by_speed ? tol::slow_preview : tol::standstill) * unit;
-  bool slow = crowd.load > 0;
-  for (std::size_t k = 0; slow && k < crowd.members.size(); ++k) slow = crowd.drift(k).norm() <= limit;
-  for (std::size_t k = 0; slow && k < crowd.things.size(); ++k)
-    slow = !bodies_.moving.any() || !bodies_.moving.moves(crowd.things[k], bodies_.now);
+/// By member: whether it is to rest. All are if all hardly move. A part of a crowd must have done so for a while, with
+/// all that press on one another in it: what moves may be about to press on it.
+std::vector<std::uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
+  const double limit = tol::standstill * std::sqrt(crowd.load * crowd.smallest);  // m/s
+  const auto moves = [&](std::size_t k) { return !(crowd.load > 0) || crowd.drift(k).norm() > limit; };
+  const auto count = static_cast<std::uint32_t>(crowd.members.size());
+  bool all = true;
+  for (std::uint32_t k = 0; all && k < count; ++k) all = !moves(k);
+  std::vector<std::uint8_t> rests(count, all ? 1 : 0);
+  if (all || ++crowd.rest.steps % tol::steps_to_look != 0) return rests;
 
-  if (!slow) {
+  DisjointSets parts(count);
+  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    const RowGroup& row = crowd.rows.hot[g];
+    if (crowd.rows.state[g].force[lane] > 0 && row.b[lane] < crowd.movable()) parts.join(row.a[lane], row.b[lane]);
+  });
+
+  std::vector<std::uint8_t> moving(count, 0);  // by part
+  for (std::uint32_t k = 0; k < count; ++k)
+    if (moves(k)) moving[parts.root(k)] = 1;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    crowd.still[k] = moving[parts.root(k)] != 0 ? 0 : static_cast<std::uint8_t>(std::min(crowd.still[k] + 1, 255));
+    rests[k] = crowd.still[k] >= tol::still_looks ? 1 : 0;
+  }
+  return rests;
+}
+
+/// Whether the crowd has been slow as a whole for a while, and something has pressed on each of its members.
+bool CrowdSleep::has_settled(Crowd& crowd) const {
+  const double limit = tol::slow_preview * std::sqrt(crowd.load * crowd.smallest);  // m/s
+  double squares = 0;
+  bool carried = crowd.load > 0;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    squares += crowd.drift(k).squaredNorm();
+    carried = carried && crowd.idle[k] <= tol::idle_steps;
+  }
+
+  if (!carried || squares > limit * limit * static_cast<double>(crowd.members.size())) {
     crowd.rest.slow_since = {never, 0};
     return false;
   }
   if (bodies_.now < crowd.rest.slow_since) crowd.rest.slow_since = bodies_.now;
-  const double fall = std::sqrt(2 * crowd.smallest / crowd.load);  // s
-  return !quality_.rests_by_speed || bodies_.now - crowd.rest.slow_since >= tol::slow_for * fall;
+  return bodies_.now - crowd.rest.slow_since >= tol::slow_for * std::sqrt(2 * crowd.smallest / crowd.load);
 }
 
-/// The forces that would hold all members, and whether they do.
-CrowdSleep::Holding CrowdSleep::solve_rest(const Crowd& crowd) const {
-  std::vector<Vec3> a;
-  std::vector<double> inverse_mass;
-  for (const Entity i : crowd.members) {
-    a.push_back(bodies_.applied[i]);
-    inverse_mass.push_back(1 / bodies_.world.mass[i]);
-  }
-
+/// The pairs that touch, of the members that are to rest, with their present forces (N).
+CrowdSleep::Holding CrowdSleep::touching(const Crowd& crowd, std::span<const std::uint8_t> rests) const {
   Holding holding;
+  holding.number.resize(crowd.members.size(), ContactConstraint::fixed);
+  for (std::uint32_t k = 0; k < crowd.members.size(); ++k)
+    if (rests[k] != 0) {
+      holding.number[k] = static_cast<std::uint32_t>(holding.members.size());
+      holding.members.push_back(k);
+    }
+
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
+    const bool body = row.b[lane] < crowd.movable();
+    if (rests[row.a[lane]] == 0 || (body && rests[row.b[lane]] == 0)) return;
     if (crowd.rows.state[g].gap[lane] > 2 * crowd.step.shell + tol::waking_gap * crowd.smallest) return;
-    const std::uint32_t b = row.b[lane] < crowd.movable() ? row.b[lane] : ContactConstraint::fixed;
-    holding.pairs.push_back({row.a[lane], b, crowd.rows.normal(g, lane)});
+    const std::uint32_t b = body ? holding.number[row.b[lane]] : ContactConstraint::fixed;
+    holding.pairs.push_back({holding.number[row.a[lane]], b, crowd.rows.normal(g, lane)});
+    holding.pairs.back().force = crowd.rows.state[g].force[lane];
     holding.names.push_back(crowd.rows.names[g][lane]);
   });
-
-  bodies_.log.note(carom::solve({inverse_mass, a, holding.pairs, true}));
-  holding.balanced = std::ranges::all_of(a, [&](const Vec3& left) { return left.norm() <= tol::balance * crowd.load; });
   return holding;
+}
+
+/// Finds the forces that would hold them. Returns whether they do.
+bool CrowdSleep::solve_rest(const Crowd& crowd, Holding& holding) const {
+  std::vector<Vec3> a;
+  std::vector<double> inverse_mass;
+  for (const std::uint32_t k : holding.members) {
+    a.push_back(bodies_.applied[crowd.members[k]]);
+    inverse_mass.push_back(1 / bodies_.world.mass[crowd.members[k]]);
+  }
+  bodies_.log.note(carom::solve({inverse_mass, a, holding.pairs, true}));
+  return std::ranges::all_of(a, [&](const Vec3& left) { return left.norm() <= tol::balance * crowd.load; });
 }
 
 /// Wakes the sleeping bodies that these forces press on: they are in balance together, or not at all. Returns whether
@@ -91,29 +124,48 @@ bool CrowdSleep::wake_beneath(const Holding& holding) {
 }
 
 bool CrowdSleep::falls_asleep(Crowd& crowd) {
-  if (!is_slow(crowd) || bodies_.now.hi < crowd.rest.next_try) return false;
-  Holding holding = solve_rest(crowd);
-  if (!holding.balanced && !quality_.rests_by_speed) {
+  if (bodies_.now.hi < crowd.rest.next_try) return false;
+  for (const Entity thing : crowd.things)
+    if (bodies_.moving.any() && bodies_.moving.moves(thing, bodies_.now)) return false;
+
+  std::vector<std::uint8_t> rests(crowd.members.size(), 1);
+  if (!quality_.rests_by_speed) rests = slow_members(crowd);
+  if (quality_.rests_by_speed ? !has_settled(crowd) : std::ranges::none_of(rests, std::identity())) return false;
+
+  Holding holding = touching(crowd, rests);
+  if (!quality_.rests_by_speed && !solve_rest(crowd, holding)) {
     CrowdRest& rest = crowd.rest;
     rest.try_after = rest.try_after > 0 ? 2 * rest.try_after : 8 * crowd.step.length;
     rest.next_try = bodies_.now.hi + rest.try_after;
     return false;
   }
-  if (!holding.balanced) holding = {};
   if (wake_beneath(holding)) return false;
+  put_to_rest(crowd, holding);
+  return true;
+}
 
-  bodies_.log.absorb(crowd.step.kinetic);
+/// Lets them sleep. Other members take the step without them.
+void CrowdSleep::put_to_rest(Crowd& crowd, const Holding& holding) {
   for (std::size_t c = 0; c < holding.pairs.size(); ++c)
     if (holding.pairs[c].force > 0)
       group_.pressing.write(holding.names[c].a).push_back({holding.names[c].e, holding.pairs[c].force});
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+
+  double kinetic = 0;  // J
+  for (const std::uint32_t k : holding.members) {
     const Entity i = crowd.members[k];
+    kinetic += 0.5 * bodies_.world.mass[i] * crowd.velocity(k, crowd.lag[k]).squaredNorm();
     modes_.fall_asleep(i);
     flights_.begin(i, crowd.position(k), Vec3::Zero(), {});
     group_.member.write(i).gap = 2 * crowd.step.shell;
   }
-  bodies_.islands.retain(crowd.members.front(), {});
-  return true;
+  bodies_.log.absorb(kinetic);
+
+  std::vector<Entity> stay;
+  for (std::size_t k = 0; k < crowd.members.size(); ++k)
+    if (holding.number[k] == ContactConstraint::fixed) stay.push_back(crowd.members[k]);
+  bodies_.islands.of(crowd.members.front()).end = bodies_.now;
+  if (!stay.empty()) flights_.note_changed(stay.front());
+  bodies_.islands.retain(crowd.members.front(), std::move(stay));
 }
 
 }  // namespace carom

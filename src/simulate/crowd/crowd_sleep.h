@@ -19,20 +19,24 @@ class CrowdSleep {
              const ContactQuality& quality)
       : bodies_(bodies), modes_(modes), group_(group), flights_(flights), quality_(quality) {}
 
-  /// Puts a crowd whose step is solved to rest, if it is slow and forces hold it. Returns whether they do.
+  /// Puts members to rest that are slow, and that forces hold. Returns whether there are some. Gaps must be measured.
   bool falls_asleep(Crowd& crowd);
-  /// Wakes sleeping bodies on which a member would press in the step. Returns whether there are some.
-  bool wake_pressed(const Crowd& crowd);
+  /// Wakes the sleeping bodies on which the step would press.
+  void wake_pressed(const Crowd& crowd);
 
  private:
   struct Holding {
+    std::vector<std::uint32_t> members;  // their numbers in the crowd
+    std::vector<std::uint32_t> number;   // by member of the crowd: its place in `members`
     std::vector<ContactConstraint> pairs;
     std::vector<RowName> names;  // of the pairs
-    bool balanced = false;
   };
 
-  bool is_slow(Crowd& crowd) const;
-  Holding solve_rest(const Crowd& crowd) const;
+  std::vector<std::uint8_t> slow_members(Crowd& crowd) const;
+  bool has_settled(Crowd& crowd) const;
+  Holding touching(const Crowd& crowd, std::span<const std::uint8_t> rests) const;
+  bool solve_rest(const Crowd& crowd, Holding& holding) const;
+  void put_to_rest(Crowd& crowd, const Holding& holding);
   bool wake_beneath(const Holding& holding);
 
   ExactBodies& bodies_;

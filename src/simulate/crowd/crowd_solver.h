@@ -16,19 +16,24 @@ class CrowdSolver {
   struct Goal {
     double length;  // s, of the step
     double change;  // (m/s)^2, of a sweep: see SweepResult
+    double near;    // m: wider gaps at the step's end are looked at again when all others are solved
     int sweeps;     // at most
   };
 
   /// Changes the velocities `v` of all bodies, which contain the effect of the rows' present impulses, and the
-  /// impulses. Returns whether the goal was reached.
-  bool hold(CrowdRows& rows, std::vector<Four>& v, const Goal& goal);
-  /// Sweeps without directions, up to so many.
-  void sweep(CrowdRows& rows, std::vector<Four>& v, double length, int sweeps);
+  /// impulses. Returns the last sweep's result.
+  SweepResult hold(CrowdRows& rows, std::vector<Four>& v, const Goal& goal);
+  /// Sweeps so many times over the marked groups, without directions.
+  void sweep(CrowdRows& rows, std::vector<Four>& v, double length, std::span<const std::uint8_t> marks, int sweeps);
   /// Scales all impulses by one factor, so that they do no work beyond their targets. free: velocities without them.
   void scale(CrowdRows& rows, std::vector<Four>& v, const std::vector<Four>& free, double length) const;
 
  private:
+  bool mark(const CrowdRows& rows, const std::vector<Four>& v, double length, double gap);
+
   const CrowdKernels& kernels_ = widest_crowd_kernels();
+  std::vector<std::uint8_t> marks_;   // by group: it takes part
+  std::vector<std::uint32_t> which_;  // these groups
   std::vector<Four> before_;
   std::vector<Four> direction_;
 };

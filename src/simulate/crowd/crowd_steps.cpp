@@ -15,24 +15,42 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 bool CrowdSteps::solve(Crowd& crowd) {
-  strike(crowd);
+  if (!strike(crowd)) return false;
+  shorten(crowd, longest(crowd));
   if (crowd.step.length < tol::restart * crowd.step.last_length) restart(crowd);
 
   before_ = crowd.v;
   for (int tries = 0;; ++tries) {
     kick(crowd);
-    if (!hold(crowd)) bodies_.log.count_unsolved_step();
+    bodies_.log.count_crowd_step(hold(crowd));
     const double safe = safe_length(crowd);
-    if (safe >= crowd.step.length || quality_.overlap > 0 || tries == tol::most_shortenings) break;
-    crowd.step.length = std::max(safe, 0.25 * crowd.step.length);
+    if (safe >= crowd.step.length || tries == tol::most_shortenings) break;
+    shorten(crowd, std::max(safe, 0.25 * crowd.step.length));
     crowd.v = before_;
   }
 
   const double need = crowd.step.length * greatest(crowd.v);
-  if (crowd.list.gone + need <= crowd.list.reach) return true;
+  const bool listed = crowd.list.gone + need <= crowd.list.reach;
+  if (listed && !presses_on_sleepers(crowd)) return true;
   crowd.v = before_;
-  crowd.list.need = need;
+  if (!listed) crowd.list.need = need;
   return false;
+}
+
+/// Lets the step end sooner (s). What it restores of missing gaps is less too: the return must not be faster.
+void CrowdSteps::shorten(Crowd& crowd, double length) {
+  if (!(length < crowd.step.length)) return;
+  const double share = length / crowd.step.length;
+  for (RowGroup& group : crowd.rows.hot)
+    for (double& base : group.base) base *= base < 0 ? share : 1;
+  crowd.step.length = length;
+}
+
+/// The longest step that the velocities of this instant allow (s). Impacts have made some of them greater.
+double CrowdSteps::longest(const Crowd& crowd) const {
+  const double fastest = greatest(now_);
+  return fastest > 0 ? std::min(crowd.step.length, quality_.displacement * crowd.smallest / fastest)
+                     : crowd.step.length;
 }
 
 /// The share of a missing gap that a step restores: all of it in the time of falling by a radius, so that the return is
@@ -42,35 +60,59 @@ double CrowdSteps::return_of_step(const Crowd& crowd) const {
   return std::min(1.0, crowd.step.length / std::sqrt(2 * crowd.smallest / crowd.load));
 }
 
-/// Impacts of pairs that would close their gap in the step, in the order of rows, until none is left.
-void CrowdSteps::strike(Crowd& crowd) {
+/// Finds the velocities of this instant, and what rows aim at. Returns whether a row has an impact in the step.
+bool CrowdSteps::aim(Crowd& crowd) {
   crowd.step.speed = speed_in_contact(crowd);
-  crowd.step.shell = quality_.shell * crowd.smallest;
-  if (crowd.rest.closing) crowd.step.shell = 0;
+  crowd.step.shell = crowd.rest.closing ? 0 : quality_.shell * crowd.smallest;
   now_ = crowd.v;
   for (std::size_t k = 0; k < crowd.members.size(); ++k) add(now_[k], crowd.lag[k] * crowd.a[k]);
-  const double back = return_of_step(crowd);
-  const StepTarget target{crowd.step.length, crowd.taken > crowd.made ? back : 0, back,
-                          tol::share_of_gap, tol::gap_rounding * crowd.smallest,  crowd.step.shell};
-  const std::size_t groups = crowd.rows.groups();
-  const AimResult found = kernels_.aim(crowd.rows.hot.data(), crowd.rows.change.data(), crowd.rows.state.data(), groups,
-                                       now_.data(), target);
-  if (found.least_gap < 0) bodies_.log.note_overlap(-found.least_gap);
 
-  bool any = found.strikes;
+  const double back = return_of_step(crowd);
+  StepTarget target;
+  target.length = crowd.step.length;
+  target.push = crowd.taken > crowd.made ? back : 0;
+  target.back = back;
+  target.share = tol::share_of_gap;
+  target.below = tol::share_below;
+  target.least = tol::gap_rounding * crowd.smallest;
+  target.shell = crowd.step.shell;
+
+  const AimResult found = kernels_.aim(crowd.rows.hot.data(), crowd.rows.change.data(), crowd.rows.state.data(),
+                                       crowd.rows.groups(), now_.data(), target);
+  if (found.least_gap < 0) bodies_.log.note_overlap(-found.least_gap);
+  return found.strikes;
+}
+
+/// Impacts of pairs that would close their gap in the step, in the order of rows, until none is left. False: one of
+/// them is a sleeping body's.
+bool CrowdSteps::strike(Crowd& crowd) {
+  const std::size_t groups = crowd.rows.groups();
+  bool any = aim(crowd);
   for (int sweep = 0; any && sweep < quality_.impact_sweeps; ++sweep) {
     any = false;
     unsigned which = 0;
+    const double within = longest(crowd);
+
     for (std::size_t g = 0; (g = kernels_.next_strike(crowd.rows.hot.data(), crowd.rows.state.data(), g, groups,
-                                                      now_.data(), crowd.step.length, which)) < groups;
+                                                      now_.data(), within, which)) < groups;
          ++g) {
       any = true;
       for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane)
-        if ((which >> lane & 1) != 0) strike(crowd, g, lane);
+        if ((which >> lane & 1) != 0 && !strike(crowd, g, lane)) return false;
     }
   }
 
   crowd.step.kinetic = kinetic_energy(crowd);
+  return true;
+}
+
+/// Whether a row with a sleeping body has an impulse. It is to wake.
+bool CrowdSteps::presses_on_sleepers(const Crowd& crowd) const {
+  if (std::ranges::none_of(crowd.things, [&](Entity e) { return bodies_.world.is_body(e); })) return false;
+  bool any = false;
+  crowd.rows.for_each(
+      [&](std::size_t g, std::size_t lane) { any = any || crowd.presses_on_sleeper(g, lane, bodies_.world); });
+  return any;
 }
 
 /// Begins anew from the velocities of this instant. In a step that is much shorter than the last one, a kick for the
@@ -80,14 +122,19 @@ void CrowdSteps::restart(Crowd& crowd) const {
   std::fill(crowd.lag.begin(), crowd.lag.end(), 0);
 }
 
-/// The impact of one row.
-void CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane) {
-  const RowGroup& row = crowd.rows.hot[group];
+/// The impact of one row. False: its other body sleeps, and must wake first.
+bool CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane) {
+  RowGroup& row = crowd.rows.hot[group];
   const std::uint32_t a = row.a[lane];
   const std::uint32_t b = row.b[lane];
   const Vec3 normal = crowd.rows.normal(group, lane);
   const auto& [i, e] = crowd.rows.names[group][lane];
   const double speed = approach(crowd, group, lane);
+  if (b >= crowd.movable() && bodies_.world.is_body(e)) {
+    row.impulse[lane] = speed * row.share[lane];
+    return false;
+  }
+
   const double restitution = crowd.rows.state[group].e[lane];
   const double separation = restitution * speed;
   const Vec3 point = crowd.position(a) + bodies_.world.volume_of(i).support(normal) * normal;
@@ -98,6 +145,7 @@ void CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane) {
   bodies_.log.record(met);
   bodies_.log.lose(met.energy_lost);
   push(crowd, group, lane, met.impulse, crowd.v);
+  return true;
 }
 
 /// Changes the velocities of the instant, and these drifts, by an impulse (N s) of a row. Returns the work of a thing
@@ -146,12 +194,18 @@ void CrowdSteps::kick(Crowd& crowd) {
       add(crowd.v[k], seconds * bodies_.applied[i]);
       continue;
     }
+
     const double half = 0.5 * seconds * fade;
     const Vec3 v = ((1 - half) * crowd.drift(k) + seconds * bodies_.applied[i]) / (1 + half);
     crowd.v[k] = four_of(v, crowd.v[k].at[3] / (1 + half));
   }
   free_ = crowd.v;
+  start_warm(crowd);
+}
 
+/// Begins with the forces of contacts in the last step.
+void CrowdSteps::start_warm(Crowd& crowd) {
+  crowd.v = free_;
   for (std::size_t g = 0; g < crowd.rows.groups(); ++g)
     for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
       const std::uint32_t a = crowd.rows.hot[g].a[lane];
@@ -161,14 +215,14 @@ void CrowdSteps::kick(Crowd& crowd) {
   kernels_.push(crowd.rows.hot.data(), crowd.rows.groups(), crowd.v.data());
 }
 
-/// The root mean square of the relative speeds of pairs that pressed in the last step (m/s). Pairs that fly beside one
-/// another do not count: they would make the forces of a heap coarse.
+/// The root mean square of the relative speeds of bodies that pressed on each other in the last step (m/s). Pairs that
+/// fly beside one another, and slides along fixed things, would make the forces of a heap coarse.
 double CrowdSteps::speed_in_contact(const Crowd& crowd) {
   double squares = 0;
   std::size_t pressing = 0;
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
-    if (!(crowd.rows.state[g].force[lane] > 0)) return;
     const RowGroup& row = crowd.rows.hot[g];
+    if (!(crowd.rows.state[g].force[lane] > 0) || row.b[lane] >= crowd.movable()) return;
     squares += (crowd.drift(row.b[lane]) - crowd.drift(row.a[lane])).squaredNorm();
     ++pressing;
   });
@@ -180,31 +234,69 @@ CrowdSolver::Goal CrowdSteps::goal(const Crowd& crowd) const {
   const auto bodies = static_cast<double>(std::max(std::ranges::count(crowd.pressed, 1), std::ptrdiff_t{1}));
   const double gained = crowd.load * crowd.step.length;
   const double rounding = tol::gap_rounding * std::max(gained, greatest(before_));
-  const double left = quality_.accuracy * std::max(std::min(gained, tol::force_of_speed * crowd.step.speed),
-                                                   tol::least_force * crowd.step.speed) +
-                      rounding;
-  return {crowd.step.length, left * left * bodies, quality_.sweeps};
+  // Slower bodies rest by the contact solver's forces.
+  const double still = tol::tremor * std::sqrt(crowd.load * crowd.smallest);
+  const double speed = std::max(crowd.step.speed, still);
+  const double left =
+      quality_.accuracy * std::max(std::min(gained, tol::force_of_speed * speed), tol::least_force * speed) + rounding;
+  return {crowd.step.length, left * left * bodies, gained * crowd.step.length, quality_.sweeps};
 }
 
 /// Finds the impulses that keep all pairs apart. Returns whether they are as accurate as the goal.
 bool CrowdSteps::hold(Crowd& crowd) {
-  const bool solved = solver_.hold(crowd.rows, crowd.v, goal(crowd));
+  const CrowdSolver::Goal aim = goal(crowd);
+  SweepResult found = solver_.hold(crowd.rows, crowd.v, aim);
+  if (found.is_short && give_up_returns(crowd)) {
+    start_warm(crowd);
+    found = solver_.hold(crowd.rows, crowd.v, aim);
+  }
   // Forces as a whole then do no work but that of their targets, whatever the sweeps have left. Without this the errors
   // of many steps add up to energy.
   solver_.scale(crowd.rows, crowd.v, free_, crowd.step.length);
-  if (quality_.overlap > 0) return solved;
-  for (int more = 0; solved && more < tol::more_sweeps && safe_length(crowd) < crowd.step.length; more += 4)
-    solver_.sweep(crowd.rows, crowd.v, crowd.step.length, 4);
-  return solved || (crowd.unequal && solve_exactly(crowd));
+  if (safe_length(crowd) < crowd.step.length) keep_apart(crowd);
+  if (found.change <= aim.change) return true;
+  give_up_returns(crowd);
+  return crowd.members.size() <= tol::exact_members && solve_exactly(crowd);
 }
 
-/// The longest drift (s) after which no two overlap, but for rounding.
+/// Lets pairs keep the gaps that they have. Bodies that just fit between walls cannot all have more, and the forces
+/// that should give it to them would grow without end. Returns whether there are such pairs.
+bool CrowdSteps::give_up_returns(Crowd& crowd) {
+  bool any = false;
+  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    double& base = crowd.rows.hot[g].base[lane];
+    if (!(base < 0)) return;
+    base = 0;
+    any = true;
+  });
+  return any;
+}
+
+/// Sweeps over the pairs that would overlap, and those that overlap because of that. Others have slack.
+void CrowdSteps::keep_apart(Crowd& crowd) {
+  std::vector<std::uint8_t> marks(crowd.rows.groups(), 0);
+  for (int sweep = 0; sweep < tol::more_sweeps; ++sweep) {
+    bool any = false;
+
+    crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+      const RowGroup& row = crowd.rows.hot[g];
+      const double speed = crowd.rows.normal(g, lane).dot(crowd.drift(row.b[lane]) - crowd.drift(row.a[lane]));
+      if (crowd.rows.state[g].gap[lane] + crowd.step.length * speed >= 0) return;
+      any = true;
+      marks[g] = 1;
+    });
+    if (!any) return;
+    solver_.sweep(crowd.rows, crowd.v, crowd.step.length, marks, 4);
+  }
+}
+
+/// The longest drift (s) after which no two overlap by more than is allowed.
 double CrowdSteps::safe_length(const Crowd& crowd) const {
   return kernels_.safe_drift(crowd.rows.hot.data(), crowd.rows.state.data(), crowd.rows.groups(), crowd.v.data(),
-                             tol::gap_rounding * crowd.smallest);
+                             std::max(tol::gap_rounding, quality_.overlap) * crowd.smallest);
 }
 
-/// The same impulses by the contact solver, where sweeps converge too slowly because masses are unequal.
+/// The same impulses by the contact solver, where sweeps converge too slowly: masses are unequal, or bodies are jammed.
 bool CrowdSteps::solve_exactly(Crowd& crowd) const {
   std::vector<Vec3> motion;
   std::vector<double> inverse_mass;
@@ -223,13 +315,13 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
     if (!body) pair.surface = pair.normal.dot(crowd.drift(row.b[lane]));
     pairs.push_back(pair);
   });
-  const Certificate certificate = carom::solve({inverse_mass, motion, pairs});
+  if (!carom::solve({inverse_mass, motion, pairs}).solved()) return false;
 
   auto pair = pairs.cbegin();
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) { crowd.rows.hot[g].impulse[lane] = pair++->force; });
   for (std::size_t k = 0; k < motion.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) crowd.v[k].at[axis] = motion[k][axis];
-  return certificate.solved();
+  return true;
 }
 
 /// The speed of approach of a row at this instant (m/s).

@@ -26,8 +26,10 @@ class CrowdSteps {
 
  private:
   double return_of_step(const Crowd& crowd) const;
-  void strike(Crowd& crowd);
-  void strike(Crowd& crowd, std::size_t group, std::size_t lane);
+  bool aim(Crowd& crowd);
+  bool strike(Crowd& crowd);
+  bool presses_on_sleepers(const Crowd& crowd) const;
+  bool strike(Crowd& crowd, std::size_t group, std::size_t lane);
   void restart(Crowd& crowd) const;
   double push(Crowd& crowd, std::size_t group, std::size_t lane, double impulse, std::vector<Four>& drifts);
   double kinetic_energy(const Crowd& crowd) const;
@@ -36,6 +38,11 @@ class CrowdSteps {
   static double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
   bool hold(Crowd& crowd);
+  static void shorten(Crowd& crowd, double length);
+  double longest(const Crowd& crowd) const;
+  void start_warm(Crowd& crowd);
+  static bool give_up_returns(Crowd& crowd);
+  void keep_apart(Crowd& crowd);
   double safe_length(const Crowd& crowd) const;
   bool solve_exactly(Crowd& crowd) const;
   void absorb_approaches(Crowd& crowd);
