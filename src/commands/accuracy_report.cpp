@@ -29,8 +29,8 @@ std::string integrator_text(const Assessment& assessment) {
 }
 
 std::string contact_text(const Assessment& assessment) {
-  if (assessment.stepped_contact == 0) return "none by time stepping";
-  return fmt::format("{} by time stepping, summed over bodies; it lost {} beyond impacts",
+  if (assessment.stepped_contact == 0) return "none in steps of crowds";
+  return fmt::format("{} in steps of crowds, summed over bodies; they lost {} beyond impacts",
                      quantity(assessment.stepped_contact, "s"), quantity(assessment.method_error, "J"));
 }
 

@@ -52,6 +52,20 @@ std::string written_files(const PlannedScene& planned) {
   return listed(names, names.size());
 }
 
+/// Contact in steps of crowds: how long, and with which errors.
+std::string stepped_text(const Summary& summary, const Scene& scene) {
+  const QualityLevel level = scene.simulate.contact.quality;
+  const double overlap = quality_of(level).overlap;
+  std::string text = fmt::format("{} of lasting contact, summed over bodies, in steps of crowds at `quality: {}`",
+                                 quantity(summary.stepped_contact, "s"), name_of(level));
+  if (overlap > 0) text += fmt::format(", which may overlap by {:.0f} % of a radius", 100 * overlap);
+  text += fmt::format(", {} made by errors", quantity(summary.contact.made, "J"));
+  if (summary.contact.unsolved_steps > 0)
+    text += fmt::format(", forces less accurate in {} of {}", grouped(summary.contact.unsolved_steps),
+                        counted(summary.contact.crowd_steps, "step", "steps"));
+  return text;
+}
+
 std::string collisions_text(const Summary& summary) {
   if (summary.collisions == 0) return "none";
   std::string text = fmt::format("{} ({} body-body, {} body-fixed", grouped(summary.collisions),
@@ -177,10 +191,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   // What happened: impacts, contact, and what regions took away.
   block.line("collisions", collisions_text(summary));
   block.line("contact", contact_text(summary));
-  if (summary.stepped_contact > 0)
-    block.line("stepped",
-               fmt::format("{} of lasting contact, summed over bodies, by time stepping: accurate to first order",
-                           quantity(summary.stepped_contact, "s")));
+  if (summary.stepped_contact > 0) block.line("stepped", stepped_text(summary, *planned.scene));
   if (const TakenUp& all = summary.contact.taken_up; all.impacts > 0)
     block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
@@ -235,7 +246,8 @@ Json summary_json(const Summary& s) {
           {"stepped_contact_s", s.stepped_contact},
           {"removed_J", number_or_null(s.energy.removed)},
           {"ended_by", s.ended_by},
-          {"energy_absorbed_J", number_or_null(s.contact.taken_up.energy)}};
+          {"energy_absorbed_J", number_or_null(s.contact.taken_up.energy)},
+          {"contact_made_J", number_or_null(s.contact.made)}};
 }
 
 Json warnings_json(const std::vector<Warning>& warnings) {

@@ -47,7 +47,7 @@ Histogram SpeedsChart::histogram() const {
 }
 
 bool SpeedsChart::has_maxwell() const {
-  return speeds_.size() >= least_bodies && energy_.kinetic() > 0 && !scene_.simulate.merge;
+  return speeds_.size() >= least_bodies && energy_.kinetic() > 0 && !scene_.simulate.contact.merge;
 }
 
 double SpeedsChart::maxwell(double speed, double width) const {

@@ -258,7 +258,7 @@ void write_summary(OutputFile& file, const Summary& s) {
   file.write(
       "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,last_collision_s,"
       "energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,momentum_drift_kg_m_per_s,max_overlap_m,"
-      "max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J");
+      "max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J");
   for (const Measured& measure : s.measures) file.write("," + measure.name);
   file.write("\n");
   CsvRow row(file);
@@ -268,7 +268,7 @@ void write_summary(OutputFile& file, const Summary& s) {
   row.number(s.energy.start).number(s.energy.end).number(s.energy.lost).number(s.energy.work).number(s.energy.residual);
   row.number(s.momentum_drift).number(s.max_overlap).number(s.max_speed);
   row.count(s.resting).count(s.frames).number(s.stepped_contact);
-  row.number(s.energy.removed).text(s.ended_by).number(s.contact.taken_up.energy);
+  row.number(s.energy.removed).text(s.ended_by).number(s.contact.taken_up.energy).number(s.contact.made);
   for (const Measured& measure : s.measures)
     measure.text.empty() ? row.number(measure.value) : row.text(valid_utf8(measure.text));
   row.end();

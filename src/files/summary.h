@@ -44,6 +44,9 @@ struct ContactCounts {
   std::uint64_t removed = 0;    // bodies
   std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
+  double made = 0;  // J, by errors of the steps of crowds
+  std::uint64_t crowd_steps = 0;
+  std::uint64_t unsolved_steps = 0;  // of crowds
   SharedImpacts shared;
   std::string first_shared{};  // "cue with up and low at 0.3 s"; empty: there was none
 };

@@ -125,6 +125,9 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
                      tally.removed.bodies,
                      tally.collapses,
                      tally.taken_up,
+                     tally.doubts.contact_made,
+                     tally.doubts.crowd_steps,
+                     tally.doubts.unsolved_steps,
                      tally.shared,
                      first_shared(scene, tally.shared)};
   summary.energy.of_forces = work_of_forces(scene, end, tally);

@@ -37,6 +37,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
   options.one_by_one = request.steps.one_by_one;
+  options.quality = &quality_of(simulate.contact.quality);
   if (request.steps.error > 0) options.step_error = request.steps.error;
   return options;
 }
@@ -44,7 +45,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
 /// Follows paths in closed form, from event to event.
 std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   ExactOptions options = exact_options(request);
-  options.merge = request.simulate.merge;
+  options.merge = request.simulate.contact.merge;
   options.record_paths = request.recording.paths && goes_along_parabolas(request.world, request.simulate);
   return make_exact_simulator(request.world, request.initial, options);
 }

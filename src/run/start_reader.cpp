@@ -190,7 +190,7 @@ FormerState state_of(const FormerRun& run, std::optional<double> at) {
   const std::vector<Entity>& part_of = former.state.part_of;
   bool gone = false;
   for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
-  former.has_merged = gone && run.scene.simulate.merge;
+  former.has_merged = gone && run.scene.simulate.contact.merge;
   former.file = file;
   for (const FileRecord& record : run.manifest.files)
     if (record.name == file) former.sha256 = record.sha256;

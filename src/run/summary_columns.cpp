@@ -18,7 +18,7 @@ double energy_of(const Summary& summary) {
   return summary.energy.*Member;
 }
 
-constexpr std::array<SummaryColumn, 25> columns = {{
+constexpr std::array<SummaryColumn, 26> columns = {{
     {"run", "the run's name"},
     {"title", "the scene's title"},
     {"engine", "the simulator: exact, stepped or book"},
@@ -44,13 +44,15 @@ constexpr std::array<SummaryColumn, 25> columns = {{
     {"max_speed_m_per_s", "greatest speed of a body", number_of<&Summary::max_speed>},
     {"resting", "bodies in lasting contact at the end", number_of<&Summary::resting>},
     {"frames", "pictures drawn", number_of<&Summary::frames>},
-    {"stepped_contact_s", "lasting contact computed by time stepping, summed over bodies; 0: all contact is exact",
+    {"stepped_contact_s", "lasting contact computed in steps of crowds, summed over bodies; 0: all contact is exact",
      number_of<&Summary::stepped_contact>},
     {"removed_J", "kinetic and potential energy of bodies that regions have removed",
      energy_of<&EnergyTotals::removed>},
     {"ended_by", "what ended the run: duration, rest, collisions or a region"},
     {"energy_absorbed_J", "the part of energy_lost_J that lasting contact absorbed, without rows in collisions.csv",
      [](const Summary& summary) { return summary.contact.taken_up.energy; }},
+    {"contact_made_J", "the part of energy_residual_J that errors of stepped contact have made",
+     [](const Summary& summary) { return summary.contact.made; }},
 }};
 
 }  // namespace

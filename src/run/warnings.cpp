@@ -20,6 +20,8 @@ namespace {
 
 /// Of the energy turned over. A larger residual is an error of the method that shows in results.
 constexpr double residual_share = 1e-3;
+/// Of the steps of crowds. More of them without accurate forces show in results.
+constexpr double unsolved_share = 0.01;
 /// Of energies. A smaller difference is rounding.
 constexpr double energy_rounding = 0x1p-40;
 /// In rad, of a step. Forces that turn faster are not resolved.
@@ -46,6 +48,7 @@ class Warnings {
     check_energy();
     check_steps();
     check_contact();
+    check_crowds();
     check_rest();
     check_digits();
     return std::move(all_);
@@ -59,9 +62,8 @@ class Warnings {
     if (has_fixed_steps(scene_, engine_)) return "use a shorter simulate.step, or `integrator: dop853`";
     if (engine_.engine == Engine::book) return "use `engine: exact` for true impacts, or a shorter simulate.step";
     if (summary_.stepped_contact > 0)
-      return "lasting contact of many bodies was computed in time steps, to first order: compare dependent figures "
-             "across "
-             "several seeds";
+      return "lasting contact of many bodies was computed in steps: use a finer simulate.contact.quality, and compare "
+             "dependent figures across several seeds";
     const std::vector<Force>& forces = scene_.world.forces;
     const bool attracts = std::any_of(forces.begin(), forces.end(),
                                       [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
@@ -125,6 +127,18 @@ class Warnings {
                     tally_.doubts.contacts == 1 ? " was" : "s were",
                     unequal ? fmt::format("make masses less unequal, which are from {:.3g} to {:.3g} kg", *least, *most)
                             : "compare dependent figures with those of a start that differs slightly"));
+  }
+
+  /// Warns of crowds whose errors made energy, and of many steps with forces less accurate than they should be.
+  void check_crowds() {
+    const Doubts& doubts = tally_.doubts;
+    if (doubts.contact_made > residual_share * summary_.energy.turnover)
+      add("contact", fmt::format("errors of lasting contact made {:.3g} J, {:.2g} of the energy turned over: {}",
+                                 doubts.contact_made, doubts.contact_made / summary_.energy.turnover, remedy()));
+    const auto unsolved = static_cast<double>(doubts.unsolved_steps);
+    if (!(unsolved > unsolved_share * static_cast<double>(doubts.crowd_steps))) return;
+    add("contact", fmt::format("forces were not as accurate as they should be in {} of {} steps of lasting contact: {}",
+                               doubts.unsolved_steps, doubts.crowd_steps, remedy()));
   }
 
   /// Warns of a body that fell asleep in balance although forces would have moved it noticeably.

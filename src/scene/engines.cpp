@@ -23,10 +23,10 @@ void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
         {"engine",
          fmt::format("under {} paths have no closed form, which `engine: exact` follows", open_force_text(*open)),
          "expected `engine: stepped`, or `auto`"});
-  if (simulate.merge && !world.strings.empty())
+  if (simulate.contact.merge && !world.strings.empty())
     lacks.push_back({"contact", "`contact: merge` is for parabolas and linear drag, not for `strings`",
                      "expected `contact: bounce`"});
-  if (const Force* bending = bending_force(world); bending != nullptr && simulate.merge)
+  if (const Force* bending = bending_force(world); bending != nullptr && simulate.contact.merge)
     lacks.push_back(
         {"contact",
          fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`", name_of(bending->law)),
@@ -34,7 +34,7 @@ void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
 }
 
 void stepped_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
-  if (!simulate.merge) return;
+  if (!simulate.contact.merge) return;
   // If `auto` excludes the exact engine, name the force that is the cause.
   const Force* bending = simulate.engine == Engine::automatic ? bending_force(world) : nullptr;
   lacks.push_back({"contact",
@@ -49,7 +49,7 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   const auto lack = [&](const char* at, const char* what, const char* instead) {
     lacks.push_back({at, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead)});
   };
-  if (simulate.merge) lack("contact", "`contact: merge`", "`engine: exact`");
+  if (simulate.contact.merge) lack("contact", "`contact: merge`", "`engine: exact`");
   if (simulate.tolerance) lack("tolerance", "`tolerance`", "`step`");
   if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
@@ -66,6 +66,10 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
 
 std::string_view name_of(Engine engine) {
   return parts_of(engine_names)[static_cast<std::size_t>(engine)];
+}
+
+std::string_view name_of(QualityLevel level) {
+  return parts_of(quality_names)[static_cast<std::size_t>(level)];
 }
 
 std::string_view name_of(Integrator integrator) {

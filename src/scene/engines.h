@@ -14,8 +14,10 @@ struct World;
 
 // In the order of Engine and Integrator.
 inline constexpr std::string_view engine_names = "auto|exact|stepped|book";
+inline constexpr std::string_view quality_names = "preview|fast|normal|fine|finer|reference";
 inline constexpr std::string_view integrator_names = "dop853|euler|verlet|rk4";
-std::string_view name_of(Engine engine);          // as in scene files
+std::string_view name_of(Engine engine);  // as in scene files
+std::string_view name_of(QualityLevel level);
 std::string_view name_of(Integrator integrator);  // as in scene files
 
 /// The engine of `simulate`. `auto` is exact where every path of the world has a closed form, else stepped.

@@ -457,11 +457,12 @@ void write_out_balls(Node& root) {
 
 }  // namespace
 
-void write_out(Node& root) {
-  for (const Field& field : kind_named("scene").fields) {
-    if (field.plain.empty() || !root.is(Node::Kind::map)) continue;
-    Node* value = root.find(field.key);
-    if (value == nullptr || !value->is(Node::Kind::scalar)) continue;
+void write_out(Node& part, const Kind& kind) {
+  for (const Field& field : kind.fields) {
+    if (field.type != Type::part || !part.is(Node::Kind::map)) continue;
+    Node* value = part.find(field.key);
+    if (value != nullptr && value->is(Node::Kind::map)) write_out(*value, kind_named(field.of));
+    if (field.plain.empty() || value == nullptr || !value->is(Node::Kind::scalar)) continue;
     Node whole;
     whole.kind = Node::Kind::map;
     whole.place = value->place;

@@ -21,7 +21,7 @@ const std::string* expression_at(const ExpressionTexts& texts, std::string_view 
 const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path);
 
 /// Writes short forms out in full: `restitution: 0.3` is `restitution: {default: 0.3}`. It costs nothing to repeat.
-void write_out(Node& root);
+void write_out(Node& part, const Kind& kind);
 
 /// Replaces each expression by its number, and each repeated thing `name` by its members `name.0`, `name.1`, ...
 /// A group without a ball gets an empty one where `defaults` have a ball.

@@ -257,8 +257,13 @@ constexpr Field simulate_fields[] = {
     {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in lasting contact. Default: on a flat surface the slowest speed that the clock resolves; among bodies 0.03 sqrt(p L), with p the acceleration by gravity and forces and L the diameter of the smaller body, or its radius on a fixed thing.", .example = "0.01", .member = fills<Simulate, &Simulate::rest_speed>},
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more collisions stops with an error.", .example = "1000000", .title = "Maximum number of collisions", .member = fills<Simulate, &Simulate::max_collisions>},
     {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Integrator of engine stepped. dop853: Dormand-Prince, order 8, chooses its steps; euler: semi-implicit, order 1; verlet: velocity Verlet, order 2; rk4: Runge-Kutta, order 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
-    {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},
+    {.key = "contact", .type = Type::part, .of = "contact", .doc = "What happens where bodies meet. A word alone is `mode`.", .example = "{quality: fast}", .plain = "mode", .member = fills_if_given<Simulate, &Simulate::contact>},
     {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Tolerance of positions, instead of step. If it cannot be met, a warning gives the time until which it holds and the error after that. The scene is simulated several times.", .example = "0.000001", .engines = "auto|exact|stepped", .member = fills<Simulate, &Simulate::tolerance>},
+};
+
+constexpr Field contact_fields[] = {
+    {.key = "mode", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", .example = "merge", .engines = "auto|exact", .member = fills<ContactSettings, &ContactSettings::merge>},
+    {.key = "quality", .type = Type::choice, .of = quality_names, .doc = "How finely pours, piles and heaps are computed: bodies with contacts that change too often to be followed one by one. Each level has a length of steps, an accuracy of forces and a gap that contacts keep, 1/1000 of the least radius at normal. preview may overlap by a twentieth of a radius.", .example = "fast", .member = fills<ContactSettings, &ContactSettings::quality>},
 };
 
 constexpr Field stop_fields[] = {
@@ -340,6 +345,7 @@ constexpr Kind kinds_of_scenes[] = {
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
     {"start", "", "The former run from which bodies begin.", start_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
+    {"contact", "", "What happens where bodies meet.", contact_fields},
     {"stop", "a", "A condition that ends the run.", stop_fields},
     {"camera", "", "Camera of the pictures.", camera_fields},
     {"keyframe", "a", "A view at a time.", keyframe_fields},

@@ -76,7 +76,7 @@ struct SceneFile::Impl {
       stop_if_wrong(parsing, options);
     }
     root = std::move(*tree);
-    write_out(root);
+    write_out(root, kind_named("scene"));
   }
 
   Scene scene(const std::vector<Setting>& settings) {
@@ -88,7 +88,7 @@ struct SceneFile::Impl {
     Node tree = root;
     for (std::uint32_t i = 1; i < sources.size(); ++i) {
       apply_setting(tree, sources, i, diagnostics);
-      write_out(tree);
+      write_out(tree, kind_named("scene"));
     }
     return resolve(tree, diagnostics);
   }

@@ -219,6 +219,7 @@ class Resolver {
     Overrides overrides;
     if (scene_.simulate.engine == Engine::book && view.find("step") == nullptr)
       overrides["step"] = shortest(*scene_.simulate.step);
+    overrides["contact"] = flow(view.part("contact", "contact"));
     line("simulate", flow(view, overrides));
   }
 

@@ -263,10 +263,18 @@ Json exclusions(const Kind& kind) {
   return all;
 }
 
-/// Field::engines.
-Json engine_rule(const Field& field) {
+/// Field::engines of a key of `simulate`, or of a key in a part of it.
+Json engine_rule(const Field& field, const Field* part = nullptr) {
   Json when = required({field.key});
   if (!field.initial.empty()) when.update(at(field.key, {{"not", {{"const", json_of_yaml(field.initial)}}}}));
+  if (part != nullptr) {
+    Json of_part = required({part->key});
+    when["type"] = "object";
+    if (part->plain == field.key)
+      when = {{"anyOf", Json::array({when, {{"type", "string"}, {"not", {{"const", json_of_yaml(field.initial)}}}}})}};
+    of_part.update(at(part->key, when));
+    when = of_part;
+  }
   const std::vector<std::string_view> engines = parts_of(field.engines);
   const Field& engine = *find_field(kind_named("simulate"), "engine");
   Json then = at(engine.key, {{"enum", engines}});
@@ -332,7 +340,10 @@ Json kind_schema(const Kind& kind) {
   for (const Field& field : kind.fields) {
     Json& property = properties[std::string(field.key)] = field_schema(field);
     if (!kind.defaults.empty() && !field.own && field.type != Type::text) property = or_none(std::move(property));
-    if (!field.engines.empty()) rules.push_back(engine_rule(field));
+    if (!field.engines.empty() && kind.name == "simulate") rules.push_back(engine_rule(field));
+    if (field.type == Type::part && kind.name == "simulate")
+      for (const Field& inner : kind_named(field.of).fields)
+        if (!inner.engines.empty()) rules.push_back(engine_rule(inner, &field));
     if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(kind, field));
     add_beneath_rules(field, rules);
   }

@@ -3,11 +3,17 @@
 #include <cstdint>
 #include <optional>
 
+#include "physics/contact_quality.h"
 #include "physics/integrator.h"
 
 namespace carom {
 
 enum class Engine : std::uint8_t { automatic, exact, stepped, book };
+
+struct ContactSettings {
+  bool merge = false;  // colliding bodies merge into one
+  QualityLevel quality = QualityLevel::normal;
+};
 
 struct Simulate {
   double duration = 0;  // s
@@ -20,7 +26,7 @@ struct Simulate {
   std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;
   bool as_printed = false;  // book only
-  bool merge = false;       // colliding bodies merge into one
+  ContactSettings contact;
   // From `stop`; regions that stop are in the World. The run ends before its duration when all bodies are at rest, or
   // after so many collisions.
   bool stop_at_rest = false;

@@ -99,7 +99,7 @@ TEST(SpeedsChart, HasNoCurveForFewBodiesNorForResting) {
   EXPECT_FALSE(speeds_of(few, 3).has_maxwell());
   EXPECT_FALSE(speeds_of(resting, 0).has_maxwell());
   Scene merging = scene_of(100);
-  merging.simulate.merge = true;
+  merging.simulate.contact.merge = true;
   EXPECT_FALSE(speeds_of(merging, 3).has_maxwell());
   EXPECT_TRUE(speeds_of(resting, 3).has_maxwell());
 }

@@ -150,7 +150,7 @@ class Run {
 
   /// Energy is lost only in collisions, except for rounding. (Merged bodies have the masses of several.)
   void books(double gain, const Tally& tally) {
-    if (scene_.simulate.merge) return;
+    if (scene_.simulate.contact.merge) return;
     const double relative =
         relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
     const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.removed.energy);

@@ -147,8 +147,8 @@ TEST(Engines, HaveTheForcesThatTheyCanFollow) {
             "     = expected `engine: stepped`, or `auto`\n");
   EXPECT_EQ(load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, engine: exact}\n").simulate.engine,
             Engine::exact);
-  EXPECT_TRUE(
-      load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n").simulate.merge);
+  EXPECT_TRUE(load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n")
+                  .simulate.contact.merge);
   EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, contact: merge}\n"),
             "scene.yaml:4:34: error: `contact: merge` is for parabolas and linear drag, not for `drag`\n"
             "   4 | simulate: {duration: 1, contact: merge}\n"
@@ -189,7 +189,7 @@ TEST(BookEngine, RefusesWhatTheChaptersListingsDoNotHave) {
 
 TEST(Requests, ContactsAndMerging) {
   const Scene scene = load_text("scene: 1\nsimulate: {duration: 1, contact: merge}\noutput: {contacts: true}\n");
-  EXPECT_TRUE(scene.simulate.merge);
+  EXPECT_TRUE(scene.simulate.contact.merge);
   ASSERT_TRUE(scene.output.contacts);
   EXPECT_EQ(scene.output.contacts->every, 1.0 / 30);
   EXPECT_FALSE(load_text(start).output.contacts);

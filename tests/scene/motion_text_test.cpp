@@ -50,6 +50,7 @@ TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
                           "simulate.step=0.01",
                           "simulate.tolerance=0.01",
                           "simulate.rest_speed=0.1",
+                          "simulate.contact.quality=fast",
                           "simulate.max_collisions=9",
                           "simulate.integrator=euler",
                           "gravity=[0, -9, 0]",

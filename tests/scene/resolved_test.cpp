@@ -58,7 +58,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.world.forces[i].until, b.world.forces[i].until);
     EXPECT_EQ(a.world.forces[i].on, b.world.forces[i].on);
   }
-  EXPECT_EQ(a.simulate.merge, b.simulate.merge);
+  EXPECT_EQ(a.simulate.contact.merge, b.simulate.contact.merge);
   EXPECT_EQ(a.output.contacts.has_value(), b.output.contacts.has_value());
   EXPECT_EQ(a.initial.position, b.initial.position);
   EXPECT_EQ(a.initial.velocity, b.initial.velocity);
@@ -159,7 +159,8 @@ TEST(ResolvedScene, HasEveryDefaultWrittenOut) {
       "  b: {density: 1e3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
       "walls:\n"
       "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#9aa3ad\", visible: true}\n"
-      "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: bounce}\n"
+      "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: {mode: bounce, "
+      "quality: normal}}\n"
       "output:\n"
       "  collisions: false\n"
       "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1}\n");

@@ -154,7 +154,7 @@ balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
         color: crimson, mesh: box.stl}
   blue: {density: 700, radius: 0.1, position: [1, 1, 0], color: {by: speed, min: 1, max: 16, map: magma}}
-simulate: {duration: 1, engine: exact, rest_speed: 0.1, max_collisions: 9, contact: merge}
+simulate: {duration: 1, engine: exact, rest_speed: 0.1, max_collisions: 9, contact: {mode: merge, quality: fast}}
 caption: "{title}, {time}, {run}, {collisions}, e = {restitution.default}"
 trails: {seconds: 0.5, width: 0.01, on: [red]}
 flash: true
@@ -218,7 +218,7 @@ simulate: {duration: 1, engine: stepped, step: 0.1, integrator: verlet}
 )",
           R"(
 scene: 1
-simulate: {duration: 1, tolerance: 0.1, engine: auto}
+simulate: {duration: 1, tolerance: 0.1, engine: auto, contact: bounce}
 defaults: {plane: {color: tan}, wall: {color: tan}, group: {speed: 1}}
 planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}
 walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], size: [1, 1]}}

@@ -61,7 +61,7 @@ class Agreement : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     const Scene scene = load(GetParam());
-    if (scene.simulate.engine == Engine::book || scene.simulate.merge ||
+    if (scene.simulate.engine == Engine::book || scene.simulate.contact.merge ||
         force_without_closed_form(scene.world) != nullptr)
       GTEST_SKIP() << "not supported by both engines";
   }

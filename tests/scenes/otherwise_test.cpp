@@ -20,7 +20,7 @@ Motion motion_of(const std::string& name) {
   // For long runs of many bodies the beginning is enough.
   const double most = scene.world.body_count() > 150 ? 0.25 : 3;
   return {scene.world, scene.initial, std::min(scene.simulate.duration, most), scene.simulate.rest_speed.value_or(0),
-          scene.simulate.merge};
+          scene.simulate.contact.merge};
 }
 
 Observed run(const Motion& motion) {
