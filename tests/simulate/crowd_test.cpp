@@ -281,8 +281,8 @@ TEST(CrowdMotion, OfBodiesThatJustFitBetweenWallsMakesHardlyAnyEnergy) {
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     go_to(*simulator, 10);
     const Doubts& doubts = simulator->tally().doubts;
-    // Measured: 1.5e-3. Forces of a row that is wedged between walls change suddenly.
-    EXPECT_LT(doubts.contact_made, 4e-3 * simulator->tally().energy_lost) << seed;
+    // Measured: 5e-3. Forces of a row that is wedged between walls change suddenly.
+    EXPECT_LT(doubts.contact_made, 1e-2 * simulator->tally().energy_lost) << seed;
     EXPECT_LE(doubts.unsolved_steps, doubts.crowd_steps / 100) << seed;
     EXPECT_LT(simulator->tally().max_overlap, 1e-9) << seed;
     steps += doubts.crowd_steps;

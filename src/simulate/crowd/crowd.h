@@ -69,6 +69,7 @@ struct Crowd {
   CrowdStep step;
   CrowdRest rest;
 
+  RowName struck;           // a sleeping body's row with an impact: it is to wake
   double smallest = never;  // m, the least radius
   double load = 0;          // m/s^2, the greatest acceleration by forces
   double next_switch = 0;   // s, of forces on members, and of things that move
@@ -78,10 +79,11 @@ struct Crowd {
   std::uint32_t movable() const { return static_cast<std::uint32_t>(members.size()); }
   Vec3 position(std::size_t k) const { return {x[k].at[0], x[k].at[1], x[k].at[2]}; }
   Vec3 drift(std::size_t k) const { return {v[k].at[0], v[k].at[1], v[k].at[2]}; }
-  /// Whether a row presses on a sleeping body.
+  /// Whether a row presses on a sleeping body, as it did in the last step. A slow touch does not wake it.
   bool presses_on_sleeper(std::size_t group, std::size_t lane, const World& world) const {
     const RowGroup& row = rows.hot[group];
-    return row.impulse[lane] > 0 && row.b[lane] >= movable() && world.is_body(rows.names[group][lane].e);
+    return row.impulse[lane] > 0 && rows.state[group].force[lane] > 0 && row.b[lane] >= movable() &&
+           world.is_body(rows.names[group][lane].e);
   }
   /// The velocity of member k (m/s) when its drift is so old (s).
   Vec3 velocity(std::size_t k, double age) const { return drift(k) + age * a[k]; }

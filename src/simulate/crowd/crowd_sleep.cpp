@@ -17,8 +17,9 @@ namespace carom {
 
 namespace tol = exact_tolerance;
 
-void CrowdSleep::wake_pressed(const Crowd& crowd) {
+void CrowdSleep::wake_pressed(Crowd& crowd) {
   std::vector<RowName> pressed;
+  if (crowd.struck.a != no_entity) pressed.push_back(std::exchange(crowd.struck, {}));
   crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
     if (crowd.presses_on_sleeper(g, lane, bodies_.world)) pressed.push_back(crowd.rows.names[g][lane]);
   });
@@ -53,6 +54,9 @@ std::vector<std::uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
     crowd.still[k] = moving[parts.root(k)] != 0 ? 0 : static_cast<std::uint8_t>(std::min(crowd.still[k] + 1, 255));
     rests[k] = crowd.still[k] >= tol::still_looks ? 1 : 0;
   }
+
+  // The few that rest among others that move would wake soon.
+  if (2 * std::ranges::count(rests, 1) < static_cast<std::ptrdiff_t>(count)) std::ranges::fill(rests, 0);
   return rests;
 }
 

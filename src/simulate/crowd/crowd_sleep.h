@@ -22,7 +22,7 @@ class CrowdSleep {
   /// Puts members to rest that are slow, and that forces hold. Returns whether there are some. Gaps must be measured.
   bool falls_asleep(Crowd& crowd);
   /// Wakes the sleeping bodies on which the step would press.
-  void wake_pressed(const Crowd& crowd);
+  void wake_pressed(Crowd& crowd);
 
  private:
   struct Holding {

@@ -124,14 +124,14 @@ void CrowdSteps::restart(Crowd& crowd) const {
 
 /// The impact of one row. False: its other body sleeps, and must wake first.
 bool CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane) {
-  RowGroup& row = crowd.rows.hot[group];
+  const RowGroup& row = crowd.rows.hot[group];
   const std::uint32_t a = row.a[lane];
   const std::uint32_t b = row.b[lane];
   const Vec3 normal = crowd.rows.normal(group, lane);
   const auto& [i, e] = crowd.rows.names[group][lane];
   const double speed = approach(crowd, group, lane);
   if (b >= crowd.movable() && bodies_.world.is_body(e)) {
-    row.impulse[lane] = speed * row.share[lane];
+    crowd.struck = crowd.rows.names[group][lane];
     return false;
   }
 
