@@ -184,7 +184,7 @@ inline constexpr double force_of_speed = 0.3;
 inline constexpr double least_force = 0.01;
 // Members of a crowd, up to which the contact solver takes steps that sweeps have not solved.
 inline constexpr std::size_t exact_members = 200;
-// Sweeps after which a step is shortened, and how often.
+// Rounds of sweeps over pairs that would overlap, after which a step is shortened; and how often it is.
 inline constexpr int more_sweeps = 32;
 inline constexpr int most_shortenings = 6;
 // What a step leaves of the shells of a crowd that is calm.
@@ -200,7 +200,8 @@ inline constexpr double tremor = 1e-5;
 // Steps from one look at the parts of a crowd to the next, and looks after which a part that slow rests.
 inline constexpr std::uint32_t steps_to_look = 8;
 inline constexpr std::uint8_t still_looks = 8;
-// The same, where bodies rest by their speed; and for how many times of falling by a radius.
+// Share of the speed of falling by a radius: the mean speed of crowds that rest by it; and for how many times of
+// falling.
 inline constexpr double slow_preview = 0.03;
 inline constexpr double slow_for = 5;
 

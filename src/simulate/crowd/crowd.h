@@ -34,6 +34,7 @@ struct CrowdStep {
   double last_length = never;  // s, of the step before
   bool open = false;           // it has begun, and is not booked
   bool valid = true;           // places and drifts are those of the bodies
+  bool solved = true;          // its forces are as accurate as they should be
   double kinetic = 0;          // J, at its start
   double speed = 0;            // m/s, of pairs that press on each other
   double shell = 0;            // m, that contacts keep
@@ -42,7 +43,7 @@ struct CrowdStep {
 /// What precedes rest, or constrained motion.
 struct CrowdRest {
   bool closing = false;          // shells shrink, because the crowd is calm
-  Instant slow_since{never, 0};  // all members have been slow since then
+  Instant slow_since{never, 0};  // the crowd as a whole has been slow since then
   std::uint32_t steps = 0;       // in which not all were slow
   double next_try = 0;           // s: forces are not tried for balance before
   double try_after = 0;          // s, between two tries

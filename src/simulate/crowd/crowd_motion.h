@@ -4,9 +4,8 @@
 //
 // 1. The list of pairs that may press, if bodies have gone too far since the last one. Bodies of other kinds that could
 //    meet a member join.
-// 2. Impacts, with the velocities of this instant: pairs that would close their gap in the step and are faster than
-// slow
-//    contact strike, one pair at a time.
+// 2. Impacts, with the velocities of this instant: pairs that would close their gap in the step, and are faster than
+//    slow contact, strike one at a time.
 // 3. A kick by forces for the time since the middle of the last step.
 // 4. Impulses that keep all pairs apart until the step's end (crowd_solver.h).
 // 5. A straight drift at the new velocities.

@@ -22,7 +22,7 @@ bool CrowdSteps::solve(Crowd& crowd) {
   before_ = crowd.v;
   for (int tries = 0;; ++tries) {
     kick(crowd);
-    bodies_.log.count_crowd_step(hold(crowd));
+    crowd.step.solved = hold(crowd);
     const double safe = safe_length(crowd);
     if (safe >= crowd.step.length || tries == tol::most_shortenings) break;
     shorten(crowd, std::max(safe, 0.25 * crowd.step.length));
@@ -204,8 +204,7 @@ void CrowdSteps::kick(Crowd& crowd) {
 }
 
 /// Begins with the forces of contacts in the last step.
-void CrowdSteps::start_warm(Crowd& crowd) {
-  crowd.v = free_;
+void CrowdSteps::start_warm(Crowd& crowd) const {
   for (std::size_t g = 0; g < crowd.rows.groups(); ++g)
     for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
       const std::uint32_t a = crowd.rows.hot[g].a[lane];
@@ -247,6 +246,7 @@ bool CrowdSteps::hold(Crowd& crowd) {
   const CrowdSolver::Goal aim = goal(crowd);
   SweepResult found = solver_.hold(crowd.rows, crowd.v, aim);
   if (found.is_short && give_up_returns(crowd)) {
+    crowd.v = free_;
     start_warm(crowd);
     found = solver_.hold(crowd.rows, crowd.v, aim);
   }
@@ -368,6 +368,7 @@ void CrowdSteps::absorb_approaches(Crowd& crowd) {
 }
 
 void CrowdSteps::finish(Crowd& crowd) {
+  bodies_.log.count_crowd_step(crowd.step.solved);
   absorb_approaches(crowd);
 
   std::fill(crowd.pressed.begin(), crowd.pressed.end(), 0);

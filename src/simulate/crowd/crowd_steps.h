@@ -40,7 +40,7 @@ class CrowdSteps {
   bool hold(Crowd& crowd);
   static void shorten(Crowd& crowd, double length);
   double longest(const Crowd& crowd) const;
-  void start_warm(Crowd& crowd);
+  void start_warm(Crowd& crowd) const;
   static bool give_up_returns(Crowd& crowd);
   void keep_apart(Crowd& crowd);
   double safe_length(const Crowd& crowd) const;
