@@ -1,8 +1,9 @@
 #pragma once
 // Threads that draw the tiles of a picture together. The bytes do not depend on their number.
 #include <functional>
-#include <memory>
+#include <vector>
 
+#include "numerics/team.h"
 #include "raster/tile.h"
 
 namespace carom::raster {
@@ -14,10 +15,7 @@ int drawing_threads();
 class Threads {
  public:
   /// Starts `count` - 1 threads, or as many as the system has left.
-  explicit Threads(int count);
-  ~Threads();
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
+  explicit Threads(int count) : team_(count), memories_(static_cast<std::size_t>(team_.size())) {}
 
   /// One part of a task, by its number. The memory is the thread's own.
   using Task = std::function<void(TileMemory& memory, int part)>;
@@ -27,8 +25,8 @@ class Threads {
   void draw(const Picture& picture);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Team team_;
+  std::vector<TileMemory> memories_;  // by thread
 };
 
 }  // namespace carom::raster
