@@ -29,6 +29,7 @@ struct ExactOptions {
   // false: dop853 computes all flights that bend.
   bool closed_forms = true;
   const ContactQuality* quality = &quality_of(QualityLevel::normal);  // of crowds
+  int threads = 1;                                                    // of crowds; they change no result
   bool merge = false;                                                 // bodies that meet become one
   bool one_by_one = false;        // impacts of one instant act one after the other, the fastest first
   bool record_collisions = true;  // false: there is no buffer, and collisions() stays empty

@@ -166,6 +166,9 @@ inline constexpr double greatest_reach = 0.4;
 inline constexpr double reach_of_need = 1.25;
 // Share of a radius: room of a member's region, at least.
 inline constexpr double room_of_region = 0.5;
+// Members of a crowd's slab, at least, and its thickness by the length of most rows. Threads take slabs.
+inline constexpr std::size_t members_of_slab = 1000;
+inline constexpr double rows_through_slab = 3;
 // Share of the last step: a shorter one begins anew.
 inline constexpr double restart = 0.5;
 // Steps without a force, after which a body that is near nothing leaves its crowd.
@@ -184,6 +187,8 @@ inline constexpr double force_of_speed = 0.3;
 inline constexpr double least_force = 0.01;
 // Members of a crowd, up to which the contact solver takes steps that sweeps have not solved.
 inline constexpr std::size_t exact_members = 200;
+// Steps in which missing gaps do not return, at most, after one in which they could not.
+inline constexpr int longest_wait = 64;
 // Rounds of sweeps over pairs that would overlap, after which a step is shortened; and how often it is.
 inline constexpr int more_sweeps = 32;
 inline constexpr int most_shortenings = 6;
@@ -193,6 +198,10 @@ inline constexpr double shell_decay = 0.875;
 inline constexpr double closed_shell = 1e-10;
 // Share of the greatest acceleration: a body is held by forces with a smaller sum.
 inline constexpr double balance = 1e-11;
+// The same, before a last correction: sweeps have left rounding, and no motion.
+inline constexpr double nearly_balanced = 1e-6;
+// Sweeps that may look for the forces that hold a large crowd.
+inline constexpr int sweeps_to_rest = 20000;
 // Share of the speed of falling by a radius: slower bodies may be at rest.
 inline constexpr double standstill = 1e-4;
 // The same: forces of slower bodies need not be finer. Their errors add up to tremors at a tenth of a standstill.

@@ -200,6 +200,32 @@ class ContactInteriorPoint::Method {
     return judge(island_, solution);
   }
 
+  std::vector<double> correct_hold() {
+    Vector weight(rows());
+    Vector former;
+    Vector best;
+    for (std::size_t c = 0; c < rows(); ++c) z_[c] = island_.rows[c].force / island_.rows[c].scale;
+    double least = no_limit;
+    for (int idle = 0;;) {
+      // What they leave, as long as that becomes less, or other rows press.
+      Vector left = image(z_);
+      for (double& each : left) each = -each;
+      const double size = greatest(left);
+      for (std::size_t c = 0; c < rows(); ++c) weight[c] = z_[c] > 0 ? 1 / least_yield : 0;
+      idle = size < 0.5 * least ? 0 : idle + 1;
+      if (size < least) best = z_;
+      least = std::min(least, size);
+
+      const bool same = former == weight;
+      if (idle > (same ? 0 : 4) || size == 0) return best;
+      if (!same && !matrix_.factorise(weight)) return best;
+      former = weight;
+      matrix_.solve(left);
+      for (std::size_t c = 0; c < rows(); ++c)
+        if (weight[c] > 0) z_[c] = std::max(z_[c] + island_.rows[c].dot(left.data()) / least_yield, 0.0);
+    }
+  }
+
  private:
   std::size_t rows() const { return z_.size(); }
   double excess_of(const Vector& y, std::size_t c) const {
@@ -527,6 +553,9 @@ Judgement ContactInteriorPoint::solve(ContactSolution& solution) {
 }
 Judgement ContactInteriorPoint::solve_least(ContactSolution& solution) {
   return method_->solve_least(solution);
+}
+std::vector<double> ContactInteriorPoint::correct_hold() {
+  return method_->correct_hold();
 }
 
 }  // namespace carom

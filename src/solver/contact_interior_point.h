@@ -4,6 +4,7 @@
 // Every system is (1 + J^T D J) dy = r on the bodies. It is sparse and never singular, however many contacts depend on
 // each other.
 #include <memory>
+#include <vector>
 
 #include "solver/contact_island.h"
 
@@ -21,6 +22,9 @@ class ContactInteriorPoint {
   /// The same for an island with dependent rows: of all forces with that motion, those with the least sum of squares
   /// of force over scale. Proximal steps from forces of zero add what the rows span, and nothing else.
   Judgement solve_least(ContactSolution& solution);
+  /// Forces over scales, by row, near those of the rows. They leave as little motion as doubles allow. Targets must be
+  /// 0.
+  std::vector<double> correct_hold();
 
  private:
   class Method;

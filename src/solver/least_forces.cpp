@@ -37,6 +37,18 @@ void clear_rounding(const ContactIsland& island, const std::vector<std::size_t>&
   }
 }
 
+/// Gives all bodies unit mass and all rows one scale, so that their z are forces. False: there is no force on a body.
+bool scale_alike(ContactIsland& bodies) {
+  bodies.inverse_mass.assign(bodies.free.size(), 1);
+  bodies.scale();
+  for (ContactIsland::Row& r : bodies.rows) {
+    r.scale = 1;
+    r.left = bodies.root[r.a] * r.normal;
+    if (r.moves_b()) r.right = bodies.root[r.b] * r.normal;
+  }
+  return bodies.speed != 0;
+}
+
 }  // namespace
 
 bool take_least_forces(const ContactIsland& island, ContactSolution& solution, bool independent) {
@@ -52,7 +64,6 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
   // Bodies of unit mass, which would move by the sums of these forces.
   find_imbalance(island, solution);
   ContactIsland bodies;
-  bodies.inverse_mass.assign(island.free.size(), 1);
   bodies.free.resize(island.free.size());
   for (std::size_t i = 0; i < solution.push.size(); ++i)
     bodies.free[i / 3][static_cast<int>(i % 3)] = -solution.push[i].value();
@@ -62,15 +73,7 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
     r.force = 0;
     bodies.rows.push_back(r);
   }
-  bodies.scale();
-  if (bodies.speed == 0) return false;
-
-  // One scale for all rows, so that their z are forces.
-  for (ContactIsland::Row& r : bodies.rows) {
-    r.scale = 1;
-    r.left = bodies.root[r.a] * r.normal;
-    if (r.moves_b()) r.right = bodies.root[r.b] * r.normal;
-  }
+  if (!scale_alike(bodies)) return false;
 
   ContactSolution least;
   if (!ContactInteriorPoint(bodies).solve_least(least).within_slack) return false;
@@ -86,6 +89,31 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
   if (judge(island, solution).within_slack) return true;
   std::swap(found, solution.force);
   return false;
+}
+
+void correct_hold(const ContactProblem& problem) {
+  // The forces on the bodies, and the contacts that bear them.
+  ContactIsland bodies;
+  for (std::size_t i = 0; i < problem.motion.size(); ++i)
+    bodies.free.push_back(problem.motion[i] / problem.inverse_mass[i]);
+  for (const ContactConstraint& c : problem.contacts) {
+    ContactIsland::Row& r = bodies.rows.emplace_back();
+    r.a = c.a;
+    r.b = c.b;
+    r.normal = c.normal;
+    r.force = c.force;
+  }
+  if (!scale_alike(bodies)) return;
+
+  const std::vector<double> found = ContactInteriorPoint(bodies).correct_hold();
+  const PowerOfTwo unit(bodies.motion_exponent - bodies.mass_exponent);
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    ContactConstraint& contact = problem.contacts[c];
+    contact.force = contact.independent = unit * found[c];
+    const Vec3 force = contact.force * contact.normal;
+    problem.motion[contact.a] -= problem.inverse_mass[contact.a] * force;
+    if (contact.b != ContactConstraint::fixed) problem.motion[contact.b] += problem.inverse_mass[contact.b] * force;
+  }
 }
 
 }  // namespace carom

@@ -11,4 +11,8 @@ namespace carom {
 /// row with a force depends on the others. Returns whether forces have changed.
 bool take_least_forces(const ContactIsland& island, ContactSolution& solution, bool independent);
 
+/// Corrects forces that nearly hold all bodies of a problem at rest, whose contacts have targets of 0. In doubles:
+/// `motion` becomes what they leave of it.
+void correct_hold(const ContactProblem& problem);
+
 }  // namespace carom

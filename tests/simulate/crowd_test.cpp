@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "simulate/crowd/crowd_kernels.h"
+#include "simulate/crowd/crowd_slabs.h"
 #include "simulate/exact_parts.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
@@ -39,7 +40,7 @@ NearBalls near_balls(int seed) {
     }
   balls.x.push_back({});
   balls.v.push_back({});
-  balls.rows.list(pairs, 60, 60);
+  balls.rows.add_part(pairs, 60, 60);
   return balls;
 }
 
@@ -48,16 +49,18 @@ std::vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
   NearBalls balls = near_balls(seed);
   CrowdRows& rows = balls.rows;
   const double h = 0.01;
-  kernels.measure(rows.hot.data(), rows.state.data(), rows.ball_groups, balls.x.data());
+  kernels.measure(rows.hot.data(), rows.state.data(), rows.parts[0].balls, balls.x.data());
+  std::vector<std::uint8_t> may_strike(rows.groups());
   const AimResult aim = kernels.aim(rows.hot.data(), rows.change.data(), rows.state.data(), rows.groups(),
-                                    balls.v.data(), {h, 0.1, 0.1, 0.7, 0.1, 1e-10, 1e-3});
+                                    balls.v.data(), {h, 0.1, 0.1, 0.7, 0.1, 1e-10, 1e-3, 0.3}, may_strike.data());
   unsigned which = 0;
-  const std::size_t first =
-      kernels.next_strike(rows.hot.data(), rows.state.data(), 0, rows.groups(), balls.v.data(), h, which);
+  const std::size_t first = kernels.next_strike(rows.hot.data(), rows.state.data(), 0, rows.groups(), balls.v.data(), h,
+                                                may_strike.data(), which);
   for (RowGroup& group : rows.hot)
     for (double& impulse : group.impulse) impulse = 0.01;
   const std::vector<Four> free = balls.v;
   kernels.push(rows.hot.data(), rows.groups(), balls.v.data());
+  std::vector<Four> before = balls.v;
   std::vector<Four> direction(balls.v.size());
   std::vector<std::uint8_t> marks(rows.groups());
   kernels.mark(rows.hot.data(), rows.groups(), balls.v.data(), h, 1e-3, marks.data());
@@ -66,12 +69,13 @@ std::vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
   std::vector<double> all{aim.strikes ? 1.0 : 0.0, aim.least_gap, static_cast<double>(first),
                           static_cast<double>(which)};
   for (int sweep = 0; sweep < 5; ++sweep) {
-    const std::vector<Four> before = balls.v;
     const SweepResult found = kernels.sweep(rows.hot.data(), rows.change.data(), every, balls.v.data(), h);
-    kernels.conjugate(rows.hot.data(), rows.change.data(), every, balls.v.data(), before.data(), direction.data(),
-                      balls.v.size(), 0.5);
+    kernels.conjugate(rows.hot.data(), rows.change.data(), every, 0.5);
+    kernels.follow(balls.v.data(), before.data(), direction.data(), balls.v.size(), 0.5);
     all.insert(all.end(), {found.change, found.is_short ? 1.0 : 0.0});
   }
+  const Agitation agitation = kernels.agitation(rows.hot.data(), rows.state.data(), rows.groups(), balls.v.data(), 50);
+  all.insert(all.end(), {agitation.squares, static_cast<double>(agitation.pressing)});
   const GuardSums sums = kernels.guard(rows.hot.data(), rows.groups(), balls.v.data(), free.data(), h);
   all.insert(all.end(), {sums.aim, sums.gain,
                          kernels.safe_drift(rows.hot.data(), rows.state.data(), rows.groups(), balls.v.data(), 1e-10)});
@@ -99,7 +103,7 @@ TEST(CrowdRows, OfOneGroupShareNoBody) {
   for (std::uint32_t k = 1; k < 200; ++k) pairs.push_back({0, k, {0, k}, true, 2, 0, 0, 0, 0});
   for (std::uint32_t k = 1; k + 1 < 200; ++k) pairs.push_back({k, k + 1, {k, k + 1}, k % 2 == 0, 2, 0, 0, 0, 0});
   CrowdRows rows;
-  rows.list(pairs, 200, 200);
+  rows.add_part(pairs, 200, 200);
   std::size_t seen = 0;
   for (const RowGroup& group : rows.hot) {
     std::vector<std::uint32_t> bodies;
@@ -112,6 +116,73 @@ TEST(CrowdRows, OfOneGroupShareNoBody) {
     EXPECT_EQ(std::unique(bodies.begin(), bodies.end()), bodies.end());
   }
   EXPECT_EQ(seen, pairs.size());
+}
+
+/// Bodies of a crowd that fall into several slabs, along the axis of z.
+Crowd wide_crowd(std::uint32_t count) {
+  Random random(5);
+  Crowd crowd;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    crowd.members.push_back(3 * k);
+    crowd.by_name.push_back(k);
+    // Two bodies in nine lie on the middle cut.
+    const double z = k % 9 < 2 ? 0 : (k % 9 % 2 == 0 ? 1 : -1) * random(1, 50);
+    crowd.x.push_back({{random(0, 1), random(0, 1), z, 0.1}});
+  }
+  for (const Four& x : crowd.x) {
+    crowd.v.push_back(x);
+    crowd.a.push_back(vector_of(x));
+    crowd.lag.push_back(x.at[2]);
+  }
+  crowd.idle.resize(count);
+  crowd.pressed.resize(count);
+  crowd.still.resize(count);
+  return crowd;
+}
+
+TEST(CrowdSlabs, KeepMembersTogetherAndOrderThemByName) {
+  Crowd crowd = wide_crowd(9000);
+  arrange_in_slabs(crowd, 0.1);
+  ASSERT_EQ(crowd.rows.first.size(), 9u);
+  for (std::uint32_t k = 0; k < 9000; ++k) {
+    ASSERT_EQ(crowd.members[crowd.by_name[k]], 3 * k);
+    EXPECT_EQ(crowd.lag[k], crowd.x[k].at[2]);
+    EXPECT_EQ(crowd.a[k], crowd.position(k));
+    EXPECT_EQ(crowd.rows.place[k] == 7, crowd.x[k].at[2] == 0);
+    if (k > 0 && crowd.rows.place[k - 1] == crowd.rows.place[k]) {
+      EXPECT_LT(crowd.members[k - 1], crowd.members[k]);
+    }
+  }
+}
+
+/// Parts of one phase share no body, and each pair is in one of them.
+TEST(CrowdSlabs, OfOnePhaseShareNoBody) {
+  Crowd crowd = wide_crowd(9000);
+  arrange_in_slabs(crowd, 0.1);
+  Random random(6);
+  std::vector<CrowdRows::Pair> pairs;
+  for (int k = 0; k < 20000; ++k) {
+    const auto a = static_cast<std::uint32_t>(random(0, 9000));
+    const auto b = std::min(a + static_cast<std::uint32_t>(random(1, 1500)), 9000u);
+    if (a == b) continue;
+    pairs.push_back({a, b == 9000 ? Numbering::none : b, {a, b}, true, 2, 0, 0, 0, 0});
+  }
+
+  const std::vector<std::vector<CrowdRows::Pair>> parts = pairs_of_parts(crowd.rows, pairs);
+  ASSERT_EQ(parts.size(), 16u);
+  std::size_t seen = 0;
+  for (const std::vector<CrowdRows::Pair>& part : parts) seen += part.size();
+  EXPECT_EQ(seen, pairs.size());
+  for (const auto& [first, last] : {std::pair{0, 8}, std::pair{8, 12}, std::pair{12, 15}}) {
+    std::vector<int> owner(9000, -1);
+    for (int p = first; p < last; ++p)
+      for (const CrowdRows::Pair& pair : parts[static_cast<std::size_t>(p)])
+        for (const std::uint32_t k : {pair.a, pair.b}) {
+          if (k == Numbering::none) continue;
+          EXPECT_TRUE(owner[k] < 0 || owner[k] == p);
+          owner[k] = p;
+        }
+  }
 }
 
 /// A crowd of all bodies of a problem, which takes steps until `time` (s).
@@ -241,6 +312,36 @@ TEST(CrowdMotion, OverlapsNoMoreThanTheQualityStates) {
     EXPECT_LT(simulator->tally().max_overlap, std::max(0.5 * quality_of(level).overlap, 1e-9));
     EXPECT_LT(simulator->tally().doubts.contact_made, 1e-3 * simulator->tally().energy_lost);
   }
+}
+
+/// A pile of 5,184 balls in several slabs, mirrored in x with sign -1.
+Problem wide_pile(int threads, double sign) {
+  Problem problem = loose_pile(36, 4, 0.9);
+  for (Vec3& x : problem.initial.position) x.x() = sign * (x.x() - 18 * 1.15);
+  for (Plane& plane : problem.world.planes) {
+    plane.point.x() = sign * (plane.point.x() - 18 * 1.15);
+    plane.normal.x() *= sign;
+  }
+  problem.options.threads = threads;
+  return problem;
+}
+
+TEST(CrowdMotion, HasTheSameBitsByAnyNumberOfThreadsAndMirrored) {
+  std::vector<State> ends;
+  for (const auto& [threads, sign] : {std::pair{1, 1}, std::pair{2, 1}, std::pair{4, 1}, std::pair{3, -1}}) {
+    const Problem problem = wide_pile(threads, sign);
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    go_to(*simulator, problem.options.duration);
+    EXPECT_GT(simulator->tally().stepped_contact, 500);
+    ends.push_back(simulator->state());
+    for (Vec3& x : ends.back().position) x.x() *= sign;
+    for (Vec3& v : ends.back().velocity) v.x() *= sign;
+  }
+  for (const State& end : ends)
+    for (std::size_t k = 0; k < end.position.size(); ++k) {
+      ASSERT_EQ(end.position[k], ends[0].position[k]) << k;
+      ASSERT_EQ(end.velocity[k], ends[0].velocity[k]) << k;
+    }
 }
 
 TEST(CrowdMotion, OfAHeapEndsAtEveryQuality) {

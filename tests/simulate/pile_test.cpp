@@ -11,6 +11,12 @@ TEST(Pile, OfNinetyBallsComesToRest) {
   expect_pile_at_rest(problem, *simulator, {900, 950, 1000}, 1e-9, 1e-9, 0, 1);
 }
 
+TEST(Pile, OfThreeHundredBallsComesToRestBySweeps) {
+  const Problem problem = loose_pile(5, 12, 60);
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  expect_pile_at_rest(problem, *simulator, {50, 60}, 1e-9, 1e-9, 0, 1);
+}
+
 TEST(Pile, AWokenPileComesToRestAgain) {
   Problem problem = loose_pile(3, 4, 60);
   // A heavy ball falls on the pile at rest.

@@ -65,6 +65,7 @@ class Check {
       return fail("takes more than " + text(patience_) + " s of CPU time, " + std::to_string(first_.records.size()) +
                   " records so far");
     verdict_.collisions = first_.tally.collisions();
+    verdict_.crowds = first_.tally.stepped_contact > 0;
     if (!first_.error.empty()) return stop();
     times_ = sample_times(scene_, first_.records);
     seen_ = watch(scene_, times_, 10 * patience_);

@@ -10,6 +10,7 @@ namespace carom::stress {
 struct Verdict {
   std::vector<std::string> violations;  // empty: all is well
   std::uint64_t collisions = 0;
+  bool crowds = false;   // some bodies moved as a crowd
   bool stopped = false;  // at a limit, as it may
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 // The state of a crowd: an island with contacts that change too often to be followed one by one. It moves in
 // synchronous leapfrog steps. From the step's start on, bodies drift at the velocity of the step's middle.
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "geometry/contact_time.h"
@@ -38,6 +40,8 @@ struct CrowdStep {
   double kinetic = 0;          // J, at its start
   double speed = 0;            // m/s, of pairs that press on each other
   double shell = 0;            // m, that contacts keep
+  int waits = 0;               // steps to come in which missing gaps do not return
+  int waited = 0;              // the last number of these
 };
 
 /// What precedes rest, or constrained motion.
@@ -49,12 +53,20 @@ struct CrowdRest {
   double try_after = 0;          // s, between two tries
 };
 
+/// Energy so far.
+struct CrowdBalance {
+  double taken = 0;  // J, by contacts
+  double made = 0;   // J, by errors
+};
+
 struct Crowd {
-  // By number: members, then things that forces do not move in a step, then one for lanes without a row.
-  std::vector<Entity> members;  // ascending
-  std::vector<Entity> things;   // fixed or asleep
+  // By number: members, then things that forces do not move in a step, then one for lanes without a row of each part.
+  std::vector<Entity> members;  // by slab (crowd_slabs.h): ascending in each, and on the cut behind it
+  std::vector<Entity> things;   // fixed or asleep: those of each part of the rows
   std::vector<Four> x;          // m, and radii
   std::vector<Four> v;          // m/s, of the drift, and inverse masses (1/kg)
+
+  std::vector<std::uint32_t> by_name;  // numbers of members, in ascending order of these
 
   // By member.
   std::vector<Vec3> a;             // m/s^2: the last step's change of velocity by its time, contact included
@@ -70,14 +82,17 @@ struct Crowd {
   CrowdStep step;
   CrowdRest rest;
 
-  RowName struck;           // a sleeping body's row with an impact: it is to wake
-  double smallest = never;  // m, the least radius
-  double load = 0;          // m/s^2, the greatest acceleration by forces
-  double next_switch = 0;   // s, of forces on members, and of things that move
-  double taken = 0;         // J, by contacts so far
-  double made = 0;          // J, by errors so far
+  std::vector<RowName> struck;  // rows of sleeping bodies with an impact: they are to wake
+  double smallest = never;      // m, the least radius
+  double load = 0;              // m/s^2, the greatest acceleration by forces
+  double next_switch = 0;       // s, of forces on members, and of things that move
+  CrowdBalance balance;
 
   std::uint32_t movable() const { return static_cast<std::uint32_t>(members.size()); }
+  /// Whether these are its members. They must be ascending.
+  bool is_of(std::span<const Entity> entities) const {
+    return std::ranges::equal(entities, by_name, {}, {}, [&](std::uint32_t k) { return members[k]; });
+  }
   Vec3 position(std::size_t k) const { return {x[k].at[0], x[k].at[1], x[k].at[2]}; }
   Vec3 drift(std::size_t k) const { return {v[k].at[0], v[k].at[1], v[k].at[2]}; }
   /// Whether a row presses on a sleeping body, as it did in the last step. A slow touch does not wake it.
@@ -85,6 +100,15 @@ struct Crowd {
     const RowGroup& row = rows.hot[group];
     return row.impulse[lane] > 0 && rows.state[group].force[lane] > 0 && row.b[lane] >= movable() &&
            world.is_body(rows.names[group][lane].e);
+  }
+  /// The sum of of(k) over members, the same for mirror images of a crowd.
+  template <typename Of>
+  double sum(const Of& of) const {
+    return sum_in_pairs(0, rows.slabs(), [&](std::size_t slab) {
+      double sum = 0;
+      for (std::size_t k = rows.first[slab]; k < rows.first[slab + 1]; ++k) sum += of(k);
+      return sum;
+    });
   }
   /// The velocity of member k (m/s) when its drift is so old (s).
   Vec3 velocity(std::size_t k, double age) const { return drift(k) + age * a[k]; }

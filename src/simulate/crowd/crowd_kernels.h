@@ -17,6 +17,7 @@ struct StepTarget {
   double below = 0;   // the same, of a gap of less than half of the shell
   double least = 0;   // m: what rounding may take
   double shell = 0;   // m: the gap that rows keep once they have had it
+  double way = 0;     // m: no pair's gap closes by more in the step
 };
 
 /// What rows are like at the start of a step.
@@ -37,16 +38,25 @@ struct GuardSums {
   double gain = 0;  // J: impulses times the change of speed by them
 };
 
+/// How fast bodies move that press on each other.
+struct Agitation {
+  double squares = 0;        // (m/s)^2
+  std::size_t pressing = 0;  // rows
+};
+
 struct CrowdKernels {
   /// Gaps and normals of groups [0, count), which are pairs of balls at x.
   void (*measure)(RowGroup* hot, RowState* state, std::size_t count, const Four* x);
-  /// Bases and slacks of groups [0, count), from gaps.
+  /// Bases and slacks of groups [0, count), from gaps, and which of them may have an impact in the step.
   AimResult (*aim)(RowGroup* hot, RowChange* change, RowState* state, std::size_t count, const Four* v,
-                   const StepTarget& target);
-  /// The first group from `from` on with an impact in the step, and which of its rows: a bit each; count: there is
-  /// none.
+                   const StepTarget& target, std::uint8_t* may_strike);
+  /// The first of these groups from `from` on with an impact in the step, and which of its rows: a bit each; count:
+  /// there is none.
   std::size_t (*next_strike)(const RowGroup* hot, const RowState* state, std::size_t from, std::size_t count,
-                             const Four* v, double length, unsigned& which);
+                             const Four* v, double length, const std::uint8_t* may_strike, unsigned& which);
+  /// Of rows with a force, of bodies with numbers below `movable`: the sum of the squares of their relative velocities.
+  Agitation (*agitation)(const RowGroup* hot, const RowState* state, std::size_t count, const Four* v,
+                         std::uint32_t movable);
   /// Applies the impulses of all groups.
   void (*push)(const RowGroup* hot, std::size_t count, Four* v);
   /// Marks the groups with an impulse, or with a gap (m) of less than this at the step's end. Returns whether some are
@@ -54,10 +64,11 @@ struct CrowdKernels {
   bool (*mark)(const RowGroup* hot, std::size_t count, const Four* v, double length, double gap, std::uint8_t* marks);
   /// One sweep of projected Gauss-Seidel over these groups.
   SweepResult (*sweep)(RowGroup* hot, RowChange* change, std::span<const std::uint32_t> which, Four* v, double length);
-  /// Adds `beta` times the last direction to the impulses of these groups and to all velocities. The new direction is
-  /// that and the last change.
-  void (*conjugate)(RowGroup* hot, RowChange* change, std::span<const std::uint32_t> which, Four* v, const Four* before,
-                    Four* direction, std::size_t bodies, double beta);
+  /// Adds `beta` times the last direction to the impulses of these groups. The new direction is that and the last
+  /// change.
+  void (*conjugate)(RowGroup* hot, RowChange* change, std::span<const std::uint32_t> which, double beta);
+  /// The same for the velocities of `count` bodies, and their change from `before`, which becomes v.
+  void (*follow)(Four* v, Four* before, Four* direction, std::size_t count, double beta);
   GuardSums (*guard)(const RowGroup* hot, std::size_t count, const Four* v, const Four* free, double length);
   /// The longest drift (s) after which no listed pair overlaps by more than `rounding` (m).
   double (*safe_drift)(const RowGroup* hot, const RowState* state, std::size_t count, const Four* v, double rounding);

@@ -8,6 +8,7 @@
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/contact/contact_list.h"
+#include "simulate/crowd/crowd_slabs.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -90,26 +91,13 @@ CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Enti
   return meets(crowd.step.length, left) ? Outlook::may_strike : Outlook::may_come;
 }
 
-/// The number of a fixed or sleeping thing in the crowd. It is given one, unless it has one.
-std::uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
-  std::uint32_t& number = thing_number_[thing];
-  if (number != Numbering::none) return number;
-  number = crowd.movable() + static_cast<std::uint32_t>(crowd.things.size());
-  crowd.things.push_back(thing);
-  const Vec3 x = bodies_.position_of(thing);
-  const Vec3 v = bodies_.world.is_body(thing) ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(thing);
-  crowd.x.push_back(four_of(x, bodies_.world.is_body(thing) ? bodies_.world.radius[thing] : 0));
-  crowd.v.push_back(four_of(v, 0));
-  return number;
-}
-
-/// Adds the pairs of member k with members of higher numbers and with things.
-void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
+/// Adds the pairs of member k with later bodies and with things.
+void CrowdList::list_member(const Crowd& crowd, std::uint32_t k, double skin, Pairs& pairs) const {
   const World& world = bodies_.world;
   const Entity i = crowd.members[k];
   const Vec3 x = crowd.position(k);
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
-  const std::size_t first = pairs_.size();
+  const std::size_t first = pairs.size();
   ContactList fixed;  // to find those that others hide
 
   const double soon = 2 * crowd.list.reach / tol::steps_of_list;  // m
@@ -120,7 +108,7 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
     pair.name = {i, e};
     pair.balls = balls;
 
-    pair.inverse = 1 / world.mass[i] + (b < crowd.movable() ? 1 / world.mass[e] : 0);
+    pair.inverse = 1 / world.mass[i] + (b != Numbering::none ? 1 / world.mass[e] : 0);
     pair.e = pair_restitution(world, i, e);
     const double slow = crowd.load > 0 || bodies_.options.rest_speed > 0
                             ? bodies_.slow_speed(crowd.load, bodies_.smaller_length(i, e))
@@ -129,13 +117,13 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
     pair.shell = CrowdRows::new_pair;
     pair.force = 0;
     pair.near = gap < soon;
-    pairs_.push_back(pair);
+    pairs.push_back(pair);
   };
 
   for (const Entity e : bodies_.neighbours.bodies(i)) {
     const std::uint32_t b = numbers_[e];
     const bool asleep = b == Numbering::none && bodies_.mode(e) == Mode::asleep;
-    if (!asleep && (b == Numbering::none || b < k)) continue;
+    if (!asleep && (b == Numbering::none || e < i)) continue;
     const Vec3 xe = asleep ? bodies_.position(e) : crowd.position(b);
     const double within = asleep ? crowd.list.reach : skin;
     const double sizes = world.radius[i] + world.radius[e];
@@ -143,7 +131,7 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
     if (squared >= (sizes + within) * (sizes + within)) continue;
     const bool balls = ball && (world.volume.empty() || world.volume[e].shape == Shape::sphere);
     const double gap = balls ? std::sqrt(squared) - sizes : touch(world, i, x, e, xe).gap;
-    if (gap < within) add(asleep ? number_of(crowd, e) : b, e, balls, gap);
+    if (gap < within) add(b, e, balls, gap);
   }
 
   for (const Entity e : bodies_.neighbours.surfaces(i)) {
@@ -153,10 +141,10 @@ void CrowdList::list_member(Crowd& crowd, std::uint32_t k, double skin) {
       fixed.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
   }
   if (fixed.names.size() > 1) fixed.drop_hidden(bodies_, x, 0);
-  for (const Contact& contact : fixed.names) add(number_of(crowd, contact.e), contact.e, false, 0);
+  for (const Contact& contact : fixed.names) add(Numbering::none, contact.e, false, 0);
 
   // The order of lists of neighbours has no effect.
-  std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end(),
+  std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
             [](const CrowdRows::Pair& p, const CrowdRows::Pair& q) { return p.name.e < q.name.e; });
 }
 
@@ -192,46 +180,69 @@ void CrowdList::take_over_forces(const Crowd& crowd, std::size_t members) {
 }
 
 void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before) {
+  arrange_in_slabs(crowd, 2 * crowd.list.reach);
   const Numbering members(numbers_, crowd.members);
-  if (thing_number_.empty()) thing_number_.assign(bodies_.world.entity_count(), Numbering::none);
-  drop_things(crowd);
 
+  std::vector<Pairs> of_slab(crowd.rows.first.size() - 1);
+  threads_.each_slab(crowd.rows, [&](std::size_t slab) {
+    for (std::uint32_t k = crowd.rows.first[slab]; k < crowd.rows.first[slab + 1]; ++k)
+      list_member(crowd, k, 2 * crowd.list.reach, of_slab[slab]);
+  });
   pairs_.clear();
-  for (std::uint32_t k = 0; k < crowd.movable(); ++k) list_member(crowd, k, 2 * crowd.list.reach);
+  for (const Pairs& pairs : of_slab) pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
+
   for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other, crowd.members.size());
   for (CrowdRows::Pair& pair : pairs_) pair.near = pair.near || pair.force > 0;
   write(crowd, pairs_);
 }
 
-void CrowdList::list_part(Crowd& part, const Crowd& whole) {
+void CrowdList::list_part(Crowd& part) {
+  arrange_in_slabs(part, 2 * part.list.reach);
   const Numbering members(numbers_, part.members);
-  drop_things(part);
 
-  std::vector<CrowdRows::Pair> pairs;
+  Pairs pairs;
   for (const CrowdRows::Pair& pair : pairs_) {
     const std::uint32_t a = numbers_[pair.name.a];
     if (a == Numbering::none) continue;
-    const bool body = pair.b < whole.movable();
     pairs.push_back(pair);
     pairs.back().a = a;
-    pairs.back().b = body ? numbers_[pair.name.e] : number_of(part, pair.name.e);
+    if (pair.b != Numbering::none) pairs.back().b = numbers_[pair.name.e];
   }
   write(part, pairs);
 }
 
-void CrowdList::drop_things(Crowd& crowd) {
+/// The number of a fixed or sleeping thing in the present part of the crowd's rows. It is given one, unless it has one.
+std::uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
+  std::uint32_t& number = thing_number_[thing];
+  if (number != Numbering::none) return number;
+  number = crowd.movable() + static_cast<std::uint32_t>(crowd.things.size());
+  crowd.things.push_back(thing);
+  const bool body = bodies_.world.is_body(thing);
+  crowd.x.push_back(four_of(bodies_.position_of(thing), body ? bodies_.world.radius[thing] : 0));
+  crowd.v.push_back(four_of(body ? Vec3(Vec3::Zero()) : bodies_.fixed_velocity(thing), 0));
+  return number;
+}
+
+/// Writes the rows of these pairs, part by part.
+void CrowdList::write(Crowd& crowd, const Pairs& pairs) {
+  if (thing_number_.empty()) thing_number_.assign(bodies_.world.entity_count(), Numbering::none);
   crowd.x.resize(crowd.members.size());
   crowd.v.resize(crowd.members.size());
   crowd.things.clear();
-}
 
-/// Writes the rows of these pairs.
-void CrowdList::write(Crowd& crowd, std::span<const CrowdRows::Pair> pairs) {
-  for (const Entity thing : crowd.things) thing_number_[thing] = Numbering::none;
+  std::vector<Pairs> of_part = pairs_of_parts(crowd.rows, pairs);
+  for (Pairs& part : of_part) {
+    const std::size_t first = crowd.things.size();
+    for (CrowdRows::Pair& pair : part)
+      if (pair.b == Numbering::none) pair.b = number_of(crowd, pair.name.e);
+    for (std::size_t k = first; k < crowd.things.size(); ++k) thing_number_[crowd.things[k]] = Numbering::none;
+  }
+
   const auto dummy = static_cast<std::uint32_t>(crowd.x.size());
-  crowd.x.push_back({});
-  crowd.v.push_back({});
-  crowd.rows.list(pairs, crowd.movable(), dummy);
+  crowd.x.resize(crowd.x.size() + of_part.size());
+  crowd.v.resize(crowd.v.size() + of_part.size());
+  crowd.rows.clear();
+  for (std::uint32_t p = 0; p < of_part.size(); ++p) crowd.rows.add_part(of_part[p], crowd.movable(), dummy + p);
   crowd.list.listed = true;
 }
 
@@ -271,13 +282,13 @@ Touch CrowdList::closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3
   return best;
 }
 
-void CrowdList::measure(Crowd& crowd, double seconds) const {
+void CrowdList::measure(Crowd& crowd, double seconds) {
   CrowdRows& rows = crowd.rows;
-  kernels_.measure(rows.hot.data(), rows.state.data(), rows.ball_groups, crowd.x.data());
-  for (std::size_t g = rows.ball_groups; g < rows.groups(); ++g)
-    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+  threads_.each(rows, [&](std::size_t p) {
+    const auto& [begin, balls, end] = rows.parts[p];
+    kernels_.measure(rows.hot.data() + begin, rows.state.data() + begin, balls - begin, crowd.x.data());
+    rows.for_each({balls, balls, end}, [&](std::size_t g, std::size_t lane) {
       RowGroup& row = rows.hot[g];
-      if (row.share[lane] == 0) continue;
       const std::uint32_t a = row.a[lane];
       const std::uint32_t b = row.b[lane];
       const Vec3 moved = seconds * (crowd.drift(b) - crowd.drift(a));
@@ -287,7 +298,8 @@ void CrowdList::measure(Crowd& crowd, double seconds) const {
       row.ny[lane] = there.normal.y();
       row.nz[lane] = there.normal.z();
       rows.state[g].gap[lane] = there.gap;
-    }
+    });
+  });
 }
 
 }  // namespace carom

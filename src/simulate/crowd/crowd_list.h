@@ -9,12 +9,15 @@
 #include "simulate/contact/numbering.h"
 #include "simulate/crowd/crowd.h"
 #include "simulate/crowd/crowd_kernels.h"
+#include "simulate/crowd/crowd_threads.h"
 
 namespace carom {
 
 class CrowdList {
  public:
-  CrowdList(ExactBodies& bodies, Numbering::Numbers& numbers) : bodies_(bodies), numbers_(numbers) {}
+  /// `threads` must outlive the list.
+  CrowdList(ExactBodies& bodies, Numbering::Numbers& numbers, CrowdThreads& threads)
+      : bodies_(bodies), numbers_(numbers), threads_(threads) {}
 
   /// What a body of another kind, or of another crowd, may do to a crowd in some time to come.
   enum class Outlook : std::uint8_t {
@@ -34,25 +37,26 @@ class CrowdList {
   /// which may be this one.
   void list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before);
   /// The same for a part of the crowd that was listed last. No pair connects it to other parts.
-  void list_part(Crowd& part, const Crowd& whole);
+  void list_part(Crowd& part);
   /// Measures gaps and normals. `seconds`: of the drift to come.
-  void measure(Crowd& crowd, double seconds) const;
+  void measure(Crowd& crowd, double seconds);
 
  private:
   double surface_skin(const Crowd& crowd) const;
   Outlook outlook_on(const Crowd& crowd, Entity member, Entity e) const;
   Touch closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3& xe, const Vec3& moved) const;
-  std::uint32_t number_of(Crowd& crowd, Entity thing);
-  void list_member(Crowd& crowd, std::uint32_t k, double skin);
+  using Pairs = std::vector<CrowdRows::Pair>;
+  void list_member(const Crowd& crowd, std::uint32_t k, double skin, Pairs& pairs) const;
   void take_over_forces(const Crowd& crowd, std::size_t members);
-  static void drop_things(Crowd& crowd);
-  void write(Crowd& crowd, std::span<const CrowdRows::Pair> pairs);
+  std::uint32_t number_of(Crowd& crowd, Entity thing);
+  void write(Crowd& crowd, const Pairs& pairs);
 
   ExactBodies& bodies_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   Numbering::Numbers& numbers_;
-  std::vector<std::uint32_t> thing_number_;  // by entity, while a crowd is listed
-  std::vector<CrowdRows::Pair> pairs_;       // scratch
+  CrowdThreads& threads_;
+  std::vector<std::uint32_t> thing_number_;  // by entity, while a part of the rows is written
+  Pairs pairs_;                              // of the crowd that was listed last
   std::vector<std::uint8_t> seen_;           // by body, while near ones are found
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "numerics/disjoint_sets.h"
 #include "physics/force.h"
@@ -24,9 +25,10 @@ CrowdMotion::CrowdMotion(ExactBodies& bodies, ModeChanges& modes, ExactGroup& gr
       group_(group),
       flights_(flights),
       quality_(*bodies.options.quality),
-      list_(bodies, group.numbers),
-      steps_(bodies, quality_),
-      sleep_(bodies, modes, group, flights, quality_) {}
+      threads_(bodies.options.threads),
+      list_(bodies, group.numbers, threads_),
+      steps_(bodies, quality_, threads_),
+      sleep_(bodies, modes, group, flights, quality_, threads_) {}
 
 bool CrowdMotion::advance(Entity i) {
   for (;;) {
@@ -101,13 +103,11 @@ void CrowdMotion::book(Crowd& crowd, double since) const {
   const World& world = bodies_.world;
 
   // Energy, less the work of forces.
-  double gain = -crowd.step.kinetic;  // J
-  std::size_t pressed = 0;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
-    gain += 0.5 * world.mass[crowd.members[k]] * crowd.velocity(k, age).squaredNorm() - work_on(crowd, k, since);
-    pressed += crowd.pressed[k];
-  }
-
+  double gain = crowd.sum([&](std::size_t k) {
+    return 0.5 * world.mass[crowd.members[k]] * crowd.velocity(k, age).squaredNorm() - work_on(crowd, k, since);
+  });
+  gain -= crowd.step.kinetic;
+  const std::ptrdiff_t pressed = std::ranges::count(crowd.pressed, 1);
   bodies_.log.add_stepped_contact(since * static_cast<double>(pressed));
 
   // Things that move push a against the normal. Velocities of the step's ends have parts of two steps' forces.
@@ -156,13 +156,15 @@ void CrowdMotion::free_flights(Crowd& crowd) const {
 Crowd& CrowdMotion::gather(Island& island) {
   std::sort(island.members.begin(), island.members.end());
   if (island.crowds.size() == 1 && island.crowds[0].use_count() == 1 && island.crowds[0]->step.valid &&
-      island.crowds[0]->members == island.members)
+      island.crowds[0]->is_of(island.members))
     return *island.crowds[0];
 
   const auto made = std::make_shared<Crowd>();
   Crowd& crowd = *made;
   crowd.members = island.members;
   const std::size_t n = crowd.members.size();
+  crowd.by_name.resize(n);
+  std::iota(crowd.by_name.begin(), crowd.by_name.end(), 0u);
   crowd.x.resize(n);
   crowd.v.resize(n);
   crowd.a.resize(n, Vec3::Zero());
@@ -216,8 +218,8 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std:
     crowd.list.most = std::min(crowd.list.most, earlier.list.reach);
     return;
   }
-  crowd.taken += earlier.taken;
-  crowd.made += earlier.made;
+  crowd.balance.taken += earlier.balance.taken;
+  crowd.balance.made += earlier.balance.made;
 }
 
 /// Takes member k from its flight at present. `comes`: it was in no crowd before.
@@ -276,7 +278,7 @@ bool CrowdMotion::take_guests(Entity i) {
   const bool anew = !(list.gone + need <= list.reach);
   if (anew) {
     list_.begin(*crowd, need);
-    list.outsiders = list_.hold_regions(*crowd, crowd->members);
+    list.outsiders = list_.hold_regions(*crowd, bodies_.islands.of(i).members);
     near.clear();
   }
   list.outsiders.insert(list.outsiders.end(), near.begin(), near.end());
@@ -363,7 +365,7 @@ bool CrowdMotion::let_go(Crowd& crowd) {
   };
 
   std::vector<Entity> stay;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (const std::uint32_t k : crowd.by_name) {
     const Entity i = crowd.members[k];
     if (crowd.idle[k] < tol::idle_steps || is_near(k)) {
       stay.push_back(i);
@@ -405,7 +407,8 @@ bool CrowdMotion::split(Crowd& crowd) {
   std::size_t parts = 0;
 
   for (std::uint32_t k = 0; k < n; ++k) {
-    std::uint32_t& of_part = presses[sets.root(k)] != 0 ? first[sets.root(k)] : rest;
+    const std::size_t root = sets.root(crowd.by_name[k]);
+    std::uint32_t& of_part = presses[root] != 0 ? first[root] : rest;
     if (of_part == ContactConstraint::fixed) {
       of_part = k;
       ++parts;
@@ -422,7 +425,7 @@ bool CrowdMotion::split(Crowd& crowd) {
     part.list = whole->list;
     part.list.most = whole->list.reach;
     part.earlier.clear();
-    list_.list_part(part, *whole);
+    list_.list_part(part);
     flights_.note_changed(i);
   }
   return true;
@@ -456,7 +459,7 @@ void CrowdMotion::begin(Crowd& crowd) {
   flights_.note_changed(crowd.members.front());
 
   const Instant middle = bodies_.now + 0.5 * crowd.step.length;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (const std::uint32_t k : crowd.by_name) {
     const Entity i = crowd.members[k];
     modes_.press(i, crowd.pressed[k] != 0);
     bodies_.note_speed(i, crowd.drift(k));

@@ -68,6 +68,7 @@ class CrowdMotion {
   ExactGroup& group_;
   FlightChanges& flights_;
   const ContactQuality& quality_;
+  CrowdThreads threads_;
   CrowdList list_;
   CrowdSteps steps_;
   CrowdSleep sleep_;

@@ -16,12 +16,18 @@ using Colours = std::array<std::vector<std::uint32_t>, colours + 1>;
 
 }  // namespace
 
-void CrowdRows::list(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy) {
+void CrowdRows::clear() {
   hot.clear();
   change.clear();
   state.clear();
   names.clear();
-  rows_ = pairs.size();
+  parts.clear();
+  rows_ = 0;
+}
+
+void CrowdRows::add_part(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy) {
+  RowPart part{groups(), groups(), groups()};
+  rows_ += pairs.size();
 
   const auto fill = [&](std::size_t group, std::size_t lane, const Pair& pair) {
     hot[group].a[lane] = pair.a;
@@ -49,20 +55,20 @@ void CrowdRows::list(std::span<const Pair> pairs, std::uint32_t movable, std::ui
 
   // Pairs of balls come first.
   Colours by_colour;
-  std::vector<std::uint64_t> used;
+  used_.resize(std::max<std::size_t>(used_.size(), movable));
   for (const bool balls : {true, false}) {
-    used.assign(movable, 0);
+    for (const Pair& pair : pairs) used_[pair.a] = used_[pair.b < movable ? pair.b : pair.a] = 0;
     for (std::vector<std::uint32_t>& colour : by_colour) colour.clear();
     for (std::uint32_t k = 0; k < pairs.size(); ++k) {
       const Pair& pair = pairs[k];
       if (pair.balls != balls) continue;
-      const std::uint64_t taken = used[pair.a] | (pair.b < movable ? used[pair.b] : 0);
+      const std::uint64_t taken = used_[pair.a] | (pair.b < movable ? used_[pair.b] : 0);
       const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
       by_colour[colour].push_back(k);
 
       if (colour == colours) continue;
-      used[pair.a] |= std::uint64_t{1} << colour;
-      if (pair.b < movable) used[pair.b] |= std::uint64_t{1} << colour;
+      used_[pair.a] |= std::uint64_t{1} << colour;
+      if (pair.b < movable) used_[pair.b] |= std::uint64_t{1} << colour;
     }
 
     // Groups of four, but for pairs without a colour. Those that press are together.
@@ -75,8 +81,11 @@ void CrowdRows::list(std::span<const Pair> pairs, std::uint32_t movable, std::ui
         fill(hot.size() - 1, k % together, pairs[by_colour[colour][k]]);
       }
     }
-    if (balls) ball_groups = hot.size();
+    if (balls) part.balls = groups();
   }
+
+  part.end = groups();
+  parts.push_back(part);
 }
 
 }  // namespace carom

@@ -68,19 +68,42 @@ struct alignas(32) RowState {
   double e[4];        // restitution
 };
 
-/// A pair by name. a: a member. e: a member of a higher number, or a thing that does not move by forces.
+/// A pair by name. a: a member. e: a later member, or a thing that does not move by forces.
 struct RowName {
   Entity a = no_entity;
   Entity e = no_entity;
 };
 
+/// Where a pair's row is.
+struct RowPlace {
+  std::size_t group;
+  std::size_t lane;
+};
+
+/// of(begin) + ... + of(end - 1), the same where the order is the opposite one.
+template <typename Of>
+double sum_in_pairs(std::size_t begin, std::size_t end, const Of& of) {
+  double sum = 0;
+  for (; begin + 1 < end; ++begin, --end) sum += of(begin) + of(end - 1);
+  return begin < end ? sum + of(begin) : sum;
+}
+
+/// Rows that one thread takes: groups from `begin` on, those of pairs of balls first.
+struct RowPart {
+  std::size_t begin = 0;
+  std::size_t balls = 0;  // the end of those
+  std::size_t end = 0;
+};
+
+/// Parts are those of slabs of space. Then those of pairs that lie in two slabs: between slabs 0 and 1, 2 and 3, ...,
+/// then between 1 and 2, 3 and 4, ... The last has all other rows. With one slab there is one part.
 class CrowdRows {
  public:
   static constexpr std::size_t lanes = 4;
   static constexpr double new_pair = -1;  // m, the shell of a pair that is not yet measured
 
   /// A listed pair, by the numbers of bodies in the crowd. Things that forces do not move have numbers from `movable`
-  /// on.
+  /// on, in each part their own.
   struct Pair {
     std::uint32_t a;
     std::uint32_t b;
@@ -94,33 +117,57 @@ class CrowdRows {
     bool near = false;  // it may close its gap soon
   };
 
-  /// Lists these pairs, in this order but for colours. `movable`: the number of bodies. `dummy`: the number of a thing
-  /// for lanes without a row.
-  void list(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy);
+  void clear();
+  /// Adds a part with these pairs, in this order but for colours. `movable`: the number of bodies. `dummy`: the number
+  /// of a thing for lanes without a row.
+  void add_part(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy);
 
   std::size_t groups() const { return hot.size(); }
   std::size_t rows() const { return rows_; }
   bool empty() const { return rows_ == 0; }
-  /// Calls what(group, lane) for each row, in order.
+  /// Calls what(group, lane) for each row of a part, or for each row, in order.
   template <typename What>
-  void for_each(const What& what) const {
-    for (std::size_t g = 0; g < hot.size(); ++g)
+  void for_each(const RowPart& part, const What& what) const {
+    for (std::size_t g = part.begin; g < part.end; ++g)
       for (std::size_t lane = 0; lane < lanes; ++lane)
         if (hot[g].share[lane] > 0) what(g, lane);
+  }
+  template <typename What>
+  void for_each(const What& what) const {
+    for_each({0, 0, hot.size()}, what);
   }
 
   Vec3 normal(std::size_t group, std::size_t lane) const {
     return {hot[group].nx[lane], hot[group].ny[lane], hot[group].nz[lane]};
   }
 
+  std::size_t slabs() const { return parts.size() == 1 ? 1 : parts.size() / 2; }
+  /// Parts of one phase share no body that moves: they are those from one of these numbers on up to the next.
+  std::array<std::size_t, 5> phases() const {
+    const std::size_t n = slabs();
+    if (n == 1) return {0, 1, 1, 1, 1};
+    return {0, n, n + n / 2, 2 * n - 1, 2 * n};
+  }
+  /// The sum over parts. Mirror images of a crowd have the parts of each phase in the opposite order, and the same sum.
+  template <typename Of>
+  double sum(const Of& of) const {
+    const std::array<std::size_t, 5> phase = phases();
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) sum += sum_in_pairs(phase[k], phase[k + 1], of);
+    return sum;
+  }
+
   std::vector<RowGroup> hot;
   std::vector<RowChange> change;
   std::vector<RowState> state;
   std::vector<std::array<RowName, lanes>> names;
-  std::size_t ball_groups = 0;  // the first of all: groups of pairs of balls
+  std::vector<RowPart> parts;
+  std::vector<std::uint32_t> place;  // by member: 2 s in slab s, 2 s + 1 on the cut behind it
+  std::vector<std::uint32_t> first;  // by slab: the first number of its members, and behind the last slab their count
 
  private:
   std::size_t rows_ = 0;
+  std::vector<std::uint64_t> used_;  // scratch: by body, a bit for each colour
 };
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include "physics/contact_quality.h"
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/crowd/crowd.h"
+#include "simulate/crowd/crowd_solver.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
@@ -15,9 +16,10 @@ class ModeChanges;
 
 class CrowdSleep {
  public:
+  /// `threads` must outlive this object.
   CrowdSleep(ExactBodies& bodies, ModeChanges& modes, ExactGroup& group, FlightChanges& flights,
-             const ContactQuality& quality)
-      : bodies_(bodies), modes_(modes), group_(group), flights_(flights), quality_(quality) {}
+             const ContactQuality& quality, CrowdThreads& threads)
+      : bodies_(bodies), modes_(modes), group_(group), flights_(flights), quality_(quality), solver_(threads) {}
 
   /// Puts members to rest that are slow, and that forces hold. Returns whether there are some. Gaps must be measured.
   bool falls_asleep(Crowd& crowd);
@@ -29,13 +31,15 @@ class CrowdSleep {
     std::vector<std::uint32_t> members;  // their numbers in the crowd
     std::vector<std::uint32_t> number;   // by member of the crowd: its place in `members`
     std::vector<ContactConstraint> pairs;
-    std::vector<RowName> names;  // of the pairs
+    std::vector<RowPlace> rows;  // of the pairs
+    std::vector<RowName> names;
   };
 
   std::vector<std::uint8_t> slow_members(Crowd& crowd) const;
   bool has_settled(Crowd& crowd) const;
   Holding touching(const Crowd& crowd, std::span<const std::uint8_t> rests) const;
-  bool solve_rest(const Crowd& crowd, Holding& holding) const;
+  bool solve_rest(const Crowd& crowd, Holding& holding);
+  bool hold_by_sweeps(const Crowd& crowd, Holding& holding, const ContactProblem& problem);
   void put_to_rest(Crowd& crowd, const Holding& holding);
   bool wake_beneath(const Holding& holding);
 
@@ -44,6 +48,8 @@ class CrowdSleep {
   ExactGroup& group_;
   FlightChanges& flights_;
   const ContactQuality& quality_;
+  const CrowdKernels& kernels_ = widest_crowd_kernels();
+  CrowdSolver solver_;
 };
 
 }  // namespace carom

@@ -8,11 +8,15 @@
 #include <vector>
 
 #include "simulate/crowd/crowd_kernels.h"
+#include "simulate/crowd/crowd_threads.h"
 
 namespace carom {
 
 class CrowdSolver {
  public:
+  /// `threads` must outlive the solver.
+  explicit CrowdSolver(CrowdThreads& threads) : threads_(threads) {}
+
   struct Goal {
     double length;  // s, of the step
     double change;  // (m/s)^2, of a sweep: see SweepResult
@@ -26,14 +30,21 @@ class CrowdSolver {
   /// Sweeps so many times over the marked groups, without directions.
   void sweep(CrowdRows& rows, std::vector<Four>& v, double length, std::span<const std::uint8_t> marks, int sweeps);
   /// Scales all impulses by one factor, so that they do no work beyond their targets. free: velocities without them.
-  void scale(CrowdRows& rows, std::vector<Four>& v, const std::vector<Four>& free, double length) const;
+  void scale(CrowdRows& rows, std::vector<Four>& v, const std::vector<Four>& free, double length);
 
  private:
+  static constexpr double anew = -1;  // in place of a factor of the last direction: there is none
+
   bool mark(const CrowdRows& rows, const std::vector<Four>& v, double length, double gap);
+  void list_marked(const CrowdRows& rows, std::size_t part);
+  void turn(CrowdRows& rows, std::vector<Four>& v, std::size_t part, double beta);
+  template <typename Before>
+  SweepResult sweep(CrowdRows& rows, std::vector<Four>& v, double length, const Before& before);
 
   const CrowdKernels& kernels_ = widest_crowd_kernels();
-  std::vector<std::uint8_t> marks_;   // by group: it takes part
-  std::vector<std::uint32_t> which_;  // these groups
+  CrowdThreads& threads_;
+  std::vector<std::uint8_t> marks_;                // by group: it takes part
+  std::vector<std::vector<std::uint32_t>> which_;  // these groups, by part
   std::vector<Four> before_;
   std::vector<Four> direction_;
 };

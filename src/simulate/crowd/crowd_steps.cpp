@@ -70,40 +70,75 @@ bool CrowdSteps::aim(Crowd& crowd) {
   const double back = return_of_step(crowd);
   StepTarget target;
   target.length = crowd.step.length;
-  target.push = crowd.taken > crowd.made ? back : 0;
+  target.push = crowd.balance.taken > crowd.balance.made && crowd.step.waits == 0 ? back : 0;
   target.back = back;
   target.share = tol::share_of_gap;
   target.below = tol::share_below;
   target.least = tol::gap_rounding * crowd.smallest;
   target.shell = crowd.step.shell;
+  // Each of the two goes no farther than the quality lets it (`longest`).
+  target.way = 2 * quality_.displacement * crowd.smallest;
+  may_strike_.resize(crowd.rows.groups());
 
-  const AimResult found = kernels_.aim(crowd.rows.hot.data(), crowd.rows.change.data(), crowd.rows.state.data(),
-                                       crowd.rows.groups(), now_.data(), target);
-  if (found.least_gap < 0) bodies_.log.note_overlap(-found.least_gap);
-  return found.strikes;
+  CrowdRows& rows = crowd.rows;
+  std::vector<AimResult> found(rows.parts.size());
+  threads_.each(rows, [&](std::size_t p) {
+    const auto& [begin, balls, end] = rows.parts[p];
+    found[p] = kernels_.aim(rows.hot.data() + begin, rows.change.data() + begin, rows.state.data() + begin, end - begin,
+                            now_.data(), target, may_strike_.data() + begin);
+  });
+
+  bool strikes = false;
+  for (const AimResult& of : found) {
+    if (of.least_gap < 0) bodies_.log.note_overlap(-of.least_gap);
+    strikes = strikes || of.strikes;
+  }
+  return strikes;
 }
 
 /// Impacts of pairs that would close their gap in the step, in the order of rows, until none is left. False: one of
-/// them is a sleeping body's.
+/// them is a sleeping body's, which must wake first.
 bool CrowdSteps::strike(Crowd& crowd) {
-  const std::size_t groups = crowd.rows.groups();
   bool any = aim(crowd);
+  std::vector<Strikes> strikes(crowd.rows.parts.size());
   for (int sweep = 0; any && sweep < quality_.impact_sweeps; ++sweep) {
-    any = false;
-    unsigned which = 0;
     const double within = longest(crowd);
+    threads_.in_phases(crowd.rows, [&](std::size_t p) { strike(crowd, p, within, strikes[p]); });
 
-    for (std::size_t g = 0; (g = kernels_.next_strike(crowd.rows.hot.data(), crowd.rows.state.data(), g, groups,
-                                                      now_.data(), within, which)) < groups;
-         ++g) {
-      any = true;
-      for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane)
-        if ((which >> lane & 1) != 0 && !strike(crowd, g, lane)) return false;
+    any = false;
+    for (Strikes& of_part : strikes) {
+      any = any || !of_part.met.empty();
+      book(of_part);
+      if (of_part.struck.a != no_entity) crowd.struck.push_back(of_part.struck);
+      of_part = {};
     }
+    if (!crowd.struck.empty()) return false;
   }
 
   crowd.step.kinetic = kinetic_energy(crowd);
   return true;
+}
+
+/// Those of a part in one round, up to one of a sleeping body.
+void CrowdSteps::strike(Crowd& crowd, std::size_t part, double within, Strikes& strikes) {
+  const auto& [begin, balls, end] = crowd.rows.parts[part];
+  unsigned which = 0;
+  for (std::size_t g = begin; (g = kernels_.next_strike(crowd.rows.hot.data(), crowd.rows.state.data(), g, end,
+                                                        now_.data(), within, may_strike_.data(), which)) < end;
+       ++g)
+    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+      if ((which >> lane & 1) == 0) continue;
+      strike(crowd, g, lane, strikes);
+      if (strikes.struck.a != no_entity) return;
+    }
+}
+
+void CrowdSteps::book(const Strikes& strikes) const {
+  for (const Collision& met : strikes.met) {
+    bodies_.log.record(met);
+    bodies_.log.lose(met.energy_lost);
+  }
+  if (strikes.work != 0) bodies_.log.add_work(strikes.work);
 }
 
 /// Whether a row with a sleeping body has an impulse. It is to wake.
@@ -122,30 +157,25 @@ void CrowdSteps::restart(Crowd& crowd) const {
   std::fill(crowd.lag.begin(), crowd.lag.end(), 0);
 }
 
-/// The impact of one row. False: its other body sleeps, and must wake first.
-bool CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane) {
+/// The impact of one row.
+void CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane, Strikes& strikes) {
   const RowGroup& row = crowd.rows.hot[group];
   const std::uint32_t a = row.a[lane];
-  const std::uint32_t b = row.b[lane];
+  const bool body = row.b[lane] < crowd.movable();
   const Vec3 normal = crowd.rows.normal(group, lane);
   const auto& [i, e] = crowd.rows.names[group][lane];
-  const double speed = approach(crowd, group, lane);
-  if (b >= crowd.movable() && bodies_.world.is_body(e)) {
-    crowd.struck = crowd.rows.names[group][lane];
-    return false;
+  if (!body && bodies_.world.is_body(e)) {
+    strikes.struck = crowd.rows.names[group][lane];
+    return;
   }
 
+  const double speed = approach(crowd, group, lane);
   const double restitution = crowd.rows.state[group].e[lane];
   const double separation = restitution * speed;
   const Vec3 point = crowd.position(a) + bodies_.world.volume_of(i).support(normal) * normal;
-
-  const Collision met =
-      make_collision(bodies_.world, b < crowd.movable() ? CollisionKind::body_body : CollisionKind::body_fixed,
-                     bodies_.now.hi, i, e, point, normal, speed, separation, restitution);
-  bodies_.log.record(met);
-  bodies_.log.lose(met.energy_lost);
-  push(crowd, group, lane, met.impulse, crowd.v);
-  return true;
+  strikes.met.push_back(make_collision(bodies_.world, body ? CollisionKind::body_body : CollisionKind::body_fixed,
+                                       bodies_.now.hi, i, e, point, normal, speed, separation, restitution));
+  strikes.work += push(crowd, group, lane, strikes.met.back().impulse, crowd.v);
 }
 
 /// Changes the velocities of the instant, and these drifts, by an impulse (N s) of a row. Returns the work of a thing
@@ -160,25 +190,21 @@ double CrowdSteps::push(Crowd& crowd, std::size_t group, std::size_t lane, doubl
     add(drifts[k], change);
     crowd.idle[k] = 0;
   }
-  const double work = row.b[lane] < crowd.movable() ? 0 : -impulse * normal.dot(crowd.drift(row.b[lane]));
-  if (work != 0) bodies_.log.add_work(work);
-  return work;
+  return row.b[lane] < crowd.movable() ? 0 : -impulse * normal.dot(crowd.drift(row.b[lane]));
 }
 
 /// The kinetic energy at the step's start (J).
 double CrowdSteps::kinetic_energy(const Crowd& crowd) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k)
-    sum += 0.5 * bodies_.world.mass[crowd.members[k]] * vector_of(now_[k]).squaredNorm();
-  return sum;
+  return crowd.sum(
+      [&](std::size_t k) { return 0.5 * bodies_.world.mass[crowd.members[k]] * vector_of(now_[k]).squaredNorm(); });
 }
 
 void CrowdSteps::take(Crowd& crowd, double energy) const {
   if (energy >= 0) {
-    crowd.taken += energy;
+    crowd.balance.taken += energy;
     bodies_.log.absorb(energy);
   } else {
-    crowd.made -= energy;
+    crowd.balance.made -= energy;
     bodies_.log.make(-energy);
   }
 }
@@ -204,27 +230,34 @@ void CrowdSteps::kick(Crowd& crowd) {
 }
 
 /// Begins with the forces of contacts in the last step.
-void CrowdSteps::start_warm(Crowd& crowd) const {
-  for (std::size_t g = 0; g < crowd.rows.groups(); ++g)
-    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
-      const std::uint32_t a = crowd.rows.hot[g].a[lane];
-      const double lag = a < crowd.movable() ? crowd.lag[a] : 0;
-      crowd.rows.hot[g].impulse[lane] = (0.5 * crowd.step.length + lag) * crowd.rows.state[g].force[lane];
-    }
-  kernels_.push(crowd.rows.hot.data(), crowd.rows.groups(), crowd.v.data());
+void CrowdSteps::start_warm(Crowd& crowd) {
+  CrowdRows& rows = crowd.rows;
+  threads_.in_phases(rows, [&](std::size_t p) {
+    const auto& [begin, balls, end] = rows.parts[p];
+    for (std::size_t g = begin; g < end; ++g)
+      for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+        const std::uint32_t a = rows.hot[g].a[lane];
+        const double lag = a < crowd.movable() ? crowd.lag[a] : 0;
+        rows.hot[g].impulse[lane] = (0.5 * crowd.step.length + lag) * rows.state[g].force[lane];
+      }
+    kernels_.push(rows.hot.data() + begin, end - begin, crowd.v.data());
+  });
 }
 
 /// The root mean square of the relative speeds of bodies that pressed on each other in the last step (m/s). Pairs that
 /// fly beside one another, and slides along fixed things, would make the forces of a heap coarse.
 double CrowdSteps::speed_in_contact(const Crowd& crowd) {
-  double squares = 0;
-  std::size_t pressing = 0;
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
-    const RowGroup& row = crowd.rows.hot[g];
-    if (!(crowd.rows.state[g].force[lane] > 0) || row.b[lane] >= crowd.movable()) return;
-    squares += (crowd.drift(row.b[lane]) - crowd.drift(row.a[lane])).squaredNorm();
-    ++pressing;
+  const CrowdRows& rows = crowd.rows;
+  std::vector<Agitation> found(rows.parts.size());
+  threads_.each(rows, [&](std::size_t p) {
+    const auto& [begin, balls, end] = rows.parts[p];
+    found[p] = kernels_.agitation(rows.hot.data() + begin, rows.state.data() + begin, end - begin, crowd.v.data(),
+                                  crowd.movable());
   });
+
+  std::size_t pressing = 0;
+  for (const Agitation& of : found) pressing += of.pressing;
+  const double squares = rows.sum([&](std::size_t p) { return found[p].squares; });
   return pressing > 0 ? std::sqrt(squares / static_cast<double>(pressing)) : 0;
 }
 
@@ -246,6 +279,8 @@ bool CrowdSteps::hold(Crowd& crowd) {
   const CrowdSolver::Goal aim = goal(crowd);
   SweepResult found = solver_.hold(crowd.rows, crowd.v, aim);
   if (found.is_short && give_up_returns(crowd)) {
+    crowd.step.waited = std::clamp(2 * crowd.step.waited, 1, tol::longest_wait);
+    crowd.step.waits = crowd.step.waited + 1;
     crowd.v = free_;
     start_warm(crowd);
     found = solver_.hold(crowd.rows, crowd.v, aim);
@@ -291,9 +326,15 @@ void CrowdSteps::keep_apart(Crowd& crowd) {
 }
 
 /// The longest drift (s) after which no two overlap by more than is allowed.
-double CrowdSteps::safe_length(const Crowd& crowd) const {
-  return kernels_.safe_drift(crowd.rows.hot.data(), crowd.rows.state.data(), crowd.rows.groups(), crowd.v.data(),
-                             std::max(tol::gap_rounding, quality_.overlap) * crowd.smallest);
+double CrowdSteps::safe_length(const Crowd& crowd) {
+  const double allowed = std::max(tol::gap_rounding, quality_.overlap) * crowd.smallest;
+  std::vector<double> found(crowd.rows.parts.size());
+  threads_.each(crowd.rows, [&](std::size_t p) {
+    const auto& [begin, balls, end] = crowd.rows.parts[p];
+    found[p] = kernels_.safe_drift(crowd.rows.hot.data() + begin, crowd.rows.state.data() + begin, end - begin,
+                                   crowd.v.data(), allowed);
+  });
+  return std::ranges::min(found);
 }
 
 /// The same impulses by the contact solver, where sweeps converge too slowly: masses are unequal, or bodies are jammed.
@@ -330,18 +371,28 @@ double CrowdSteps::approach(const Crowd& crowd, std::size_t group, std::size_t l
   return crowd.rows.normal(group, lane).dot(vector_of(now_[row.a[lane]]) - vector_of(now_[row.b[lane]]));
 }
 
+/// The rows that begin to press, or that impacts have left with an approach, in order.
+std::vector<RowPlace> CrowdSteps::closing_rows(const Crowd& crowd, double rounding) {
+  std::vector<std::vector<RowPlace>> found(crowd.rows.parts.size());
+  threads_.each(crowd.rows, [&](std::size_t p) {
+    crowd.rows.for_each(crowd.rows.parts[p], [&](std::size_t g, std::size_t lane) {
+      if (!(crowd.rows.hot[g].impulse[lane] > 0)) return;
+      const RowState& state = crowd.rows.state[g];
+      if (state.force[lane] == 0 || approach(crowd, g, lane) > std::max(state.slow[lane], rounding))
+        found[p].push_back({g, lane});
+    });
+  });
+
+  std::vector<RowPlace> all;
+  for (const std::vector<RowPlace>& of_part : found) all.insert(all.end(), of_part.begin(), of_part.end());
+  return all;
+}
+
 /// Takes away the approaches of pairs that begin to press, and those that impacts have left, as impacts of this instant
 /// without a rebound. What is left of their impulses is force.
 void CrowdSteps::absorb_approaches(Crowd& crowd) {
   const double rounding = tol::drift * greatest(now_);
-  std::vector<std::pair<std::size_t, std::size_t>> closing;
-  for (std::size_t g = 0; g < crowd.rows.groups(); ++g)
-    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
-      if (!(crowd.rows.hot[g].impulse[lane] > 0)) continue;
-      const RowState& state = crowd.rows.state[g];
-      if (state.force[lane] == 0 || approach(crowd, g, lane) > std::max(state.slow[lane], rounding))
-        closing.emplace_back(g, lane);
-    }
+  const std::vector<RowPlace> closing = closing_rows(crowd, rounding);
   if (closing.empty()) return;
 
   // One after the other, until nothing is left or all of an impulse is used.
@@ -362,17 +413,16 @@ void CrowdSteps::absorb_approaches(Crowd& crowd) {
     }
   }
 
+  if (work != 0) bodies_.log.add_work(work);
   const double before = crowd.step.kinetic;
   crowd.step.kinetic = kinetic_energy(crowd);
   take(crowd, before + work - crowd.step.kinetic);
 }
 
-void CrowdSteps::finish(Crowd& crowd) {
-  bodies_.log.count_crowd_step(crowd.step.solved);
-  absorb_approaches(crowd);
-
-  std::fill(crowd.pressed.begin(), crowd.pressed.end(), 0);
-  for (std::size_t g = 0; g < crowd.rows.groups(); ++g) {
+/// Finds the forces of a part of the rows in the step, and which members they press.
+void CrowdSteps::find_forces(Crowd& crowd, std::size_t part) const {
+  const auto& [begin, balls, end] = crowd.rows.parts[part];
+  for (std::size_t g = begin; g < end; ++g) {
     const RowGroup& row = crowd.rows.hot[g];
     RowState& state = crowd.rows.state[g];
     for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
@@ -387,6 +437,15 @@ void CrowdSteps::finish(Crowd& crowd) {
       if (b < crowd.movable()) crowd.pressed[b] = 1;
     }
   }
+}
+
+void CrowdSteps::finish(Crowd& crowd) {
+  if (crowd.step.waits == 0) crowd.step.waited = 0;
+  crowd.step.waits = std::max(crowd.step.waits - 1, 0);
+  bodies_.log.count_crowd_step(crowd.step.solved);
+  absorb_approaches(crowd);
+  std::fill(crowd.pressed.begin(), crowd.pressed.end(), 0);
+  threads_.in_phases(crowd.rows, [&](std::size_t p) { find_forces(crowd, p); });
 
   for (std::size_t k = 0; k < crowd.members.size(); ++k) {
     crowd.v[k].at[3] = 1 / bodies_.world.mass[crowd.members[k]];

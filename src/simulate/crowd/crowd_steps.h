@@ -14,7 +14,9 @@ namespace carom {
 
 class CrowdSteps {
  public:
-  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality) : bodies_(bodies), quality_(quality) {}
+  /// `threads` must outlive the steps.
+  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads)
+      : bodies_(bodies), quality_(quality), threads_(threads), solver_(threads) {}
 
   /// Solves the step of a crowd whose gaps are measured, and shortens it where that is necessary. False: a body has
   /// become too fast for the list. Drifts then have the impacts alone.
@@ -28,32 +30,44 @@ class CrowdSteps {
   double return_of_step(const Crowd& crowd) const;
   bool aim(Crowd& crowd);
   bool strike(Crowd& crowd);
+  /// Impacts of a part of the rows in one round.
+  struct Strikes {
+    std::vector<Collision> met;
+    double work = 0;  // J, of things that move
+    RowName struck;   // a row with a sleeping body, at which they end
+  };
+  void strike(Crowd& crowd, std::size_t part, double within, Strikes& strikes);
+  void book(const Strikes& strikes) const;
   bool presses_on_sleepers(const Crowd& crowd) const;
-  bool strike(Crowd& crowd, std::size_t group, std::size_t lane);
+  void strike(Crowd& crowd, std::size_t group, std::size_t lane, Strikes& strikes);
   void restart(Crowd& crowd) const;
   double push(Crowd& crowd, std::size_t group, std::size_t lane, double impulse, std::vector<Four>& drifts);
   double kinetic_energy(const Crowd& crowd) const;
   double approach(const Crowd& crowd, std::size_t group, std::size_t lane) const;
   void kick(Crowd& crowd);
-  static double speed_in_contact(const Crowd& crowd);
+  double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
   bool hold(Crowd& crowd);
   static void shorten(Crowd& crowd, double length);
   double longest(const Crowd& crowd) const;
-  void start_warm(Crowd& crowd) const;
+  void start_warm(Crowd& crowd);
   static bool give_up_returns(Crowd& crowd);
   void keep_apart(Crowd& crowd);
-  double safe_length(const Crowd& crowd) const;
+  double safe_length(const Crowd& crowd);
   bool solve_exactly(Crowd& crowd) const;
+  std::vector<RowPlace> closing_rows(const Crowd& crowd, double rounding);
   void absorb_approaches(Crowd& crowd);
+  void find_forces(Crowd& crowd, std::size_t part) const;
 
   ExactBodies& bodies_;
   const ContactQuality& quality_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
+  CrowdThreads& threads_;
   CrowdSolver solver_;
-  std::vector<Four> now_;     // velocities of the instant, by number
-  std::vector<Four> before_;  // those of the drift before the kick
-  std::vector<Four> free_;    // and after it, without contacts
+  std::vector<std::uint8_t> may_strike_;  // by group
+  std::vector<Four> now_;                 // velocities of the instant, by number
+  std::vector<Four> before_;              // those of the drift before the kick
+  std::vector<Four> free_;                // and after it, without contacts
 };
 
 }  // namespace carom

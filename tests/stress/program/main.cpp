@@ -26,7 +26,7 @@ constexpr std::size_t most_families = 32;
 constexpr unsigned hang = 60;  // s of CPU time that a scene, with all of its runs, may take
 
 struct Counts {
-  std::atomic<std::uint64_t> scenes, violated, collisions, stopped;
+  std::atomic<std::uint64_t> scenes, violated, collisions, stopped, crowds;
 };
 struct Shared {
   std::atomic<std::uint64_t> next;  // seed
@@ -58,6 +58,7 @@ Counts& counts_of(Shared& shared, std::uint64_t seed) {
     ++counts.scenes;
     counts.collisions += verdict.collisions;
     counts.stopped += verdict.stopped;
+    counts.crowds += verdict.crowds;
     if (verdict.violations.empty()) continue;
     ++counts.violated;
     report(scene, verdict.violations);
@@ -115,12 +116,12 @@ int run(std::uint64_t scenes, std::uint64_t first) {
     std::fprintf(stderr, "%llu of %llu scenes, %llu violated\n", static_cast<unsigned long long>(done()),
                  static_cast<unsigned long long>(scenes), static_cast<unsigned long long>(failed()));
   }
-  std::printf("\n%-10s %9s %9s %9s %12s\n", "family", "scenes", "violated", "stopped", "collisions");
+  std::printf("\n%-10s %9s %9s %9s %9s %12s\n", "family", "scenes", "violated", "stopped", "crowds", "collisions");
   for (std::size_t k = 0; k < family_names().size(); ++k) {
     const Counts& c = shared.family[k];
-    std::printf("%-10s %9llu %9llu %9llu %12llu\n", family_names()[k], static_cast<unsigned long long>(c.scenes),
+    std::printf("%-10s %9llu %9llu %9llu %9llu %12llu\n", family_names()[k], static_cast<unsigned long long>(c.scenes),
                 static_cast<unsigned long long>(c.violated), static_cast<unsigned long long>(c.stopped),
-                static_cast<unsigned long long>(c.collisions));
+                static_cast<unsigned long long>(c.crowds), static_cast<unsigned long long>(c.collisions));
   }
   std::printf("%llu scenes, %llu violated\n", static_cast<unsigned long long>(done()),
               static_cast<unsigned long long>(failed()));
