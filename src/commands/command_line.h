@@ -55,6 +55,12 @@ struct SubmitOptions {
   std::vector<std::string> batch;    // further options of the batch system
 };
 
+/// What goes on at a time. No result depends on it.
+struct Concurrency {
+  std::optional<std::uint64_t> jobs;     // runs
+  std::optional<std::uint64_t> threads;  // of each run
+};
+
 /// The options of one command. A command that lacks an option leaves its default.
 struct Options {
   std::vector<std::string> operands;             // scene files or other operands, in order
@@ -62,7 +68,7 @@ struct Options {
   std::vector<std::string> set;                  // path=value
   std::optional<std::vector<std::string>> only;  // names of outputs, not empty
   std::optional<std::uint64_t> seed;
-  std::optional<std::uint64_t> jobs;  // at a time; no result depends on it
+  Concurrency at_once;
   bool force = false;
   bool quiet = false;
   bool json = false;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "commands/crowd_ahead.h"
 #include "commands/interrupt.h"
 #include "commands/preview.h"
 #include "export/timeline.h"
@@ -80,8 +81,11 @@ class Trial {
   /// Wall time of the whole simulation, scaled up from this part of it; none: nothing was simulated.
   std::optional<double> whole() const {
     const double duration = scene_.simulate.duration;
-    if (!oracle_ || !(oracle_->time() > 0 || duration == 0)) return std::nullopt;
-    return made_s_ + (duration == 0 ? 0 : advance_s_ * (duration / oracle_->time()));
+    if (duration == 0 && oracle_) return made_s_;
+    if (!oracle_ || !(oracle_->time() > 0)) return std::nullopt;
+    const double rate = advance_s_ / oracle_->time();
+    return made_s_ + advance_s_ +
+           time_ahead(crowd_ahead(scene_, most_exact(scene_.world)), oracle_->time(), duration, rate);
   }
 
  private:
@@ -151,7 +155,9 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
       simulator->advance_to(std::min(duration, simulator->time() + duration / 1000));
     }
     if (!(simulator->time() > 0)) return std::nullopt;
-    return made + (since(start) - made) * (duration / simulator->time());
+    const double spent = since(start) - made;
+    const double time = simulator->time();
+    return made + spent + time_ahead(crowd_ahead(scene, engine.engine), time, duration, spent / time);
   } catch (const SimulationError&) {
     return std::nullopt;
   }

@@ -37,10 +37,10 @@ void Progress::clear() {
 namespace {
 
 // Whole seconds: the estimate is no more precise.
-std::string left_text(double elapsed, double done) {
-  if (!(done > 0)) return "";
-  const double left = std::ceil(elapsed / done * (1 - done));
-  return (left < 60 ? fmt::format("{:.0f} s", left) : wait_text(left)) + " left";
+std::string left_text(double left) {
+  if (!std::isfinite(left)) return "";
+  const double whole = std::ceil(left);
+  return (whole < 60 ? fmt::format("{:.0f} s", whole) : wait_text(whole)) + " left";
 }
 
 }  // namespace
@@ -89,10 +89,21 @@ std::string Progress::rate(double count) const {
                          : grouped(static_cast<std::uint64_t>(whole_below(per_second))) + "/s";
 }
 
-void Progress::show(double done, const std::string& what) {
+/// The time (s) of all of the work at the pace of the last third of the time so far. Not a number: it is unknown.
+double Progress::whole_time(double done) {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  while (milestones_.size() > 1 && milestones_[1].elapsed <= elapsed * 2 / 3) milestones_.pop_front();
+  Milestone from = milestones_.front();
+  milestones_.push_back({elapsed, done});
+  if (done <= from.done) from = {};
+  return (elapsed - from.elapsed) / (done - from.done);
+}
+
+/// left_s: the time to come (s).
+void Progress::show(double done, double left_s, const std::string& what) {
   const Clock::time_point now = Clock::now();
   const double since_last = std::chrono::duration<double>(now - last_).count();
-  const std::string left = left_text(std::chrono::duration<double>(now - start_).count(), done);
+  const std::string left = left_text(left_s);
   const std::string counts = left.empty() ? what : what + ", " + left;
   if (choice_ == ProgressChoice::bar) {
     draw_bar(done, counts, left);
@@ -115,19 +126,23 @@ void Progress::update(double time, std::uint64_t collisions, std::uint64_t frame
                                              rate(static_cast<double>(frames)))
                                : fmt::format("{:.4g} of {:.4g} s ({}), {}", time, duration_, rate(time),
                                              counted(collisions, "collision", "collisions"));
-  show(std::clamp(done, 0.0, 1.0), what);
+  const double rate = whole_time(done) / duration_;
+  show(std::clamp(done, 0.0, 1.0), time_ahead(crowd_, time, std::max(duration_, time), rate), what);
 }
 
 void Progress::update(std::size_t done, std::size_t of, std::string_view things, const std::string& more) {
   if (!due()) return;
   const auto count = static_cast<double>(done);
-  show(count / static_cast<double>(std::max<std::size_t>(of, 1)),
+  const double share = count / static_cast<double>(std::max<std::size_t>(of, 1));
+  show(share, (1 - share) * whole_time(share),
        fmt::format("{} of {} {} ({}){}", grouped(done), grouped(of), things, rate(count), more));
 }
 
 void Progress::update(double done, const std::string& what) {
   store(done);
-  if (due()) show(std::clamp(done, 0.0, 1.0), what);
+  if (!due()) return;
+  const double share = std::clamp(done, 0.0, 1.0);
+  show(share, (1 - share) * whole_time(share), what);
 }
 
 }  // namespace carom

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 
 #include "commands/command_line.h"
+#include "commands/crowd_ahead.h"
 
 namespace carom {
 
@@ -28,6 +30,8 @@ class Progress {
   void update(std::size_t done, std::size_t of, std::string_view things, const std::string& more = "");
   /// The same for other work: the fraction `done`, 0 to 1, and its present step.
   void update(double done, const std::string& what);
+  /// A crowd will take more time than what comes before it.
+  void expect(const CrowdAhead& crowd) { crowd_ = crowd; }
   /// From here on the fraction done is also stored there, even if nothing is shown. Null: nowhere.
   void share(std::atomic<double>* done) { shared_ = done; }
   /// The first line of a log comes after 1 s, even if nothing is done by then.
@@ -40,7 +44,8 @@ class Progress {
   bool due() const;
   void store(double done);
   std::string rate(double count) const;
-  void show(double done, const std::string& counts);
+  double whole_time(double done);
+  void show(double done, double left_s, const std::string& counts);
   void draw_bar(double done, const std::string& counts, const std::string& left);
 
   ProgressChoice choice_;
@@ -48,7 +53,14 @@ class Progress {
   std::string name_;
   double duration_;  // s
   std::uint64_t frames_to_come_;
+  CrowdAhead crowd_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
+  // What was done at times since the start (s). The pace is that since the first of them.
+  struct Milestone {
+    double elapsed = 0;
+    double done = 0;
+  };
+  std::deque<Milestone> milestones_{{}};
   int tenth_ = 0;
   bool drawn_ = false;
   std::atomic<double>* shared_ = nullptr;

@@ -13,6 +13,7 @@
 #include "commands/run_one.h"
 #include "commands/text.h"
 #include "commands/watch.h"
+#include "files/processors.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -60,6 +61,7 @@ const CommandText& run_text() {
        {"--only"},
        {"--seed"},
        {"--jobs"},
+       {"--threads"},
        {"--watch"},
        {"--force"},
        {"--verbose"},
@@ -68,6 +70,7 @@ const CommandText& run_text() {
 }
 
 int run_command(const Options& options) {
+  if (options.at_once.threads) use_threads(*options.at_once.threads);
   if (options.watch) return watch_scenes(options);
   return run_planned(options, "run", plan_scenes(options));
 }
@@ -97,6 +100,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
     Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
     progress.share(done);
+    progress.expect(crowd_ahead(*planned.scene, planned.engine.engine));
     return work(planned, style, progress);
   };
   batch.settle = [&](SceneOutcome outcome) { list.add(std::move(outcome)); };

@@ -111,7 +111,7 @@ class SweepSession {
     SweepOutcome outcome;
     for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);
     outcome.to_do = job.left();
-    share_processors(options_.jobs.value_or(processors()));
+    share_processors(options_.at_once.jobs.value_or(processors()));
     show_progress("runs", outcome.to_do);
     job.run([&](const SweepProgress& p) { show_progress(p); },
             [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
@@ -183,6 +183,7 @@ const CommandText& sweep_text() {
        {"--measures", measures_help},
        {"--plan"},
        {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
+       {"--threads"},
        {"--shard"},
        {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
        {"--only"},
@@ -198,6 +199,7 @@ const CommandText& sweep_text() {
 }
 
 int sweep_command(const Options& options) {
+  if (options.at_once.threads) use_threads(*options.at_once.threads);
   return SweepSession(options).go();
 }
 

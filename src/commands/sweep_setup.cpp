@@ -132,7 +132,7 @@ SweepSettings sweep_settings(const Options& options) {
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
   };
   settings.load.former_state = start_reader(settings.load);
-  settings.jobs = options.jobs.value_or(processors());
+  settings.jobs = options.at_once.jobs.value_or(processors());
   settings.shard = shard_of(options);
   settings.force = options.force;
   settings.restrict = [](const Output& requested, const Sweep& sweep) {

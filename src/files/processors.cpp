@@ -10,6 +10,7 @@ namespace carom {
 namespace {
 
 std::size_t processes = 1;
+std::size_t threads = 0;  // 0: a share of the processors
 
 }  // namespace
 
@@ -24,7 +25,13 @@ void share_processors(std::size_t jobs) {
   setenv("LP_NUM_THREADS", std::to_string(share_of_processors()).c_str(), 0);
 }
 
+void use_threads(std::size_t count) {
+  threads = count;
+  setenv("LP_NUM_THREADS", std::to_string(count).c_str(), 1);
+}
+
 std::size_t share_of_processors() {
+  if (threads > 0) return threads;
   return std::max<std::size_t>(1, processors() / processes);
 }
 

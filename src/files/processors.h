@@ -12,7 +12,12 @@ std::size_t processors();
 /// exist.
 void share_processors(std::size_t jobs);
 
-/// The share of this process: processors(), unless share_processors() has divided them. At least 1.
+/// Lets each run take so many threads, however many processors there are. LP_NUM_THREADS says so too. Call it before
+/// threads exist.
+void use_threads(std::size_t count);
+
+/// The threads of one run in this process: those of use_threads(), and otherwise processors() or what
+/// share_processors() leaves of them. At least 1.
 std::size_t share_of_processors();
 
 }  // namespace carom

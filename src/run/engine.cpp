@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "files/processors.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "run/accuracy.h"
@@ -38,6 +39,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
   options.one_by_one = request.steps.one_by_one;
   options.quality = &quality_of(simulate.contact.quality);
+  options.threads = static_cast<int>(share_of_processors());
   if (request.steps.error > 0) options.step_error = request.steps.error;
   return options;
 }
