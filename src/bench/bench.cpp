@@ -37,7 +37,12 @@ constexpr std::array step_errors = {0x1p-16, 0x1p-24, 0x1p-32, exact_tolerance::
 class Bench {
  public:
   Bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch)
-      : scene_(scene), world_(scene.world), options_(options), watch_(watch) {}
+      : scene_(scene),
+        world_(scene.world),
+        options_(options),
+        all_(watch),
+        watch_{watch.stop_check,
+               [this](double done, const std::string& what) { all_.report_progress(share_ * done, what); }} {}
 
   BenchResult go() {
     choose_steps();
@@ -49,7 +54,10 @@ class Bench {
     evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded, rounding_of(scene_),
                       Finding{reference_.method, reference_.run, reference_.error});
     if (reference_.second) evidence_->add(*std::move(reference_.second));
-    left_ = std::max(0.2 * options_.budget, options_.budget - spent());
+    // Half of the time is for the qualities of crowds.
+    const bool has_crowds = reference_.run.tally.stepped_contact > 0 && reference_.method.engine == Engine::exact;
+    share_ = has_crowds ? 0.5 : 1;
+    left_ = std::max(0.2 * options_.budget, share_ * options_.budget - spent());
     for (const Engine engine : {Engine::exact, Engine::stepped, Engine::book}) {
       if (const auto lacks = unsupported(world_, with_engine(scene_.simulate, engine)); !lacks.empty())
         result_.left_out.push_back(fmt::format("{}: {}", name_of(engine), lacks.front().what));
@@ -62,6 +70,7 @@ class Bench {
     }
     settle_reference();
     time_rows();
+    if (has_crowds) measure_crowds();
     result_.cpu_s = spent();
     return std::move(result_);
   }
@@ -208,6 +217,14 @@ class Bench {
     return cpu_time() - start;
   }
 
+  void measure_crowds() {
+    const BenchWatch rest{all_.stop_check, [this](double done, const std::string& what) {
+                            all_.report_progress(share_ + (1 - share_) * done, what);
+                          }};
+    result_.qualities = measure_qualities(scene_, (1 - share_) * options_.budget, rest);
+    if (!result_.qualities.cut.empty()) result_.left_out.push_back(result_.qualities.cut);
+  }
+
   /// A row without repeats already has its time, from the only run that the budget allowed.
   void time_rows() {
     std::vector<BenchRow*> rows;
@@ -226,7 +243,9 @@ class Bench {
   const Scene& scene_;
   const World& world_;
   const BenchOptions& options_;
-  const BenchWatch& watch_;
+  const BenchWatch& all_;
+  BenchWatch watch_;  // of all but the qualities of crowds
+  double share_ = 1;  // of the bench, that these are not
   const double start_ = cpu_time();
   double left_ = 0;            // s of CPU time for the rows
   std::vector<double> steps_;  // s, from the longest

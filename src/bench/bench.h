@@ -10,6 +10,7 @@
 #include "bench/differences.h"
 #include "bench/evidence.h"
 #include "bench/method.h"
+#include "bench/qualities.h"
 #include "bench/statistics.h"
 
 namespace carom {
@@ -49,6 +50,7 @@ struct BenchResult {
   std::size_t members = 0;
   Statistics mean;  // of the ensemble
   std::vector<BenchRow> rows;
+  QualityCurve qualities;
   /// A line for each engine, or for an engine's steps, without a row.
   std::vector<std::string> left_out;
   double cpu_s = 0;  // of the whole bench

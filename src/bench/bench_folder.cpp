@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <set>
 
@@ -80,6 +81,33 @@ void write_table(OutputFile& file, const BenchResult& result) {
     cells.text(statistics ? row.deviation.of : "").number(if_any(method.steps.error > 0, method.steps.error));
     cells.number(if_any(errors, result.reference_error.position)).end();
   }
+}
+
+void write_qualities(OutputFile& file, const QualityCurve& curve) {
+  file.write(
+      "quality,cpu_s,runs,dissipated_error,dissipated_spread,height_error,height_spread,contact_made_J,unsolved_steps,"
+      "max_overlap_m\n");
+  for (const QualityRow& row : curve.rows) {
+    CsvRow cells(file);
+    cells.text(std::string(name_of(row.level))).number(row.cpu_s).number(static_cast<double>(curve.runs));
+    cells.number(row.dissipated.value).number(row.dissipated.spread);
+    cells.number(row.height.value).number(row.height.spread);
+    cells.number(row.made).number(row.unsolved).number(row.max_overlap).end();
+  }
+}
+
+/// One curve of the errors over run time. The reference has none.
+PlotSeries quality_series(const QualityCurve& curve, std::string name, std::size_t style,
+                          MeanError QualityRow::*error) {
+  PlotSeries series{std::move(name), style, {}};
+  for (std::size_t k = 0; k + 1 < curve.rows.size(); ++k) {
+    const QualityRow& row = curve.rows[k];
+    const MeanError& of = row.*error;
+    if (!std::isfinite(of.value)) continue;
+    const double size = std::abs(of.value);
+    series.points.push_back({row.cpu_s, size, std::string(name_of(row.level)), size - of.spread, size + of.spread});
+  }
+  return series;
 }
 
 std::size_t style_of(const SimulationMethod& method) {
@@ -162,6 +190,20 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   return plot;
 }
 
+Plot quality_plot(const Scene& scene, const QualityCurve& curve) {
+  Plot plot;
+  plot.title = valid_utf8(scene.title);
+  plot.subtitle = fmt::format("means of {} runs, against those at quality {}; bars: standard errors", curve.runs,
+                              name_of(curve.rows.back().level));
+  plot.x_label = "CPU time of the run (s)";
+  plot.y_label = "share of the whole";
+  plot.floor = 1e-5;
+  plot.series.push_back(quality_series(curve, "energy lost", 0, &QualityRow::dissipated));
+  plot.series.push_back(quality_series(curve, "height of the heap", 1, &QualityRow::height));
+  for (PlotPoint& point : plot.series.back().points) point.label.clear();
+  return plot;
+}
+
 FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options,
                                    FolderChanges* changes) {
   std::vector<std::string> files = {"scene.yaml"};
@@ -176,21 +218,30 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
 }
 
 void BenchFolder::write(const Scene& scene, const BenchOptions& options, const BenchResult& result) {
-  const PlotPictures pictures = draw_plot(work_precision_plot(scene, result), gnuplot_);
+  const bool has_qualities = !result.qualities.rows.empty();
+  std::vector<Plot> plots = {work_precision_plot(scene, result)};
+  if (has_qualities) plots.push_back(quality_plot(scene, result.qualities));
+  const std::vector<PlotPictures> pictures = draw_plots(plots, gnuplot_);
+
   std::vector<FileRecord> records = folder_.begin(scene, read_meshes(scene));
   const FilePlace& place = folder_.place();
-  OutputFile table(place, bench_files[0]), png(place, bench_files[1]), svg(place, bench_files[2]);
-  write_table(table, result);
-  png.write(pictures.png);
-  svg.write(pictures.svg);
-  for (OutputFile* file : {&table, &png, &svg}) {
-    file->complete();
-    records.push_back(file->record());
+  std::deque<OutputFile> files;
+  for (std::size_t k = 0; k < 3 * plots.size(); ++k) files.emplace_back(place, bench_files[k]);
+  write_table(files[0], result);
+  if (has_qualities) write_qualities(files[3], result.qualities);
+  std::vector<PartFile*> written;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (k % 3 == 1) files[k].write(pictures[k / 3].png);
+    if (k % 3 == 2) files[k].write(pictures[k / 3].svg);
+    files[k].complete();
+    records.push_back(files[k].record());
+    written.push_back(&files[k]);
   }
+
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(scene, text_of_json(outputs_json(options)), text_of_json(facts_json(result)), records));
   manifest.complete();
-  folder_.publish({&table, &png, &svg}, manifest);
+  folder_.publish(written, manifest);
 }
 
 }  // namespace carom

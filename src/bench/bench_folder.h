@@ -20,6 +20,9 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
 /// or against the deviation of a chaotic scene's statistics.
 Plot work_precision_plot(const Scene& scene, const BenchResult& result);
 
+/// CPU time against the errors of dissipated energy and height, by quality.
+Plot quality_plot(const Scene& scene, const QualityCurve& curve);
+
 /// The members in manifest.json: engine, integrator, step_s, step_error.
 nlohmann::ordered_json method_json(const SimulationMethod& method);
 /// The other methods, with apart_m and agrees.

@@ -14,6 +14,7 @@
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/text.h"
+#include "files/processors.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -141,6 +142,8 @@ const CommandText& bench_text() {
 }
 
 int bench_command(const Options& options) {
+  // Run times of one thread are compared.
+  use_threads(1);
   return BenchSession(options).go();
 }
 

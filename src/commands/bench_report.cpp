@@ -130,6 +130,34 @@ Json row_json(const BenchRow& row, bool chaotic) {
   return json;
 }
 
+/// "0.21 +- 0.05" %, or nothing.
+std::string percent_text(const MeanError& error) {
+  if (!std::isfinite(error.value)) return "";
+  return fmt::format("{:.2f} +- {:.2f}", 100 * error.value, 100 * error.spread);
+}
+
+void describe(Block& block, const QualityCurve& curve) {
+  block.line("qualities", fmt::format("of lasting contact of many bodies: means of {} runs, against `{}`", curve.runs,
+                                      name_of(curve.rows.back().level)));
+  std::vector<Cells> rows = {{"quality", "CPU s", "energy lost %", "height %", "made J", "unsolved %", "overlap m"}};
+  for (const QualityRow& row : curve.rows)
+    rows.push_back({std::string(name_of(row.level)), digits(row.cpu_s), percent_text(row.dissipated),
+                    percent_text(row.height), digits(row.made), digits(100 * row.unsolved), digits(row.max_overlap)});
+  block.table(rows);
+}
+
+Json quality_json(const QualityRow& row) {
+  return {{"quality", name_of(row.level)},
+          {"cpu_s", row.cpu_s},
+          {"dissipated_error", row.dissipated.value},
+          {"dissipated_spread", row.dissipated.spread},
+          {"height_error", row.height.value},
+          {"height_spread", row.height.spread},
+          {"contact_made_J", row.made},
+          {"unsolved_steps", row.unsolved},
+          {"max_overlap_m", row.max_overlap}};
+}
+
 }  // namespace
 
 void describe(Block& block, const PlannedScene& planned, const BenchResult& result) {
@@ -142,6 +170,7 @@ void describe(Block& block, const PlannedScene& planned, const BenchResult& resu
   std::vector<Cells> rows = {heading(result)};
   for (const BenchRow& row : result.rows) rows.push_back(cells_of(row, result.chaotic));
   block.table(rows);
+  if (!result.qualities.rows.empty()) describe(block, result.qualities);
   for (const std::string& line : result.left_out) block.line("left out", line);
   for (const BenchRow& row : result.rows)
     if (!row.failure.empty()) block.line("failed", fmt::format("{}: {}", full_name_of(row.method), row.failure));
@@ -164,6 +193,11 @@ Json bench_json(const BenchResult& result) {
   }
   json["rows"] = Json::array();
   for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row, result.chaotic));
+  if (!result.qualities.rows.empty()) {
+    json["qualities"] = Json::array();
+    json["quality_runs"] = result.qualities.runs;
+    for (const QualityRow& row : result.qualities.rows) json["qualities"].push_back(quality_json(row));
+  }
   json["left_out"] = result.left_out;
   json["cpu_s"] = result.cpu_s;
   return json;

@@ -65,7 +65,8 @@ std::string changed_manifest(const std::string& text, const Scene& scene, const 
 std::optional<Manifest> read_manifest(int folder, const std::string& name);
 
 /// The files that a bench writes beside scene.yaml.
-inline constexpr std::array<const char*, 3> bench_files = {"bench.csv", "bench.png", "bench.svg"};
+inline constexpr std::array<const char*, 6> bench_files = {"bench.csv",     "bench.png",     "bench.svg",
+                                                           "qualities.csv", "qualities.png", "qualities.svg"};
 
 /// Whether a run may write a file of this name: a plain one, or one of a series: frames/frame_<digits>.png.
 bool is_run_file(std::string_view name);

@@ -89,6 +89,34 @@ TEST(BenchCommand, WritesATableAPlotAndAManifest) {
       << run.out;
 }
 
+TEST(BenchCommand, OfACrowdHasACurveOfQualities) {
+  const Workplace here;
+  here.write("heap.yaml", R"(scene: 1
+seed: 1
+restitution: 0.5
+room: {min: [0, 0, 0], max: [0.4, 4, 0.4]}
+groups: {b: {count: 100, ball: {mass: 1, radius: 0.05}, in: {min: [0, 0, 0], max: [0.4, 2.5, 0.4]}}}
+simulate: {duration: 1.2}
+)");
+  const Finished run = here.carom({"bench", "heap.yaml", "--steps", "0.0625:0.0625", "--budget", "4"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("\n  qualities   of lasting contact of many bodies: means of "), std::string::npos) << run.out;
+  const auto files = here.files("output/heap.bench");
+  EXPECT_TRUE(files.at("qualities.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(files.at("qualities.svg").starts_with("<?xml"));
+
+  const auto table = table_of(files.at("qualities.csv"));
+  ASSERT_GE(table.size(), 4u);
+  EXPECT_EQ(table[1][0], "preview");
+  EXPECT_EQ(table[3][0], "normal");
+  for (std::size_t k = 1; k < table.size(); ++k) {
+    EXPECT_GE(std::stoi(table[k][2]), 3) << k;
+    EXPECT_LT(std::stod(table[k][3]), 0.05) << k;
+    EXPECT_LT(std::abs(std::stod(table[k][5])), 0.1) << k;
+  }
+  EXPECT_EQ(table.back()[3], "0");
+}
+
 TEST(BenchCommand, JsonHasTheSameRows) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
