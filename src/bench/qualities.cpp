@@ -90,31 +90,10 @@ class QualityBench {
 
   QualityCurve go() {
     QualityCurve curve;
-    // One run of each, as long as three of all fit.
-    double once = 0;  // s, of one run of each
-    for (std::size_t level = 0; level < contact_qualities.size(); ++level) {
-      const std::string name(name_of(static_cast<QualityLevel>(level)));
-      try {
-        runs_.push_back({run(level, 1, stop_check_within(budget_ / least_runs - once, watch_.stop_check))});
-        once += runs_.back().front().cpu_s;
-      } catch (const Overrun&) {
-        curve.cut = fmt::format("quality {} and finer: three runs exceed {:.2g} s of CPU time", name, budget_);
-        break;
-      } catch (const SimulationError& error) {
-        curve.cut = fmt::format("quality {} and finer: {}", name, error.what());
-        break;
-      }
-    }
-
+    const double once = run_each_once(curve);
     const auto affordable = static_cast<std::size_t>(whole_below(once > 0 ? budget_ / once : 0));
     curve.runs = std::clamp(affordable, least_runs, most_runs);
-    for (std::size_t level = 0; level < runs_.size(); ++level) try {
-        for (std::size_t number = 2; number <= curve.runs; ++number)
-          runs_[level].push_back(run(level, static_cast<int>(number), watch_.stop_check));
-      } catch (const SimulationError& error) {
-        curve.cut = fmt::format("quality {} and finer: {}", name_of(static_cast<QualityLevel>(level)), error.what());
-        runs_.resize(level);
-      }
+    repeat(curve);
 
     // Nothing is compared with the reference alone.
     if (runs_.size() < 2) return curve;
@@ -123,6 +102,38 @@ class QualityBench {
   }
 
  private:
+  static std::string cut_at(std::size_t level, const std::string& why) {
+    return fmt::format("quality {} and finer: {}", name_of(static_cast<QualityLevel>(level)), why);
+  }
+
+  /// As long as three runs of all fit. Returns their time (s).
+  double run_each_once(QualityCurve& curve) {
+    double once = 0;
+    for (std::size_t level = 0; level < contact_qualities.size() && curve.cut.empty(); ++level) {
+      try {
+        runs_.push_back({run(level, 1, stop_check_within(budget_ / least_runs - once, watch_.stop_check))});
+        once += runs_.back().front().cpu_s;
+      } catch (const Overrun&) {
+        curve.cut = cut_at(level, fmt::format("three runs exceed {:.2g} s of CPU time", budget_));
+      } catch (const SimulationError& error) {
+        curve.cut = cut_at(level, error.what());
+      }
+    }
+    return once;
+  }
+
+  void repeat(QualityCurve& curve) {
+    for (std::size_t level = 0; level < runs_.size(); ++level) {
+      try {
+        for (std::size_t number = 2; number <= curve.runs; ++number)
+          runs_[level].push_back(run(level, static_cast<int>(number), watch_.stop_check));
+      } catch (const SimulationError& error) {
+        curve.cut = cut_at(level, error.what());
+        runs_.resize(level);
+      }
+    }
+  }
+
   QualityRun run(std::size_t level, int number, const std::function<void()>& stop_check) {
     const auto quality = static_cast<QualityLevel>(level);
     watch_.report_progress(std::min(1.0, spent_ / budget_), fmt::format("quality {}", name_of(quality)));

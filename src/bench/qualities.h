@@ -33,7 +33,7 @@ struct QualityRow {
 };
 
 struct QualityCurve {
-  std::vector<QualityRow> rows;  // from coarse to fine. The last one is the reference. Empty: there is no crowd.
+  std::vector<QualityRow> rows;  // from coarse to fine. The last one is the reference. Empty: fewer than two.
   std::size_t runs = 0;          // of each
   std::string cut;               // why finer ones are missing; empty: all are there
 };

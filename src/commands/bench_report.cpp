@@ -167,10 +167,12 @@ void describe(Block& block, const PlannedScene& planned, const BenchResult& resu
     block.line("islands",
                "no independent check: all methods move bodies in lasting contact and on strings by the same code");
   block.line("motion", motion_text(result));
+
   std::vector<Cells> rows = {heading(result)};
   for (const BenchRow& row : result.rows) rows.push_back(cells_of(row, result.chaotic));
   block.table(rows);
   if (!result.qualities.rows.empty()) describe(block, result.qualities);
+
   for (const std::string& line : result.left_out) block.line("left out", line);
   for (const BenchRow& row : result.rows)
     if (!row.failure.empty()) block.line("failed", fmt::format("{}: {}", full_name_of(row.method), row.failure));
@@ -187,12 +189,14 @@ Json bench_json(const BenchResult& result) {
                {"rounding_m", result.rounding},
                {"chaotic", result.chaotic},
                {"compared_until_s", result.horizon}};
+
   if (result.chaotic) {
     json["ensemble"] = statistics_json(result.mean);
     json["ensemble"]["runs"] = result.members;
   }
   json["rows"] = Json::array();
   for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row, result.chaotic));
+
   if (!result.qualities.rows.empty()) {
     json["qualities"] = Json::array();
     json["quality_runs"] = result.qualities.runs;

@@ -150,6 +150,7 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
   try {
     const auto simulator = make_simulator(scene, {}, engine.steps);
     const double made = since(start);
+
     while (simulator->time() < duration && since(start) < budget) {
       stop_if_interrupted();
       simulator->advance_to(std::min(duration, simulator->time() + duration / 1000));

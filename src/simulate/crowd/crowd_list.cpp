@@ -189,7 +189,10 @@ void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> befor
       list_member(crowd, k, 2 * crowd.list.reach, of_slab[slab]);
   });
   pairs_.clear();
-  for (const Pairs& pairs : of_slab) pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
+  for (Pairs& pairs : of_slab) {
+    pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
+    pairs = {};  // a large crowd has many
+  }
 
   for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other, crowd.members.size());
   for (CrowdRows::Pair& pair : pairs_) pair.near = pair.near || pair.force > 0;

@@ -22,12 +22,10 @@ void CrowdRows::clear() {
   state.clear();
   names.clear();
   parts.clear();
-  rows_ = 0;
 }
 
 void CrowdRows::add_part(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy) {
   RowPart part{groups(), groups(), groups()};
-  rows_ += pairs.size();
 
   const auto fill = [&](std::size_t group, std::size_t lane, const Pair& pair) {
     hot[group].a[lane] = pair.a;

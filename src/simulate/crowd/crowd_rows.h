@@ -123,8 +123,6 @@ class CrowdRows {
   void add_part(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy);
 
   std::size_t groups() const { return hot.size(); }
-  std::size_t rows() const { return rows_; }
-  bool empty() const { return rows_ == 0; }
   /// Calls what(group, lane) for each row of a part, or for each row, in order.
   template <typename What>
   void for_each(const RowPart& part, const What& what) const {
@@ -166,7 +164,6 @@ class CrowdRows {
   std::vector<std::uint32_t> first;  // by slab: the first number of its members, and behind the last slab their count
 
  private:
-  std::size_t rows_ = 0;
   std::vector<std::uint64_t> used_;  // scratch: by body, a bit for each colour
 };
 

@@ -115,7 +115,7 @@ bool CrowdSleep::solve_rest(const Crowd& crowd, Holding& holding) {
 }
 
 /// The same by sweeps from the present forces, as in a step of 1 s from rest, and a last correction. In a large heap
-/// that takes a hundredth of the contact solver's time. Where forces are not unique, they are near the present ones.
+/// that takes a thirtieth of the contact solver's time. Where forces are not unique, they are near the present ones.
 /// The problem's motion becomes what is left. False, and it stays: the sweeps do not end.
 bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const ContactProblem& problem) {
   std::vector<Four> v(crowd.v.size());
