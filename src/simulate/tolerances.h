@@ -24,6 +24,8 @@ inline constexpr double fading_hop = 0x1p-32;
 inline constexpr double flat_rounding = 0x1p-50;
 // Share of coordinates: a gap to any other thing by the rounding of a scene's numbers.
 inline constexpr double initial_rounding = 0x1p-46;
+// Share of a distance: bodies that pass by farther apart do not touch.
+inline constexpr double near_miss = 0x1p-20;
 // Multiple of a radius: beyond it, collisions use the relative path of two bodies.
 inline constexpr double far_from_origin = 0x1p13;
 // Share of a radius: rims no farther apart are adjacent.

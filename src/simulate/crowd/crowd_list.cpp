@@ -38,18 +38,21 @@ std::vector<Entity> CrowdList::hold_regions(const Crowd& crowd, std::span<const 
     bodies_.neighbours.hold(i, x, crowd.list.room);
   }
 
-  // Each once.
-  std::vector<Entity> near;
+  // Each is looked at once, and members of the same island not at all.
   seen_.resize(bodies_.world.body_count());
+  std::vector<Entity> looked(members.begin(), members.end());
+  for (const Entity i : members) seen_[i] = 1;
+
+  std::vector<Entity> near;
   for (const Entity i : members)
     for (const Entity e : bodies_.neighbours.bodies(i)) {
       if (seen_[e] != 0) continue;
-      const Mode mode = bodies_.mode(e);
-      if (mode == Mode::asleep || (is_member(mode) && bodies_.islands.same(e, i))) continue;
       seen_[e] = 1;
-      near.push_back(e);
+      looked.push_back(e);
+      const Mode mode = bodies_.mode(e);
+      if (mode != Mode::asleep && !(is_member(mode) && bodies_.islands.same(e, i))) near.push_back(e);
     }
-  for (const Entity e : near) seen_[e] = 0;
+  for (const Entity e : looked) seen_[e] = 0;
   return near;
 }
 

@@ -84,8 +84,8 @@ void EventPredictor::predict_all() {
 /// Predicts the first event of body i with these bodies, with surfaces and by itself.
 void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   ExactEvent best;
-  meet_bodies(i, bodies, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
+  meet_bodies(i, bodies, best);
   if (lies_on_flat(bodies_.mode(i))) offer_flat_contacts(i, best);
   if (!plain_) offer_beside_contacts(i, best);
   if (is_member(bodies_.mode(i)) || bodies_.flights.curve(i) != nullptr)
@@ -153,7 +153,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
     if (bodies_.world.is_body(e)) {
       feature = 0;
       ++pair_tests_;
-      const Instant time = times_.of_pair(i, e, feature);
+      const Instant time = times_.of_pair(i, e, feature, latest_tie(best));
       offer(i, best, ExactEvent{time, e, bodies_.body[e].version, feature, ExactEvent::Kind::body_body});
     } else if (!(carried && (flat_.carry(i, e) || flat_.hide(i, e))) && !(constrained && group_.hides(i, e))) {
       ++surface_tests_;
@@ -170,24 +170,30 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
 
   const Vec3& a = bodies_.flights.acceleration(i);
 
-  // Bodies that move in another way are tested one at a time.
-  if (bodies_.islands.any() || !bodies_.flights.alike() || bodies_.flights.any_fades()) {
-    alike_.clear();
-    for (const Entity& e : others)
-      if (is_member(bodies_.mode(e)) || bodies_.flights.acceleration(e) != a || bodies_.flights.fade(e) != 0)
-        meet_each(i, {&e, 1}, best);
-      else
-        alike_.push_back(e);
-    others = alike_;
-  }
+  if (!bodies_.islands.any() && bodies_.flights.alike() && !bodies_.flights.any_fades())
+    return meet_alike(i, others, best);
 
+  // Bodies that move in another way are tested one at a time.
+  alike_.clear();
+  unlike_.clear();
+  for (const Entity e : others) {
+    const bool unlike =
+        is_member(bodies_.mode(e)) || bodies_.flights.acceleration(e) != a || bodies_.flights.fade(e) != 0;
+    (unlike ? unlike_ : alike_).push_back(e);
+  }
+  meet_alike(i, alike_, best);
+  meet_each(i, unlike_, best);
+}
+
+/// The same for balls with equal accelerations.
+void EventPredictor::meet_alike(Entity i, std::span<const Entity> others, ExactEvent& best) {
   if (meets_.size() < others.size()) meets_.resize(2 * others.size());
   const bool latest = bodies_.flights.cores()[i].start == bodies_.now;
   pair_tests_ += others.size();
   const double* const radius = bodies_.same_radius ? nullptr : bodies_.world.radius.data();
-  std::size_t count = straight_times(
-      {bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others, a, latest, bodies_.options.duration},
-      meets_.data());
+  std::size_t count = straight_times({bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others,
+                                      bodies_.flights.acceleration(i), latest, bodies_.options.duration},
+                                     meets_.data());
 
   // Pairs that touch or graze need a test of their own.
   for (Meet& meet : std::span(meets_.data(), count)) {
@@ -220,8 +226,13 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
 /// Whether an event and another impact, at a later time, may fall on one instant. Rounding makes their difference a
 /// small share of the time until then. Where that is itself rounding, both are at present.
 inline bool EventPredictor::is_tie(const ExactEvent& first, const Instant& later) const {
+  return later.hi <= latest_tie(first);
+}
+
+/// The latest time of an impact that may fall on one instant with this event (s).
+inline double EventPredictor::latest_tie(const ExactEvent& first) const {
   using namespace exact_tolerance;
-  return later.hi <= (1 + tie_of_flight) * first.time.hi + (tie_of_clock - tie_of_flight) * bodies_.now.hi;
+  return (1 + tie_of_flight) * first.time.hi + (tie_of_clock - tie_of_flight) * bodies_.now.hi;
 }
 
 /// Keeps the earlier of two events of body i, by the total order.
@@ -256,8 +267,8 @@ inline void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candida
 void EventPredictor::renew_region(Entity i) {
   const std::span<const Entity> came = carom::renew_region(bodies_, i, bodies_.body[i].event.time.hi);
   ExactEvent best = bodies_.body[i].event;
-  meet_bodies(i, came, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
+  meet_bodies(i, came, best);
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
   if (bodies_.islands.any()) be_watched(i);

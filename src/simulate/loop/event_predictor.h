@@ -45,11 +45,13 @@ class EventPredictor {
   void predict_among(Entity i, std::span<const Entity> bodies);
   [[gnu::always_inline]] void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
   [[gnu::always_inline]] bool is_tie(const ExactEvent& first, const Instant& later) const;
+  [[gnu::always_inline]] double latest_tie(const ExactEvent& first) const;
   [[gnu::noinline]] void offer_beside_contacts(Entity i, ExactEvent& best);
   void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
   void meet_each(Entity i, std::span<const Entity> others, ExactEvent& best);
   void meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best);
+  void meet_alike(Entity i, std::span<const Entity> others, ExactEvent& best);
 
   ExactBodies& bodies_;
   EventQueue& queue_;
@@ -57,9 +59,10 @@ class EventPredictor {
   const FlatContacts& flat_;
   const ExactGroup& group_;
   ExactCollisionTimes times_;
-  const bool plain_;           // there are neither strings nor forces, and nothing moves
-  std::vector<Entity> alike_;  // scratch
-  std::vector<Meet> meets_;    // scratch
+  const bool plain_;            // there are neither strings nor forces, and nothing moves
+  std::vector<Entity> alike_;   // scratch
+  std::vector<Entity> unlike_;  // scratch
+  std::vector<Meet> meets_;     // scratch
   std::uint64_t pair_tests_ = 0;
   std::uint64_t surface_tests_ = 0;
 };

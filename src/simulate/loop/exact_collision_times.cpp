@@ -20,9 +20,18 @@ double sum_of_speeds(const Vec3& v) {
   return v.cwiseAbs().sum();
 }
 
+/// Whether two bodies certainly stay farther apart than `sizes` (m) for a time (s), with a relative acceleration of at
+/// most `bending` (m/s^2). It takes nothing nearer than it bends the straight path from the relative velocity.
+bool stay_apart(const RelativeMotion& m, double sizes, double bending, double time) {
+  const double speed2 = m.w.squaredNorm();
+  const double nearest = speed2 > 0 ? std::clamp(-m.d.dot(m.w) / speed2, 0.0, time) : 0;
+  const double bend = 0.5 * time * time * bending;
+  return (m.d + nearest * m.w).norm() > (1 + exact_tolerance::near_miss) * (sizes + bend);
+}
+
 }  // namespace
 
-Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) const {
+Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature, double until) const {
   const World& world = bodies_.world;
   const Entity a = std::min(i, j);
   const Entity b = std::max(i, j);
@@ -49,11 +58,14 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   const double horizon =
       (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
 
-  // Most pairs end here: they are too far apart for the rest of the step.
-  if ((step || curved) && (parabolas || !curved)) {
-    if (curved && !(horizon > 0)) return {never, 0};
-    const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
-    if (m.d.squaredNorm() > reach * reach) return {never, 0};
+  // Most pairs end here: they are too far apart for the rest of the step, or until the time that matters.
+  if (curved && !(horizon > 0)) return {never, 0};
+  if (parabolas || !curved) {
+    const double time = std::min(horizon, until - base.hi);
+    // Accelerations fade with drag, each in its own time.
+    const bool alike = parabolas || p.fade == q.fade;
+    const double bending = alike ? m.a.norm() : p.acceleration(tp).norm() + q.acceleration(tq).norm();
+    if (time >= 0 && stay_apart(m, s, bending, time)) return {never, 0};
   }
 
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
