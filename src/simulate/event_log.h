@@ -85,7 +85,8 @@ class EventLog {
   /// because the caller books the whole change of velocities as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts = {});
-  /// Books energy (J) lost beside the impacts that are recorded or counted. The record of a rest takes its part back.
+  /// Books energy (J) lost beside the impacts that are recorded or counted. The record of a rest takes its part back. A
+  /// crowd gives back what contacts have lent: less than 0.
   void absorb(double energy) {
     hold(energy);
     lose(energy);

@@ -191,6 +191,10 @@ inline constexpr double least_force = 0.01;
 inline constexpr std::size_t exact_members = 200;
 // Steps in which missing gaps do not return, at most, after one in which they could not.
 inline constexpr int longest_wait = 64;
+// Share of the energy that a crowd turns over: once errors have made more, missing gaps do not return.
+inline constexpr double made_with_returns = 1e-5;
+// Times as fast as a missing gap, an overlap by rounding ends. Its speed is that of tremors, at most.
+inline constexpr double quick_return = 1000;
 // Rounds of sweeps over pairs that would overlap, after which a step is shortened; and how often it is.
 inline constexpr int more_sweeps = 32;
 inline constexpr int most_shortenings = 6;

@@ -37,12 +37,13 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   const double passed = std::abs(before) + std::abs(run.tally.work) + std::abs(run.tally.energy_lost);
   if (run.scene.simulate.engine == Engine::book && !world.gravity.isZero(0)) return;  // Euler's steps keep no energy
   EXPECT_NEAR(after, before + run.tally.work - run.tally.energy_lost - run.tally.method_error,
-              1e-11 * passed);                                       // measured: 3e-12 (pi_to_six_digits)
-  const double least = run.tally.stepped_contact > 0 ? 5e-3 : 1e-9;  // measured: 3.0e-3 (pile_at_rest)
+              1e-11 * passed);  // measured: 3e-12 (pi_to_six_digits)
+  const bool crowds = run.tally.stepped_contact > 0;
+  const double least = crowds ? 1e-4 : 1e-9;  // measured: 8e-6 (pile_at_rest)
   EXPECT_LT(std::abs(run.tally.method_error), least * passed);
   if (run.scene.simulate.engine != Engine::book) {
     const double smallest = *std::min_element(world.radius.begin(), world.radius.end());
-    EXPECT_LE(run.tally.max_overlap, 1e-11 * 2 * smallest);  // measured: 2e-12 (balls_in_a_box)
+    EXPECT_LE(run.tally.max_overlap, (crowds ? 1e-10 : 2e-11) * smallest);  // measured: 8e-11 (balls_in_a_box)
   }
 }
 

@@ -133,6 +133,7 @@ Crowd wide_crowd(std::uint32_t count) {
     crowd.v.push_back(x);
     crowd.a.push_back(vector_of(x));
     crowd.lag.push_back(x.at[2]);
+    crowd.lent.push_back(x.at[2]);
   }
   crowd.idle.resize(count);
   crowd.pressed.resize(count);
@@ -297,7 +298,7 @@ TEST(CrowdMotion, LetsNoTwoOverlapAndMakesHardlyAnyEnergy) {
     go_to(*simulator, 6);
     EXPECT_GT(simulator->tally().stepped_contact, 0);
     EXPECT_LT(simulator->tally().max_overlap, 1e-9);
-    EXPECT_LT(simulator->tally().doubts.contact_made, 3e-4 * simulator->tally().energy_lost);
+    EXPECT_LT(simulator->tally().doubts.contact_made, 2e-4 * simulator->tally().energy_lost);  // measured: 1e-4, 9e-7
   }
 }
 
@@ -382,13 +383,28 @@ TEST(CrowdMotion, OfBodiesThatJustFitBetweenWallsMakesHardlyAnyEnergy) {
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     go_to(*simulator, 10);
     const Doubts& doubts = simulator->tally().doubts;
-    // Measured: 5e-3. Forces of a row that is wedged between walls change suddenly.
-    EXPECT_LT(doubts.contact_made, 1e-2 * simulator->tally().energy_lost) << seed;
+    EXPECT_LT(doubts.contact_made, 5e-4 * simulator->tally().energy_lost) << seed;  // measured: 3e-4
     EXPECT_LE(doubts.unsolved_steps, doubts.crowd_steps / 100) << seed;
-    EXPECT_LT(simulator->tally().max_overlap, 1e-9) << seed;
+    EXPECT_LT(simulator->tally().max_overlap, 1e-10) << seed;  // measured: 5e-11, at a radius of 0.5 m
     steps += doubts.crowd_steps;
   }
   EXPECT_GT(steps, 1000u);
+}
+
+TEST(CrowdMotion, OfHeavyBallsThatFallOnLightOnesNeedsNoTinyStepsAndSaysWhatItMakes) {
+  Problem problem = loose_pile(10, 3, 4.5);  // too many for the contact solver at every step
+  for (Entity i = 150; i < 300; ++i) {
+    problem.world.mass[i] = 1000;
+    problem.initial.position[i].y() += 30;
+  }
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 4.5);
+  const Tally& tally = simulator->tally();
+  EXPECT_GT(tally.stepped_contact, 0);
+  EXPECT_LT(tally.doubts.crowd_steps, 4000u);                      // measured: 1,582
+  EXPECT_LT(tally.max_overlap, 1e-10);                             // measured: 6e-13
+  EXPECT_LT(tally.doubts.contact_made, 1e-2 * tally.energy_lost);  // measured: 4e-3
+  EXPECT_NEAR(tally.method_error, -tally.doubts.contact_made, 1e-9 * tally.energy_lost);
 }
 
 }  // namespace

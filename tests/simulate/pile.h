@@ -73,7 +73,7 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
     // A body stopped by linear drag is at the end of its path, to rounding.
     for (Entity a = 0; a < n; ++a) {
       if (!glides[a]) {
-        EXPECT_LE((state.position[a] - first[a]).norm(), still == 0 ? 0 : 9e-16) << t;
+        EXPECT_LE((state.position[a] - first[a]).norm(), still == 0 ? 0 : 2e-15) << t;
       }
     }
   }

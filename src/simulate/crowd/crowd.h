@@ -38,6 +38,7 @@ struct CrowdStep {
   bool valid = true;           // places and drifts are those of the bodies
   bool solved = true;          // its forces are as accurate as they should be
   double kinetic = 0;          // J, at its start
+  double next_switch = 0;      // s, of forces on members, and of things that move
   double speed = 0;            // m/s, of pairs that press on each other
   double shell = 0;            // m, that contacts keep
   int waits = 0;               // steps to come in which missing gaps do not return
@@ -57,6 +58,7 @@ struct CrowdRest {
 struct CrowdBalance {
   double taken = 0;  // J, by contacts
   double made = 0;   // J, by errors
+  double lost = 0;   // J, in impacts
 };
 
 struct Crowd {
@@ -71,6 +73,7 @@ struct Crowd {
   // By member.
   std::vector<Vec3> a;             // m/s^2: the last step's change of velocity by its time, contact included
   std::vector<double> lag;         // s: how much older v is than the step's start
+  std::vector<double> lent;        // J: what contact gives back as its force falls (CrowdSteps::lent)
   std::vector<std::uint8_t> idle;  // steps since a thing last pressed on it
   std::vector<std::uint8_t> pressed;
   std::vector<std::uint8_t> still;  // looks at hardly any speed, with all that press on one another with it
@@ -85,7 +88,6 @@ struct Crowd {
   std::vector<RowName> struck;  // rows of sleeping bodies with an impact: they are to wake
   double smallest = never;      // m, the least radius
   double load = 0;              // m/s^2, the greatest acceleration by forces
-  double next_switch = 0;       // s, of forces on members, and of things that move
   CrowdBalance balance;
 
   std::uint32_t movable() const { return static_cast<std::uint32_t>(members.size()); }
@@ -101,14 +103,17 @@ struct Crowd {
     return row.impulse[lane] > 0 && rows.state[group].force[lane] > 0 && row.b[lane] >= movable() &&
            world.is_body(rows.names[group][lane].e);
   }
-  /// The sum of of(k) over members, the same for mirror images of a crowd.
+  /// The sum of of(k) over members, the same for mirror images of a crowd: those on the cuts are by themselves.
   template <typename Of>
   double sum(const Of& of) const {
-    return sum_in_pairs(0, rows.slabs(), [&](std::size_t slab) {
+    const auto of_slab = [&](std::size_t slab, std::uint32_t on_cut) {
       double sum = 0;
-      for (std::size_t k = rows.first[slab]; k < rows.first[slab + 1]; ++k) sum += of(k);
+      for (std::size_t k = rows.first[slab]; k < rows.first[slab + 1]; ++k)
+        if ((rows.place[k] & 1) == on_cut) sum += of(k);
       return sum;
-    });
+    };
+    const double inside = sum_in_pairs(0, rows.slabs(), [&](std::size_t slab) { return of_slab(slab, 0); });
+    return inside + sum_in_pairs(0, rows.slabs() - 1, [&](std::size_t slab) { return of_slab(slab, 1); });
   }
   /// The velocity of member k (m/s) when its drift is so old (s).
   Vec3 velocity(std::size_t k, double age) const { return drift(k) + age * a[k]; }

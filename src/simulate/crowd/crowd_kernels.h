@@ -12,7 +12,7 @@ namespace carom {
 struct StepTarget {
   double length = 0;  // s
   double push = 0;    // share of a missing gap that a step restores
-  double back = 0;    // the same, of an overlap by rounding
+  double back = 0;    // of an overlap by rounding
   double share = 0;   // of a gap and of the shell: what errors may take
   double below = 0;   // the same, of a gap of less than half of the shell
   double least = 0;   // m: what rounding may take

@@ -38,7 +38,7 @@ std::vector<Entity> CrowdList::hold_regions(const Crowd& crowd, std::span<const 
     bodies_.neighbours.hold(i, x, crowd.list.room);
   }
 
-  // Each is looked at once, and members of the same island not at all.
+  // Each is looked at once.
   seen_.resize(bodies_.world.body_count());
   std::vector<Entity> looked(members.begin(), members.end());
   for (const Entity i : members) seen_[i] = 1;

@@ -41,7 +41,7 @@ bool CrowdMotion::advance(Entity i) {
     }
 
     Crowd& crowd = gather(island);
-    if (Instant{crowd.next_switch, 0} <= bodies_.now || bodies_.varying) renew_forces(crowd);
+    if (Instant{crowd.step.next_switch, 0} <= bodies_.now || bodies_.varying) renew_forces(crowd);
     crowd.step.length = longest_step(crowd);
     if (take_guests(i)) continue;
     if (!crowd.list.listed && (let_go(crowd) || list(crowd))) {
@@ -76,7 +76,10 @@ void CrowdMotion::interrupt(Entity i) {
 
 void CrowdMotion::book_last(const Island& island, double time) const {
   for (const std::shared_ptr<Crowd>& crowd : island.crowds)
-    if (crowd->step.open) book(*crowd, std::min(Instant{time, 0} - crowd->step.start, crowd->step.length));
+    if (crowd->step.open) {
+      const double since = std::min(Instant{time, 0} - crowd->step.start, crowd->step.length);
+      book(*crowd, since, since == crowd->step.length);
+    }
 }
 
 /// Ends a crowd's present step at an instant. Where that is before its end, the drift becomes the velocity of then.
@@ -84,7 +87,7 @@ void CrowdMotion::close(Crowd& crowd, const Instant& at) const {
   if (!crowd.step.open) return;
   const bool full = crowd.step.end <= at;
   const double since = full ? crowd.step.length : at - crowd.step.start;
-  book(crowd, since);
+  book(crowd, since, full);
   crowd.step.open = false;
   crowd.step.last_length = full ? crowd.step.length : crowd.step.last_length;
   crowd.list.gone += since * greatest(crowd.v);
@@ -97,8 +100,9 @@ void CrowdMotion::close(Crowd& crowd, const Instant& at) const {
   }
 }
 
-/// Books `since` (s) of the present step: the work of forces and of things that move, and what contacts have taken.
-void CrowdMotion::book(Crowd& crowd, double since) const {
+/// Books `since` (s) of the present step, all of it or not: the work of forces and of things that move, and what
+/// contacts have taken.
+void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
   const double age = since - 0.5 * crowd.step.length;
   const World& world = bodies_.world;
 
@@ -126,7 +130,11 @@ void CrowdMotion::book(Crowd& crowd, double since) const {
       gain -= work;
     });
 
-  steps_.take(crowd, -gain);
+  // At an interruption the velocities of then become drifts, which are not ahead.
+  std::vector<double> lent(crowd.members.size(), 0);
+  for (std::size_t k = 0; full && k < lent.size(); ++k) lent[k] = steps_.lent(crowd, k, age);
+  steps_.take(crowd, -gain, crowd.sum([&](std::size_t k) { return lent[k] - crowd.lent[k]; }));
+  crowd.lent = std::move(lent);
 }
 
 /// The work of forces on member k in `since` (s) of its drift, and what it loses of potential energy (J).
@@ -169,6 +177,7 @@ Crowd& CrowdMotion::gather(Island& island) {
   crowd.v.resize(n);
   crowd.a.resize(n, Vec3::Zero());
   crowd.lag.resize(n, 0);
+  crowd.lent.resize(n, 0);
   crowd.idle.resize(n, 0);
   crowd.pressed.resize(n, 0);
   crowd.still.resize(n, 0);
@@ -195,9 +204,11 @@ Crowd& CrowdMotion::gather(Island& island) {
 /// place and drift there are still its own.
 void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std::uint8_t>& known) const {
   const Numbering numbers(group_.numbers, crowd.members);
+  std::size_t common = 0;
   for (std::size_t k = 0; k < earlier.members.size(); ++k) {
     const std::uint32_t number = numbers.number(earlier.members[k]);
     if (number == Numbering::none || bodies_.mode(earlier.members[k]) != Mode::stepped) continue;
+    ++common;
     crowd.idle[number] = earlier.idle[k];
     crowd.pressed[number] = earlier.pressed[k];
     crowd.still[number] = earlier.still[k];
@@ -208,18 +219,19 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std:
     crowd.v[number] = earlier.v[k];
     crowd.a[number] = earlier.a[k];
     crowd.lag[number] = earlier.lag[k];
+    crowd.lent[number] = earlier.lent[k];
   }
 
   // A part that has split off must not reach farther at once than the whole: they would unite again.
   const bool part = earlier.members.size() > crowd.members.size();
   const double last = earlier.step.last_length / (part ? tol::step_growth : 1);
   crowd.step.last_length = std::min(crowd.step.last_length, last);
-  if (part) {
-    crowd.list.most = std::min(crowd.list.most, earlier.list.reach);
-    return;
-  }
-  crowd.balance.taken += earlier.balance.taken;
-  crowd.balance.made += earlier.balance.made;
+  if (part) crowd.list.most = std::min(crowd.list.most, earlier.list.reach);
+
+  const double share = static_cast<double>(common) / static_cast<double>(earlier.members.size());
+  crowd.balance.taken += share * earlier.balance.taken;
+  crowd.balance.made += share * earlier.balance.made;
+  crowd.balance.lost += share * earlier.balance.lost;
 }
 
 /// Takes member k from its flight at present. `comes`: it was in no crowd before.
@@ -241,12 +253,12 @@ void CrowdMotion::take_in(Crowd& crowd, std::size_t k, bool comes) {
 void CrowdMotion::renew_forces(Crowd& crowd) const {
   const World& world = bodies_.world;
   crowd.load = 0;
-  crowd.next_switch = bodies_.moving.any() ? bodies_.moving.next_switch(bodies_.now.floor()) : never;
+  crowd.step.next_switch = bodies_.moving.any() ? bodies_.moving.next_switch(bodies_.now.floor()) : never;
   for (std::size_t k = 0; k < crowd.members.size(); ++k) {
     const Entity i = crowd.members[k];
     if (!world.forces.empty()) {
       bodies_.apply_forces(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]));
-      crowd.next_switch = std::min(crowd.next_switch, bodies_.merged.next_switch(i, bodies_.now.floor()));
+      crowd.step.next_switch = std::min(crowd.step.next_switch, bodies_.merged.next_switch(i, bodies_.now.floor()));
     }
     crowd.load = std::max(crowd.load, bodies_.applied[i].norm());
   }
@@ -264,7 +276,7 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
         if (rate > 0) length = std::min(length, quality_.longest_step / rate);
       }
   length = std::min(length, tol::step_growth * crowd.step.last_length);
-  return std::min(length, Instant{crowd.next_switch, 0} - bodies_.now);
+  return std::min(length, Instant{crowd.step.next_switch, 0} - bodies_.now);
 }
 
 /// Lets bodies join that a member may meet before the list is made anew. Returns whether there are some.
@@ -453,7 +465,7 @@ void CrowdMotion::begin(Crowd& crowd) {
   crowd.step.start = bodies_.now;
   crowd.step.end = bodies_.now + crowd.step.length;
   // Rounding must not leave a step of nothing before a switch.
-  if (crowd.step.end.hi >= crowd.next_switch) crowd.step.end = {crowd.next_switch, 0};
+  if (crowd.step.end.hi >= crowd.step.next_switch) crowd.step.end = {crowd.step.next_switch, 0};
   crowd.step.open = true;
   bodies_.islands.of(crowd.members.front()).end = crowd.step.end;
   flights_.note_changed(crowd.members.front());

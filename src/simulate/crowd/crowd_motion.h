@@ -39,7 +39,7 @@ class CrowdMotion {
  private:
   // What was before the step.
   void close(Crowd& crowd, const Instant& at) const;
-  void book(Crowd& crowd, double since) const;
+  void book(Crowd& crowd, double since, bool full) const;
   double work_on(const Crowd& crowd, std::size_t k, double since) const;
   void free_flights(Crowd& crowd) const;
 

@@ -133,6 +133,7 @@ void arrange_in_slabs(Crowd& crowd, double beyond_radii) {
   reorder(crowd.v, order);
   reorder(crowd.a, order);
   reorder(crowd.lag, order);
+  reorder(crowd.lent, order);
   reorder(crowd.idle, order);
   reorder(crowd.pressed, order);
   reorder(crowd.still, order);

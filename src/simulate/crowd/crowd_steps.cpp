@@ -17,16 +17,23 @@ namespace tol = exact_tolerance;
 bool CrowdSteps::solve(Crowd& crowd) {
   if (!strike(crowd)) return false;
   shorten(crowd, longest(crowd));
-  if (crowd.step.length < tol::restart * crowd.step.last_length) restart(crowd);
-
+  restart_if_short(crowd);
   before_ = crowd.v;
   for (int tries = 0;; ++tries) {
     kick(crowd);
     crowd.step.solved = hold(crowd);
-    const double safe = safe_length(crowd);
+
+    // The contact solver's forces depend on the order of bodies: mirror images with one slab have the same.
+    double safe = safe_length(crowd);
+    if (safe < crowd.step.length && tries == 1 && crowd.rows.slabs() == 1 && solve_exactly(crowd)) {
+      crowd.step.solved = true;
+      safe = safe_length(crowd);
+    }
     if (safe >= crowd.step.length || tries == tol::most_shortenings) break;
     shorten(crowd, std::max(safe, 0.25 * crowd.step.length));
     crowd.v = before_;
+    restart_if_short(crowd);
+    before_ = crowd.v;
   }
 
   const double need = crowd.step.length * greatest(crowd.v);
@@ -60,6 +67,22 @@ double CrowdSteps::return_of_step(const Crowd& crowd) const {
   return std::min(1.0, crowd.step.length / std::sqrt(2 * crowd.smallest / crowd.load));
 }
 
+/// Whether missing gaps return in this step. It costs energy, of which contacts must have taken more. Where bodies just
+/// fit between walls, forces are so great that this makes a share of all that the crowd turns over, or that its members
+/// gain in a fall by a radius. Gaps then stay as they are. Overlaps that the quality allows always return.
+bool CrowdSteps::may_return(const Crowd& crowd) const {
+  const auto& [taken, made, lost] = crowd.balance;
+  if (!(made < taken) || crowd.step.waits > 0) return false;
+  if (quality_.overlap > 0 || made <= tol::made_with_returns * (taken + lost)) return true;
+
+  const World& world = bodies_.world;
+  const double fall = crowd.sum([&](std::size_t k) {
+    const Entity i = crowd.members[k];
+    return world.mass[i] * crowd.load * world.radius[i];
+  });
+  return made <= tol::made_with_returns * (taken + lost + fall);
+}
+
 /// Finds the velocities of this instant, and what rows aim at. Returns whether a row has an impact in the step.
 bool CrowdSteps::aim(Crowd& crowd) {
   crowd.step.speed = speed_in_contact(crowd);
@@ -70,8 +93,8 @@ bool CrowdSteps::aim(Crowd& crowd) {
   const double back = return_of_step(crowd);
   StepTarget target;
   target.length = crowd.step.length;
-  target.push = crowd.balance.taken > crowd.balance.made && crowd.step.waits == 0 ? back : 0;
-  target.back = back;
+  target.push = may_return(crowd) ? back : 0;
+  target.back = std::min(1.0, tol::quick_return * back);
   target.share = tol::share_of_gap;
   target.below = tol::share_below;
   target.least = tol::gap_rounding * crowd.smallest;
@@ -106,6 +129,7 @@ bool CrowdSteps::strike(Crowd& crowd) {
     threads_.in_phases(crowd.rows, [&](std::size_t p) { strike(crowd, p, within, strikes[p]); });
 
     any = false;
+    crowd.balance.lost += crowd.rows.sum([&](std::size_t p) { return strikes[p].lost; });
     for (Strikes& of_part : strikes) {
       any = any || !of_part.met.empty();
       book(of_part);
@@ -150,11 +174,13 @@ bool CrowdSteps::presses_on_sleepers(const Crowd& crowd) const {
   return any;
 }
 
-/// Begins anew from the velocities of this instant. In a step that is much shorter than the last one, a kick for the
-/// time since the middle of that would be mostly of the past.
-void CrowdSteps::restart(Crowd& crowd) const {
+/// Begins anew from the velocities of this instant, if the step is much shorter than the last one. A kick for the time
+/// since the middle of that would be mostly of the past.
+void CrowdSteps::restart_if_short(Crowd& crowd) const {
+  if (!(crowd.step.length < tol::restart * crowd.step.last_length)) return;
   std::copy_n(now_.begin(), crowd.members.size(), crowd.v.begin());
   std::fill(crowd.lag.begin(), crowd.lag.end(), 0);
+  std::fill(crowd.lent.begin(), crowd.lent.end(), 0);
 }
 
 /// The impact of one row.
@@ -175,6 +201,7 @@ void CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane, Strik
   const Vec3 point = crowd.position(a) + bodies_.world.volume_of(i).support(normal) * normal;
   strikes.met.push_back(make_collision(bodies_.world, body ? CollisionKind::body_body : CollisionKind::body_fixed,
                                        bodies_.now.hi, i, e, point, normal, speed, separation, restitution));
+  strikes.lost += strikes.met.back().energy_lost;
   strikes.work += push(crowd, group, lane, strikes.met.back().impulse, crowd.v);
 }
 
@@ -199,7 +226,17 @@ double CrowdSteps::kinetic_energy(const Crowd& crowd) const {
       [&](std::size_t k) { return 0.5 * bodies_.world.mass[crowd.members[k]] * vector_of(now_[k]).squaredNorm(); });
 }
 
-void CrowdSteps::take(Crowd& crowd, double energy) const {
+double CrowdSteps::lent(const Crowd& crowd, std::size_t k, double age) const {
+  const Entity i = crowd.members[k];
+  const double ahead = std::min(age, crowd.lag[k]);
+  const Vec3 forces = bodies_.applied[i] - bodies_.fade[i] * crowd.drift(k);
+  const double beyond = crowd.a[k].squaredNorm() - forces.squaredNorm();
+  return 0.5 * bodies_.world.mass[i] * ahead * ahead * std::max(beyond, 0.0);
+}
+
+void CrowdSteps::take(Crowd& crowd, double energy, double lent) const {
+  bodies_.log.absorb(lent);
+  energy -= lent;
   if (energy >= 0) {
     crowd.balance.taken += energy;
     bodies_.log.absorb(energy);
@@ -416,7 +453,7 @@ void CrowdSteps::absorb_approaches(Crowd& crowd) {
   if (work != 0) bodies_.log.add_work(work);
   const double before = crowd.step.kinetic;
   crowd.step.kinetic = kinetic_energy(crowd);
-  take(crowd, before + work - crowd.step.kinetic);
+  take(crowd, before + work - crowd.step.kinetic, 0);
 }
 
 /// Finds the forces of a part of the rows in the step, and which members they press.

@@ -102,7 +102,6 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
   const double horizon = std::min(end_of(a), end_of(b)) - base;
   const double tp = base - p.start;
   const double tq = base - q.start;
-  if (!(horizon > 0)) return {never, 0};
 
   const double speeds = m.speeds + noise_in_contact(a) + noise_in_contact(b);
   std::uint8_t left = m.just_separated ? bodies_.body[a].origin_feature : no_feature;

@@ -10,6 +10,7 @@ class ExactCollisionTimes {
 
   /// The time at which bodies i and j collide, and the feature. Infinite: not before their flights end.
   /// It is computed from the later of their flights' starts, lower number first. (i, j) and (j, i) give the same bits.
+  /// Where the two certainly stay apart up to `until` (s), it may be infinite too.
   Instant of_pair(Entity i, Entity j, std::uint8_t& feature, double until = never) const;
   /// The time at which body i strikes a fixed thing, computed from its flight's start.
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
