@@ -358,7 +358,8 @@ const CommandText& check_text() {
       "  carom check scenes/two_bowling_balls.yaml\n"
       "  carom check scenes/*.yaml -q                          only errors\n"
       "  carom check scene.yaml --set simulate.duration=60     how long would 60 s take?\n",
-      "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong.",
+      "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong, or its outputs need what\n"
+      "this machine lacks.",
       {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
   return text;
 }

@@ -23,6 +23,7 @@
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "run/measure.h"
+#include "run/requirements.h"
 #include "run/start_reader.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
@@ -77,10 +78,33 @@ void find_obstacle(PlannedScene& planned) {
   planned.obstacle = obstacle_of(earlier.changes);
 }
 
-void check(PlannedScene& planned, const Options& options, Purpose purpose) {
+/// What is the same for all scenes of a command line.
+struct Planning {
+  const Options& options;
+  Purpose purpose;
+  const std::function<void(PlannedScene&)>& inspected;  // may be unset
+  Requirements requirements{};
+};
+
+void inspect_folder_of(PlannedScene& planned, const Options& options, const Output& requested) {
+  planned.origin = origin_of(planned, options);
+  inspect(planned);
+  if (planned.content == FolderContent::other_run) find_obstacle(planned);
+  const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
+  if (!options.only || !differs || !holds_all(requested, *options.only)) return;
+
+  // A whole run of this scene has the named outputs and more.
+  Scene whole = *planned.scene;
+  whole.output = requested;
+  if (inspect_folder(planned.folder, whole) == FolderContent::this_run) planned.content = FolderContent::this_run;
+}
+
+void check(PlannedScene& planned, Planning& planning) {
+  const Options& options = planning.options;
+  const Purpose purpose = planning.purpose;
   const auto start = std::chrono::steady_clock::now();
-  planned.scene = std::make_unique<Scene>(
-      load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
+  SceneFile file(planned.file, load_options(options, options.only || purpose == Purpose::bench));
+  planned.scene = std::make_unique<Scene>(file.scene());
   const Output requested = planned.scene->output;
   const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
   planned.scene->output = written(requested);
@@ -113,19 +137,16 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
     planned.obstacle = obstacle_of(changes);
     return;
   }
-  planned.origin = origin_of(planned, options);
-  inspect(planned);
-  if (planned.content == FolderContent::other_run) find_obstacle(planned);
-  const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
-  if (options.only && differs && holds_all(requested, *options.only)) {
-    // A whole run of this scene has the named outputs and more.
-    Scene whole = *planned.scene;
-    whole.output = requested;
-    if (inspect_folder(planned.folder, whole) == FolderContent::this_run) planned.content = FolderContent::this_run;
-  }
+  inspect_folder_of(planned, options, requested);
+  if (planning.inspected) planning.inspected(planned);
+  if (!is_up_to_date(planned, options)) planning.requirements.check(file, *planned.scene, planned.scene->output);
 }
 
 }  // namespace
+
+bool is_up_to_date(const PlannedScene& planned, const Options& options) {
+  return planned.content == FolderContent::this_run && !options.force;
+}
 
 std::string obstacle_of(const FolderChanges& changes) {
   if (!changes.changed.empty())
@@ -202,8 +223,10 @@ std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
   return plan_scenes(named_scenes(options, purpose), options, purpose);
 }
 
-std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options, Purpose purpose) {
-  return plan_scenes(std::move(scenes), [&](PlannedScene& planned) { check(planned, options, purpose); });
+std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options, Purpose purpose,
+                                      const std::function<void(PlannedScene&)>& inspected) {
+  Planning planning{options, purpose, inspected};
+  return plan_scenes(std::move(scenes), [&](PlannedScene& planned) { check(planned, planning); });
 }
 
 std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,

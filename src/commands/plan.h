@@ -44,9 +44,11 @@ std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose =
 /// Throws UsageError where two scenes would share a folder.
 std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = Purpose::run);
 
-/// The same for some of named_scenes().
+/// The same for some of named_scenes(). `inspected`: called for each scene of which the folder's content is known,
+/// which it may change. May be unset.
 std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options,
-                                      Purpose purpose = Purpose::run);
+                                      Purpose purpose = Purpose::run,
+                                      const std::function<void(PlannedScene&)>& inspected = {});
 
 /// The same for scenes with a file, a name and a folder: `check` fills in the rest, or throws the error.
 std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
@@ -64,6 +66,9 @@ void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_vi
 
 /// What of a folder must not be overwritten, for use after "holds". Empty: nothing was changed.
 std::string obstacle_of(const FolderChanges& changes);
+
+/// Whether the folder holds this very run, and --force does not ask for it again.
+bool is_up_to_date(const PlannedScene& planned, const Options& options);
 
 /// Fills in the content of the scene's folder, and what of it was changed.
 void inspect(PlannedScene& planned);

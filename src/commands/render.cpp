@@ -17,6 +17,7 @@
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
+#include "run/requirements.h"
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -63,7 +64,7 @@ class Planner {
  public:
   explicit Planner(const Options& options) : options_(options) {}
 
-  void check(PlannedScene& planned) const {
+  void check(PlannedScene& planned) {
     const auto start = std::chrono::steady_clock::now();
     settle_folder(planned.file);
     settle_folder(planned.folder);
@@ -101,6 +102,8 @@ class Planner {
       check_time(former->end());
     else
       check_content(planned);
+    if (options_.at || !is_up_to_date(planned, options_))
+      requirements_.check(file, *planned.scene, outputs_drawn(*planned.scene));
     if (planned.folder == planned.file && !former->manifest.origin.path.empty()) {
       planned.origin = former->manifest.origin;
       for (const std::string& set : options_.set) planned.origin.settings.push_back(valid_utf8(set));
@@ -117,6 +120,14 @@ class Planner {
     inspect(planned);
     const bool renews = planned.folder == planned.file;
     if (renews && planned.content != FolderContent::this_run) inspect_own_folder(planned);
+  }
+
+  /// The outputs of a scene that this command draws. The charts of a run stay.
+  Output outputs_drawn(const Scene& scene) const {
+    if (!options_.at) return restricted(scene.output, names_of(scene.output, true));
+    Output picture;
+    picture.frames.emplace();
+    return picture;
   }
 
   void check_time(double end) const {
@@ -163,6 +174,7 @@ class Planner {
   }
 
   const Options& options_;
+  Requirements requirements_;
 };
 
 }  // namespace
@@ -205,7 +217,7 @@ const CommandText& render_text() {
 int render_command(const Options& options) {
   refuse_tables(options);
   if (options.at && options.only) throw UsageError("--at draws one picture", "leave out --only");
-  const Planner planner(options);
+  Planner planner(options);
   std::vector<PlannedScene> runs =
       plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); });
   if (!options.at) return run_planned(options, "render", std::move(runs));

@@ -92,9 +92,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   const Style style{Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)};
   OutcomeList list(options);
   Batch batch;
-  batch.is_up_to_date = [&](const PlannedScene& planned) {
-    return planned.content == FolderContent::this_run && !options.force;
-  };
+  batch.is_up_to_date = [&](const PlannedScene& planned) { return is_up_to_date(planned, options); };
   batch.up_to_date = [&](const PlannedScene& planned) { return run_up_to_date(planned, style); };
   batch.run = [&](const PlannedScene& planned, ProgressChoice choice, std::atomic<double>* done) {
     Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),

@@ -57,7 +57,9 @@ class SweepSession {
 
  private:
   int sweep() {
-    SweepJob job(read_sweep(options_), folder_, sweep_settings(options_));
+    SweepSettings settings = sweep_settings(options_);
+    settings.checks_requirements = true;
+    SweepJob job(read_sweep(options_), folder_, std::move(settings));
     check_comparison(job);
 
     settle_folder(folder_);

@@ -50,11 +50,9 @@ class WatchSession {
       numbers.push_back(i);
       affected.push_back(std::move(scenes[i]));
     }
-    affected = plan_scenes(std::move(affected), options_);
-    for (std::size_t k = 0; k < affected.size(); ++k) {
-      renew_pictures(affected[k], changed);
-      files_[numbers[k]] = files_of_scene(affected[k]);
-    }
+    affected = plan_scenes(std::move(affected), options_, Purpose::run,
+                           [&](PlannedScene& planned) { renew_pictures(planned, changed); });
+    for (std::size_t k = 0; k < affected.size(); ++k) files_[numbers[k]] = files_of_scene(affected[k]);
     follow();
     refuse_other_content(affected, options_);
     return run(std::move(affected));

@@ -60,8 +60,9 @@ std::uint64_t counted_frames(const FilmTools& tools, int folder, const std::stri
 FilmTools find_film_tools() {
   const auto ffmpeg = find_program("ffmpeg"), ffprobe = find_program("ffprobe");
   if (!ffmpeg || !ffprobe) {
-    throw ExportError(std::string("a video needs ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
-                      ", which is not on the PATH: install it (on Debian: apt install ffmpeg), or leave the video out");
+    throw ExportError(
+        std::string("a video needs ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
+        ", which is not on the PATH\n  install it (on Debian: apt install ffmpeg), or leave the video out");
   }
   return {*ffmpeg, *ffprobe};
 }

@@ -78,8 +78,7 @@ std::string find_gnuplot() {
   const auto gnuplot = find_program("gnuplot");
   if (!gnuplot)
     throw ExportError(
-        "the plots need gnuplot, which is not on the PATH: install it (on Debian: apt install "
-        "gnuplot-nox)");
+        "the plots need gnuplot, which is not on the PATH\n  install it (on Debian: apt install gnuplot-nox)");
   return *gnuplot;
 }
 

@@ -77,7 +77,7 @@ std::string find_font(std::string_view user, std::string_view instead) {
     if (!found.empty()) return found;
   }
   throw RenderError(fmt::format(
-      "{} needs the typeface DejaVu Sans, and no folder of fonts has {}: install it (on Debian: apt install "
+      "{} needs the typeface DejaVu Sans, and no folder of fonts has {}\n  install it (on Debian: apt install "
       "fonts-dejavu-core), or {}",
       user, font_file, instead));
 }

@@ -17,7 +17,7 @@ double letters_of(Size size) {
 }
 
 bool has_text(const Scene& scene) {
-  return scene.output.pictures() && (!scene.overlay.caption.empty() || !legends_of(scene).empty());
+  return !scene.overlay.caption.empty() || !legends_of(scene).empty();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace carom {
 
 struct Scene;
 
-/// Throws RenderError with the remedy, if the scene's pictures have text and its font is missing.
+/// Throws RenderError with the remedy, if pictures of the scene have text and its font is missing.
 void check_font(const Scene& scene);
 
 class Inscription {

@@ -17,6 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include "yaml/other_case.h"
+
 namespace carom {
 namespace {
 
@@ -223,7 +225,11 @@ bool MeshFiles::Exists(const char* file) const {
 
 Assimp::IOStream* MeshFiles::Open(const char* file, const char* mode) {
   const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
-  if (!reads || !(file == file_ || within(file))) return nullptr;
+  if (!reads) return nullptr;
+  if (file != file_ && !within(file)) {
+    if (unopened_.empty()) unopened_ = std::filesystem::path(file).lexically_relative(folder_).string();
+    return nullptr;
+  }
   std::unique_ptr<Assimp::IOStream> stream(Assimp::DefaultIOSystem::Open(file, mode));
   if (!stream || ending_ != "obj") return stream.release();
   std::string text = whole(*stream);
@@ -245,17 +251,28 @@ bool MeshFiles::mentions_colors() const {
   return true;
 }
 
-std::filesystem::path MeshFiles::found(const std::string& what, const std::string& name) const {
+void MeshFiles::check_opened() const {
+  if (!unopened_.empty()) found("file", unopened_, "");
+}
+
+std::filesystem::path MeshFiles::found(const std::string& what, const std::string& name,
+                                       std::string_view instead) const {
   for (const std::string& way : {name, name_in(name)}) {
     const std::filesystem::path file = folder_ / way;
     if (within(file)) return file;
   }
+
+  std::string fault = "is not there", way = "put it beside the mesh";
   std::error_code error;
-  const bool outside = std::filesystem::exists(folder_ / name_in(name), error);
-  throw std::runtime_error(
-      outside ? fmt::format("its {} {} is not a file in the mesh's folder. {}", what, name,
-                            remedy("copy it into that folder and name the copy"))
-              : fmt::format("its {} {} is not there. {}", what, name, remedy("put it beside the mesh")));
+  const std::string other = name_in_other_case(folder_, name_in(name));
+  if (std::filesystem::exists(folder_ / name_in(name), error)) {
+    fault = "is not a file in the mesh's folder";
+    way = "copy it into that folder and name the copy";
+  } else if (!other.empty() && within(folder_ / other)) {
+    fault += fmt::format(", but {} is", other);
+    way = "write its name as on the disk";
+  }
+  throw std::runtime_error(fmt::format("its {} {} {}. Remedy: {}{}", what, name, fault, way, instead));
 }
 
 std::string MeshFiles::read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const {

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -43,17 +44,24 @@ class MeshFiles : public Assimp::DefaultIOSystem {
     const auto found = placements_.find(material);
     return found == placements_.end() ? WavefrontPlacement{} : found->second;
   }
+  /// Throws std::runtime_error if assimp found no file of a name that the mesh gives it.
+  void check_opened() const;
   /// The bytes of a file by the name that the mesh gives it. `what`: "texture", for the error. Throws
   /// std::runtime_error.
   std::string read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const;
 
  private:
   bool within(const std::filesystem::path& file) const;
-  std::filesystem::path found(const std::string& what, const std::string& name) const;
+  /// `instead`: the end of the remedy.
+  std::filesystem::path found(const std::string& what, const std::string& name,
+                              std::string_view instead = or_color) const;
+
+  static constexpr std::string_view or_color = ", or give the body a `color`";
 
   std::string file_, ending_;
   bool painted_;
   std::filesystem::path folder_;
+  std::string unopened_;  // the first file that could not be opened, by its name in the mesh
   std::set<std::string> defined_;
   std::map<std::string, WavefrontPlacement> placements_;  // by material, where it is not the usual one
 };

@@ -262,6 +262,7 @@ ImportedMesh imported(const std::string& path, const std::string& ending, bool p
     if (text == "std::bad_alloc") throw std::bad_alloc();
     for (const char* empty : {"no faces", "No meshes remaining"})
       if (text.find(empty) != std::string::npos) throw std::runtime_error("it has no triangles");
+    files->check_opened();
     throw std::runtime_error(fmt::format("it is damaged, or no .{} file: {}. Remedy: export it again", ending, text));
   }
   Assimp::DefaultLogger::get()->detachStream(&missing, Assimp::Logger::Warn);

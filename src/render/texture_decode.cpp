@@ -21,6 +21,10 @@
 namespace carom {
 namespace {
 
+[[noreturn]] void refuse_damaged() {
+  throw std::runtime_error("is damaged. Remedy: save it again, or give the body a `color`");
+}
+
 MeshTexture blank(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
   if (width == 0 || height == 0) throw std::runtime_error("has no pixels");
   if (width > most_pixels / height)
@@ -33,10 +37,10 @@ MeshTexture blank(std::uint64_t width, std::uint64_t height, std::uint64_t most_
 MeshTexture png_texture(std::string_view bytes, std::uint64_t most_pixels) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) throw std::runtime_error("is damaged");
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) refuse_damaged();
   png.format = PNG_FORMAT_RGBA;
   MeshTexture texture = blank(png.width, png.height, most_pixels);
-  if (!png_image_finish_read(&png, nullptr, texture.rgba.data(), 0, nullptr)) throw std::runtime_error("is damaged");
+  if (!png_image_finish_read(&png, nullptr, texture.rgba.data(), 0, nullptr)) refuse_damaged();
   return texture;
 }
 
@@ -84,12 +88,11 @@ bool read_jpeg_rows(JpegReader& jpeg, unsigned char* rgba) {
 /// The reader's memory is freed with the process.
 MeshTexture jpeg_texture(std::string_view bytes, std::uint64_t most_pixels) {
   JpegReader jpeg;
-  if (!read_jpeg_head(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
-    throw std::runtime_error("is damaged");
+  if (!read_jpeg_head(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())) refuse_damaged();
   if (jpeg.reader.jpeg_color_space == JCS_CMYK || jpeg.reader.jpeg_color_space == JCS_YCCK)
     throw std::runtime_error("has the colours of a print (CMYK). Remedy: convert it to RGB");
   MeshTexture texture = blank(jpeg.reader.image_width, jpeg.reader.image_height, most_pixels);
-  if (!read_jpeg_rows(jpeg, texture.rgba.data())) throw std::runtime_error("is damaged");
+  if (!read_jpeg_rows(jpeg, texture.rgba.data())) refuse_damaged();
   return texture;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 /// The scene, if the font of its pictures is there.
 const Scene& with_font(const Scene& scene) {
-  check_font(scene);
+  if (scene.output.pictures()) check_font(scene);
   return scene;
 }
 

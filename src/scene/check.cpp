@@ -15,6 +15,7 @@
 #include "scene/view.h"
 #include "yaml/joined.h"
 #include "yaml/lookalikes.h"
+#include "yaml/other_case.h"
 #include "yaml/printable.h"
 #include "yaml/values.h"
 
@@ -238,9 +239,11 @@ class Checker : ValueChecker {
       return;
     }
     const std::string why = why_no_file(beneath(folder_, value.text));
-    if (!why.empty())
-      refuse(value, fmt::format("{} {}", why, in_backticks(value.text)),
-             "paths are relative to the folder of the scene");
+    if (why.empty()) return;
+    const std::string other = name_in_other_case(folder_, value.text);
+    refuse(value, fmt::format("{} {}", why, in_backticks(value.text)),
+           other.empty() ? "paths are relative to the folder of the scene"
+                         : fmt::format("did you mean {}?", in_backticks(other)));
   }
 
   /// Whether a value is a number, or a vector of numbers, within limits. Texts of errors take longer than this.

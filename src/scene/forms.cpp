@@ -71,7 +71,7 @@ std::optional<Form> Forms::of(const VolumeKeys& thing, bool colored) {
   std::optional<Form> form = plain(thing);
   if (!form || !form->mesh || colored) return form;
   form->mesh->own_colors = true;
-  own_colors_.insert(form->mesh->file);
+  own_colors_.emplace(form->mesh->file, place_of(*thing.mesh));
   return form;
 }
 
@@ -122,8 +122,10 @@ const std::vector<Vec3>* Forms::points(const Node& mesh) {
   if (!is_new) return entry->second.empty() ? nullptr : &entry->second;
   order_.push_back(path);
   const auto refuse = [&](const std::string& what) {
-    diagnostics_.add(place_of(mesh), fmt::format("the mesh {} cannot be used: {}", in_backticks(mesh.text), what),
-                     "expected a file of triangles with finite vertices");
+    const TextRemedy parts = fault_and_remedy(what);
+    diagnostics_.add(place_of(mesh),
+                     fmt::format("the mesh {} cannot be used: {}", in_backticks(mesh.text), parts.fault),
+                     parts.remedy.empty() ? "expected a file of triangles with finite vertices" : parts.remedy);
     return nullptr;
   };
   if (!options_.mesh_points) return refuse("there is no reader of meshes here");
@@ -153,8 +155,10 @@ std::vector<MeshFile> Forms::files(const std::string& film) const {
   std::set<std::string> used;
   for (const std::string& path : order_) {
     const std::filesystem::path name = std::filesystem::path(path).filename();
-    if (has_further_files(path, own_colors_.contains(path))) {
-      out.push_back({path, ""});
+    const auto use = own_colors_.find(path);
+    const std::optional<Place> uncolored = use == own_colors_.end() ? std::nullopt : std::optional(use->second);
+    if (has_further_files(path, uncolored.has_value())) {
+      out.push_back({path, "", uncolored});
       continue;
     }
     // The name must not be hidden, look like an option, contain a path of another system, or exceed the length limit.
@@ -167,7 +171,7 @@ std::vector<MeshFile> Forms::files(const std::string& film) const {
       copy = fmt::format("{}-{}{}", stem, i, name.extension().string());
     }
     used.insert(copy);
-    out.push_back({path, copy});
+    out.push_back({path, copy, uncolored});
   }
   return out;
 }

@@ -51,7 +51,7 @@ class Forms {
   std::map<std::string, std::vector<Vec3>> points_;
   std::map<std::pair<std::string, Shape>, std::optional<Fit>> fits_;  // none: unusable
   std::vector<std::string> order_;                                    // paths
-  std::set<std::string> own_colors_;                                  // paths of meshes with the file's colours
+  std::map<std::string, Place> own_colors_;                           // first uses of meshes with the file's colours
 };
 
 }  // namespace carom

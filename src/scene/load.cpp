@@ -193,6 +193,17 @@ Scene SceneFile::scene(const std::vector<Setting>& settings) {
   return within_memory(impl_->path, [&] { return impl_->scene(settings); });
 }
 
+SceneError SceneFile::error(const std::vector<SceneFault>& faults) const {
+  Diagnostics diagnostics(impl_->sources);
+  for (const SceneFault& fault : faults) {
+    if (fault.place)
+      diagnostics.add(*fault.place, fault.fault, fault.remedy);
+    else
+      diagnostics.add_unplaced(impl_->path, fault.fault, fault.remedy);
+  }
+  return {diagnostics, impl_->options.color};
+}
+
 const std::string& SceneFile::text() const {
   return impl_->sources.front().text;
 }

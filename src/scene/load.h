@@ -45,6 +45,12 @@ struct SceneError : std::runtime_error {
   std::vector<ErrorRecord> records;
 };
 
+/// A fault of a loaded scene that its text does not show.
+struct SceneFault {
+  std::optional<Place> place;  // none: of the scene as a whole
+  std::string fault, remedy;
+};
+
 /// A change to a scene: one --set option.
 struct Setting {
   std::string text;  // "path=value"
@@ -62,6 +68,8 @@ class SceneFile {
 
   /// The scene with these settings, applied after those of the options. The result is checked and resolved.
   Scene scene(const std::vector<Setting>& settings = {});
+  /// The error of these faults of the last scene.
+  SceneError error(const std::vector<SceneFault>& faults) const;
   /// The file's text, without byte order mark and carriage returns.
   const std::string& text() const;
 

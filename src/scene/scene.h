@@ -16,6 +16,7 @@
 #include "scene/output.h"
 #include "scene/overlay.h"
 #include "scene/simulate_settings.h"
+#include "yaml/source.h"
 
 namespace carom {
 
@@ -35,6 +36,8 @@ struct MeshFile {
   /// A plain file name, distinct from every other output's.
   /// Empty: a .gltf, or an .obj with materials, which is not copied because it refers to further files.
   std::string copy;
+  /// Where a thing without a colour of its own names it, for errors of its textures. None: all have a colour.
+  std::optional<Place> uncolored = std::nullopt;
 };
 
 /// The name of the repeated thing that a member belongs to: `bricks` of `bricks.3`. Empty: it is no member.

@@ -89,6 +89,7 @@ struct WrongRuns {
   void add(const std::string& id, const Json& errors) {
     const std::string its = errors[1].get<std::string>();
     text += fmt::format("{}:\n{}", id, its);
+    any_lost = any_lost || !errors[4].get<bool>();
     InvalidRun run{errors[0].get<std::size_t>(), its, {}};
     for (const Json& error : errors[3]) {
       const ErrorRecord record{error[0], error[1], error[2], error[3], error[4], error[5]};
@@ -204,13 +205,18 @@ Scene SweepJob::scene(std::size_t number) {
 
 // ---- Planning: digests of each scenario, and the content of its folder.
 
-/// The planned runs as bytes, then the errors of the wrong ones as JSON: number, text, count, errors in parts.
+/// The planned runs as bytes, then the errors of the wrong ones as JSON: number, text, count, errors in parts, and
+/// whether the scene is invalid.
 std::string SweepJob::examine(std::size_t first, std::size_t last) {
   std::string out;
   Json errors = Json::array();
   for (std::size_t number = first; number < last; ++number) {
     settings_.stop_check();
     PlannedRun run;
+    const auto refuse = [&](const SceneError& error, bool is_invalid) {
+      run.status = RunStatus::left_out;
+      errors.push_back({number, error.what(), error.count, records_json(error.records), is_invalid});
+    };
     try {
       const Scene its = scene(number);
       // The text contains only the names of meshes. Pictures with the run's name are not those of another run.
@@ -225,9 +231,11 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       if (run.content == FolderContent::touched && !is_ended_sweep(folder_)) run.content = FolderContent::incomplete;
       if (run.content == FolderContent::this_run && !settings_.force && has_measures(folder, measures_))
         run.status = RunStatus::done;
+      if (settings_.checks_requirements && run.status != RunStatus::done) requirements_.check(base_, its, its.output);
+    } catch (const RequirementError& error) {
+      refuse(error, false);
     } catch (const SceneError& error) {
-      run.status = RunStatus::left_out;
-      errors.push_back({number, error.what(), error.count, records_json(error.records)});
+      refuse(error, true);
     }
     out.append(reinterpret_cast<const char*>(&run), sizeof run);
   }

@@ -10,6 +10,7 @@
 #include "files/run_folder.h"
 #include "files/summary.h"
 #include "run/measure.h"
+#include "run/requirements.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
 #include "study/shard.h"
@@ -22,6 +23,7 @@ struct SweepSettings {
   std::size_t jobs = 1;
   Shard shard;
   bool force = false;                                           // also run what is done
+  bool checks_requirements = false;                             // whether this machine makes the outputs
   std::function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
   /// Called often, in every process. May throw.
   std::function<void()> stop_check;
@@ -75,7 +77,7 @@ class SweepJob {
   /// Loads every scenario and inspects its folder, several at a time.
   /// A finished run from which the sweep's measures cannot be determined counts as missing.
   /// Throws SceneError with all errors, each once. Of a large number, only the first ones are given.
-  /// If the sweep leaves out invalid runs, it throws only if all are invalid.
+  /// If the sweep leaves out invalid runs, it throws only if all are invalid, or this machine lacks something.
   void plan(const std::function<void(const SweepProgress&)>& report_progress);
 
   /// The runs that are left out, by number. They belong to no part.
@@ -125,6 +127,7 @@ class SweepJob {
   std::string folder_;
   SweepSettings settings_;
   SceneFile base_;
+  Requirements requirements_;
   std::vector<Measure> measures_;
   std::vector<PlannedRun> runs_;
   std::vector<InvalidRun> invalid_;

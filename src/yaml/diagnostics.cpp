@@ -187,6 +187,13 @@ std::string suggest_name(std::string_view name, const std::vector<std::string_vi
   return fmt::format("there {} {}", one ? "is" : "are", names);
 }
 
+TextRemedy fault_and_remedy(std::string_view text) {
+  for (const std::string_view between : {"\n  ", ". Remedy: "})
+    if (const std::size_t at = text.find(between); at != text.npos)
+      return {std::string(text.substr(0, at)), std::string(text.substr(at + between.size()))};
+  return {std::string(text), {}};
+}
+
 void Diagnostics::add(Place place, std::string message, std::string remedy) {
   if (add_member(place, message)) return;
   ++added_;

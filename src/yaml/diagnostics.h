@@ -24,6 +24,12 @@ struct TextFault {
   TextSpan span{};
 };
 
+/// The two parts of "fault\n  remedy" or "fault. Remedy: remedy". `remedy` is empty if there is none.
+struct TextRemedy {
+  std::string fault, remedy;
+};
+TextRemedy fault_and_remedy(std::string_view text);
+
 /// An error in parts, for other programs.
 struct ErrorRecord {
   std::string file;  // or the option: "--set balls.red.mass=x"; empty: none

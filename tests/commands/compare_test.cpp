@@ -269,8 +269,8 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
   EXPECT_GT(letters, 20) << "the run's name in white";
   EXPECT_EQ(
       here.shell("XDG_DATA_HOME= HOME= XDG_DATA_DIRS=$PWD $CAROM compare runs/first runs/second --video -o other").err,
-      "carom: the text of a film needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf: install "
-      "it (on Debian: apt install fonts-dejavu-core), or leave --video out\n");
+      "carom: the text of a film needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n"
+      "  install it (on Debian: apt install fonts-dejavu-core), or leave --video out\n");
 }
 
 TEST(CompareCommand, FilmOfSlowMotionStaysInStep) {

@@ -289,6 +289,25 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
   EXPECT_NE(here.read("output/a" + frame), here.read("green" + frame));
 }
 
+TEST(Watch, OfARunThatIsDoneShowsATextureThatGoesMissing) {
+  const Workplace here;
+  here.write("pin.obj",
+             "mtllib pin.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  here.write("pin.mtl", "newmtl a\nKd 1 0 0\n");
+  here.write("a.yaml",
+             "scene: 1\nbodies: {pin: {mass: 1, mesh: pin.obj, fit: sphere, position: [0, 0, 0]}}\n"
+             "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
+  here.write("b.yaml", two_balls());
+  const Finished run = watched(here,
+                               "await err waiting; cp -r output/a before\n"
+                               "echo 'newmtl a\nmap_Kd none.png' > new; mv new pin.mtl; await err '1 error; not run'");
+  EXPECT_EQ(run.code, 143) << run.err << run.out;
+  EXPECT_NE(run.err.find("a.yaml:2:31: error: cannot read the mesh pin.obj: its texture none.png is not there\n"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(here.files("output/a"), here.files("before"));
+}
+
 TEST(Watch, HasNoJsonDocument) {
   const Workplace here;
   here.write("a.yaml", two_balls());

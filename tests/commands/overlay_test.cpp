@@ -144,8 +144,13 @@ TEST(Overlay, WithoutItsFontEndsTheRunBeforeItsFolderIsMade) {
   here.write("balls.yaml", two_balls("caption: true\n" + small_frames));
   const Finished run =
       here.shell("HOME=/nowhere XDG_DATA_HOME=/nowhere XDG_DATA_DIRS=/nowhere \"$CAROM\" run balls.yaml -o out");
-  EXPECT_EQ(run.code, 1);
-  EXPECT_NE(run.err.find("apt install fonts-dejavu-core"), std::string::npos) << run.err;
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err,
+            "balls.yaml: error: text in pictures needs the typeface DejaVu Sans, and no folder of fonts has "
+            "DejaVuSans.ttf\n"
+            "    = install it (on Debian: apt install fonts-dejavu-core), or leave out `caption`, `arrows` and `color: "
+            "{by: ...}`\n"
+            "carom: 1 error; nothing was run\n");
   EXPECT_FALSE(here.has("out"));
 }
 

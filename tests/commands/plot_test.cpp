@@ -147,8 +147,8 @@ TEST(PlotRuns, WithoutGnuplotNamesTheRemedy) {
   const Finished plot = here.shell("PATH=/nowhere; exec \"$CAROM\" plot run");
   EXPECT_EQ(plot.code, 1);
   EXPECT_EQ(plot.err,
-            "carom: the plots need gnuplot, which is not on the PATH: install it (on Debian: apt install "
-            "gnuplot-nox)\n");
+            "carom: the plots need gnuplot, which is not on the PATH\n"
+            "  install it (on Debian: apt install gnuplot-nox)\n");
 }
 
 TEST(PlotRuns, OfSeveralRunsIsTheSameForAnyNumberOfJobs) {

@@ -312,7 +312,14 @@ TEST(Run, ScenesWithATornMeshAreWrong) {
              "simulate: {duration: 0.1}\n");
   const Finished run = here.carom({"run", "fall.yaml"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("fall.yaml:2:29: error: the mesh `t.stl` cannot be used: "), std::string::npos) << run.err;
+  EXPECT_EQ(
+      run.err,
+      "fall.yaml:2:29: error: the mesh `t.stl` cannot be used: cannot read the mesh t.stl: line 1: `no` is no word "
+      "of an STL file\n"
+      "   2 | bodies: {t: {mass: 1, mesh: t.stl, fit: box, position: [0, 2, 0]}}\n"
+      "     |                             ^~~~~\n"
+      "     = export it again\n"
+      "carom: 1 error; nothing was run\n");
 }
 
 TEST(Run, OnlyIsHeldToTheBudgetByWhatItLeaves) {

@@ -278,7 +278,7 @@ TEST(Charts, WithoutGnuplotAreRefusedBeforeTheFolderIsMade) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   EXPECT_EQ(error_of([&] { Exports(scene, here / "run"); }),
-            "the plots need gnuplot, which is not on the PATH: install it (on Debian: apt install gnuplot-nox)");
+            "the plots need gnuplot, which is not on the PATH\n  install it (on Debian: apt install gnuplot-nox)");
   setenv("PATH", path.c_str(), 1);
   EXPECT_TRUE(names_in(here.path()).empty());
 }

@@ -336,7 +336,7 @@ TEST(Film, WithoutFfmpegNothingIsBegun) {
   const Scene scene = scene_with_film();
   const std::string path = std::getenv("PATH");
   const std::string remedy =
-      ", which is not on the PATH: install it (on Debian: apt install ffmpeg), or leave the video out";
+      ", which is not on the PATH\n  install it (on Debian: apt install ffmpeg), or leave the video out";
   setenv("PATH", "", 1);
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffmpeg" + remedy);
   unsetenv("PATH");

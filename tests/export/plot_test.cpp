@@ -65,8 +65,7 @@ TEST(Plot, WithoutGnuplotNamesTheRemedy) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   EXPECT_EQ(error_of([] { find_gnuplot(); }),
-            "the plots need gnuplot, which is not on the PATH: install it (on Debian: apt install "
-            "gnuplot-nox)");
+            "the plots need gnuplot, which is not on the PATH\n  install it (on Debian: apt install gnuplot-nox)");
   setenv("PATH", path.c_str(), 1);
 }
 

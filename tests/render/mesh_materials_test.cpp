@@ -158,8 +158,9 @@ TEST(ReadPaintedMesh, ReportsTexturesAndMaterialsThatCannotBeRead) {
   EXPECT_EQ(of("a.webp", "RIFF1234WEBP"),
             "its texture a.webp is neither PNG nor JPEG. Remedy: convert it, or give the body a `color`");
   const std::string png = test::from_base64(test::four_colors), jpeg = test::from_base64(test::red_over_blue);
-  EXPECT_EQ(of("a.png", png.substr(0, png.size() - 25)), "its texture a.png is damaged");
-  EXPECT_EQ(of("a.jpg", jpeg.substr(0, jpeg.size() - 12)), "its texture a.jpg is damaged");
+  const std::string damaged = " is damaged. Remedy: save it again, or give the body a `color`";
+  EXPECT_EQ(of("a.png", png.substr(0, png.size() - 25)), "its texture a.png" + damaged);
+  EXPECT_EQ(of("a.jpg", jpeg.substr(0, jpeg.size() - 12)), "its texture a.jpg" + damaged);
   MeshLimits limits;
   limits.texture_pixels = 3;
   EXPECT_EQ(painted_trouble(folder.write("b.gltf", GltfSquare{data_uri(test::four_colors)}.text()), limits),
@@ -173,6 +174,25 @@ TEST(ReadPaintedMesh, ReportsTexturesAndMaterialsThatCannotBeRead) {
   EXPECT_EQ(painted_trouble(folder.write("d.obj", many + triangle)),
             "it changes its material more than 1000 times. Remedy: sort its faces by material, or give the body a "
             "`color`");
+}
+
+TEST(ReadPaintedMesh, NamesTheFileThatDiffersInCase) {
+  const MeshFolder folder;
+  fs::create_directory(folder.path + "Textures");
+  folder.write("Textures/four.PNG", test::from_base64(test::four_colors));
+  const std::string remedy = " is. Remedy: write its name as on the disk";
+  EXPECT_EQ(
+      painted_trouble(folder.write("a.gltf", GltfSquare{"textures/Four.png"}.text())),
+      "its texture textures/Four.png is not there, but Textures/four.PNG" + remedy + ", or give the body a `color`");
+
+  // A glTF file has its triangles in another file.
+  std::string text = GltfSquare{""}.text();
+  const std::size_t at = text.find("data:"), end = text.find('"', at);
+  text.replace(at, end - at, "Square.bin");
+  EXPECT_EQ(painted_trouble(folder.write("b.gltf", text)),
+            "its file Square.bin is not there. Remedy: put it beside the mesh");
+  folder.write("square.bin", "");
+  EXPECT_EQ(painted_trouble(folder.write("b.gltf", text)), "its file Square.bin is not there, but square.bin" + remedy);
 }
 
 TEST(ReadPaintedMesh, ScalesTexturesDownToItsLimit) {

@@ -100,6 +100,16 @@ TEST(SceneErrors, MeshThatIsNotThereIsAnErrorOfItsOwn) {
             "     = paths are relative to the folder of the scene\n");
 }
 
+TEST(SceneErrors, MeshWhoseNameDiffersInCaseIsNamed) {
+  write_file("", "Pin.STL");
+  EXPECT_EQ(errors_of("scene: 1\nballs:\n  pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\nsimulate: "
+                      "{duration: 1}\n"),
+            "scene.yaml:3:56: error: there is no file `pin.stl`\n"
+            "   3 |   pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\n"
+            "     |                                                        ^~~~~~~\n"
+            "     = did you mean `Pin.STL`?\n");
+}
+
 TEST(SceneErrors, DuplicateKeyHasTheLineOfTheFirst) {
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1}\nseed: 1\nseed: 2\n"),
             "scene.yaml:4:1: error: `seed` is repeated\n"

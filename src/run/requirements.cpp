@@ -1,0 +1,68 @@
+// Calls the functions that a run calls when it needs each thing, so that a run finds nothing missing later. The heads
+// of textures alone would not show a damaged one.
+#include "run/requirements.h"
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "export/film_file.h"
+#include "export/plot.h"
+#include "overlay/inscription.h"
+#include "render/mesh.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+/// The mesh files that pictures show in colours of their own.
+std::set<std::string> painted_meshes(const Scene& scene) {
+  std::set<std::string> files;
+  const auto add = [&](const std::optional<MeshUse>& mesh) {
+    if (mesh && mesh->own_colors) files.insert(mesh->file);
+  };
+  for (const BodyRange& range : scene.roster.bodies) add(range.mesh);
+  for (const FixedName& fixed : scene.roster.fixed)
+    if (fixed.visible) add(fixed.mesh);
+  return files;
+}
+
+std::string fault_of(const std::function<void()>& find) {
+  try {
+    find();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+const std::string& Requirements::fault_of_colors(const std::string& mesh) {
+  const auto known = faults_.find(mesh);
+  if (known != faults_.end()) return known->second;
+  return faults_[mesh] = fault_of([&] { read_painted_mesh(mesh); });
+}
+
+void Requirements::check(const SceneFile& file, const Scene& scene, const Output& outputs) {
+  std::vector<SceneFault> faults;
+  const auto add = [&](const std::optional<Place>& place, const std::string& text) {
+    if (text.empty()) return;
+    const TextRemedy parts = fault_and_remedy(text);
+    faults.push_back({place, parts.fault, parts.remedy});
+  };
+
+  if (outputs.pictures() || outputs.gltf) {
+    const std::set<std::string> painted = painted_meshes(scene);
+    for (const MeshFile& mesh : scene.meshes)
+      if (painted.contains(mesh.file)) add(mesh.uncolored, fault_of_colors(mesh.file));
+  }
+  if (outputs.pictures()) add({}, fault_of([&] { check_font(scene); }));
+  if (outputs.video) add({}, fault_of([] { find_film_tools(); }));
+  if (outputs.plots) add({}, fault_of([] { find_gnuplot(); }));
+  if (!faults.empty()) throw RequirementError(file.error(faults));
+}
+
+}  // namespace carom
