@@ -90,7 +90,11 @@ class Together {
   void take(const TaskOutcome& outcome) {
     outcomes_[outcome.task] = outcome.kind == TaskOutcome::Kind::done ? unpacked(outcome.text)
                                                                       : run_failed(scenes_[outcome.task], outcome.text);
-    disk_is_full_ = disk_is_full_ || names_full_disk(outcomes_[outcome.task]->complaint);
+    if (names_full_disk(outcomes_[outcome.task]->complaint)) {
+      // Scenes that run at the same time fail with the same error.
+      if (disk_is_full_) outcomes_[outcome.task] = without_run(scenes_[outcome.task], scene_status::not_run);
+      disk_is_full_ = true;
+    }
     if (std::atomic<double>* done = fractions_.at(outcome.task)) *done = 1;
     ++finished_;
     settle_in_order();

@@ -40,7 +40,9 @@ Json errors_json(const std::vector<ErrorRecord>& errors) {
 }
 
 std::string with_remedy(const std::string& why) {
-  return names_full_disk(why) ? why + "\n  make room, then the same command runs what is missing" : why;
+  return names_full_disk(why)
+             ? why + "\n  make room, then the same command runs what is missing, or write elsewhere with -o"
+             : why;
 }
 
 std::vector<ErrorRecord> error_of_text(std::string_view text, std::string_view file) {

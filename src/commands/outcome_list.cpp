@@ -33,7 +33,8 @@ void OutcomeList::end(std::string_view command, double wall) {
 std::string OutcomeList::total(double wall) {
   std::vector<std::string> parts;
   std::size_t rest = entries_.size();
-  for (const char* status : {scene_status::done, scene_status::up_to_date, scene_status::failed}) {
+  for (const char* status :
+       {scene_status::done, scene_status::up_to_date, scene_status::failed, scene_status::not_run}) {
     if (counts_[status] > 0) parts.push_back(fmt::format("{} {}", counts_[status], status));
     rest -= counts_[status];
   }

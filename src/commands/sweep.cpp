@@ -50,7 +50,8 @@ class SweepSession {
       progress_.reset();
       const std::string why = with_remedy(error.what());
       complain(options_, why);
-      show_failure(options_, "failed", error_of_text(why));
+      if (cut_) show_cut(options_, *cut_);
+      show_failure(options_, "failed", error_of_text(why), cut_);
       return 1;
     }
   }
@@ -115,8 +116,14 @@ class SweepSession {
     outcome.to_do = job.left();
     share_processors(options_.at_once.jobs.value_or(processors()));
     show_progress("runs", outcome.to_do);
-    job.run([&](const SweepProgress& p) { show_progress(p); },
-            [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
+    try {
+      job.run([&](const SweepProgress& p) { show_progress(p); },
+              [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
+    } catch (const ExportError&) {
+      const std::size_t left = job.left(), failed = outcome.failures.size();
+      cut_ = {outcome.to_do - left, failed, left - failed};
+      throw;
+    }
     if (!is_part) {
       std::vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
@@ -155,6 +162,7 @@ class SweepSession {
   Shard shard_;
   std::string what_;
   std::optional<Progress> progress_;
+  std::optional<SweepCut> cut_;  // once the runs have ended early
 };
 
 }  // namespace

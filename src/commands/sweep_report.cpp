@@ -98,10 +98,18 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
   flush_out();
 }
 
-void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors) {
+void show_cut(const Options& options, const SweepCut& cut) {
+  const std::string failed = cut.failed == 0 ? "" : fmt::format("{} failed, ", grouped(cut.failed));
+  complain(options, fmt::format("{}: {} made, {}{} not run", printable(options.operands.front()),
+                                counted(cut.made, "run", "runs"), failed, grouped(cut.not_run)));
+}
+
+void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors,
+                  const std::optional<SweepCut>& cut) {
   if (!options.json) return;
   Json json = {
       {"sweep", options.operands.front()}, {"status", std::string(status)}, {"folder", sweep_folder_of(options)}};
+  if (cut) json.update({{"made", cut->made}, {"not_run", cut->not_run}});
   if (!errors.empty()) json["errors"] = errors_json(errors);
   write_out(document("sweep", json));
 }

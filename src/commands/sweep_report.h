@@ -1,5 +1,6 @@
 #pragma once
 // The report of a sweep, as text or as JSON.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,8 +25,16 @@ struct SweepOutcome {
 /// The end of a sweep, on stdout, and the runs that failed, on stderr.
 void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job);
 
+/// Runs of a sweep, or of a part of it, that ended before its last run.
+struct SweepCut {
+  std::size_t made = 0, failed = 0, not_run = 0;
+};
+
 /// With --json: the status of a sweep without a result ("wrong", "interrupted", "failed"), and the reasons.
-void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors);
+void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors,
+                  const std::optional<SweepCut>& cut = std::nullopt);
+/// The line about it on stderr.
+void show_cut(const Options& options, const SweepCut& cut);
 
 /// --plan: id, values and state of every run. The job must be planned.
 void show_plan(const Options& options, const SweepJob& job);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <new>
 
 #include "files/manifest.h"
@@ -282,10 +283,15 @@ lxw_chart* Workbook::add_chart(lxw_chart_type type) {
 
 void Workbook::write(OutputFile& file) {
   files_.begin_parts();
+  errno = 0;
   const lxw_error error = workbook_close(book_);
+  const int system_error = errno;
   // Closing frees it, even on failure.
   book_ = nullptr;
   files_.check();
+  // The library's own text of this error does not have the system's reason.
+  if (error == LXW_ERROR_ZIP_FILE_OPERATION && system_error != 0)
+    fail("write", place_, name_, std::strerror(system_error));
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
   files_.check_archive(scratch_.get());
   std::vector<char> piece(std::size_t{256} * 1024);

@@ -463,6 +463,7 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     try {
       store_failure(run_folder(number), why);
     } catch (const ExportError& error) {
+      if (full_disk.empty() && names_full_disk(error.what())) full_disk = error.what();
       if (why != error.what()) why += fmt::format("; {}", error.what());
     }
     ++progress.failed;
