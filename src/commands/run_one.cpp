@@ -26,7 +26,7 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   RunSettings settings;
   if (!planned.former) return settings;
   settings.former = &planned.former->manifest;
-  settings.simulator = replay_of(planned, overlay_needs(*planned.scene), quiet);
+  settings.replay = replay_of(planned, overlay_needs(*planned.scene), quiet);
   return settings;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "export/film.h"
+#include "export/flights_file.h"
 #include "export/frame_files.h"
 #include "export/picture_streams.h"
 #include "export/plot.h"
@@ -47,38 +48,55 @@ void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records)
 }  // namespace
 
 struct Exports::Impl {
-  struct OpenWriter {
-    std::unique_ptr<Writer> writer;
-    std::vector<int> timeline_streams;  // empty: it writes no states
-  };
-
   // Refuse what can be refused here, before the folder is changed.
   Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
        const Manifest* renewed)
-      : scene(the_scene), makers(std::move(the_makers)), timeline(end_of(the_scene)), plan(plan_pictures(the_scene)) {
-    const Output& output = scene.output;
+      : scene(the_scene), makers(std::move(the_makers)), tables(end_of(the_scene)), plan(plan_pictures(the_scene)) {
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
-    std::optional<FilmTools> tools;
-    if (output.video) tools = find_film_tools();
+    if (scene.output.video) tools = find_film_tools();
     if (renewed != nullptr) kept = kept_files(*renewed);
     if (draws_plots()) find_gnuplot();
 
     folder.emplace(path, durability);
     first_records = renewed != nullptr ? folder->renew(scene, meshes) : folder->begin(scene, meshes);
-    for (const OutputKind& kind : output_kinds()) {
-      const WriterKind* writer = writer_named(kind.name);
-      if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
-      OpenWriter& open = writers.emplace_back();
-      if (kind.is_sampled()) open.timeline_streams = {timeline.add(Ticks::every(kind.every(output), end_of(scene)))};
+    open_writers(tables, false);
+  }
+
+  /// Opens the writers that wait for the whole motion, or all others.
+  void open_writers(OutputPart& part, bool waiting) {
+    const std::span<const OutputKind> kinds = output_kinds();
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const WriterKind* writer = writer_to_open(kinds[i]);
+      if (writer == nullptr || writer->waits_for_motion(scene) != waiting) continue;
+      std::vector<Ticks> ticks;
+      if (kinds[i].is_sampled()) ticks.push_back(Ticks::every(kinds[i].every(scene.output), end_of(scene)));
       if (writer->ticks != nullptr)
-        for (const Ticks& ticks : writer->ticks(scene)) open.timeline_streams.push_back(timeline.add(ticks));
-      open.writer = writer->open(*folder, scene, makers);
+        for (const Ticks& some : writer->ticks(scene)) ticks.push_back(some);
+      part.add(i, writer->open(*folder, scene, makers), ticks);
     }
+  }
+
+  /// Null: the output is not requested, is kept, or has no writer.
+  const WriterKind* writer_to_open(const OutputKind& kind) const {
+    return kind.asked(scene.output) && !keeps(kind) ? writer_named(kind.name) : nullptr;
+  }
+
+  bool waits() const {
+    return std::ranges::any_of(output_kinds(), [&](const OutputKind& kind) {
+      const WriterKind* writer = writer_to_open(kind);
+      return writer != nullptr && writer->waits_for_motion(scene);
+    });
+  }
+
+  void open_pictures() {
+    const Output& output = scene.output;
+    plan = plan_pictures(scene);
     if (output.frames) frames.emplace(*folder, std::min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(scene).size);
-    for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
+    for (std::size_t i = 0; i < plan.streams.size(); ++i)
+      plan.streams[i].timeline_stream = drawings->timeline().add(plan.ticks[i]);
   }
 
   /// The files of a former run that are not drawn and are still requested.
@@ -99,24 +117,32 @@ struct Exports::Impl {
                         [&](const OutputKind& kind) { return kind.series.folder == plot_files.folder && keeps(kind); });
   }
 
-  bool due(const OpenWriter& open) const {
-    return std::any_of(open.timeline_streams.begin(), open.timeline_streams.end(),
-                       [&](int stream) { return timeline.due(stream).has_value(); });
+  /// The writers of both parts, in the order of the kinds of outputs.
+  std::vector<Writer*> writers() const {
+    std::vector<const OutputPart::OpenWriter*> open;
+    for (const OutputPart::OpenWriter& writer : tables.writers()) open.push_back(&writer);
+    if (drawings)
+      for (const OutputPart::OpenWriter& writer : drawings->writers()) open.push_back(&writer);
+    std::ranges::sort(open, {}, [](const auto* writer) { return writer->kind; });
+    std::vector<Writer*> writers;
+    for (const OutputPart::OpenWriter* writer : open) writers.push_back(writer->writer.get());
+    return writers;
   }
 
   const Scene& scene;
   const ModelMakers makers;
-  Timeline timeline;
-  PictureStreams plan;
-  std::uint64_t pictures = 0;
   // Files of the former run that stay.
   std::vector<FileRecord> kept;
   // Files in the folder from the start.
   std::vector<FileRecord> first_records;
   // Declared before all that writes into it, so that it is destroyed last and can clean up.
   std::optional<OpenFolder> folder;
+  OutputPart tables;
+  std::optional<OutputPart> drawings;
+  PictureStreams plan;
+  std::optional<FilmTools> tools;
+  std::atomic<std::uint64_t> pictures = 0;
   std::optional<FrameFiles> frames;
-  std::vector<OpenWriter> writers;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
 };
@@ -127,47 +153,40 @@ Exports::Exports(const Scene& scene, const std::string& folder, Durability durab
 
 Exports::~Exports() = default;
 
-Timeline& Exports::timeline() {
-  return impl_->timeline;
+OutputPart& Exports::tables() {
+  return impl_->tables;
 }
 
-void Exports::end_at(double time) {
-  impl_->timeline.end_at(time);
+FlightsFile* Exports::flights() {
+  for (const OutputPart::OpenWriter& open : impl_->tables.writers())
+    if (auto* file = dynamic_cast<FlightsFile*>(open.writer.get())) return file;
+  return nullptr;
+}
+
+const FilePlace& Exports::place() const {
+  return impl_->folder->place();
+}
+
+bool Exports::draws() const {
+  return impl_->scene.output.pictures() || impl_->waits();
+}
+
+void Exports::begin_drawings() {
+  impl_->drawings.emplace(end_of(impl_->scene));
+  impl_->open_writers(*impl_->drawings, true);
+  impl_->open_pictures();
+}
+
+OutputPart& Exports::drawings() {
+  return *impl_->drawings;
+}
+
+void Exports::end_drawings_at(double time) {
+  Timeline& timeline = impl_->drawings->timeline();
+  timeline.end_at(time);
   for (const PictureStream& stream : impl_->plan.streams)
-    if (impl_->timeline.is_empty(stream.timeline_stream))
+    if (timeline.is_empty(stream.timeline_stream))
       throw ExportError(fmt::format("cannot make pictures: the run ends at {} s, before the first of them", time));
-}
-
-bool Exports::needs_state() const {
-  const auto& streams = impl_->plan.streams;
-  return std::any_of(impl_->writers.begin(), impl_->writers.end(),
-                     [&](const Impl::OpenWriter& open) { return impl_->due(open); }) ||
-         std::any_of(streams.begin(), streams.end(), [&](const PictureStream& stream) {
-           return impl_->timeline.due(stream.timeline_stream).has_value();
-         });
-}
-
-bool Exports::needs_contacts() const {
-  return std::any_of(impl_->writers.begin(), impl_->writers.end(),
-                     [&](const Impl::OpenWriter& open) { return impl_->due(open) && open.writer->needs_contacts(); });
-}
-
-void Exports::record(std::span<const Collision> collisions) {
-  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record(collisions);
-}
-
-void Exports::record_paths(std::span<const PathPiece> pieces) {
-  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record_paths(pieces);
-}
-
-void Exports::record_crossings(std::span<const RegionCrossing> crossings) {
-  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record_crossings(crossings);
-}
-
-void Exports::sample(const State& state, std::span<const ContactForce> contacts) {
-  const double time = impl_->timeline.time();
-  for (const Impl::OpenWriter& open : impl_->writers)
-    if (impl_->due(open)) open.writer->add(time, state, contacts);
 }
 
 const std::vector<PictureStream>& Exports::pictures() const {
@@ -175,7 +194,7 @@ const std::vector<PictureStream>& Exports::pictures() const {
 }
 
 void Exports::picture(std::size_t stream, const Image& image, bool again) {
-  const auto number = impl_->timeline.due(impl_->plan.streams.at(stream).timeline_stream);
+  const auto number = impl_->drawings->timeline().due(impl_->plan.streams.at(stream).timeline_stream);
   if (!number) return;
   const PictureUse& use = impl_->plan.uses[stream];
   if (use.frames) impl_->frames->put(*number, image, again);
@@ -188,12 +207,10 @@ std::uint64_t Exports::frames() const {
   return impl_->pictures;
 }
 
-std::vector<LeftOut> Exports::end(const Tally& tally) {
+std::vector<LeftOut> Exports::left_out() const {
   std::vector<LeftOut> left_out;
-  for (const Impl::OpenWriter& open : impl_->writers) {
-    open.writer->end(tally);
-    for (LeftOut& file : open.writer->left_out()) left_out.push_back(std::move(file));
-  }
+  for (const Writer* writer : impl_->writers())
+    for (LeftOut& file : writer->left_out()) left_out.push_back(std::move(file));
   return left_out;
 }
 
@@ -208,8 +225,9 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   OutputFile summary_file(place, "summary.csv");
   write_summary(summary_file, summary);
   files.push_back(&summary_file);
-  for (const Impl::OpenWriter& open : impl_->writers)
-    for (OutputFile* file : open.writer->files()) files.push_back(file);
+  const std::vector<Writer*> writers = impl_->writers();
+  for (Writer* writer : writers)
+    for (OutputFile* file : writer->files()) files.push_back(file);
   std::optional<OutputFile> sheet_file;
   if (impl_->sheet) {
     sheet_file.emplace(place, "sheet.png");
@@ -226,7 +244,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
     records.push_back(impl_->film->record());
   }
   if (impl_->frames) append(records, impl_->frames->records());
-  for (const Impl::OpenWriter& open : impl_->writers) append(records, open.writer->published());
+  for (const Writer* writer : writers) append(records, writer->published());
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();

@@ -1,29 +1,25 @@
 #pragma once
 // Writes the files that a scene requests. Tables, buffers and pictures exist only for what it requests.
+// They are made in two ways through the motion: tables and whatever needs no more than the present, and drawings.
+#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "export/output_part.h"
 #include "export/picture_streams.h"
-#include "export/timeline.h"
 #include "files/output_file.h"
 #include "files/run_folder.h"
 #include "files/summary.h"
-#include "physics/collision.h"
-#include "physics/contact_force.h"
-#include "physics/path_piece.h"
-#include "physics/state.h"
-#include "physics/tally.h"
 #include "render/image.h"
 #include "render/model.h"
 
 namespace carom {
 
-struct Scene;
-
+class FlightsFile;
 struct Manifest;
+struct Scene;
 
 class Exports {
  public:
@@ -40,27 +36,30 @@ class Exports {
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
 
-  Timeline& timeline();
-  /// Ends the timeline at `time` (s), before the duration (timeline.h). Throws ExportError if pictures then have none.
-  void end_at(double time);
-  /// Whether any output is due at the timeline's present instant.
-  bool needs_state() const;
-  /// The same for outputs of contact forces.
-  bool needs_contacts() const;
-  void record(std::span<const Collision> collisions);
-  void record_paths(std::span<const PathPiece> pieces);
-  void record_crossings(std::span<const RegionCrossing> crossings);
-  /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if needs_contacts().
-  void sample(const State& state, std::span<const ContactForce> contacts = {});
+  OutputPart& tables();
+  /// The flights among the tables. Null: there are none.
+  FlightsFile* flights();
+  /// Where the files are written.
+  const FilePlace& place() const;
+
+  /// Whether there is anything to draw: pictures, or outputs that take their first state only when the whole motion is
+  /// known.
+  bool draws() const;
+  /// Opens these. If the run ends before its duration and that is known, scene.ends_at has it by now.
+  void begin_drawings();
+  OutputPart& drawings();
   const std::vector<PictureStream>& pictures() const;
+  /// Ends the timeline of the drawings at `time` (s), before the duration (timeline.h). Throws ExportError if pictures
+  /// then have none.
+  void end_drawings_at(double time);
   /// Copies the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
   /// Other threads encode and write it. An error of theirs is thrown by a later call, or by finish().
   void picture(std::size_t stream, const Image& image, bool again = false);
-  /// The pictures taken so far for frames and video. Those of the sheet do not count.
+  /// The pictures taken so far for frames and video. Those of the sheet do not count. Any thread may ask.
   std::uint64_t frames() const;
 
-  /// Ends the run, after which nothing is recorded or sampled. Returns the files that were given up.
-  std::vector<LeftOut> end(const Tally& tally);
+  /// The files that were given up, after all parts have ended.
+  std::vector<LeftOut> left_out() const;
   /// Completes every file, then renames all of them. summary.csv is included, and manifest.json is last.
   /// Throws ExportError.
   /// scene.yaml is in the folder from the start,

@@ -26,7 +26,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
-constexpr std::uint32_t version = 6, byte_order = 0x01020304, last_entry = 0xffffffff;
+constexpr std::uint32_t version = 7, byte_order = 0x01020304, last_entry = 0xffffffff, collision_entry = 0xfffffffe;
+constexpr std::uint64_t collisions_bit = std::uint64_t{1} << 63;
 enum Has : std::uint32_t {
   has_acceleration = 1,
   has_from = 2,
@@ -35,11 +36,15 @@ enum Has : std::uint32_t {
   has_joint = 16,
   has_curve = 32,
   has_left = 64,
-  has_all = 127
+  has_fade = 128,
+  has_verlet = 256,
+  has_closed = 512,
+  has_frame = 1024,
+  has_all = 2047
 };
 
 constexpr std::size_t header_size = 32, tail_size = 8 + 25 * 8, end_size = 8 * 8;
-constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 1 + 3 * PolynomialPath::terms) * 8;
+constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 1 + 3 * PolynomialPath::terms + 3 + 1 + 1) * 8;
 
 /// The counts of the tail, in its order.
 template <typename Sums>
@@ -93,61 +98,110 @@ class InPlace {
 }  // namespace
 
 FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most)
-    : most_(most),
+    : has_collisions_(drawings_show_collisions(scene)),
+      most_(most),
       bytes_(header_size + tail_size),
       acceleration_(scene.world.body_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {
   file_.emplace(place, flights_name);
+  begin(scene);
+}
+
+FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, Nameless)
+    : has_collisions_(drawings_show_collisions(scene)),
+      keeps_whole_(true),
+      most_(0),
+      acceleration_(scene.world.body_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {
+  file_.emplace(place, nameless_file(place));
+  begin(scene);
+}
+
+void FlightsFile::begin(const Scene& scene) {
   file_->write(magic);
   InPlace writer(file_->room(header_size));
   writer.put(version);
   writer.put(byte_order);
-  writer.put(std::uint64_t{scene.world.body_count()});
+  writer.put(scene.world.body_count() | (has_collisions_ ? collisions_bit : 0));
   writer.put(scene.simulate.duration);
   file_->written(writer.end());
 }
 
+void FlightsFile::record(std::span<const Collision> collisions) {
+  if (has_collisions_) collisions_.insert(collisions_.end(), collisions.begin(), collisions.end());
+}
+
 void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
-  for (const PathPiece& piece : pieces) {
-    if (!file_) return;
-    std::uint32_t has = 0;
-    if (!same_bits(piece.a, acceleration_[piece.body])) has |= has_acceleration;
-    if (piece.from != first_double(piece.start)) has |= has_from;
-    if (piece.kicked) has |= has_kick;
-    if (piece.part_of != no_entity) has |= has_whole;
-    if (piece.joint) has |= has_joint;
-    if (piece.curve) has |= has_curve;
-    if (piece.removed) has |= has_left;
-    char* const begin = file_->room(largest_entry);
-    InPlace writer(begin);
-    writer.put(piece.body);
-    writer.put(has);
-    writer.put(piece.start);
-    writer.put(piece.x);
-    writer.put(piece.v);
-    if (has & has_acceleration) writer.put(acceleration_[piece.body] = piece.a);
-    if (has & has_from) writer.put(piece.from);
-    if (has & has_kick) {
-      writer.put(piece.until);
-      writer.put(piece.kick);
-    }
-    if (has & has_whole) writer.put(std::uint64_t{piece.part_of});
-    if (has & has_joint) {
-      writer.put(piece.mass);
-      writer.put(piece.radius);
-      writer.put(piece.half);
-    }
-    if (has & has_curve) {
-      writer.put(piece.curve->length);
-      for (const Vec3& term : piece.curve->displacement) writer.put(term);
-    }
-    file_->written(writer.end());
-    ++entries_;
-    bytes_ += static_cast<std::uint64_t>(writer.end() - begin);
-    if (bytes_ > most_) file_.reset();
+  in_order(
+      collisions_, pieces, [this](const CollisionMark& mark) { put(mark); },
+      [this](const PathPiece& piece) { put(piece); });
+  collisions_.clear();
+}
+
+void FlightsFile::put(const CollisionMark& collision) {
+  if (!file_) return;
+  char* const begin = file_->room(largest_entry);
+  InPlace writer(begin);
+  writer.put(collision_entry);
+  writer.put(static_cast<std::uint32_t>(collision.kind));
+  writer.put(collision.a);
+  writer.put(collision.b);
+  writer.put(collision.time);
+  written(writer.end(), static_cast<std::size_t>(writer.end() - begin));
+}
+
+void FlightsFile::put(const PathPiece& piece) {
+  if (!file_) return;
+  std::uint32_t has = 0;
+  if (!same_bits(piece.a, acceleration_[piece.body])) has |= has_acceleration;
+  if (piece.from != first_double(piece.start)) has |= has_from;
+  if (piece.kicked) has |= has_kick;
+  if (piece.part_of != no_entity) has |= has_whole;
+  if (piece.joint) has |= has_joint;
+  if (piece.curve) has |= has_curve;
+  if (piece.removed) has |= has_left;
+  if (piece.fade != 0) has |= has_fade;
+  if (piece.law == PathLaw::verlet) has |= has_verlet;
+  if (piece.law == PathLaw::closed) has |= has_closed;
+  if (piece.law == PathLaw::frame) has |= has_frame;
+
+  char* const begin = file_->room(largest_entry);
+  InPlace writer(begin);
+  writer.put(piece.body);
+  writer.put(has);
+  writer.put(piece.start);
+  writer.put(piece.x);
+  writer.put(piece.v);
+  if (has & has_acceleration) writer.put(acceleration_[piece.body] = piece.a);
+  if (has & has_from) writer.put(piece.from);
+  if (has & has_kick) {
+    writer.put(piece.until);
+    writer.put(piece.kick);
   }
+  if (has & has_whole) writer.put(std::uint64_t{piece.part_of});
+  if (has & has_joint) {
+    writer.put(piece.mass);
+    writer.put(piece.radius);
+    writer.put(piece.half);
+  }
+  if (has & has_curve) {
+    writer.put(piece.curve->length);
+    for (const Vec3& term : piece.curve->displacement) writer.put(term);
+    writer.put(piece.curve->ahead);
+  }
+  if (has & has_fade) writer.put(piece.fade);
+  if (has & has_frame) writer.put(piece.rounding);
+  written(writer.end(), static_cast<std::size_t>(writer.end() - begin));
+}
+
+/// Counts an entry of so many bytes.
+void FlightsFile::written(const char* end, std::size_t size) {
+  file_->written(end);
+  ++entries_;
+  bytes_ += size;
+  if (bytes_ > most_ && !keeps_whole_) file_.reset();
 }
 
 void FlightsFile::end(const Tally& tally) {
+  record_paths({});
   if (!file_) return;
   const bool has_end = tally.end || tally.removed.bodies > 0;
   InPlace writer(file_->room(end_size + tail_size));
@@ -172,18 +226,25 @@ void FlightsFile::end(const Tally& tally) {
   file_->written(writer.end());
 }
 
+Descriptor FlightsFile::reopened() {
+  return file_->reopened();
+}
+
 std::vector<LeftOut> FlightsFile::left_out() const {
-  if (file_) return {};
+  if (file_ && bytes_ <= most_) return {};
   return {{flights_name, fmt::format("larger than {:.3g} GB", 1e-9 * static_cast<double>(most_))}};
 }
 
 std::vector<OutputFile*> FlightsFile::files() {
-  return file_ ? std::vector{&*file_} : std::vector<OutputFile*>();
+  return file_ && bytes_ <= most_ ? std::vector{&*file_} : std::vector<OutputFile*>();
 }
 
 FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& scene)
+    : FlightsReader(open_stored(folder, flights_name), path, scene) {}
+
+FlightsReader::FlightsReader(Descriptor file, const std::string& path, const Scene& scene)
     : path_(path),
-      file_(open_stored(folder, flights_name)),
+      file_(std::move(file)),
       buffer_(std::size_t{256} * 1024),
       acceleration_(scene.world.body_count(), Vec3::Zero()) {
   struct stat info {};
@@ -198,7 +259,10 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   if (take<std::uint32_t>() != version) refuse("another version of carom wrote it");
   if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
   if (size < header_size + tail_size) refuse("it is truncated");
-  if (take<std::uint64_t>() != scene.world.body_count() || take<double>() != scene.simulate.duration)
+  const auto bodies = take<std::uint64_t>();
+  has_collisions_ = (bodies & collisions_bit) != 0;
+  entities_ = scene.world.entity_count();
+  if ((bodies & ~collisions_bit) != scene.world.body_count() || take<double>() != scene.simulate.duration)
     refuse("it belongs to another scene");
 
   char tail[tail_size];
@@ -243,15 +307,39 @@ void FlightsReader::take_end(std::uint64_t offset, const Scene& scene) {
   tally_.end = RunEnd{time, by, region};
 }
 
-bool FlightsReader::next(PathPiece& piece) {
+bool FlightsReader::next(Recorded& recorded) {
   if (entries_ == 0) {
     if (left_ > 0 || at_ != end_) refuse("it is damaged");
     return false;
   }
   --entries_;
   fill(largest_entry);
-  piece = {};
-  piece.body = take<std::uint32_t>();
+  const auto body = take<std::uint32_t>();
+  recorded = {};
+  if (body == collision_entry) {
+    recorded.kind = Recorded::Kind::collision;
+    recorded.collision = take_collision();
+    return true;
+  }
+  recorded.piece.body = body;
+  take_piece(recorded.piece);
+  return true;
+}
+
+CollisionMark FlightsReader::take_collision() {
+  CollisionMark collision;
+  const auto kind = take<std::uint32_t>();
+  collision.kind = static_cast<CollisionKind>(kind);
+  collision.a = take<std::uint32_t>();
+  collision.b = take<std::uint32_t>();
+  collision.time = take<double>();
+  const bool known = kind <= static_cast<std::uint32_t>(CollisionKind::string) && collision.a < acceleration_.size() &&
+                     collision.b < entities_;
+  if (!known || !has_collisions_ || !std::isfinite(collision.time)) refuse("it is damaged");
+  return collision;
+}
+
+void FlightsReader::take_piece(PathPiece& piece) {
   const auto has = take<std::uint32_t>();
   if (piece.body >= acceleration_.size() || has > has_all) refuse("it is damaged");
   const auto take_time = [&] {
@@ -281,6 +369,13 @@ bool FlightsReader::next(PathPiece& piece) {
     piece.half = take_vector();
   }
   if (has & has_curve) piece.curve = take_curve();
+  if (has & has_fade) piece.fade = take<double>();
+  if (has & has_verlet) piece.law = PathLaw::verlet;
+  if (has & has_closed) piece.law = PathLaw::closed;
+  if (has & has_frame) {
+    piece.law = PathLaw::frame;
+    piece.rounding = take<double>();
+  }
   piece.removed = (has & has_left) != 0;
   const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
@@ -292,7 +387,6 @@ bool FlightsReader::next(PathPiece& piece) {
       !(positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0))
     refuse("it is damaged");
   last_ = piece.from;
-  return true;
 }
 
 /// Ensures that the buffer has `size` bytes, or all that are left.
@@ -332,6 +426,8 @@ std::shared_ptr<const PolynomialPath> FlightsReader::take_curve() {
   if (!(curve.length > 0 && std::isfinite(curve.length))) refuse("it is damaged");
   for (Vec3& term : curve.displacement)
     if (term = take_vector(); !term.allFinite()) refuse("it is damaged");
+  curve.ahead = take_vector();
+  if (!curve.ahead.allFinite()) refuse("it is damaged");
   return std::make_shared<PolynomialPath>(curve);
 }
 

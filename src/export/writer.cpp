@@ -72,7 +72,7 @@ constexpr WriterKind all_kinds[] = {
      [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
        return std::make_unique<GltfWriter>(folder, scene, makers);
      },
-     GltfWriter::bytes},
+     GltfWriter::bytes, nullptr, frames_motion},
     // The number of pieces is unknown. Three for each body are assumed.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
@@ -80,7 +80,7 @@ constexpr WriterKind all_kinds[] = {
      [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> std::unique_ptr<Writer> {
        return std::make_unique<PlotsWriter>(folder, scene);
      },
-     [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks},
+     [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks, may_stop},
 };
 
 }  // namespace

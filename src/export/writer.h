@@ -53,6 +53,11 @@ struct WriterKind {
   double (*bytes)(const Scene& scene, double instants);
   /// The instants at which it takes states, if not those of OutputKind::every.
   std::vector<Ticks> (*ticks)(const Scene& scene) = nullptr;
+  /// Whether it needs something of the whole motion at its first state: the run's end, or a camera that frames all.
+  /// Null: never.
+  bool (*waits)(const Scene& scene) = nullptr;
+
+  bool waits_for_motion(const Scene& scene) const { return waits != nullptr && waits(scene); }
 };
 
 /// In the order of output_kinds().

@@ -3,6 +3,7 @@
 #include "files/output_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,10 +28,18 @@ constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
 }  // namespace
 
 OutputFile::OutputFile(const FilePlace& place, std::string name)
-    : PartFile(place, std::move(name)), pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
+    : PartFile(place, std::move(name)),
+      has_name_(true),
+      pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
   file_ = Descriptor(openat(place.folder, part().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (!file_) fail("write", place, record_.name);
 }
+
+OutputFile::OutputFile(const FilePlace& place, Descriptor nameless)
+    : PartFile(place),
+      file_(std::move(nameless)),
+      has_name_(false),
+      pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {}
 
 void OutputFile::write(std::string_view bytes) {
   while (used_ + bytes.size() > size_) {
@@ -62,7 +71,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::put(const Piece& piece) {
-  hash_.add({piece.bytes.data(), piece.used});
+  if (has_name_) hash_.add({piece.bytes.data(), piece.used});
   for (std::size_t done = 0; done < piece.used;) {
     const ssize_t n = ::write(file_.get(), piece.bytes.data() + done, piece.used - done);
     if (n < 0 && errno == EINTR) continue;
@@ -81,9 +90,18 @@ void OutputFile::complete() {
   if (!file_) return;
   flush();
   pieces_.finish();
+  if (!has_name_) return;
   record_.sha256 = hash_.hex();
   // Some file systems report a full disk only here.
   if (close(file_.release()) != 0) fail("write", place_, record_.name);
+}
+
+Descriptor OutputFile::reopened() {
+  complete();
+  Descriptor opened(has_name_ ? openat(place_.folder, part().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)
+                              : open(fmt::format("/proc/self/fd/{}", file_.get()).c_str(), O_RDONLY | O_CLOEXEC));
+  if (!opened) fail("read", place_, record_.name);
+  return opened;
 }
 
 void OutputFile::publish() {

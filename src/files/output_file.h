@@ -17,6 +17,8 @@ class OutputFile : public PartFile {
  public:
   /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all functions of this class do.
   OutputFile(const FilePlace& place, std::string name);
+  /// Writes to a file without a name (part_file.h), which is not published.
+  OutputFile(const FilePlace& place, Descriptor nameless);
 
   void write(std::string_view bytes);
   /// Room to write `size` bytes in place. A call of written(end) then gives the end of the bytes written.
@@ -29,6 +31,8 @@ class OutputFile : public PartFile {
   /// Passes all bytes to the system and closes the file,
   /// which keeps its temporary name. record() is valid from here on.
   void complete();
+  /// Completes the file and opens it again, to be read.
+  Descriptor reopened();
   /// Completes the file and renames it to its final name.
   /// For the file to survive a power failure, the caller must sync the file system before.
   void publish();
@@ -43,6 +47,7 @@ class OutputFile : public PartFile {
   void put(const Piece& piece);
 
   Descriptor file_;
+  const bool has_name_;
   Sha256 hash_;
   /// Bytes that the system was requested to write to disk.
   std::uint64_t on_the_way_ = 0;

@@ -82,6 +82,8 @@ class PartFile {
  protected:
   /// Removes an abandoned temporary file. `name` must be plain and not a folder's. Throws ExportError.
   PartFile(const FilePlace& place, std::string name);
+  /// A file that has no name.
+  explicit PartFile(const FilePlace& place) : place_(place), handed_over_(true) {}
   /// Removes the temporary file unless it was renamed or handed over.
   ~PartFile();
 

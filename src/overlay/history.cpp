@@ -9,16 +9,6 @@
 #include "scene/scene.h"
 
 namespace carom {
-namespace {
-
-bool colors_by_collisions(const Scene& scene) {
-  const std::vector<BodyRange>& bodies = scene.roster.bodies;
-  return std::any_of(bodies.begin(), bodies.end(), [](const BodyRange& range) {
-    return range.coloring && range.coloring->by == ColorQuantity::collisions;
-  });
-}
-
-}  // namespace
 
 OverlayNeeds overlay_needs(const Scene& scene) {
   return scene.output.pictures() ? picture_needs(scene) : OverlayNeeds{};

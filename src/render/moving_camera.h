@@ -17,7 +17,7 @@ class MovingCamera {
 
   const Scene& scene() const { return scene_; }
   Size size() const { return size_; }
-  bool frames_motion() const { return !scene_.camera || scene_.camera->fit; }
+  bool frames_motion() const { return carom::frames_motion(scene_); }
   bool stands_still() const { return !path_ && !followed_; }
 
   /// Takes the camera that frames the motion.

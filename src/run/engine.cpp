@@ -34,6 +34,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
+  options.record_paths = request.recording.paths;
   options.watch = request.recording.watch;
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
@@ -48,7 +49,6 @@ ExactOptions exact_options(const SimulatorRequest& request) {
 std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   ExactOptions options = exact_options(request);
   options.merge = request.simulate.contact.merge;
-  options.record_paths = request.recording.paths && goes_along_parabolas(request.world, request.simulate);
   return make_exact_simulator(request.world, request.initial, options);
 }
 
@@ -80,6 +80,7 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   options.as_printed = simulate.as_printed;
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = request.recording.collisions;
+  options.record_paths = request.recording.paths;
   options.watch = request.recording.watch;
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);

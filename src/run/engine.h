@@ -72,7 +72,6 @@ void check_flights(const Scene& scene);
 /// What a simulator records besides its state.
 struct Recording {
   bool collisions = false;
-  /// Only where paths are parabolas (scene/engines.h). Otherwise Simulator::paths() stays empty.
   bool paths = false;
   std::vector<WatchedQuantity> watch{};  // for Simulator::extremes()
 };

@@ -108,7 +108,8 @@ std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
   const auto reader = std::make_shared<FlightsReader>(opened.get(), folder, of);
   return std::make_unique<Replay>(
-      of.world, [reader](PathPiece& piece) { return reader->next(piece); }, reader->tally());
+      of.world, [reader](Recorded& recorded) { return reader->next(recorded); }, reader->tally(),
+      reader->has_collisions());
 }
 
 }  // namespace carom

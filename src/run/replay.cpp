@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/path/flight.h"
 
@@ -23,31 +24,46 @@ Instant instant(const DoubleDouble& time) {
 
 }  // namespace
 
-Replay::Replay(const World& world, NextPiece next, const Tally& tally)
+Replay::Replay(const World& world, NextRecorded next, const Tally& tally, bool counts)
     : world_(world), next_(std::move(next)), tally_(tally), now_(world.body_count()) {
+  if (counts) tally_.body_body = tally_.body_fixed = tally_.merges = tally_.tautened = 0;
   more_ = next_(coming_);
-  std::vector<PathPiece> first;  // all pieces at time 0
+
+  // All that is recorded at time 0.
+  std::vector<PathPiece> first;
+  std::vector<Collision> collisions;
   do {
     advance_to(0);
     first.insert(first.end(), passed_.begin(), passed_.end());
-  } while (more_ && coming_.from <= 0);
+    collisions.insert(collisions.end(), collisions_.begin(), collisions_.end());
+  } while (more_ && coming_.from() <= 0);
   passed_ = std::move(first);
+  collisions_ = std::move(collisions);
 }
 
 void Replay::advance_to(double time) {
   fresh_ = false;
   passed_.clear();
+  collisions_.clear();
+
   // The state at the run's end stays.
   const double end = tally_.end ? tally_.end->time : std::numeric_limits<double>::infinity();
   if (time > end && time_ < end) time = end;
-  while (more_ && coming_.from <= time) {
-    // Stop before the next piece, possibly in the middle of an instant.
-    if (passed_.size() >= path_buffer) {
-      time_ = std::max(time_, std::nextafter(coming_.from, 0));
+
+  while (more_ && coming_.from() <= time) {
+    // Stop before the next part, possibly in the middle of an instant.
+    if (passed_.size() + collisions_.size() >= path_buffer) {
+      time_ = std::max(time_, std::nextafter(coming_.from(), 0));
       return;
     }
-    take(coming_);
-    passed_.push_back(coming_);
+    if (coming_.kind == Recorded::Kind::collision) {
+      const CollisionMark& mark = coming_.collision;
+      tally_.count(mark.kind, mark.time);
+      collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, 0, 0});
+    } else {
+      take(coming_.piece);
+      passed_.push_back(coming_.piece);
+    }
     more_ = next_(coming_);
   }
   time_ = std::max(time, time_);
@@ -55,8 +71,17 @@ void Replay::advance_to(double time) {
 
 void Replay::take(const PathPiece& piece) {
   now_[piece.body] = piece;
-  const bool merges = piece.joint || piece.part_of != no_entity || piece.removed;
-  if (!merges) return;
+  if (piece.law == PathLaw::closed) {
+    if (closed_.empty()) closed_.resize(now_.size());
+    const auto forces = closed_forces(world_, piece.body, piece.start.hi);
+    const Vec3 at_rest = free_acceleration(world_, piece.body, piece.start.hi, piece.x, Vec3::Zero());
+    closed_[piece.body].emplace(forces.value_or(ClosedForces{}), piece.x, piece.v, at_rest);
+  }
+  if (piece.joint || piece.part_of != no_entity || piece.removed) take_joint(piece);
+}
+
+/// Takes what a merge or a removal changes of the body itself.
+void Replay::take_joint(const PathPiece& piece) {
   if (part_of_.empty()) {
     part_of_.resize(world_.body_count());
     std::iota(part_of_.begin(), part_of_.end(), Entity{0});
@@ -71,21 +96,50 @@ void Replay::take(const PathPiece& piece) {
   if (!volume_.empty()) volume_[piece.body].half = piece.half;
 }
 
+/// The acceleration of a body by forces (m/s^2), as the simulator evaluates it.
+Vec3 Replay::force_at(Entity body, double time, const Vec3& x, const Vec3& v) const {
+  if (bends(world_, body, time)) return free_acceleration(world_, body, time, x, v);
+  return free_acceleration(world_, body, time, x, Vec3::Zero()) - fade_of(world_, body, time) * v;
+}
+
+/// Computes the state of a body at an instant of its present piece.
+void Replay::place(std::size_t body, const Instant& at) {
+  const PathPiece& piece = now_[body];
+  const Entity i = static_cast<Entity>(body);
+  const Instant start = instant(piece.start);
+  Vec3& x = state_.position[body];
+  Vec3& v = state_.velocity[body];
+
+  if (piece.law == PathLaw::closed) {
+    const ClosedMotion& motion = *closed_[body];
+    const ClosedMotion::Point there = motion.at(seconds(start, at));
+    x = motion.origin() + there.place;
+    v = there.velocity;
+    return;
+  }
+
+  const PolynomialPath* const curve = piece.curve.get();
+  const Flight flight{start, piece.x, piece.v, piece.a, curve != nullptr ? Flight::curved : piece.fade, curve};
+  const double t = at - start;
+  const bool is_at_start = piece.law == PathLaw::frame && t >= -piece.rounding;
+  x = is_at_start ? piece.x : flight.position(t);
+  v = is_at_start ? piece.v : flight.velocity(t);
+  if (piece.kicked) v -= Kick{instant(piece.until), piece.kick}.rest(at);
+  if (curve == nullptr) return;
+
+  if (piece.law == PathLaw::verlet)
+    v += (0.5 * t) * (force_at(i, piece.from, x, v) - piece.a);
+  else if (!curve->ahead.isZero(0))
+    v -= curve->ahead;
+}
+
 const State& Replay::state() {
   if (fresh_) return state_;
   state_.time = tally_.end ? std::min(time_, tally_.end->time) : time_;
   state_.position.resize(now_.size());
   state_.velocity.resize(now_.size());
   const Instant at{state_.time, 0};
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    const PathPiece& piece = now_[i];
-    const Flight flight{instant(piece.start), piece.x, piece.v, piece.a, piece.curve ? Flight::curved : 0,
-                        piece.curve.get()};
-    const double t = at - flight.start;
-    state_.position[i] = flight.position(t);
-    state_.velocity[i] = flight.velocity(t);
-    if (piece.kicked) state_.velocity[i] -= Kick{instant(piece.until), piece.kick}.rest(at);
-  }
+  for (std::size_t i = 0; i < now_.size(); ++i) place(i, at);
   if (!part_of_.empty()) {
     state_.mass = mass_;
     state_.radius = radius_;

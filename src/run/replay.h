@@ -1,40 +1,51 @@
 #pragma once
 // Repeats a run from its recorded paths: the same states, bit for bit, without simulating.
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "physics/path_piece.h"
+#include "physics/closed_motion.h"
+#include "physics/recorded.h"
+#include "simulate/path/instant.h"
 #include "simulate/simulator.h"
 
 namespace carom {
 
 struct World;
 
-/// Reads the next piece of a record, in order. False: the end. May throw.
-using NextPiece = std::function<bool(PathPiece&)>;
+/// Reads the next part of a record, in order. False: the end. May throw.
+using NextRecorded = std::function<bool(Recorded&)>;
 
-/// A Simulator that follows recorded paths. It has no collisions and no contact forces.
+/// A Simulator that follows recorded paths. It has no contact forces. Of collisions it knows time, kind and bodies, if
+/// they are recorded.
 class Replay final : public Simulator {
  public:
   /// `world` and `next` are those of one run, `tally` that of its end. `world` must outlive this object.
-  Replay(const World& world, NextPiece next, const Tally& tally);
+  /// counts: collisions are recorded, and the tally has those up to time().
+  Replay(const World& world, NextRecorded next, const Tally& tally, bool counts = false);
 
   void advance_to(double time) override;  // never backwards
   double time() const override { return time_; }
   const State& state() override;
-  std::span<const Collision> collisions() const override { return {}; }
+  std::span<const Collision> collisions() const override { return collisions_; }
   std::span<const PathPiece> paths() const override { return passed_; }
-  const Tally& tally() const override { return tally_; }  // of the whole run
+  const Tally& tally() const override { return tally_; }  // of the whole run, apart from counts
 
  private:
   void take(const PathPiece& piece);
+  void take_joint(const PathPiece& piece);
+  Vec3 force_at(Entity body, double time, const Vec3& x, const Vec3& v) const;
+  void place(std::size_t body, const Instant& at);
 
   const World& world_;
-  NextPiece next_;
+  NextRecorded next_;
   Tally tally_;
-  std::vector<PathPiece> now_;     // the present piece, by body
-  std::vector<PathPiece> passed_;  // since the last advance_to
-  PathPiece coming_;
+  std::vector<PathPiece> now_;                       // the present piece, by body
+  std::vector<std::optional<ClosedMotion>> closed_;  // by body; empty: no piece has been one
+  // Since the last advance_to.
+  std::vector<PathPiece> passed_;
+  std::vector<Collision> collisions_;
+  Recorded coming_;
   bool more_ = false;
   double time_ = 0;  // s
   State state_;

@@ -1,4 +1,9 @@
-// The loop of a run: advance the simulator to the next instant of the timelines, then write and draw what is due.
+// One way through a run: a simulation, and a rendering of its record.
+// - The simulator advances once, on the caller's thread. Tables and measures are taken as it goes.
+// - Whatever is drawn follows the record by a Replay, on a thread of its own. If the drawings need something of the
+//   whole motion first, such as a camera that frames it or the run's end, the record goes to a file, which is
+//   flights.bin where the run keeps it, and drawing begins at the end. Otherwise it goes through a queue, and both go
+//   on together.
 // At the end every folder gets its summary and its manifest, and its files get their final names.
 #include "run/run_scene.h"
 
@@ -6,14 +11,19 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
+#include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
+#include "export/flights_file.h"
 #include "files/manifest.h"
 #include "run/account.h"
+#include "run/drawing_thread.h"
+#include "run/record_queue.h"
+#include "run/replay.h"
 #include "run/stopwatch.h"
 #include "run/survey.h"
 #include "run/warnings.h"
@@ -28,6 +38,27 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// Passes the record of a motion on.
+class RecordSink final : public MotionSink {
+ public:
+  explicit RecordSink(std::function<void(const Simulator&)> put) : put_(std::move(put)) {}
+
+  bool more() const override { return false; }
+  double time() override { return std::numeric_limits<double>::infinity(); }
+  void record(const Simulator& simulator) override { put_(simulator); }
+  void sample(Simulator&) override {}
+  void end_at(double) override {}
+
+ private:
+  std::function<void(const Simulator&)> put_;
+};
+
+/// Whether something that the scene requests is spread over the whole run, which may end early.
+bool needs_end(const Scene& scene) {
+  const auto whole = [](const Output& output) { return output.plots || (output.sheet && !output.sheet->until); };
+  return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
+}
+
 class Run {
  public:
   Run(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch)
@@ -35,57 +66,68 @@ class Run {
         settings_(settings),
         watch_(watch),
         engine_(engine),
-        results_(shows.size()) {
-    if (std::any_of(shows_.begin(), shows_.end(), [](const Show& show) { return needs_end(*show.scene); })) find_end();
-    for (std::size_t i = 0; i < shows_.size(); ++i) {
-      stages_.emplace_back();
-      guarded(i, [&] {
-        check_flights(*shows_[i].scene);
-        stages_[i] = std::make_unique<Stage>(shows_[i], settings.durability, measures_of(*shows_[i].scene));
-      });
-    }
+        stages_(shows.size()),
+        failures_(shows.size()) {
+    for (std::size_t i = 0; i < shows_.size(); ++i) guarded(i, [&] { open(i); });
+
     const Stopwatch stopwatch(simulate_s_);
-    settle();
-    frame_motion();
-    Recording recording;
-    for (const Show& show : shows_) {
-      const OverlayNeeds needs = overlay_needs(*show.scene);
-      recording.collisions = recording.collisions || show.scene->output.needs_collisions() || needs.collisions;
-      recording.paths = recording.paths || show.scene->output.flights || needs.paths;
-    }
-    for (const auto& stage : stages_) {
-      first_watched_.push_back(recording.watch.size());
-      if (!stage) continue;
-      recording.collisions = recording.collisions || stage->measuring.needs_collisions();
-      const std::vector<WatchedQuantity>& watched = stage->measuring.watched();
-      recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
-    }
-    simulator_ = settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), recording, engine_.steps);
-    record();
+    if (!settings.replay) settle_steps(scene(), engine_, watch.stop_check);
+    Recording recording = recording_of_all();
+    simulator_ = settings.replay ? settings.replay(scene())
+                                 : settings.simulator(scene(), std::move(recording), engine_.steps);
     start_ = stored_energy(scene(), simulator_->state());
   }
 
   void go() {
-    while (const std::optional<double> time = next_instant()) {
-      carry_to(*time);
-      if (const std::optional<RunEnd>& end = simulator_->tally().end; end && !ended_ && !(*time < end->time)) {
-        end_at(end->time);
-        continue;
-      }
-      for (std::size_t i = 0; i < stages_.size(); ++i) {
-        if (stages_[i] && stages_[i]->more && stages_[i]->time() <= *time)
-          guarded(i, [&] { stages_[i]->sample(*simulator_, {watch_.stop_check, [this] { report_progress(); }}); });
-      }
-    }
+    if (!draws()) return simulate(nullptr);
+    if (!settings_.replay) return waits() ? simulate_then_draw() : simulate_and_draw();
+    simulate(nullptr);
+    draw_by([this] { return settings_.replay(scene()); });
   }
 
   std::vector<RunResult> finish() {
-    for (std::size_t i = 0; i < stages_.size(); ++i)
-      if (stages_[i]) guarded(i, [&] { finish(i); });
-    return std::move(results_);
+    std::vector<RunResult> results(shows_.size());
+    for (std::size_t i = 0; i < shows_.size(); ++i) {
+      guarded(i, [&] { finish(i, results[i]); });
+      results[i].failure = failures_[i];
+    }
+    return results;
   }
 
  private:
+  using MakeMotion = std::function<std::unique_ptr<Simulator>()>;
+
+  // All shows have the same motion.
+  const Scene& scene() const { return *shows_.front().scene; }
+
+  /// A failure of one of several shows does not affect the others.
+  template <typename Work>
+  void guarded(std::size_t i, const Work& work) {
+    if (has_failed(i)) return;
+    try {
+      work();
+    } catch (const std::exception&) {
+      // ffmpeg also receives a Ctrl-C and ends first. What looks like a write error is then the interrupt.
+      watch_.stop_check();
+      if (shows_.size() == 1) throw;
+      const std::lock_guard lock(failing_);
+      failures_[i] = std::current_exception();
+    }
+  }
+
+  bool has_failed(std::size_t i) {
+    const std::lock_guard lock(failing_);
+    return failures_[i] != nullptr;
+  }
+
+  /// Opens the folder of a show. The end of its run may become known later.
+  void open(std::size_t i) {
+    Show& show = shows_[i];
+    check_flights(*show.scene);
+    if (needs_end(*show.scene)) show.scene = &ending_.emplace_back(*show.scene);
+    stages_[i] = std::make_unique<Stage>(show, settings_.durability, measures_of(*show.scene));
+  }
+
   /// The measures of a scene and those of the settings, unless a former run has them.
   std::vector<Measure> measures_of(const Scene& of) const {
     if (settings_.former != nullptr) return {};
@@ -94,136 +136,176 @@ class Run {
     return measures;
   }
 
-  // All shows have the same motion.
-  const Scene& scene() const { return *shows_.front().scene; }
-
-  void settle() {
-    if (!settings_.simulator && !std::exchange(settled_, true)) settle_steps(scene(), engine_, watch_.stop_check);
-  }
-
-  std::unique_ptr<Simulator> make_ahead() const {
-    return settings_.simulator ? settings_.simulator(scene()) : make_simulator(scene(), {}, engine_.steps);
-  }
-
-  void watch_ahead() const {
-    watch_.stop_check();
-    watch_.report_progress(0, 0, 0);
-  }
-
-  /// Whether something that the scene requests is spread over the whole run, which may end early.
-  static bool needs_end(const Scene& scene) {
-    const auto whole = [](const Output& output) { return output.plots || (output.sheet && !output.sheet->until); };
-    return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
-  }
-
-  /// Finds the end of a run that stops early, by a simulation in advance, and gives it to the scenes.
-  void find_end() {
-    const Stopwatch stopwatch(simulate_s_);
-    settle();
-    const auto ahead = make_ahead();
-    const double duration = scene().simulate.duration;
-    if (!ahead->tally().end) carry_ahead(*ahead, duration);
-    const std::optional<RunEnd> end = ahead->tally().end;
-    if (!end || !(end->time < duration)) return;
-    for (Show& show : shows_) {
-      ending_.push_back(*show.scene);
-      ending_.back().ends_at = end->time;
-      show.scene = &ending_.back();
-    }
-  }
-
-  /// The errors of the run itself come later.
-  void carry_ahead(Simulator& ahead, double duration) const {
-    try {
-      carom::carry_to(ahead, duration, duration, [this] { watch_ahead(); });
-    } catch (const SimulationError&) {
-    }
-  }
-
-  /// Gives the cameras that frame the motion what they need, by a simulation in advance.
-  void frame_motion() {
-    std::vector<MovingCamera*> cameras;
+  Recording recording_of_all() {
+    Recording recording;
     for (const auto& stage : stages_) {
+      first_watched_.push_back(recording.watch.size());
       if (!stage) continue;
-      for (MovingCamera* camera : stage->cameras())
-        if (camera->frames_motion()) cameras.push_back(camera);
+      const Scene& of = stage->scene;
+      const bool draws = stage->exports.draws();
+      recording.collisions = recording.collisions || of.output.needs_collisions() ||
+                             stage->measuring.needs_collisions() || (draws && drawings_show_collisions(of));
+      recording.paths = recording.paths || of.output.flights || draws;
+      const std::vector<WatchedQuantity>& watched = stage->measuring.watched();
+      recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
     }
-    if (cameras.empty()) return;
-    const auto ahead = make_ahead();
-    survey(cameras, *ahead, [this] { watch_ahead(); });
+    return recording;
   }
 
-  /// A failure of one of several shows does not affect the others.
-  template <typename Work>
-  void guarded(std::size_t i, const Work& work) {
-    try {
-      work();
-    } catch (const std::exception&) {
-      // ffmpeg also receives a Ctrl-C and ends first. What looks like a write error is then the interrupt.
-      watch_.stop_check();
-      if (shows_.size() == 1) throw;
-      results_[i].failure = std::current_exception();
-      stages_[i].reset();
-    }
-  }
-
-  std::optional<double> next_instant() const {
-    std::optional<double> next;
-    for (const auto& stage : stages_)
-      if (stage && stage->more) next = std::min(next.value_or(stage->time()), stage->time());
-    return next;
-  }
-
-  // Advances in slices, so that signals and progress are handled where no output is due for long.
-  // Sampling changes nothing in the simulator, so the slices do not change the motion by a bit.
-  void carry_to(double time) {
-    const double slice = scene().simulate.duration / 1000;
-    // A known end is the run's own only when it has been found again, which may take a moment more.
-    if (scene().ends_at && !(time < *scene().ends_at)) time = scene().simulate.duration;
-    watch_.stop_check();
-    while (simulator_->time() < time && !is_over()) {
-      const double before = simulator_->time();
-      const std::uint64_t collisions_before = simulator_->tally().collisions();
-      // Multiples of the slice, so that round instants stay round.
-      double slices = std::floor(before / slice) + 1;
-      if (!(slices * slice > before)) ++slices;
-      const double next = std::min(time, slices * slice);
-      {
-        const Stopwatch watch(simulate_s_);
-        simulator_->advance_to(next > before ? next : time);
-      }
-      if (!record() && !(simulator_->time() > before) && simulator_->tally().collisions() == collisions_before &&
-          !is_over())
-        throw SimulationError("the simulator makes no progress");
-      watch_.stop_check();
-      report_progress();
-    }
-  }
-
-  /// Whether the run has ended before its duration.
-  bool is_over() const {
-    const std::optional<RunEnd>& end = simulator_->tally().end;
-    return end && !(simulator_->time() < end->time);
-  }
-
-  void end_at(double time) {
-    ended_ = true;
+  bool draws() {
     for (std::size_t i = 0; i < stages_.size(); ++i)
-      if (stages_[i]) guarded(i, [&] { stages_[i]->end_at(time); });
+      if (!has_failed(i) && stages_[i]->exports.draws()) return true;
+    return false;
   }
 
-  /// Returns whether there was anything to record.
-  bool record() {
-    const std::span<const RegionCrossing> crossings = simulator_->crossings();
-    if (simulator_->collisions().empty() && simulator_->paths().empty() && crossings.empty()) return false;
+  /// Whether drawings need to know more of the motion than the present.
+  bool waits() const {
+    return std::ranges::any_of(shows_,
+                               [](const Show& show) { return may_stop(*show.scene) || frames_motion(*show.scene); });
+  }
+
+  /// Advances the simulator through the whole run. `record` also takes the motion, if it is not null.
+  void simulate(
+      MotionSink* record, const std::function<void()>& check = [] {}) {
+    std::vector<MotionSink*> sinks;
+    std::vector<std::size_t> show_of;
     for (std::size_t i = 0; i < stages_.size(); ++i) {
-      if (!stages_[i]) continue;
-      guarded(i, [&] {
-        const Stopwatch watch(stages_[i]->facts.export_s);
-        stages_[i]->record(*simulator_);
+      if (has_failed(i)) continue;
+      sinks.push_back(&stages_[i]->tables);
+      show_of.push_back(i);
+    }
+    if (record != nullptr) sinks.push_back(record);
+
+    carry_through(*simulator_, sinks, scene().simulate.duration,
+                  [&](std::size_t sink, const std::function<void()>& work) {
+                    sink < show_of.size() ? guarded(show_of[sink], work) : work();
+                  },
+                  {.stop_check =
+                       [&] {
+                         watch_.stop_check();
+                         check();
+                       },
+                   .advanced = [this](const Simulator&) { report_progress(); },
+                   .advance_s = &simulate_s_});
+
+    simulator_->state();
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      guarded(i, [&] { stages_[i]->exports.tables().end(simulator_->tally()); });
+  }
+
+  /// Draws while the simulator advances.
+  void simulate_and_draw() {
+    begin_drawings();
+    RecordQueue queue;
+    DrawingThread drawing([&] {
+      try {
+        draw_all([&] {
+          return std::make_unique<Replay>(
+              scene().world, [&queue](Recorded& recorded) { return queue.next(recorded); }, Tally{}, true);
+        });
+      } catch (const RecordAbandoned&) {
+      } catch (...) {
+        queue.leave();
+        throw;
+      }
+      queue.leave();
+    });
+    if (!drawing.is_there()) return simulate_then_draw();
+
+    try {
+      RecordSink sink([&queue](const Simulator& simulator) { queue.put(simulator); });
+      simulate(&sink, [&drawing] { drawing.check(); });
+    } catch (...) {
+      queue.end(false);
+      throw;
+    }
+    queue.end(true);
+    drawing.wait([this] { watch_while_drawing(); });
+    end_drawings();
+  }
+
+  /// Draws once the whole motion is recorded.
+  void simulate_then_draw() {
+    FlightsFile* record = shows_.size() == 1 ? stages_.front()->exports.flights() : nullptr;
+    std::optional<FlightsFile> own;
+    std::optional<RecordSink> sink;
+    if (record != nullptr) {
+      record->keep_whole();
+    } else {
+      record = &own.emplace(place_of_record(), scene(), FlightsFile::nameless);
+      sink.emplace([record](const Simulator& simulator) {
+        record->record(simulator.collisions());
+        record->record_paths(simulator.paths());
       });
     }
-    return true;
+
+    simulate(sink ? &*sink : nullptr);
+    if (own) own->end(simulator_->tally());
+    if (const std::optional<RunEnd>& end = simulator_->tally().end; end && end->time < scene().simulate.duration)
+      for (Scene& ending : ending_) ending.ends_at = end->time;
+    draw_by([this, record] {
+      const auto reader = std::make_shared<FlightsReader>(record->reopened(), "", scene());
+      return std::make_unique<Replay>(
+          scene().world, [reader](Recorded& recorded) { return reader->next(recorded); }, reader->tally(),
+          reader->has_collisions());
+    });
+  }
+
+  /// The folder of the first show that is there.
+  const FilePlace& place_of_record() {
+    std::size_t first = 0;
+    while (has_failed(first)) ++first;
+    return stages_[first]->exports.place();
+  }
+
+  /// Draws by recorded motions, on a thread of its own if there is one.
+  void draw_by(const MakeMotion& motion) {
+    begin_drawings();
+    DrawingThread drawing([&] { draw_all(motion); });
+    if (drawing.is_there())
+      drawing.wait([this] { watch_while_drawing(); });
+    else
+      draw_all(motion);
+    end_drawings();
+  }
+
+  void begin_drawings() {
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      guarded(i, [&] {
+        if (stages_[i]->exports.draws() && !stages_[i]->drawings) stages_[i]->begin_drawings(watch_.stop_check);
+      });
+  }
+
+  /// Frames the motion where cameras do that, and draws everything.
+  void draw_all(const MakeMotion& motion) {
+    std::vector<MotionSink*> sinks;
+    std::vector<std::size_t> show_of;
+    std::vector<MovingCamera*> framing;
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      if (has_failed(i) || !stages_[i]->drawings) continue;
+      sinks.push_back(&*stages_[i]->drawings);
+      show_of.push_back(i);
+      for (MovingCamera* camera : stages_[i]->drawings->cameras())
+        if (camera->frames_motion()) framing.push_back(camera);
+    }
+    if (!framing.empty()) survey(framing, *motion(), watch_.stop_check);
+
+    const std::unique_ptr<Simulator> simulator = motion();
+    carry_through(*simulator, sinks, scene().simulate.duration,
+                  [&](std::size_t sink, const std::function<void()>& work) { guarded(show_of[sink], work); },
+                  {.stop_check = watch_.stop_check, .advanced = [](const Simulator&) {}});
+  }
+
+  void end_drawings() {
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      guarded(i, [&] {
+        if (stages_[i]->drawings) stages_[i]->exports.drawings().end(simulator_->tally());
+      });
+  }
+
+  void watch_while_drawing() const {
+    watch_.stop_check();
+    report_progress();
   }
 
   void report_progress() const {
@@ -233,9 +315,8 @@ class Run {
     watch_.report_progress(simulator_->time(), simulator_->tally().collisions(), pictures);
   }
 
-  void finish(std::size_t i) {
+  void finish(std::size_t i, RunResult& result) {
     Stage& stage = *stages_[i];
-    RunResult& result = results_[i];
     const State& end = simulator_->state();
     result.engine = engine_;
     result.summary = account_of(stage.scene, engine_, start_, end, simulator_->tally());
@@ -244,10 +325,11 @@ class Run {
                                   : warnings_of(stage.scene, engine_, end, result.summary, simulator_->tally());
     result.summary.status = result.summary.warnings.empty() ? "done" : "doubtful";
     result.summary.frames = stage.exports.frames();
-    result.facts = stage.facts;
+
+    result.facts = stage.facts();
     result.facts.simulate_s = simulate_s_;
     result.facts.peak_memory = peak_memory();
-    result.facts.left_out = stage.exports.end(simulator_->tally());
+    result.facts.left_out = stage.exports.left_out();
     take_measures(i, end, result);
     stage.exports.finish(result.summary, result.facts);
   }
@@ -264,24 +346,25 @@ class Run {
       const auto own = std::span(all).subspan(first_watched_[i], stage.measuring.watched().size());
       result.facts.measures = stage.measuring.values({end, result.summary, own});
     }
+
     for (const OwnMeasure& own : stage.scene.measures.own)
       for (const Measured& measured : result.facts.measures)
         if (measured.name == own.name) result.summary.measures.push_back(measured);
   }
 
   std::vector<Show> shows_;
-  std::deque<Scene> ending_;  // those of shows of a run that is known to end early
+  std::deque<Scene> ending_;  // those of shows that wait for the run's end
   const RunSettings& settings_;
   const RunWatch& watch_;
   EngineChoice engine_;
-  std::vector<RunResult> results_;  // by show
-  /// By show. Null: it has failed.
+  // By show. It is null, or not used any more, where the show has failed.
   std::vector<std::unique_ptr<Stage>> stages_;
+  std::mutex failing_;
+  std::vector<std::exception_ptr> failures_;  // by show
   std::unique_ptr<Simulator> simulator_;
   std::vector<std::size_t> first_watched_;  // by show: the first of its quantities among all that are watched
   StoredEnergy start_;                      // at time 0
   double simulate_s_ = 0;                   // wall time
-  bool settled_ = false, ended_ = false;    // the steps; the timelines
 };
 
 }  // namespace

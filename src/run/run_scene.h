@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "run/engine.h"
@@ -18,9 +19,9 @@ struct Manifest;
 struct Scene;
 
 struct RunWatch {
-  /// Called often. May throw.
+  /// Called often, by any thread. May throw.
   std::function<void()> stop_check;
-  /// Reports progress: simulated time (s), collisions, pictures of all shows.
+  /// Reports progress: simulated time (s), collisions, pictures of all shows. Called by the caller's thread.
   std::function<void(double time, std::uint64_t collisions, std::uint64_t pictures)> report_progress;
 };
 
@@ -30,8 +31,13 @@ struct RunSettings {
   std::vector<Measure> measures{};
   /// The manifest of a former run with this motion, which supplies warnings and measures. Null: there is none.
   const Manifest* former = nullptr;
-  /// Makes a simulator that replaces the scene's engine. May be unset.
-  std::function<std::unique_ptr<Simulator>(const Scene&)> simulator{};
+  /// Makes simulators of a recorded motion, in place of a simulation. May be unset.
+  std::function<std::unique_ptr<Simulator>(const Scene&)> replay{};
+  /// Makes the simulator of a simulation.
+  std::function<std::unique_ptr<Simulator>(const Scene&, Recording, const StepChoice&)> simulator =
+      [](const Scene& scene, Recording recording, const StepChoice& steps) {
+        return make_simulator(scene, std::move(recording), steps);
+      };
 };
 
 struct RunResult {
@@ -44,7 +50,7 @@ struct RunResult {
   std::exception_ptr failure{};
 };
 
-/// Simulates once, and draws and writes each show.
+/// Simulates once, writes the tables of each show on the way, and draws from the record of the motion.
 /// Throws SimulationError, what `watch.stop_check` throws, and, for a single show, its failure.
 /// Then only complete files stay.
 std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,

@@ -4,12 +4,14 @@
 #include "run/stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "files/open_folder.h"
 #include "render/camera.h"
 #include "render/glb.h"
 #include "render/still_things.h"
 #include "run/stopwatch.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {
@@ -22,107 +24,149 @@ const Scene& with_font(const Scene& scene) {
 
 }  // namespace
 
-Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measures)
-    : scene(with_font(*show.scene)),
-      measuring(scene, std::move(measures)),
-      exports(scene, show.folder, durability,
-              {[](const Scene& of, const Extent& seen) { return still_things(of, seen, false); }, glb,
-               [this](const State& state) { return of_model_.at(state); }},
-              show.renewed),
-      history_(scene, overlay_needs(scene)),
-      of_model_(scene, picture_size(scene.output)) {
-  facts.load_s = show.load_s;
-  facts.origin = show.origin;
-  for (const PictureStream& stream : exports.pictures())
-    series_.emplace_back(scene, stream, history_, name_of_folder(show.folder));
-  more = exports.timeline().advance();
+TableSink::TableSink(OutputPart& part, Measuring& measuring) : part_(part), measuring_(measuring) {
+  more_ = part_.timeline().advance();
+}
+
+void TableSink::record(const Simulator& simulator) {
+  const Stopwatch stopwatch(export_s_);
+  part_.record(simulator.collisions());
+  part_.record_crossings(simulator.crossings());
+  part_.record_paths(simulator.paths());
+  measuring_.record(simulator.collisions(), simulator.crossings());
+}
+
+void TableSink::sample(Simulator& simulator) {
+  if (part_.needs_state()) {
+    const State& state = simulator.state();
+    const Stopwatch stopwatch(export_s_);
+    part_.sample(state, part_.needs_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
+  }
+  more_ = part_.timeline().advance();
+}
+
+DrawingSink::DrawingSink(const Scene& scene, Exports& exports, const std::string& run, MovingCamera& of_model,
+                         std::function<void()> stop_check)
+    : scene_(scene),
+      exports_(exports),
+      of_model_(of_model),
+      stop_check_(std::move(stop_check)),
+      history_(scene, overlay_needs(scene)) {
+  for (const PictureStream& stream : exports.pictures()) series_.emplace_back(scene, stream, history_, run);
+  more_ = part().timeline().advance();
   aim();
 }
 
-void Stage::aim() {
+void DrawingSink::aim() {
   for (std::size_t i = 0; i < series_.size(); ++i)
-    series_[i].aim(exports.timeline().next(exports.pictures()[i].timeline_stream));
+    series_[i].aim(part().timeline().next(exports_.pictures()[i].timeline_stream));
 }
 
-bool Stage::is_picture_due(std::size_t stream) {
-  return exports.timeline().due(exports.pictures()[stream].timeline_stream).has_value();
+bool DrawingSink::is_picture_due(std::size_t stream) {
+  return part().timeline().due(exports_.pictures()[stream].timeline_stream).has_value();
 }
 
-double Stage::time() {
-  double next = std::min(exports.timeline().time(), history_.next_sample());
+double DrawingSink::time() {
+  double next = std::min(part().timeline().time(), history_.next_sample());
   for (const PictureSeries& series : series_) next = std::min(next, series.next_instant());
   return next;
 }
 
-void Stage::end_at(double time) {
-  exports.end_at(time);
+void DrawingSink::end_at(double time) {
+  exports_.end_drawings_at(time);
   aim();
 }
 
-void Stage::record(const Simulator& simulator) {
-  const std::span<const Collision> collisions = simulator.collisions();
-  const std::span<const PathPiece> paths = simulator.paths();
-  exports.record(collisions);
-  measuring.record(collisions, simulator.crossings());
-  exports.record_crossings(simulator.crossings());
-  exports.record_paths(paths);
-  history_.record(collisions);
-  history_.record_paths(paths);
+void DrawingSink::record(const Simulator& simulator) {
+  part().record(simulator.collisions());
+  part().record_paths(simulator.paths());
+  history_.record(simulator.collisions());
+  history_.record_paths(simulator.paths());
 }
 
-bool Stage::needs_state(double time) {
-  return (exports.timeline().time() <= time && exports.needs_state()) || history_.next_sample() <= time ||
-         std::any_of(series_.begin(), series_.end(),
-                     [&](const PictureSeries& series) { return series.next_instant() <= time; });
+bool DrawingSink::needs_state(double time) {
+  const auto is_due = [&](const PictureStream& stream) {
+    return part().timeline().due(stream.timeline_stream).has_value();
+  };
+  return (part().timeline().time() <= time &&
+          (part().needs_state() || std::ranges::any_of(exports_.pictures(), is_due))) ||
+         history_.next_sample() <= time ||
+         std::ranges::any_of(series_, [&](const PictureSeries& series) { return series.next_instant() <= time; });
 }
 
-std::vector<MovingCamera*> Stage::cameras() {
+std::vector<MovingCamera*> DrawingSink::cameras() {
   std::vector<MovingCamera*> cameras;
   for (PictureSeries& series : series_) cameras.push_back(&series.camera());
-  if (scene.output.gltf) cameras.push_back(&of_model_);
+  if (scene_.output.gltf) cameras.push_back(&of_model_);
   return cameras;
 }
 
-void Stage::sample(Simulator& simulator, const StageWatch& watch) {
+void DrawingSink::sample(Simulator& simulator) {
   const double time = simulator.time();
-  const bool on_timeline = exports.timeline().time() <= time;
+  const bool on_timeline = part().timeline().time() <= time;
   if (needs_state(time)) {
     const State& state = simulator.state();
     history_.sample(state);
-    if (on_timeline && exports.needs_state()) {
-      const Stopwatch stopwatch(facts.export_s);
-      exports.sample(state, exports.needs_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
+    if (on_timeline && part().needs_state()) {
+      const Stopwatch stopwatch(export_s_);
+      part().sample(state);
     }
     for (std::size_t i = 0; i < series_.size(); ++i) {
       if (on_timeline && is_picture_due(i))
-        draw(i, simulator, watch);
+        draw(i, simulator);
       else if (series_[i].next_instant() <= time)
-        expose(i, state, watch);
+        expose(i, state);
     }
   }
+
   if (!on_timeline) return;
-  more = exports.timeline().advance();
+  more_ = part().timeline().advance();
   aim();
 }
 
-void Stage::expose(std::size_t stream, const State& state, const StageWatch& watch) {
-  watch.stop_check();
-  const Stopwatch stopwatch(facts.render_s);
+void DrawingSink::expose(std::size_t stream, const State& state) {
+  stop_check_();
+  const Stopwatch stopwatch(render_s_);
   series_[stream].expose(state);
 }
 
-void Stage::draw(std::size_t stream, Simulator& simulator, const StageWatch& watch) {
-  watch.stop_check();
+void DrawingSink::draw(std::size_t stream, Simulator& simulator) {
+  stop_check_();
   const Image* image = nullptr;
   {
-    const Stopwatch stopwatch(facts.render_s);
+    const Stopwatch stopwatch(render_s_);
     image = &series_[stream].picture(simulator.state(), simulator.tally());
   }
-  {
-    const Stopwatch stopwatch(facts.export_s);
-    exports.picture(stream, *image, series_[stream].is_repeated());
-  }
-  watch.report_progress();
+  const Stopwatch stopwatch(export_s_);
+  exports_.picture(stream, *image, series_[stream].is_repeated());
+}
+
+Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measures)
+    : scene(with_font(*show.scene)),
+      run(name_of_folder(show.folder)),
+      of_model(scene, picture_size(scene.output)),
+      measuring(scene, std::move(measures)),
+      exports(scene, show.folder, durability,
+              {[](const Scene& of, const Extent& seen) { return still_things(of, seen, false); }, glb,
+               [this](const State& state) { return of_model.at(state); }},
+              show.renewed),
+      tables(exports.tables(), measuring) {
+  loaded.load_s = show.load_s;
+  loaded.origin = show.origin;
+}
+
+void Stage::begin_drawings(std::function<void()> stop_check) {
+  exports.begin_drawings();
+  drawings.emplace(scene, exports, run, of_model, std::move(stop_check));
+}
+
+RunFacts Stage::facts() const {
+  RunFacts facts = loaded;
+  facts.export_s = tables.export_s();
+  if (!drawings) return facts;
+  facts.render_s = drawings->render_s();
+  facts.export_s += drawings->export_s();
+  return facts;
 }
 
 }  // namespace carom

@@ -1,7 +1,7 @@
 #pragma once
-// One output folder during a run: its exports, and the pictures that are due for them.
+// One output folder during a run: its exports, and the two sinks of the motion that fill them.
 #include <functional>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +9,8 @@
 #include "overlay/history.h"
 #include "render/moving_camera.h"
 #include "run/measuring.h"
+#include "run/motion_sink.h"
 #include "run/picture_series.h"
-#include "simulate/simulator.h"
 
 namespace carom {
 
@@ -29,48 +29,84 @@ struct Show {
   SceneOrigin origin{};  // for the manifest
 };
 
-/// Functions called between pictures. Both may throw.
-struct StageWatch {
-  std::function<void()> stop_check, report_progress;
+/// The tables and measures of a folder.
+class TableSink final : public MotionSink {
+ public:
+  TableSink(OutputPart& part, Measuring& measuring);
+
+  bool more() const override { return more_; }
+  double time() override { return part_.timeline().time(); }
+  void record(const Simulator& simulator) override;
+  void sample(Simulator& simulator) override;
+  void end_at(double time) override { part_.timeline().end_at(time); }
+
+  double export_s() const { return export_s_; }  // wall time
+
+ private:
+  OutputPart& part_;
+  Measuring& measuring_;
+  bool more_ = false;  // whether a next instant exists
+  double export_s_ = 0;
 };
 
-class Stage {
+/// The pictures of a folder, and other drawings.
+class DrawingSink final : public MotionSink {
  public:
+  /// Opens the drawings of `exports`. `run`: the name of the folder. All must outlive this object. `stop_check` is
+  /// called between pictures, and may throw.
+  DrawingSink(const Scene& scene, Exports& exports, const std::string& run, MovingCamera& of_model,
+              std::function<void()> stop_check);
+  DrawingSink(const DrawingSink&) = delete;
+  DrawingSink& operator=(const DrawingSink&) = delete;
+
+  /// The cameras of what is drawn. Those that frame the motion must have been given it before the first sample.
+  std::vector<MovingCamera*> cameras();
+
+  bool more() const override { return more_; }
+  double time() override;
+  void record(const Simulator& simulator) override;
+  void sample(Simulator& simulator) override;
+  void end_at(double time) override;
+
+  double render_s() const { return render_s_; }  // wall times
+  double export_s() const { return export_s_; }
+
+ private:
+  OutputPart& part() { return exports_.drawings(); }
+  void aim();
+  bool is_picture_due(std::size_t stream);
+  bool needs_state(double time);
+  void expose(std::size_t stream, const State& state);
+  void draw(std::size_t stream, Simulator& simulator);
+
+  const Scene& scene_;
+  Exports& exports_;
+  MovingCamera& of_model_;
+  const std::function<void()> stop_check_;
+  History history_;
+  std::vector<PictureSeries> series_;  // by picture stream
+  bool more_ = false;                  // whether a next instant exists
+  double render_s_ = 0, export_s_ = 0;
+};
+
+struct Stage {
   /// Opens the folder, and takes these measures. Throws ExportError, RenderError.
   Stage(const Show& show, Durability durability, std::vector<Measure> measures);
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// The cameras of what is drawn. Those that frame the motion must have been given it before the first sample.
-  std::vector<MovingCamera*> cameras();
-
-  double time();  // s, of its next instant
-
-  /// Takes what the simulator has recorded since the last call.
-  void record(const Simulator& simulator);
-  /// Ends its timeline at `time` (s), the run's end, which is after all instants that are done. Throws ExportError.
-  void end_at(double time);
-
-  /// Writes and draws what is due at the next instant, which must be the simulator's time.
-  /// Throws ExportError, RenderError.
-  void sample(Simulator& simulator, const StageWatch& watch);
+  /// Opens what is drawn, now that all is known that it waits for.
+  void begin_drawings(std::function<void()> stop_check);
+  RunFacts facts() const;
 
   const Scene& scene;
-  RunFacts facts;
+  const std::string run;  // the folder's name
+  RunFacts loaded;        // what is known before the run
+  MovingCamera of_model;  // of gltf
   Measuring measuring;
   Exports exports;
-  bool more = false;  // whether a next instant exists
-
- private:
-  void aim();
-  bool is_picture_due(std::size_t stream);
-  bool needs_state(double time);
-  void expose(std::size_t stream, const State& state, const StageWatch& watch);
-  void draw(std::size_t stream, Simulator& simulator, const StageWatch& watch);
-
-  History history_;
-  std::vector<PictureSeries> series_;  // by picture stream
-  MovingCamera of_model_;              // of gltf
+  TableSink tables;
+  std::optional<DrawingSink> drawings;
 };
 
 }  // namespace carom

@@ -1,6 +1,8 @@
 // Names of a group's members are composed on request. Stored names would cost memory for every body of a group.
 #include <algorithm>
 
+#include "scene/caption.h"
+#include "scene/engines.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
 
@@ -38,6 +40,20 @@ bool may_stop(const Scene& scene) {
   const std::vector<WorldRegion>& regions = scene.world.regions;
   return scene.simulate.stop_at_rest || scene.simulate.stop_collisions ||
          std::any_of(regions.begin(), regions.end(), [](const WorldRegion& region) { return region.stops; });
+}
+
+bool colors_by_collisions(const Scene& scene) {
+  const std::vector<BodyRange>& bodies = scene.roster.bodies;
+  return std::any_of(bodies.begin(), bodies.end(), [](const BodyRange& range) {
+    return range.coloring && range.coloring->by == ColorQuantity::collisions;
+  });
+}
+
+bool drawings_show_collisions(const Scene& scene) {
+  const Overlay& overlay = scene.overlay;
+  const bool sampled_trails = overlay.trails && !goes_along_parabolas(scene.world, scene.simulate);
+  return overlay.flash || sampled_trails || colors_by_collisions(scene) || has_name(overlay.caption, "collisions") ||
+         (scene.output.plots && may_stop(scene));
 }
 
 }  // namespace carom

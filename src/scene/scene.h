@@ -187,4 +187,15 @@ inline double end_of(const Scene& scene) {
 /// Whether the run may end before its duration.
 bool may_stop(const Scene& scene);
 
+/// Whether the camera frames the whole motion.
+inline bool frames_motion(const Scene& scene) {
+  return !scene.camera || scene.camera->fit;
+}
+
+/// Whether bodies are coloured by the number of their collisions.
+bool colors_by_collisions(const Scene& scene);
+/// Whether drawings of the motion depend on collisions and not only on paths: any picture of the scene, or charts of a
+/// run that may end early.
+bool drawings_show_collisions(const Scene& scene);
+
 }  // namespace carom

@@ -30,6 +30,7 @@ namespace {
 constexpr int frames_at_a_time = 4096;
 // Collisions. A frame may have more.
 constexpr std::size_t room_for_frame = EventLog::capacity / 2;
+constexpr std::size_t path_buffer = 4096;
 
 class BookSimulator final : public Simulator {
  public:
@@ -39,6 +40,7 @@ class BookSimulator final : public Simulator {
   double time() const override { return time_; }
   const State& state() override;
   std::span<const Collision> collisions() const override { return log_.collisions(); }
+  std::span<const PathPiece> paths() const override { return pieces_; }
   std::span<const RegionCrossing> crossings() const override { return crossings_; }
   const Tally& tally() const override { return log_.tally(); }
   std::vector<Extremes> extremes() const override { return extremes_; }
@@ -50,6 +52,7 @@ class BookSimulator final : public Simulator {
   void handle_pairs();
   void handle_surfaces();
   void move();
+  void record_paths();
   void find_crossings();
   bool rests() const;
   void end_at(double time, EndReason reason, std::uint32_t region = 0);
@@ -62,6 +65,7 @@ class BookSimulator final : public Simulator {
   const World& world_;
   const BookOptions options_;
   const Bounds bounds_;
+  const double rounding_;  // s: of the time of a frame
   // Frames done. The bodies are at frame_time(frames_).
   std::uint64_t frames_ = 0;
   double time_ = 0;          // s, requested time: within the last frame done
@@ -73,6 +77,8 @@ class BookSimulator final : public Simulator {
   // By region and body: whether it is inside, as of the last frame.
   std::vector<std::uint8_t> inside_;
   std::vector<RegionCrossing> crossings_;
+  std::vector<PathPiece> pieces_;   // since the last advance
+  std::vector<bool> lies_;          // by body: its last piece has no velocity
   std::optional<RunEnd> end_;       // in the last frame done
   std::vector<Extremes> extremes_;  // by options_.watch, at the frames
 };
@@ -81,17 +87,20 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
     : world_(world),
       options_(options),
       bounds_(bounds_of(world)),
+      rounding_(stepped_tolerance::frame_rounding * options.step),
       x_(initial.position),
       v_(initial.velocity),
       force_(world.body_count()),
       log_(options.max_collisions, options.record_collisions),
       inside_(world.regions.size() * world.body_count()),
+      lies_(world.body_count()),
       extremes_(options.watch.size()) {
   if (!world.strings.empty())
     throw SimulationError("the engine `book` has no strings: use `engine: exact`, or remove `strings`");
 
   for (Entity i = 0; i < world.body_count(); ++i) log_.note_speed(i, v_[i].norm());
   take_extremes();
+  record_paths();
 }
 
 void BookSimulator::take_extremes() {
@@ -169,6 +178,23 @@ void BookSimulator::do_frame() {
   move();
   ++frames_;
   take_extremes();
+  record_paths();
+}
+
+/// The straight lines of the last frame. Each holds from just after the time of the frame before.
+void BookSimulator::record_paths() {
+  if (!options_.record_paths) return;
+  const double end = frame_time(frames_);
+  const double from = frames_ == 0 ? 0 : std::nextafter(frame_time(frames_ - 1) + rounding_, end);
+  for (Entity i = 0; i < world_.body_count(); ++i) {
+    const bool lies = v_[i].isZero(0);
+    if (!(lies && lies_[i])) {
+      PathPiece& piece = pieces_.emplace_back(PathPiece{i, from, {end, 0}, x_[i], v_[i]});
+      piece.law = PathLaw::frame;
+      piece.rounding = rounding_;
+    }
+    lies_[i] = lies;
+  }
 }
 
 /// The impulse of a scene is a force that lasts for the first frame only.
@@ -256,6 +282,7 @@ bool BookSimulator::end_until(double time) {
 void BookSimulator::advance_to(double time) {
   log_.begin_advance();
   crossings_.clear();
+  pieces_.clear();
 
   if (log_.tally().end) {
     time_ = std::max(time, time_);
@@ -270,7 +297,7 @@ void BookSimulator::advance_to(double time) {
   if (end_until(time)) return;
 
   // A time within rounding of a frame's time belongs to that frame.
-  for (int frames = 1; frame_time(frames_) < time - stepped_tolerance::frame_rounding * options_.step; ++frames) {
+  for (int frames = 1; frame_time(frames_) + rounding_ < time; ++frames) {
     do_frame();
     find_crossings();
     if (options_.stop_collisions > 0 && log_.tally().collisions() >= options_.stop_collisions)
@@ -278,7 +305,7 @@ void BookSimulator::advance_to(double time) {
     if (options_.stop_at_rest && rests()) end_at(frame_time(frames_), EndReason::rest);
     if (end_until(time)) return;
 
-    if (!log_.has_room(room_for_frame) || frames == frames_at_a_time) {
+    if (!log_.has_room(room_for_frame) || frames == frames_at_a_time || pieces_.size() >= path_buffer) {
       time_ = std::min(frame_time(frames_), time);
       return;
     }
@@ -294,7 +321,7 @@ const State& BookSimulator::state() {
   state_.position = x_;
   state_.velocity = v_;
   const double ahead = frame_time(frames_) - state_.time;
-  if (ahead > stepped_tolerance::frame_rounding * options_.step)
+  if (ahead > rounding_)
     for (Entity i = 0; i < world_.body_count(); ++i) state_.position[i] -= ahead * v_[i];
   return state_;
 }

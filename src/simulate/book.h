@@ -15,6 +15,7 @@ struct BookOptions {
   bool as_printed = false;           // listings 8.3 and 8.4 with their slips
   std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
   bool record_collisions = true;     // false: there is no buffer, and collisions() stays empty
+  bool record_paths = false;         // false: there is no buffer for paths()
   bool stop_at_rest = false;
   std::uint64_t stop_collisions = 0;     // 0: none
   std::vector<WatchedQuantity> watch{};  // for extremes()

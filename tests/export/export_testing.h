@@ -89,10 +89,14 @@ inline Image picture(Size size, int phase) {
 
 /// Runs through a timeline as `run` does, with the scene's initial state throughout.
 inline void play(const Scene& scene, Exports& exports, const std::vector<ContactForce>& contacts = {}) {
-  while (exports.timeline().advance()) {
-    exports.sample(scene.initial, contacts);
+  while (exports.tables().timeline().advance()) exports.tables().sample(scene.initial, contacts);
+  if (!exports.draws()) return;
+  exports.begin_drawings();
+  const Timeline& timeline = exports.drawings().timeline();
+  while (exports.drawings().timeline().advance()) {
+    exports.drawings().sample(scene.initial);
     for (std::size_t i = 0; i < exports.pictures().size(); ++i)
-      if (const auto due = exports.timeline().due(exports.pictures()[i].timeline_stream))
+      if (const auto due = timeline.due(exports.pictures()[i].timeline_stream))
         exports.picture(i, picture(exports.pictures()[i].size, static_cast<int>(*due)));
   }
 }

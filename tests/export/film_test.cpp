@@ -468,8 +468,9 @@ TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
     const pid_t child = fork();
     if (child == 0) {
       Exports exports(scene, temp / "run");
+      exports.begin_drawings();
       for (int i = 0; i < pictures; ++i) {
-        exports.timeline().advance();
+        exports.drawings().timeline().advance();
         exports.picture(0, picture(small, i));
       }
       kill(getpid(), SIGKILL);

@@ -76,7 +76,7 @@ std::string refusal(const TempFolder& folder, const Scene& scene) {
   try {
     const Descriptor opened = open(folder);
     FlightsReader reader(opened.get(), "run", scene);
-    for (PathPiece piece; reader.next(piece);) {
+    for (Recorded recorded; reader.next(recorded);) {
     }
   } catch (const ExportError& error) {
     return error.what();
@@ -94,9 +94,11 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_TRUE(store(folder, scene).empty());
   const Descriptor opened = open(folder);
   FlightsReader reader(opened.get(), folder.path(), scene);
-  PathPiece got;
+  Recorded recorded;
   for (const PathPiece& piece : pieces()) {
-    ASSERT_TRUE(reader.next(got));
+    ASSERT_TRUE(reader.next(recorded));
+    EXPECT_EQ(recorded.kind, Recorded::Kind::piece);
+    const PathPiece& got = recorded.piece;
     EXPECT_EQ(got.body, piece.body);
     EXPECT_EQ(got.from, piece.from);
     EXPECT_TRUE(same_bits(got.start.hi, piece.start.hi) && same_bits(got.start.lo, piece.start.lo));
@@ -114,7 +116,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
     EXPECT_EQ(got.joint, piece.joint);
     EXPECT_TRUE(got.mass == piece.mass && got.radius == piece.radius && got.half == piece.half);
   }
-  EXPECT_FALSE(reader.next(got));
+  EXPECT_FALSE(reader.next(recorded));
   EXPECT_EQ(reader.tally().body_body, 7u);
   EXPECT_EQ(reader.tally().merges, 1u);
   EXPECT_EQ(reader.tally().tautened, 2u);
@@ -209,7 +211,7 @@ TEST(Flights, ThatWereLeftOutDoNotMakeARunIncomplete) {
     Exports exports(scene, folder / "run");
     play(scene, exports);
     RunFacts facts;
-    exports.end({});
+    exports.tables().end({});
     facts.left_out = {{"flights.bin", "larger than 1 GB"}};
     exports.finish(some_summary(scene), facts);
   }

@@ -218,8 +218,10 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
   scene.output.frames = FramesOutput{20, {32, 18}, 1, 0, {}};
   Exports exports(scene, temp / "run");
   int number = 0;
-  while (exports.timeline().advance()) {
-    if (!exports.needs_state()) continue;
+  exports.begin_drawings();
+  Timeline& timeline = exports.drawings().timeline();
+  while (timeline.advance()) {
+    if (!timeline.due(exports.pictures()[0].timeline_stream)) continue;
     // Another picture comes with the second one: it is not read, so it need not be encoded.
     exports.picture(0, picture({32, 18}, number), number == 1);
     ++number;

@@ -99,9 +99,9 @@ TEST(Tables, CollisionsNameBothBodies) {
     const std::vector<Collision> second = {
         {0.15, CollisionKind::rest, 1, 4, Vec3(0, 0, 0), Vec3(0, -1, 0), 0, 0, std::nan(""), 0, 1e-9},
         {0.2, CollisionKind::merge, 0, 1, Vec3(0, 0, 0), Vec3(0, 0, 1), 1, 0, 0, 1, 1}};
-    exports.record(first);
-    exports.record({});
-    exports.record(second);
+    exports.tables().record(first);
+    exports.tables().record({});
+    exports.tables().record(second);
     play(scene, exports);
     exports.finish(some_summary(scene), {});
   }
@@ -123,7 +123,7 @@ TEST(Tables, CollisionsNameStrings) {
   {
     Exports exports(scene, temp / "run");
     const Collision taut{0.1, CollisionKind::string, 0, 5, Vec3(0, 1, 0), Vec3(0, 1, 0), 2, 0, 0, 3, 4};
-    exports.record({&taut, 1});
+    exports.tables().record({&taut, 1});
     play(scene, exports);
     exports.finish(some_summary(scene), {});
   }

@@ -74,16 +74,18 @@ TEST(Exports, StateIsNeededOnlyWhenAnOutputIsDue) {
   TempFolder temp;
   Scene scene = small_scene();
   Exports nothing(scene, temp / "nothing");
-  ASSERT_TRUE(nothing.timeline().advance());
-  EXPECT_FALSE(nothing.needs_state());
-  scene.output.frames = FramesOutput{10, {16, 16}, 1, 0.05, 0.15};
-  Exports frame(scene, temp / "frame");
-  ASSERT_TRUE(frame.timeline().advance());
-  EXPECT_EQ(frame.timeline().time(), 0.1);
-  EXPECT_TRUE(frame.needs_state());
-  ASSERT_TRUE(frame.timeline().advance());
-  EXPECT_EQ(frame.timeline().time(), 0.2);
-  EXPECT_FALSE(frame.needs_state());
+  ASSERT_TRUE(nothing.tables().timeline().advance());
+  EXPECT_FALSE(nothing.tables().needs_state());
+  EXPECT_FALSE(nothing.draws());
+  scene.output.energy = EnergyOutput{0.15};
+  Exports energy(scene, temp / "energy");
+  Timeline& timeline = energy.tables().timeline();
+  for (const double due : {0.0, 0.15, 0.2}) {
+    ASSERT_TRUE(timeline.advance());
+    EXPECT_EQ(timeline.time(), due);
+    EXPECT_TRUE(energy.tables().needs_state());
+  }
+  EXPECT_FALSE(timeline.advance());
 }
 
 TEST(Exports, FoldersAreMadeWithTheirParents) {
@@ -110,7 +112,8 @@ TEST(Exports, FramesThatWereWholeStayWhenTheRunFails) {
   const Scene scene = scene_with_frames();
   {
     Exports exports(scene, temp / "run");
-    exports.timeline().advance();
+    exports.begin_drawings();
+    exports.drawings().timeline().advance();
     exports.picture(0, picture({32, 18}, 0));
   }
   EXPECT_EQ(names_in(temp / "run"), (Names{"frames", "frames/frame_00000.png", "scene.yaml"}));

@@ -189,7 +189,9 @@ void read_flights_bytes(std::string_view bytes) {
   try {
     FlightsReader reader(folder().descriptor(), folder().path(), scene);
     double last = 0;
-    for (PathPiece piece; reader.next(piece); last = piece.from) {
+    for (Recorded recorded; reader.next(recorded);) {
+      if (recorded.kind == Recorded::Kind::collision) continue;
+      const PathPiece& piece = recorded.piece;
       if (piece.body >= scene.world.body_count()) throw Finding("a path of no body");
       if (piece.part_of != no_entity && piece.part_of >= scene.world.body_count()) throw Finding("part of no body");
       if (!(piece.from >= last)) throw Finding("paths that go back in time");
@@ -202,6 +204,7 @@ void read_flights_bytes(std::string_view bytes) {
       if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&
                            std::isfinite(piece.radius)))
         throw Finding("a joint body without mass or size");
+      last = piece.from;
     }
   } catch (const ExportError& error) {
     if (std::string_view(error.what()).find(flights_name) == std::string_view::npos)

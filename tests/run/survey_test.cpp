@@ -1,4 +1,4 @@
-// Cameras that frame the motion, of real scenes: by a simulation in advance, only where one is needed.
+// Cameras that frame the motion, of real scenes.
 #include "run/survey.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include "render/camera.h"
 #include "render/mesh.h"
 #include "run/engine.h"
-#include "run/run_scene.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 
@@ -148,29 +147,6 @@ TEST(Survey, AMotionThatFailsIsFramedAsFarAsItGoes) {
   const Camera camera = surveyed(failing);
   EXPECT_TRUE(camera.eye.allFinite());
   EXPECT_LT((camera.eye - camera.target).norm(), (surveyed(scene).eye - surveyed(scene).target).norm());
-}
-
-/// How many simulators a run of the marble makes.
-int simulators_of(const std::string& more) {
-  const Place place;
-  const Scene scene = place.scene(marble_run + "\n" + more);
-  int made = 0;
-  RunSettings settings;
-  settings.simulator = [&](const Scene& of) {
-    ++made;
-    return make_simulator(of);
-  };
-  run_scene({&scene, place / "run", 0, nullptr}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}});
-  return made;
-}
-
-TEST(Survey, IsMadeOnlyForPicturesByACameraThatFramesTheMotion) {
-  const std::string picture = "output: {frames: {size: [32, 18], until: 0}}\n";
-  EXPECT_EQ(simulators_of("output: {energy: true}\n"), 1);
-  EXPECT_EQ(simulators_of("camera: {fit: motion}\noutput: {vtk: {every: 4}}\n"), 1);
-  EXPECT_EQ(simulators_of("camera: {eye: [0, 1, 5], target: [0, 1, 0]}\n" + picture), 1);
-  EXPECT_EQ(simulators_of(picture), 2);
-  EXPECT_EQ(simulators_of("output: {gltf: {fps: 1}}\n"), 2);
 }
 
 }  // namespace

@@ -13,6 +13,11 @@
 
 namespace carom {
 
+FlightChanges::FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
+    : bodies_(bodies), flat_(flat), paths_(paths), curved_(bodies), in_contact_(bodies.body.size()) {
+  paths_.follow(curved_);
+}
+
 void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
   go_on(i, x, v, origin);
   if (bodies_.mode(i) == Mode::held) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);

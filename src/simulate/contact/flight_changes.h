@@ -14,8 +14,7 @@ class PathLog;
 
 class FlightChanges {
  public:
-  FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
-      : bodies_(bodies), flat_(flat), paths_(paths), curved_(bodies), in_contact_(bodies.body.size()) {}
+  FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths);
 
   /// Begins a new flight of body i at the present instant, at x (m) with velocity v (m/s). A step of constrained motion
   /// ends with it.

@@ -41,11 +41,6 @@ constexpr GaussPoint gauss[] = {
 /// A value in place of a number of steps: the last step was implicit.
 constexpr std::uint8_t implicit_method = 255;
 
-/// The time from one instant to another (s).
-DoubleDouble seconds(const Instant& from, const Instant& to) {
-  return DoubleDouble{to.hi, to.lo} - DoubleDouble{from.hi, from.lo};
-}
-
 PolynomialPath::Point point(const ClosedMotion::Point& of) {
   return {of.velocity, of.acceleration, of.jerk};
 }

@@ -43,6 +43,10 @@ class CurvedFlights {
     const PolynomialPath* const curve = bodies_.flights.curve(i);
     return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next;
   }
+  /// Whether such a motion begins with the present flight.
+  bool begins_closed_form(Entity i) const {
+    return follows_closed_form(i) && closed_[i].start == bodies_.flights[i].start;
+  }
   /// The state of such a motion at an instant.
   Reached closed_place(Entity i, const Instant& at) const;
 

@@ -27,4 +27,9 @@ struct Instant {
   }
 };
 
+/// The time from one instant to another (s), in two doubles.
+inline DoubleDouble seconds(const Instant& from, const Instant& to) {
+  return DoubleDouble{to.hi, to.lo} - DoubleDouble{from.hi, from.lo};
+}
+
 }  // namespace carom

@@ -28,7 +28,8 @@ PathLog::PathLog(const BodyPaths& bodies, Crossings& crossings)
       crossings_(crossings),
       followed_(bodies.options.record_paths || crossings.any() || bodies.options.stop_at_rest ||
                 bodies.options.stop_collisions > 0),
-      wanted_(followed_ || extremes_.any()) {}
+      wanted_(followed_ || extremes_.any()),
+      closed_(bodies.body.size()) {}
 
 void PathLog::begin_advance() {
   pieces_.clear();
@@ -49,7 +50,8 @@ void PathLog::record_changes() {
   if (changed_.empty()) return;
   latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);
   if (bodies_.options.record_paths)
-    for (const Entity i : changed_) pieces_.push_back(piece_of(i, latest_));
+    for (const Entity i : changed_)
+      if (!goes_on(i)) pieces_.push_back(piece_of(i, latest_));
   if (crossings_.any())
     for (const Entity i : changed_) crossings_.follow(i, changed_at_);
   changed_.clear();
@@ -61,11 +63,20 @@ void PathLog::end(double time) {
   record_changes();
 }
 
+/// Whether body i's path is a further step of the motion in closed form that its last piece began.
+bool PathLog::goes_on(Entity i) {
+  const bool closed = follows_closed_form(i);
+  const bool goes_on = closed && closed_[i] != 0 && !curved_->begins_closed_form(i);
+  if (closed != (closed_[i] != 0)) closed_.write(i) = closed;
+  return goes_on;
+}
+
 PathPiece PathLog::piece_of(Entity i, double from) const {
   const Flight f = bodies_.flights[i];
   const World& world = bodies_.world;
   const World& given = bodies_.merged.given();
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
+  if (f.curve == nullptr) piece.fade = f.fade;
 
   if (is_kicked(bodies_.mode(i))) {
     const Instant until = bodies_.kick[i].until;
@@ -74,7 +85,18 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
     piece.kick = bodies_.kick[i].a;
   }
 
-  if (f.curve != nullptr) piece.curve = std::make_shared<PolynomialPath>(*f.curve);
+  if (follows_closed_form(i) && curved_->begins_closed_form(i)) {
+    piece.law = PathLaw::closed;
+  } else if (f.curve != nullptr) {
+    // The velocities of contact are those of the path.
+    const bool free = !in_lasting_contact(bodies_.mode(i));
+    const bool verlet = bodies_.options.integrator == Integrator::verlet;
+    if (free && verlet) piece.law = PathLaw::verlet;
+    auto curve = std::make_shared<PolynomialPath>(*f.curve);
+    if (!free || verlet) curve->ahead = Vec3::Zero();
+    piece.curve = std::move(curve);
+  }
+
   if (bodies_.merged.any()) {
     const Entity whole = bodies_.merged.whole_of()[i];
     piece.removed = whole == no_entity;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/path_piece.h"
+#include "simulate/path/curved_flights.h"
 #include "simulate/path/path_extremes.h"
 #include "simulate/path/paths.h"
 
@@ -17,6 +18,8 @@ class PathLog {
   /// Records nothing unless options.record_paths, and watches nothing unless options.watch. The crossings follow the
   /// paths that have changed.
   PathLog(const BodyPaths& bodies, Crossings& crossings);
+  /// Motions in closed form are those of `curved`, which must outlive this object. Call it before the first change.
+  void follow(const CurvedFlights& curved) { curved_ = &curved; }
 
   /// Empties the buffer for the next advance.
   void begin_advance();
@@ -39,9 +42,12 @@ class PathLog {
 
  private:
   void note(Entity i);
+  bool follows_closed_form(Entity i) const { return curved_->follows_closed_form(i) && !is_member(bodies_.mode(i)); }
+  bool goes_on(Entity i);
   PathPiece piece_of(Entity i, double from) const;
 
   const BodyPaths& bodies_;
+  const CurvedFlights* curved_ = nullptr;
   PathExtremes extremes_;
   Crossings& crossings_;
   // A change of a path concerns the record, the crossings or the end of the run; or these or the extremes.
@@ -52,6 +58,7 @@ class PathLog {
   Instant changed_at_, delayed_;
   double end_ = never, latest_ = 0;  // s: the run's end, and the last piece's start
   bool full_ = false;
+  LazyArray<std::uint8_t> closed_;  // by body: whether its last piece is a motion in closed form
 };
 
 }  // namespace carom

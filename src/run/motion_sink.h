@@ -1,0 +1,42 @@
+#pragma once
+// What takes a motion as it goes: the record of all that happens, and the state at instants of its own.
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "simulate/simulator.h"
+
+namespace carom {
+
+class MotionSink {
+ public:
+  virtual ~MotionSink() = default;
+  /// Whether a further instant exists.
+  virtual bool more() const = 0;
+  /// The next instant (s).
+  virtual double time() = 0;
+  /// Takes what the simulator has recorded since its last advance.
+  virtual void record(const Simulator& simulator) = 0;
+  /// Takes the state at the next instant, which must be the simulator's time. Throws ExportError, RenderError.
+  virtual void sample(Simulator& simulator) = 0;
+  /// Ends the instants at `time` (s), the run's end, which is after all instants that are done. Throws ExportError.
+  virtual void end_at(double time) = 0;
+};
+
+/// Functions called between advances of a simulator. `stop_check` may throw.
+struct CarryWatch {
+  std::function<void()> stop_check;
+  std::function<void(const Simulator&)> advanced;
+  double* advance_s = nullptr;  // wall time of advances is added to it
+};
+
+/// Calls a function for a sink, by its number, and does what a failure means. It may leave sinks out.
+using SinkGuard = std::function<void(std::size_t sink, const std::function<void()>& work)>;
+
+/// Carries a simulator, which is at time 0, through all instants of these sinks.
+/// `duration`: of the motion (s). Throws SimulationError, also if the simulator makes no progress, and what the
+/// functions throw.
+void carry_through(Simulator& simulator, std::span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
+                   const CarryWatch& watch);
+
+}  // namespace carom

@@ -1,0 +1,62 @@
+#include "run/record_queue.h"
+
+#include <utility>
+
+namespace carom {
+namespace {
+
+// A batch has at most about 4096 parts, and mostly fewer.
+constexpr std::size_t most_batches = 16;
+
+}  // namespace
+
+void RecordQueue::put(const Simulator& simulator) {
+  Batch batch;
+  batch.reserve(simulator.collisions().size() + simulator.paths().size());
+  in_order(
+      simulator.collisions(), simulator.paths(),
+      [&](const CollisionMark& mark) {
+        Recorded& recorded = batch.emplace_back();
+        recorded.kind = Recorded::Kind::collision;
+        recorded.collision = mark;
+      },
+      [&](const PathPiece& piece) { batch.emplace_back().piece = piece; });
+  if (batch.empty()) return;
+
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return left_ || batches_.size() < most_batches; });
+  if (left_) return;
+  batches_.push_back(std::move(batch));
+  changed_.notify_all();
+}
+
+void RecordQueue::end(bool whole) {
+  const std::lock_guard lock(mutex_);
+  state_ = whole ? State::whole : State::abandoned;
+  changed_.notify_all();
+}
+
+void RecordQueue::leave() {
+  const std::lock_guard lock(mutex_);
+  left_ = true;
+  batches_.clear();
+  changed_.notify_all();
+}
+
+bool RecordQueue::next(Recorded& recorded) {
+  if (read_ == reading_.size()) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return state_ != State::open || !batches_.empty(); });
+    if (state_ == State::abandoned) throw RecordAbandoned();
+    if (batches_.empty()) return false;
+
+    reading_ = std::move(batches_.front());
+    batches_.pop_front();
+    read_ = 0;
+    changed_.notify_all();
+  }
+  recorded = std::move(reading_[read_++]);
+  return true;
+}
+
+}  // namespace carom

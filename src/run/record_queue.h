@@ -1,0 +1,42 @@
+#pragma once
+// Passes a record from the thread that simulates to the one that draws. A bounded number of parts is on the way.
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <vector>
+
+#include "physics/recorded.h"
+#include "simulate/simulator.h"
+
+namespace carom {
+
+/// Thrown to the reader of a record that will have no end.
+struct RecordAbandoned {};
+
+class RecordQueue {
+ public:
+  /// Adds what the simulator has recorded since its last advance. Waits while the queue is full, unless nobody reads.
+  void put(const Simulator& simulator);
+  /// Nothing more will come. whole: this is the end of the record.
+  void end(bool whole);
+  /// Nothing more will be read.
+  void leave();
+  /// Waits for the next part. False: the end. Throws RecordAbandoned.
+  bool next(Recorded& recorded);
+
+ private:
+  using Batch = std::vector<Recorded>;
+  enum class State { open, whole, abandoned };
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Batch> batches_;
+  State state_ = State::open;
+  bool left_ = false;
+  // Of the reader.
+  Batch reading_;
+  std::size_t read_ = 0;
+};
+
+}  // namespace carom

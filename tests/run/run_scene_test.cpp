@@ -1,0 +1,112 @@
+// A run advances one simulator once, whatever it writes and draws.
+#include "run/run_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "render/mesh.h"
+#include "scene/load.h"
+#include "scene/output_kinds.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test.
+class Place {
+ public:
+  Place() {
+    std::string pattern = (fs::temp_directory_path() / "carom-run-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~Place() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+/// Small and few pictures in place of those of the scene.
+void make_small(Output& output) {
+  const PictureOutput small{1, {32, 18}, 1, 0, {}};
+  if (output.frames) static_cast<PictureOutput&>(*output.frames) = small;
+  if (output.sheet) output.sheet = SheetOutput{2, 1, Size{96, 48}, 0, {}};
+  if (output.gltf) output.gltf = GltfOutput{1};
+  if (output.trajectory) output.trajectory->every = 1;
+  if (output.vtk) output.vtk->every = 1;
+  if (output.xyz) output.xyz->every = 1;
+}
+
+/// How many simulators a run of the scene with these outputs makes.
+int simulators_of(Scene scene, const std::vector<std::string>& outputs) {
+  const Place place;
+  scene.output = restricted(scene.requested, outputs);
+  make_small(scene.output);
+  make_small(scene.requested);
+  int made = 0;
+  RunSettings settings;
+  settings.durability = Durability::deferred;
+  settings.simulator = [&made](const Scene& of, Recording recording, const StepChoice& steps) {
+    ++made;
+    return make_simulator(of, std::move(recording), steps);
+  };
+  run_scene({&scene, place / "run"}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}});
+  return made;
+}
+
+Scene scene_at(const std::string& path) {
+  LoadOptions options;
+  options.mesh_points = [](const std::string& mesh) { return read_mesh_points(mesh); };
+  return load_scene(path, options);
+}
+
+class EverySceneRun : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
+  Scene scene = scene_at(SCENES_DIR "/" + GetParam() + ".yaml");
+  const std::vector<std::string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
+  EXPECT_EQ(simulators_of(scene, outputs), 1);
+  scene.camera.reset();
+  EXPECT_EQ(simulators_of(scene, outputs), 1);
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(SCENES_DIR))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRun, ::testing::ValuesIn(scene_names()),
+                         [](const auto& scene) { return scene.param; });
+
+const std::string ball =
+    "scene: 1\nballs: {b: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.5}}\n"
+    "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
+
+TEST(Run, SimulatesOnceWithEveryCombinationOfOutputs) {
+  const Place place;
+  const std::vector<std::string> kinds = {"trajectory", "collisions", "frames", "sheet", "xyz", "gltf", "flights"};
+  for (const std::string& more : {std::string("simulate: {duration: 1}\n"),
+                                  std::string("simulate: {duration: 2, stop: [{collisions: 3}]}\n"),
+                                  std::string("simulate: {duration: 1}\ncamera: {eye: [0, 1, 5], target: [0, 1, 0]}\n"),
+                                  std::string("simulate: {duration: 1}\nshutter: 0.5\ntrails: true\nflash: true\n")}) {
+    std::ofstream(place / "scene.yaml") << ball << more << "output: {sheet: true}\n";
+    const Scene scene = scene_at(place / "scene.yaml");
+    for (unsigned set = 0; set < 1u << kinds.size(); ++set) {
+      std::vector<std::string> outputs;
+      for (std::size_t k = 0; k < kinds.size(); ++k)
+        if (set >> k & 1u) outputs.push_back(kinds[k]);
+      EXPECT_EQ(simulators_of(scene, outputs), 1) << more << set;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
