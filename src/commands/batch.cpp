@@ -48,7 +48,7 @@ class Together {
         to_do_(to_do),
         outcomes_(scenes.size()),
         fractions_(scenes.size()),
-        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), std::string(command), 1, 0) {
+        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), std::string(command)) {
     progress_.begin_early();
   }
 

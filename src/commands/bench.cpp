@@ -82,8 +82,7 @@ class BenchSession {
   void bench(const PlannedScene& planned, Json& entry) {
     const Scene& scene = *planned.scene;
     BenchFolder folder(planned.folder, gnuplot_);
-    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), printable(planned.name),
-                      scene.simulate.duration, 0);
+    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), printable(planned.name));
     const BenchWatch watch{stop_if_interrupted,
                            [&](double done, const std::string& what) { progress.update(done, what); }};
     const BenchResult result = run_bench(scene, options_.bench, watch);

@@ -18,6 +18,7 @@
 #include "commands/slow.h"
 #include "commands/text.h"
 #include "commands/volumes.h"
+#include "export/flights_file.h"
 #include "export/tables.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
@@ -218,11 +219,15 @@ Findings examine(const PlannedScene& planned) {
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
 std::optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.simulate_s) return std::nullopt;
-  const Output& output = planned.scene->output;
-  const bool drawn = output.pictures() || output.gltf;
-  // A camera that frames the motion needs it before the first picture.
-  const int times = drawn && (!planned.scene->camera || planned.scene->camera->fit) ? 2 : 1;
-  return planned.load_s + times * *findings.foresight.simulate_s + planned.forecast.seconds;
+  return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
+}
+
+/// Of all files: flights by the part that was simulated, all others by the scene.
+std::uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
+  if (!planned.scene->output.flights) return planned.forecast.bytes;
+  const PiecesAhead& pieces = findings.foresight.pieces;
+  const double flights = flight_bytes(pieces.of_events, pieces.of_crowd);
+  return planned.forecast.bytes + static_cast<std::uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
 }
 
 std::string steps_text(double steps) {
@@ -236,7 +241,7 @@ std::string to_come_text(const PlannedScene& planned, const Findings& findings) 
   return fmt::format("{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
                      counted(planned.forecast.frames, "picture", "pictures"),
                      counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
-                     bytes_text(planned.forecast.bytes),
+                     bytes_text(bytes_to_come(planned, findings)),
                      !seconds         ? "an unknown time"
                      : *seconds < 0.5 ? "less than a second"
                      : *seconds < 9.5 ? fmt::format("roughly {:.0f} s", *seconds)
@@ -341,7 +346,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);
   entry["pictures"] = planned.forecast.frames;
   entry["trajectory_rows"] = planned.forecast.rows;
-  entry["bytes"] = planned.forecast.bytes;
+  entry["bytes"] = bytes_to_come(planned, findings);
   const std::optional<double> seconds = seconds_to_come(planned, findings);
   entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);
   entry["folder"] = planned.folder;

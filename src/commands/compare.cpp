@@ -142,7 +142,7 @@ class CompareSession {
   void write(const ComparisonPlan& plan, const RunSet& differences, std::vector<FilmTile> tiles,
              const std::string& request) {
     const std::size_t count = differences.runs().size();
-    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), "compare", 1, 0);
+    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), "compare");
     const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); },
                                 [&](std::size_t runs) { doubtful_ = runs; }};
     ComparisonFolder folder(folder_);

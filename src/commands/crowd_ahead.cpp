@@ -17,6 +17,8 @@ namespace {
 constexpr double step_of_body = 1.2e-6;
 /// s of CPU time, of the impacts of a body from its landing until it lies: some 600 (measured with e from 0 to 0.8).
 constexpr double landing_of_body = 3e-4;
+/// Pieces of the path of a body in these impacts.
+constexpr double landing_pieces_of_body = 600;
 /// Fewer bodies seldom have so many changes of contact that they move as a crowd.
 constexpr Entity least_bodies = 64;
 /// Times of the fall from the heap's beginning until it is at rest.
@@ -69,6 +71,8 @@ CrowdAhead crowd_ahead(const Scene& scene, Engine engine) {
   ahead.until = world.moves() ? never : ahead.from + falls_to_rest * fall;
   ahead.landing = landing_of_body * world.body_count();
   ahead.rate = step_of_body * world.body_count() / step;
+  ahead.landing_pieces = landing_pieces_of_body * world.body_count();
+  ahead.piece_rate = world.body_count() / step;
   return ahead;
 }
 
@@ -79,6 +83,14 @@ double time_ahead(const CrowdAhead& crowd, double time, double duration, double 
   if (time >= crowd.from) return rate * (until - from);
   const double landing = crowd.from < duration ? crowd.landing : 0;
   return rate * (from - time) + landing + crowd.rate * (until - from);
+}
+
+PiecesAhead pieces_ahead(const CrowdAhead& crowd, double time, double duration, double rate) {
+  const double from = std::clamp(crowd.from, time, duration);
+  const double until = std::clamp(crowd.until, from, duration);
+  PiecesAhead ahead{rate * (from - time), crowd.piece_rate * (until - from)};
+  if (crowd.from > time && crowd.from < duration) ahead.of_events += crowd.landing_pieces;
+  return ahead;
 }
 
 }  // namespace carom

@@ -63,7 +63,8 @@ class Trial {
   Foresight go() {
     try {
       const auto start = Clock::now();
-      oracle_ = make_oracle(scene_);
+      oracle_ = make_oracle(scene_, scene_.output.flights);
+      count_pieces();
       made_s_ = since(start);
       check_view_if_due();
       while (oracle_->time() < scene_.simulate.duration && needs_more()) advance();
@@ -88,7 +89,20 @@ class Trial {
            time_ahead(crowd_ahead(scene_, most_exact(scene_.world)), oracle_->time(), duration, rate);
   }
 
+  /// Of the whole motion, scaled up from this part of it.
+  PiecesAhead pieces() const {
+    if (!oracle_ || !(oracle_->time() > 0)) return pieces_;
+    const double rate = pieces_.of_events / oracle_->time();
+    const PiecesAhead ahead =
+        pieces_ahead(crowd_ahead(scene_, most_exact(scene_.world)), oracle_->time(), scene_.simulate.duration, rate);
+    return {pieces_.of_events + ahead.of_events, pieces_.of_crowd + ahead.of_crowd};
+  }
+
  private:
+  void count_pieces() {
+    for (const PathPiece& piece : oracle_->paths()) ++(piece.kicked ? pieces_.of_crowd : pieces_.of_events);
+  }
+
   bool needs_more() {
     if (since(start_) < budget_) return true;
     if (next_ <= last_) result_.cut = true;
@@ -108,6 +122,7 @@ class Trial {
       const auto start = Clock::now();
       oracle_->advance_to(target);
       advance_s_ += since(start);
+      count_pieces();
       for (const Collision& collision : oracle_->collisions()) {
         if (!result_.first && collision.kind != CollisionKind::rest) result_.first = collision;
       }
@@ -140,6 +155,7 @@ class Trial {
   std::vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
   std::unique_ptr<Simulator> oracle_;
   double made_s_ = 0, advance_s_ = 0;  // wall times
+  PiecesAhead pieces_;                 // so far
   Foresight result_;
 };
 
@@ -169,6 +185,7 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
 Foresight foresee(const Scene& scene, const EngineChoice& engine, const MovingCamera* camera, double budget) {
   Trial trial(scene, camera, budget);
   Foresight result = trial.go();
+  result.pieces = trial.pieces();
   const Engine oracle = most_exact(scene.world);
   // A failure of another simulator.
   if (engine.engine != oracle) result.failure.clear();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/crowd_ahead.h"
 #include "physics/collision.h"
 #include "physics/entity.h"
 #include "run/engine.h"
@@ -30,6 +31,7 @@ struct Foresight {
   double every = 0;                            // s between the watched instants; 0: there were none
   bool cut = false;                            // the budget ended before the pictures
   std::optional<double> simulate_s;            // approximate wall time of the whole simulation; none: unknown
+  PiecesAhead pieces;                          // roughly those of the whole motion, if flights are requested
 };
 
 /// Simulates by the most exact engine, whatever the scene names, to the first collision for at most 20 times `budget`

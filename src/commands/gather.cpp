@@ -92,7 +92,7 @@ class GatherSession {
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
-                      printable(name_of_folder(folder_)), 1, 0);
+                      printable(name_of_folder(folder_)));
     std::vector<std::vector<bool>> whole;  // by folder, run
     for (const std::string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
     if (const std::string edited = edited_run(sweep, whole.front()); !edited.empty()) {

@@ -22,8 +22,8 @@ ProgressChoice progress_choice(const Options& options) {
   return options.progress == ProgressChoice::bar && !terminal ? ProgressChoice::lines : options.progress;
 }
 
-Progress::Progress(ProgressChoice choice, bool color, std::string name, double duration, std::uint64_t frames)
-    : choice_(choice), color_(color), name_(std::move(name)), duration_(duration), frames_to_come_(frames) {}
+Progress::Progress(ProgressChoice choice, bool color, std::string name)
+    : choice_(choice), color_(color), name_(std::move(name)) {}
 
 Progress::~Progress() {
   clear();
@@ -82,21 +82,20 @@ bool Progress::due() const {
 
 /// "1,830/s", or per minute for slower rates.
 std::string Progress::rate(double count) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  const double per_second = elapsed > 0 ? count / elapsed : 0;
+  const double per_second = elapsed() > 0 ? count / elapsed() : 0;
   if (per_second < 1) return fmt::format("{:.2g}/min", 60 * per_second);
   return per_second < 10 ? fmt::format("{:.2g}/s", per_second)
                          : grouped(static_cast<std::uint64_t>(whole_below(per_second))) + "/s";
 }
 
-/// The time (s) of all of the work at the pace of the last third of the time so far. Not a number: it is unknown.
-double Progress::whole_time(double done) {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  while (milestones_.size() > 1 && milestones_[1].elapsed <= elapsed * 2 / 3) milestones_.pop_front();
-  Milestone from = milestones_.front();
-  milestones_.push_back({elapsed, done});
-  if (done <= from.done) from = {};
-  return (elapsed - from.elapsed) / (done - from.done);
+double Progress::elapsed() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+/// The time to come (s), where this part of the work is done.
+double Progress::left(double done) {
+  pace_.note(elapsed(), done);
+  return (1 - done) * pace_.rate();
 }
 
 /// left_s: the time to come (s).
@@ -117,32 +116,25 @@ void Progress::show(double done, double left_s, const std::string& what) {
   last_ = now;
 }
 
-void Progress::update(double time, std::uint64_t collisions, std::uint64_t frames) {
-  const double done = duration_ > 0 ? time / duration_ : 1;
-  store(done);
-  if (!due()) return;
-  const std::string what = frames_to_come_ > 0
-                               ? fmt::format("{} of {} pictures ({})", grouped(frames), grouped(frames_to_come_),
-                                             rate(static_cast<double>(frames)))
-                               : fmt::format("{:.4g} of {:.4g} s ({}), {}", time, duration_, rate(time),
-                                             counted(collisions, "collision", "collisions"));
-  const double rate = whole_time(done) / duration_;
-  show(std::clamp(done, 0.0, 1.0), time_ahead(crowd_, time, std::max(duration_, time), rate), what);
+void Progress::update(const RunProgress& progress) {
+  if (!run_) return;
+  run_->note(elapsed(), progress);
+  store(run_->share());
+  if (due()) show(run_->share(), run_->left(), run_->text());
 }
 
 void Progress::update(std::size_t done, std::size_t of, std::string_view things, const std::string& more) {
   if (!due()) return;
   const auto count = static_cast<double>(done);
   const double share = count / static_cast<double>(std::max<std::size_t>(of, 1));
-  show(share, (1 - share) * whole_time(share),
-       fmt::format("{} of {} {} ({}){}", grouped(done), grouped(of), things, rate(count), more));
+  show(share, left(share), fmt::format("{} of {} {} ({}){}", grouped(done), grouped(of), things, rate(count), more));
 }
 
 void Progress::update(double done, const std::string& what) {
   store(done);
   if (!due()) return;
   const double share = std::clamp(done, 0.0, 1.0);
-  show(share, (1 - share) * whole_time(share), what);
+  show(share, left(share), what);
 }
 
 }  // namespace carom

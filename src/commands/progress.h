@@ -3,12 +3,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "commands/command_line.h"
-#include "commands/crowd_ahead.h"
+#include "commands/run_pace.h"
 
 namespace carom {
 
@@ -17,21 +17,21 @@ ProgressChoice progress_choice(const Options& options);
 
 class Progress {
  public:
-  /// `name`: the scene's; `duration`: simulated seconds to go through; `frames`: pictures to come, 0: none.
-  Progress(ProgressChoice choice, bool color, std::string name, double duration, std::uint64_t frames);
+  /// `name`: of what goes on.
+  Progress(ProgressChoice choice, bool color, std::string name);
   ~Progress();  // clears the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// Cheap: writes at most ten times a second (bar), or a line at each tenth of the way and after five seconds, but
   /// never two within two seconds.
-  void update(double time, std::uint64_t collisions, std::uint64_t frames);
+  void update(const RunProgress& progress);
   /// The same for `done` of so many things, such as runs; `more`: a text that follows.
   void update(std::size_t done, std::size_t of, std::string_view things, const std::string& more = "");
   /// The same for other work: the fraction `done`, 0 to 1, and its present step.
   void update(double done, const std::string& what);
-  /// A crowd will take more time than what comes before it.
-  void expect(const CrowdAhead& crowd) { crowd_ = crowd; }
+  /// What the run has before it. Call it before the first update of a run.
+  void expect(const RunAhead& ahead) { run_.emplace(ahead); }
   /// From here on the fraction done is also stored there, even if nothing is shown. Null: nowhere.
   void share(std::atomic<double>* done) { shared_ = done; }
   /// The first line of a log comes after 1 s, even if nothing is done by then.
@@ -44,23 +44,17 @@ class Progress {
   bool due() const;
   void store(double done);
   std::string rate(double count) const;
-  double whole_time(double done);
+  double elapsed() const;
+  double left(double done);
   void show(double done, double left_s, const std::string& counts);
   void draw_bar(double done, const std::string& counts, const std::string& left);
 
   ProgressChoice choice_;
   bool color_;
   std::string name_;
-  double duration_;  // s
-  std::uint64_t frames_to_come_;
-  CrowdAhead crowd_;
+  std::optional<RunPace> run_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
-  // What was done at times since the start (s). The pace is that since the first of them.
-  struct Milestone {
-    double elapsed = 0;
-    double done = 0;
-  };
-  std::deque<Milestone> milestones_{{}};
+  Pace pace_;  // of all else
   int tenth_ = 0;
   bool drawn_ = false;
   std::atomic<double>* shared_ = nullptr;

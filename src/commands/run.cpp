@@ -14,6 +14,7 @@
 #include "commands/text.h"
 #include "commands/watch.h"
 #include "files/processors.h"
+#include "run/stages.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -37,6 +38,15 @@ std::string label(const std::vector<PlannedScene>& scenes, const PlannedScene& p
   const auto number = static_cast<std::size_t>(&planned - scenes.data()) + 1;
   const std::string name = printable(planned.name);
   return scenes.size() == 1 ? name : fmt::format("{}/{} {}", number, scenes.size(), name);
+}
+
+RunAhead run_ahead(const PlannedScene& planned) {
+  const Scene& scene = *planned.scene;
+  return {.duration = scene.simulate.duration,
+          .pictures = planned.forecast.frames,
+          .crowd = crowd_ahead(scene, planned.engine.engine),
+          .draw_s = planned.forecast.seconds,
+          .draws_after = draws_after_motion(scene)};
 }
 
 }  // namespace
@@ -95,10 +105,9 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   batch.is_up_to_date = [&](const PlannedScene& planned) { return is_up_to_date(planned, options); };
   batch.up_to_date = [&](const PlannedScene& planned) { return run_up_to_date(planned, style); };
   batch.run = [&](const PlannedScene& planned, ProgressChoice choice, std::atomic<double>* done) {
-    Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
-                      planned.scene->simulate.duration, planned.forecast.frames);
+    Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned));
     progress.share(done);
-    progress.expect(crowd_ahead(*planned.scene, planned.engine.engine));
+    progress.expect(run_ahead(planned));
     return work(planned, style, progress);
   };
   batch.settle = [&](SceneOutcome outcome) { list.add(std::move(outcome)); };

@@ -36,18 +36,18 @@ std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedS
                                                                   const OverlayNeeds& needs, bool quiet) {
   const FormerRun& former = *planned.former;
   const bool collisions = needs.collisions || needs.collision_counts;
-  if (former.has_flights() && !collisions) return [&former](const Scene& scene) { return former.motion(scene); };
+  if (collisions ? former.has_flights_with_collisions(*planned.scene) : former.has_flights())
+    return [&former](const Scene& scene) { return former.motion(scene); };
+
   if (!quiet)
-    write_err(fmt::format(
-        "{}: {}: simulating again\n", printable(former.folder),
-        former.has_flights() ? "the pictures show collisions, which flights do not hold" : "no flights are stored"));
+    write_err(fmt::format("{}: {}: simulating again\n", printable(former.folder),
+                          former.has_flights() ? "the pictures show collisions, which its flights do not hold"
+                                               : "no flights are stored"));
   return {};
 }
 
 SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress) {
-  const RunWatch watch{stop_if_interrupted, [&](double time, std::uint64_t collisions, std::uint64_t pictures) {
-                         progress.update(time, collisions, pictures);
-                       }};
+  const RunWatch watch{stop_if_interrupted, [&](const RunProgress& now) { progress.update(now); }};
   try {
     return run_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned, options.quiet), watch),
                     options, style);

@@ -1,6 +1,7 @@
 // The picture is no part of the run: its folder's manifest does not name it, and the run stays up to date.
 #include "commands/still.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <new>
@@ -11,6 +12,7 @@
 #include "export/png.h"
 #include "files/open_folder.h"
 #include "overlay/history.h"
+#include "run/motion_record.h"
 #include "run/still.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
@@ -18,16 +20,30 @@
 namespace carom {
 namespace {
 
+/// A motion that is simulated once: for a camera that frames it into a record, because it is followed twice.
+std::function<std::unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoice& engine,
+                                                      const std::string& place) {
+  if (frames_motion(scene)) {
+    const Descriptor folder = open_folder(AT_FDCWD, place, true);
+    return recorded_motion(scene, engine, {folder.get(), place}, stop_if_interrupted);
+  }
+  return [&scene, &engine] {
+    const OverlayNeeds needs = picture_needs(scene);
+    return make_simulator(scene, {.collisions = needs.collisions || needs.collision_counts, .paths = needs.paths},
+                          engine.steps);
+  };
+}
+
 std::string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
   EngineChoice engine = planned.engine;
   const std::function<std::unique_ptr<Simulator>(const Scene&)> replay =
       replay_of(planned, picture_needs(scene), quiet);
-  if (!replay) settle_steps(scene, engine, stop_if_interrupted);
-  const OverlayNeeds needs = picture_needs(scene);
-  const auto motion = [&] {
-    return replay ? replay(scene) : make_simulator(scene, {needs.collisions, needs.paths}, engine.steps);
-  };
+  std::function<std::unique_ptr<Simulator>()> motion = [&] { return replay(scene); };
+  if (!replay) {
+    settle_steps(scene, engine, stop_if_interrupted);
+    motion = simulated(scene, engine, planned.former->folder);
+  }
   const std::string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));
 

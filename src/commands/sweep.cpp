@@ -80,7 +80,7 @@ class SweepSession {
     if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_));
         !changed.empty() && shard_.count <= 1 && !options_.force)
       return refuse(fmt::format("the folder {} holds {}", printable(folder_), changed));
-    show_progress("scenarios", job.sweep().size());
+    show_progress("scenarios");
     job.plan([&](const SweepProgress& p) { show_progress(p); });
     progress_.reset();
     if (const auto other = options_.force ? std::nullopt : job.other_content()) {
@@ -115,7 +115,7 @@ class SweepSession {
     for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);
     outcome.to_do = job.left();
     share_processors(options_.at_once.jobs.value_or(processors()));
-    show_progress("runs", outcome.to_do);
+    show_progress("runs");
     try {
       job.run([&](const SweepProgress& p) { show_progress(p); },
               [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
@@ -127,10 +127,12 @@ class SweepSession {
     if (!is_part) {
       std::vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
-      show_progress("runs compared", statuses.size() - job.invalid().size());
+      show_progress("runs compared");
       ComparisonWatch watch;
       watch.stop_check = stop_if_interrupted;
-      watch.done = [&](std::size_t done) { show_progress({done, 0, job.runs().size() - job.invalid().size()}); };
+      watch.done = [&](std::size_t done) {
+        show_progress(SweepProgress{done, 0, job.runs().size() - job.invalid().size()});
+      };
       watch.doubtful = [&](std::size_t runs) { outcome.doubtful = runs; };
       folder.finish(job.sweep(), statuses, watch);
     } else {
@@ -146,10 +148,10 @@ class SweepSession {
 
   void show(const SweepOutcome& outcome, const SweepJob& job) const { show_outcome(options_, outcome, job); }
 
-  void show_progress(std::string what, std::size_t count) {
+  void show_progress(std::string what) {
     what_ = std::move(what);
     progress_.emplace(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
-                      printable(fs::path(options_.operands.front()).stem().string()), static_cast<double>(count), 0);
+                      printable(fs::path(options_.operands.front()).stem().string()));
   }
 
   void show_progress(const SweepProgress& p) {

@@ -97,6 +97,13 @@ class InPlace {
 
 }  // namespace
 
+double flight_bytes(double of_events, double of_crowd) {
+  // Measured in a gas and in piles.
+  constexpr double event_bytes = 72;
+  constexpr double crowd_bytes = 136;
+  return event_bytes * of_events + crowd_bytes * of_crowd;
+}
+
 FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most)
     : has_collisions_(drawings_show_collisions(scene)),
       most_(most),

@@ -54,6 +54,9 @@ inline constexpr const char* flights_name = "flights.bin";
 /// Bytes. A run with more keeps no flights.
 inline constexpr std::uint64_t largest_flights = 1'000'000'000;
 
+/// An estimate of the bytes of pieces that events begin, and of those of a crowd's steps.
+double flight_bytes(double of_events, double of_crowd);
+
 class FlightsFile final : public Writer {
  public:
   /// Throws ExportError, as all functions of this class do.

@@ -191,11 +191,11 @@ Engine most_exact(const World& world) {
   return engine_of(world, {});
 }
 
-std::unique_ptr<Simulator> make_oracle(const Scene& scene) {
+std::unique_ptr<Simulator> make_oracle(const Scene& scene, bool paths) {
   Simulate simulate = scene.simulate;
   simulate.engine = most_exact(scene.world);
   if (simulate.engine == Engine::stepped) simulate = with_engine(simulate, Engine::stepped, Integrator::dop853);
-  return make_simulator(scene.world, scene.initial, simulate, {.collisions = true});
+  return make_simulator(scene.world, scene.initial, simulate, {.collisions = true, .paths = paths});
 }
 
 }  // namespace carom

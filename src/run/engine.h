@@ -88,6 +88,7 @@ std::unique_ptr<Simulator> make_simulator(const World& world, const State& initi
 Engine most_exact(const World& world);
 
 /// A simulator by that engine which records collisions, to find the true first event. Throws SimulationError.
-std::unique_ptr<Simulator> make_oracle(const Scene& scene);
+/// `paths`: it also records these.
+std::unique_ptr<Simulator> make_oracle(const Scene& scene, bool paths = false);
 
 }  // namespace carom

@@ -104,12 +104,15 @@ double FormerRun::end() const {
   return *time;
 }
 
+bool FormerRun::has_flights_with_collisions(const Scene& of) const {
+  if (!has_flights()) return false;
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  return FlightsReader(opened.get(), folder, of).has_collisions();
+}
+
 std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const auto reader = std::make_shared<FlightsReader>(opened.get(), folder, of);
-  return std::make_unique<Replay>(
-      of.world, [reader](Recorded& recorded) { return reader->next(recorded); }, reader->tally(),
-      reader->has_collisions());
+  return replay_from(std::make_unique<FlightsReader>(opened.get(), folder, of), of.world);
 }
 
 }  // namespace carom

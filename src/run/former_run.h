@@ -22,6 +22,9 @@ struct FormerRun {
   bool has(std::string_view file) const;
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
+  /// The same, with its collisions (drawings_show_collisions). `scene` must have the same motion. Throws ExportError if
+  /// the file is damaged.
+  bool has_flights_with_collisions(const Scene& scene) const;
   /// When it ended (s), by its summary.csv. Throws ExportError.
   double end() const;
   /// A simulator that follows these paths. `scene` must have the same motion and outlive it.

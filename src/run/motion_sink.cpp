@@ -1,5 +1,5 @@
-// Advances in slices, so that signals and progress are handled where no output is due for long. Sampling changes nothing
-// in the simulator, so the slices do not change the motion by a bit.
+// Advances in slices, so that signals and progress are handled where no output is due for long. Sampling changes
+// nothing in the simulator, so the slices do not change the motion by a bit.
 #include "run/motion_sink.h"
 
 #include <algorithm>
@@ -16,11 +16,7 @@ class Carrying {
  public:
   Carrying(Simulator& simulator, std::span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
            const CarryWatch& watch)
-      : simulator_(simulator),
-        sinks_(sinks.begin(), sinks.end()),
-        duration_(duration),
-        guard_(guard),
-        watch_(watch) {}
+      : simulator_(simulator), sinks_(sinks.begin(), sinks.end()), duration_(duration), guard_(guard), watch_(watch) {}
 
   void go() {
     record();

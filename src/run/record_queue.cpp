@@ -5,8 +5,8 @@
 namespace carom {
 namespace {
 
-// A batch has at most about 4096 parts, and mostly fewer.
-constexpr std::size_t most_batches = 16;
+/// On the way, unless a single batch has more: some 20 MB.
+constexpr std::size_t most_parts = 65536;
 
 }  // namespace
 
@@ -24,8 +24,9 @@ void RecordQueue::put(const Simulator& simulator) {
   if (batch.empty()) return;
 
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return left_ || batches_.size() < most_batches; });
+  changed_.wait(lock, [&] { return left_ || parts_ == 0 || parts_ + batch.size() <= most_parts; });
   if (left_) return;
+  parts_ += batch.size();
   batches_.push_back(std::move(batch));
   changed_.notify_all();
 }
@@ -40,6 +41,7 @@ void RecordQueue::leave() {
   const std::lock_guard lock(mutex_);
   left_ = true;
   batches_.clear();
+  parts_ = 0;
   changed_.notify_all();
 }
 
@@ -52,6 +54,7 @@ bool RecordQueue::next(Recorded& recorded) {
 
     reading_ = std::move(batches_.front());
     batches_.pop_front();
+    parts_ -= reading_.size();
     read_ = 0;
     changed_.notify_all();
   }

@@ -32,6 +32,7 @@ class RecordQueue {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Batch> batches_;
+  std::size_t parts_ = 0;  // in them
   State state_ = State::open;
   bool left_ = false;
   // Of the reader.

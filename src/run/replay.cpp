@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "export/flights_file.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/path/flight.h"
@@ -149,6 +150,13 @@ const State& Replay::state() {
   }
   fresh_ = true;
   return state_;
+}
+
+std::unique_ptr<Simulator> replay_from(std::unique_ptr<FlightsReader> reader, const World& world) {
+  const std::shared_ptr<FlightsReader> shared = std::move(reader);
+  return std::make_unique<Replay>(
+      world, [shared](Recorded& recorded) { return shared->next(recorded); }, shared->tally(),
+      shared->has_collisions());
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #pragma once
 // Repeats a run from its recorded paths: the same states, bit for bit, without simulating.
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@
 
 namespace carom {
 
+class FlightsReader;
 struct World;
 
 /// Reads the next part of a record, in order. False: the end. May throw.
@@ -55,5 +57,9 @@ class Replay final : public Simulator {
   std::vector<Volume> volume_;
   std::vector<Entity> part_of_;
 };
+
+/// The motion of a record in a file. `world` is that of its run and must outlive the simulator, which throws
+/// ExportError while it advances.
+std::unique_ptr<Simulator> replay_from(std::unique_ptr<FlightsReader> reader, const World& world);
 
 }  // namespace carom

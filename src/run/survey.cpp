@@ -4,58 +4,58 @@
 #include "run/survey.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "export/picture_streams.h"
-#include "export/timeline.h"
-#include "render/camera_fit.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {
 
-/// One camera in the making.
-struct Framing {
-  MovingCamera* camera;
-  CameraFit fit;
-  std::vector<int> streams;  // of the timeline
-};
+double duration_of(std::span<MovingCamera* const> cameras) {
+  return cameras.empty() ? 0 : cameras.front()->scene().simulate.duration;
+}
 
 }  // namespace
 
-void carry_to(Simulator& simulator, double time, double duration, const std::function<void()>& stop_check) {
-  const double piece = duration / 1000;
-  while (simulator.time() < time) {
-    stop_check();
-    const double next = std::min(time, simulator.time() + piece);
-    simulator.advance_to(next > simulator.time() ? next : time);
+Framing::Framing(std::span<MovingCamera* const> cameras) : timeline_(duration_of(cameras)) {
+  for (MovingCamera* camera : cameras) {
+    if (!camera->frames_motion()) continue;
+    Framed& framed = framed_.emplace_back(Framed{camera, CameraFit(camera->scene(), camera->size()), {}});
+    for (const Ticks& ticks : shown_instants(camera->scene())) {
+      framed.streams.push_back(timeline_.add(ticks));
+      if (ticks.count() > 0) end_ = std::max(end_, ticks.at(ticks.last()));
+    }
   }
+  if (any()) advance();
+}
+
+void Framing::advance() {
+  more_ = timeline_.advance() && timeline_.time() <= end_;
+}
+
+void Framing::sample(Simulator& simulator) {
+  for (Framed& framed : framed_) {
+    const auto is_due = [&](int stream) { return timeline_.due(stream).has_value(); };
+    if (std::any_of(framed.streams.begin(), framed.streams.end(), is_due)) framed.fit.add(simulator.state());
+  }
+  advance();
+}
+
+void Framing::finish() {
+  for (Framed& framed : framed_) framed.camera->frame(framed.fit.camera());
 }
 
 void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check) {
-  std::vector<Framing> framings;
-  for (MovingCamera* camera : cameras)
-    if (camera->frames_motion()) framings.push_back({camera, CameraFit(camera->scene(), camera->size()), {}});
-  if (framings.empty()) return;
-  const double duration = framings.front().camera->scene().simulate.duration;
-  Timeline timeline(duration);
-  double end = 0;
-  for (Framing& framing : framings)
-    for (const Ticks& ticks : shown_instants(framing.camera->scene())) {
-      framing.streams.push_back(timeline.add(ticks));
-      if (ticks.count() > 0) end = std::max(end, ticks.at(ticks.last()));
-    }
+  Framing framing(cameras);
+  MotionSink* const sinks[] = {&framing};
   try {
-    while (timeline.advance() && timeline.time() <= end) {
-      carry_to(simulator, timeline.time(), duration, stop_check);
-      for (Framing& framing : framings) {
-        const auto is_due = [&](int stream) { return timeline.due(stream).has_value(); };
-        if (std::any_of(framing.streams.begin(), framing.streams.end(), is_due)) framing.fit.add(simulator.state());
-      }
-    }
+    carry_through(simulator, sinks, duration_of(cameras),
+                  [](std::size_t, const std::function<void()>& work) { work(); },
+                  {.stop_check = stop_check, .advanced = [](const Simulator&) {}});
   } catch (const SimulationError&) {
     // The run comes to the same instant, and reports it.
   }
-  for (Framing& framing : framings) framing.camera->frame(framing.fit.camera());
+  framing.finish();
 }
 
 }  // namespace carom

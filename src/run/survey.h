@@ -1,20 +1,49 @@
 #pragma once
-// A motion seen in advance, for the cameras that frame it.
+// A motion seen by the cameras that frame it, before anything is drawn.
 #include <functional>
 #include <span>
+#include <vector>
 
+#include "export/timeline.h"
+#include "render/camera_fit.h"
 #include "render/moving_camera.h"
-#include "simulate/simulator.h"
+#include "run/motion_sink.h"
 
 namespace carom {
 
-/// Carries the simulator, which is at time 0, over the instants that each camera's scene shows, and frames the motion.
-/// All scenes have this motion. A camera of another kind is left as it is. A simulation that fails is framed as far as
-/// it goes: the run itself fails there again. `stop_check` is called often, and may throw.
-void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check);
+/// Collects a motion at the instants that each camera's scene shows. Cameras of another kind are left as they are.
+class Framing final : public MotionSink {
+ public:
+  /// All scenes have the motion. The cameras must outlive this object.
+  explicit Framing(std::span<MovingCamera* const> cameras);
 
-/// Carries the simulator to `time` (s) in pieces, so that `stop_check` is called where nothing happens for long.
-/// `duration`: of its motion (s).
-void carry_to(Simulator& simulator, double time, double duration, const std::function<void()>& stop_check);
+  bool any() const { return !framed_.empty(); }
+  /// Gives each camera the view of what was collected.
+  void finish();
+
+  bool more() const override { return more_; }
+  double time() override { return timeline_.time(); }
+  void record(const Simulator&) override {}
+  void sample(Simulator& simulator) override;
+  void end_at(double time) override { timeline_.end_at(time); }
+
+ private:
+  /// One camera in the making.
+  struct Framed {
+    MovingCamera* camera;
+    CameraFit fit;
+    std::vector<int> streams;  // of the timeline
+  };
+  void advance();
+
+  std::vector<Framed> framed_;
+  Timeline timeline_;
+  double end_ = 0;     // s: the last instant that is shown
+  bool more_ = false;  // whether a next instant exists
+};
+
+/// Carries the simulator, which is at time 0, over these instants, and frames the motion. A simulation that fails is
+/// framed as far as it goes: the run itself fails there again. `stop_check` is called often, and may throw.
+void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check);
 
 }  // namespace carom

@@ -424,7 +424,7 @@ std::string SweepJob::work(const Unit& unit) {
     scenes.push_back(scene(scenario.front()));
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
   }
-  const RunWatch watch{settings_.stop_check, [](double, std::uint64_t, std::uint64_t) {}};
+  const RunWatch watch{settings_.stop_check, [](const RunProgress&) {}};
   RunSettings how;
   how.durability = Durability::deferred;
   std::copy_if(measures_.begin(), measures_.end(), std::back_inserter(how.measures),

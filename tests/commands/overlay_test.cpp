@@ -47,9 +47,29 @@ TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
                                  std::string("balls.red.color={by: collisions}")}) {
     const Finished rendered = here.carom({"render", "run", "--set", set, "-o", "b", "--force", "--progress", "none"});
     EXPECT_EQ(rendered.code, 0) << rendered.err;
-    EXPECT_EQ(rendered.err, "run: the pictures show collisions, which flights do not hold: simulating again\n") << set;
+    EXPECT_EQ(rendered.err, "run: the pictures show collisions, which its flights do not hold: simulating again\n")
+        << set;
     ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", set, "-o", "c", "--force"}).code, 0);
     EXPECT_EQ(frames_of(here, "b"), frames_of(here, "c")) << set;
+  }
+}
+
+TEST(Overlay, ThatShowsCollisionsIsInTheRecordOfItsRun) {
+  const Workplace here;
+  for (const char* more : {"caption: \"{collisions} so far\"\n", "flash: true\n"}) {
+    here.write("balls.yaml", two_balls(more + std::string(small_frames)));
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "a/run", "--force"}).code, 0);
+    const std::vector<std::string> render = {"render", "a/run", "--set",   "camera={eye: [1, 1, 4], target: [1, 0, 0]}",
+                                             "-o",     "b/run", "--force", "--progress",
+                                             "none"};
+    const Finished rendered = here.carom(render);
+    EXPECT_EQ(rendered.code, 0);
+    EXPECT_EQ(rendered.err, "");
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "camera={eye: [1, 1, 4], target: [1, 0, 0]}", "-o", "c/run",
+                          "--force"})
+                  .code,
+              0);
+    EXPECT_EQ(frames_of(here, "b/run"), frames_of(here, "c/run")) << more;
   }
 }
 

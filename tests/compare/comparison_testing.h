@@ -46,7 +46,7 @@ class Place {
     LoadOptions options;
     options.set = set;
     const Scene scene = load_scene(*this / (folder + ".yaml"), options);
-    return run_scene({&scene, *this / folder, 0}, choose_engine(scene), {}, {[] {}, [](double, auto, auto) {}});
+    return run_scene({&scene, *this / folder, 0}, choose_engine(scene), {}, {[] {}, [](const RunProgress&) {}});
   }
 
   /// Compares runs into the folder `out`.

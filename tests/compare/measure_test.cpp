@@ -120,7 +120,7 @@ std::vector<Measured> measured(const Place& place, const std::string& yaml, cons
   const Scene scene = scene_of(place, yaml);
   RunSettings settings;
   for (const std::string& name : names) settings.measures.push_back(parse_measure(name, scene));
-  return run_scene({&scene, place / "run", 0}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}})
+  return run_scene({&scene, place / "run", 0}, choose_engine(scene), settings, {[] {}, [](const RunProgress&) {}})
       .facts.measures;
 }
 

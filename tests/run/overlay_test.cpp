@@ -97,7 +97,7 @@ std::string read(const std::string& path) {
 std::string run_of(const std::string& text, const std::string& name) {
   const std::string folder = test_folder() + "/" + name;
   Scene scene = load_scene(write_file(text, name + ".yaml"));
-  const RunWatch watch{[] {}, [](double, std::uint64_t, std::uint64_t) {}};
+  const RunWatch watch{[] {}, [](const RunProgress&) {}};
   RunSettings settings;
   settings.durability = Durability::deferred;
   run_scene({&scene, folder}, choose_engine(scene), settings, watch);

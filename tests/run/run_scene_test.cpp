@@ -5,31 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
-#include "render/mesh.h"
-#include "scene/load.h"
+#include "run/run_testing.h"
 #include "scene/output_kinds.h"
-#include "scene/scene.h"
 
 namespace carom {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A folder of its own for each test.
-class Place {
- public:
-  Place() {
-    std::string pattern = (fs::temp_directory_path() / "carom-run-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~Place() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 /// Small and few pictures in place of those of the scene.
 void make_small(Output& output) {
@@ -44,7 +25,7 @@ void make_small(Output& output) {
 
 /// How many simulators a run of the scene with these outputs makes.
 int simulators_of(Scene scene, const std::vector<std::string>& outputs) {
-  const Place place;
+  const RunPlace place;
   scene.output = restricted(scene.requested, outputs);
   make_small(scene.output);
   make_small(scene.requested);
@@ -55,14 +36,8 @@ int simulators_of(Scene scene, const std::vector<std::string>& outputs) {
     ++made;
     return make_simulator(of, std::move(recording), steps);
   };
-  run_scene({&scene, place / "run"}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}});
+  run_scene({&scene, place / "run"}, choose_engine(scene), settings, {[] {}, [](const RunProgress&) {}});
   return made;
-}
-
-Scene scene_at(const std::string& path) {
-  LoadOptions options;
-  options.mesh_points = [](const std::string& mesh) { return read_mesh_points(mesh); };
-  return load_scene(path, options);
 }
 
 class EverySceneRun : public ::testing::TestWithParam<std::string> {};
@@ -77,7 +52,7 @@ TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(SCENES_DIR))
+  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -91,14 +66,13 @@ const std::string ball =
     "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
 
 TEST(Run, SimulatesOnceWithEveryCombinationOfOutputs) {
-  const Place place;
+  const RunPlace place;
   const std::vector<std::string> kinds = {"trajectory", "collisions", "frames", "sheet", "xyz", "gltf", "flights"};
-  for (const std::string& more : {std::string("simulate: {duration: 1}\n"),
-                                  std::string("simulate: {duration: 2, stop: [{collisions: 3}]}\n"),
-                                  std::string("simulate: {duration: 1}\ncamera: {eye: [0, 1, 5], target: [0, 1, 0]}\n"),
-                                  std::string("simulate: {duration: 1}\nshutter: 0.5\ntrails: true\nflash: true\n")}) {
-    std::ofstream(place / "scene.yaml") << ball << more << "output: {sheet: true}\n";
-    const Scene scene = scene_at(place / "scene.yaml");
+  for (const std::string& more :
+       {std::string("simulate: {duration: 1}\n"), std::string("simulate: {duration: 2, stop: [{collisions: 3}]}\n"),
+        std::string("simulate: {duration: 1}\ncamera: {eye: [0, 1, 5], target: [0, 1, 0]}\n"),
+        std::string("simulate: {duration: 1}\nshutter: 0.5\ntrails: true\nflash: true\n")}) {
+    const Scene scene = place.scene(ball + more + "output: {sheet: true}\n");
     for (unsigned set = 0; set < 1u << kinds.size(); ++set) {
       std::vector<std::string> outputs;
       for (std::size_t k = 0; k < kinds.size(); ++k)

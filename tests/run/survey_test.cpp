@@ -4,45 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "export/picture_streams.h"
 #include "physics/world.h"
 #include "render/camera.h"
-#include "render/mesh.h"
 #include "run/engine.h"
-#include "scene/load.h"
-#include "scene/scene.h"
+#include "run/run_testing.h"
 
 namespace carom {
 namespace {
-
-namespace fs = std::filesystem;
-
-Scene scene_at(const std::string& path) {
-  LoadOptions options;
-  options.mesh_points = [](const std::string& mesh) { return read_mesh_points(mesh); };
-  return load_scene(path, options);
-}
-
-/// A folder of its own for each test.
-class Place {
- public:
-  Place() {
-    std::string pattern = (fs::temp_directory_path() / "carom-survey-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~Place() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return path_ / name; }
-  Scene scene(const std::string& yaml) const {
-    std::ofstream(path_ / "scene.yaml") << yaml;
-    return scene_at(path_ / "scene.yaml");
-  }
-
- private:
-  fs::path path_;
-};
 
 Camera surveyed(const Scene& scene, Size size = {1280, 720}) {
   MovingCamera camera(scene, size);
@@ -62,7 +32,7 @@ double filled(const Scene& scene, const Camera& camera, Size size = {1280, 720})
   const auto simulator = make_simulator(scene);
   const PictureStreams plan = plan_pictures(scene);
   for (std::int64_t i = plan.ticks.front().first(); i <= plan.ticks.front().last(); ++i) {
-    carry_to(*simulator, plan.ticks.front().at(i), scene.simulate.duration, [] {});
+    while (simulator->time() < plan.ticks.front().at(i)) simulator->advance_to(plan.ticks.front().at(i));
     const State& state = simulator->state();
     for (Entity body = 0; body < scene.world.body_count(); ++body) {
       const Vec3 p = state.position[body] - camera.eye;
@@ -99,7 +69,7 @@ const std::string marble_run =
     "0]}\nplanes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 4}\n";
 
 TEST(Survey, AMarbleRunIsInViewToItsEndWithWhatTheMarbleMeets) {
-  const Place place;
+  const RunPlace place;
   const Scene scene = place.scene(marble_run + "output: {video: true}\n");
   const Camera camera = surveyed(scene);
   const double most = filled(scene, camera);
@@ -114,7 +84,7 @@ TEST(Survey, AMarbleRunIsInViewToItsEndWithWhatTheMarbleMeets) {
 }
 
 TEST(Survey, FramesTheWindowsThatAreShown) {
-  const Place place;
+  const RunPlace place;
   const Scene early = place.scene(marble_run + "output: {video: {until: 0.5}}\n");
   const Scene whole = place.scene(marble_run + "output: {video: true}\n");
   EXPECT_LT((surveyed(early).eye - surveyed(early).target).norm(),
@@ -124,7 +94,7 @@ TEST(Survey, FramesTheWindowsThatAreShown) {
 }
 
 TEST(Survey, OfSlowMotionFramesItsInstants) {
-  const Place place;
+  const RunPlace place;
   const Scene scene = place.scene(marble_run + "output: {video: {speed: 0.125, until: 0.5}}\n");
   const double most = filled(scene, surveyed(scene));
   EXPECT_LT(most, 1);
@@ -132,7 +102,7 @@ TEST(Survey, OfSlowMotionFramesItsInstants) {
 }
 
 TEST(Survey, DoesNotDependOnWhichOutputsAreLeft) {
-  const Place place;
+  const RunPlace place;
   Scene scene = place.scene(marble_run + "output: {video: {until: 0.5}, frames: {fps: 7}}\n");
   const Camera camera = surveyed(scene);
   scene.output.frames.reset();
@@ -140,7 +110,7 @@ TEST(Survey, DoesNotDependOnWhichOutputsAreLeft) {
 }
 
 TEST(Survey, AMotionThatFailsIsFramedAsFarAsItGoes) {
-  const Place place;
+  const RunPlace place;
   const Scene scene = place.scene(marble_run + "output: {video: true}\n");
   Scene failing = scene;
   failing.simulate.max_collisions = 1;

@@ -25,7 +25,7 @@ double measured(const std::string& name, const std::string& measure) {
   const std::string folder =
       (std::filesystem::temp_directory_path() / fmt::format("carom_rules_{}_{}", name, getpid())).string();
   const std::vector<Measured> all =
-      run_scene({&scene, folder, 0}, choose_engine(scene), {}, {[] {}, [](double, auto, auto) {}}).summary.measures;
+      run_scene({&scene, folder, 0}, choose_engine(scene), {}, {[] {}, [](const RunProgress&) {}}).summary.measures;
   std::filesystem::remove_all(folder);
   const auto found = std::find_if(all.begin(), all.end(), [&](const Measured& one) { return one.name == measure; });
   EXPECT_NE(found, all.end()) << measure;

@@ -1,0 +1,62 @@
+#pragma once
+// What a run is asked for besides its scene, how it reports, and what it returns.
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "files/publication.h"
+#include "files/summary.h"
+#include "run/engine.h"
+#include "run/measure.h"
+#include "simulate/simulator.h"
+
+namespace carom {
+
+struct Manifest;
+struct Scene;
+
+struct RunProgress {
+  /// settling: short runs find the steps for a tolerance.
+  enum class Phase { settling, simulating, drawing, writing };
+  Phase phase = Phase::simulating;
+  double time = 0;               // s, simulated
+  std::uint64_t collisions = 0;  // so far
+  std::uint64_t pictures = 0;    // drawn, of all shows
+};
+
+struct RunWatch {
+  /// Called often, by any thread. May throw.
+  std::function<void()> stop_check;
+  /// Called often by the caller's thread.
+  std::function<void(const RunProgress&)> report_progress;
+};
+
+struct RunSettings {
+  Durability durability = Durability::synced;
+  /// Measures for the manifest, besides those of the scenes.
+  std::vector<Measure> measures{};
+  /// The manifest of a former run with this motion, which supplies warnings and measures. Null: there is none.
+  const Manifest* former = nullptr;
+  /// Makes simulators of a recorded motion, in place of a simulation. May be unset.
+  std::function<std::unique_ptr<Simulator>(const Scene&)> replay{};
+  /// Makes the simulator of a simulation.
+  std::function<std::unique_ptr<Simulator>(const Scene&, Recording, const StepChoice&)> simulator =
+      [](const Scene& scene, Recording recording, const StepChoice& steps) {
+        return make_simulator(scene, std::move(recording), steps);
+      };
+};
+
+struct RunResult {
+  Summary summary;
+  RunFacts facts;
+  EngineChoice engine{};  // with its steps settled
+  /// The whole run, including finishing the files.
+  double wall_s = 0;
+  /// The error of this show alone: RenderError or ExportError. If it is set, all other members are meaningless.
+  std::exception_ptr failure{};
+};
+
+}  // namespace carom

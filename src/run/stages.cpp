@@ -1,0 +1,181 @@
+// Whatever is done for one folder is guarded, so that an error of one of many pictures does not end the others' run.
+#include "run/stages.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "files/manifest.h"
+#include "run/warnings.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Whether something that the scene requests is spread over the whole run, which may end early.
+bool needs_end(const Scene& scene) {
+  const auto whole = [](const Output& output) { return output.plots || (output.sheet && !output.sheet->until); };
+  return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
+}
+
+}  // namespace
+
+bool draws_after_motion(const Scene& scene) {
+  return may_stop(scene) || frames_motion(scene);
+}
+
+Stages::Stages(std::span<const Show> shows, const RunSettings& settings, std::function<void()> stop_check)
+    : shows_(shows.begin(), shows.end()),
+      settings_(settings),
+      stop_check_(std::move(stop_check)),
+      stages_(shows.size()),
+      failures_(shows.size()) {
+  for (std::size_t i = 0; i < shows_.size(); ++i) guarded(i, [&] { open(i); });
+}
+
+/// Opens the folder of a show. The end of its run may become known later.
+void Stages::open(std::size_t i) {
+  Show& show = shows_[i];
+  check_flights(*show.scene);
+  if (needs_end(*show.scene)) show.scene = &ending_.emplace_back(*show.scene);
+  stages_[i] = std::make_unique<Stage>(show, settings_.durability, measures_of(*show.scene));
+}
+
+/// The measures of a scene and those of the settings, unless a former run has them.
+std::vector<Measure> Stages::measures_of(const Scene& scene) const {
+  if (settings_.former != nullptr) return {};
+  std::vector<Measure> measures = own_measures(scene);
+  measures.insert(measures.end(), settings_.measures.begin(), settings_.measures.end());
+  return measures;
+}
+
+bool Stages::has_failed(std::size_t i) {
+  const std::lock_guard lock(failing_);
+  return failures_[i] != nullptr;
+}
+
+void Stages::guarded(std::size_t i, const std::function<void()>& work) {
+  if (has_failed(i)) return;
+  try {
+    work();
+  } catch (const std::exception&) {
+    // ffmpeg also receives a Ctrl-C and ends first. What looks like a write error is then the interrupt.
+    stop_check_();
+    if (shows_.size() == 1) throw;
+    const std::lock_guard lock(failing_);
+    failures_[i] = std::current_exception();
+  }
+}
+
+void Stages::each(const std::function<void(Stage&)>& work) {
+  for (std::size_t i = 0; i < stages_.size(); ++i) guarded(i, [&] { work(*stages_[i]); });
+}
+
+std::vector<Stages::Standing> Stages::standing() {
+  std::vector<Standing> standing;
+  for (std::size_t i = 0; i < stages_.size(); ++i)
+    if (!has_failed(i)) standing.push_back({stages_[i].get(), i});
+  return standing;
+}
+
+Recording Stages::recording() const {
+  Recording recording;
+  for (const auto& stage : stages_) {
+    if (!stage) continue;
+    const Scene& scene = stage->scene;
+    const bool paths = scene.output.flights || stage->exports.draws();
+    recording.paths = recording.paths || paths;
+    recording.collisions = recording.collisions || scene.output.needs_collisions() ||
+                           stage->measuring.needs_collisions() || (paths && drawings_show_collisions(scene));
+    const std::vector<WatchedQuantity>& watched = stage->measuring.watched();
+    recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
+  }
+  return recording;
+}
+
+bool Stages::draw() {
+  return std::ranges::any_of(standing(), [](const Standing& each) { return each.stage->exports.draws(); });
+}
+
+bool Stages::wait() const {
+  return std::ranges::any_of(shows_, [](const Show& show) { return draws_after_motion(*show.scene); });
+}
+
+void Stages::take_end(const std::optional<RunEnd>& end) {
+  if (!end) return;
+  for (Scene& scene : ending_)
+    if (end->time < scene.simulate.duration) scene.ends_at = end->time;
+}
+
+void Stages::begin_drawings() {
+  each([&](Stage& stage) {
+    if (stage.exports.draws() && !stage.drawings) stage.begin_drawings(stop_check_);
+  });
+}
+
+std::uint64_t Stages::pictures() const {
+  std::uint64_t pictures = 0;
+  for (const auto& stage : stages_)
+    if (stage) pictures += stage->exports.frames();
+  return pictures;
+}
+
+std::vector<RunResult> Stages::finish(const Done& done) {
+  std::vector<RunResult> results(shows_.size());
+  for (std::size_t i = 0; i < shows_.size(); ++i) {
+    guarded(i, [&] { finish(i, done, results[i]); });
+    results[i].failure = failures_[i];
+  }
+  return results;
+}
+
+void Stages::finish(std::size_t i, const Done& done, RunResult& result) {
+  Stage& stage = *stages_[i];
+  const State& end = done.simulator.state();
+  const Tally& tally = done.simulator.tally();
+  result.engine = done.engine;
+  result.summary = account_of(stage.scene, done.engine, done.start, end, tally);
+  result.summary.warnings = settings_.former != nullptr
+                                ? settings_.former->warnings
+                                : warnings_of(stage.scene, done.engine, end, result.summary, tally);
+  result.summary.status = result.summary.warnings.empty() ? "done" : "doubtful";
+  result.summary.frames = stage.exports.frames();
+
+  result.facts = stage.facts();
+  result.facts.simulate_s = done.simulate_s;
+  result.facts.peak_memory = peak_memory();
+  result.facts.left_out = stage.exports.left_out();
+  take_measures(i, done, result);
+  stage.exports.finish(result.summary, result.facts);
+}
+
+void Stages::take_measures(std::size_t i, const Done& done, RunResult& result) const {
+  const Stage& stage = *stages_[i];
+  if (const Manifest* former = settings_.former; former != nullptr) {
+    if (result.summary.collisions != former->collisions)
+      throw ExportError(
+          fmt::format("the motion differs: {} collisions, not {}", result.summary.collisions, former->collisions));
+    result.facts.measures = former->measures;
+  } else {
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < i; ++k)
+      if (stages_[k]) first += stages_[k]->measuring.watched().size();
+    const std::vector<Extremes> all = done.simulator.extremes();
+    const auto own = std::span(all).subspan(first, stage.measuring.watched().size());
+    result.facts.measures = stage.measuring.values({done.simulator.state(), result.summary, own});
+  }
+
+  for (const OwnMeasure& own : stage.scene.measures.own)
+    for (const Measured& measured : result.facts.measures)
+      if (measured.name == own.name) result.summary.measures.push_back(measured);
+}
+
+}  // namespace carom

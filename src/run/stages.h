@@ -1,0 +1,77 @@
+#pragma once
+// The folders of one run, by show. All shows have the same motion. One that fails leaves the others as they are.
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "run/account.h"
+#include "run/run_settings.h"
+#include "run/stage.h"
+
+namespace carom {
+
+/// Whether a run of the scene draws when its motion is over, and not while it is simulated.
+bool draws_after_motion(const Scene& scene);
+
+class Stages {
+ public:
+  /// Opens the folder of each show. Throws the failure of a single one, and what `stop_check` throws.
+  Stages(std::span<const Show> shows, const RunSettings& settings, std::function<void()> stop_check);
+
+  /// Does some work for a show. Its failure is thrown if the show is the only one. Otherwise the show is left out from
+  /// here on. Any thread may call it.
+  void guarded(std::size_t show, const std::function<void()>& work);
+  /// The same for each show that has not failed.
+  void each(const std::function<void(Stage&)>& work);
+  /// The stages that have not failed, and their shows.
+  struct Standing {
+    Stage* stage;
+    std::size_t show;
+  };
+  std::vector<Standing> standing();
+
+  /// What the simulator has to record for all.
+  Recording recording() const;
+  /// Whether any of them has something to draw.
+  bool draw();
+  /// Whether drawings need to know more of the motion than the present (draws_after_motion).
+  bool wait() const;
+  /// What is known of the run's end when the motion is over.
+  void take_end(const std::optional<RunEnd>& end);
+  void begin_drawings();
+
+  /// The pictures of all so far.
+  std::uint64_t pictures() const;
+  /// What a run has done, for the results.
+  struct Done {
+    const EngineChoice& engine;
+    const StoredEnergy& start;  // at time 0
+    Simulator& simulator;       // at the end
+    double simulate_s;          // wall time
+  };
+  /// Finishes the folders. Results are in the order of the shows.
+  std::vector<RunResult> finish(const Done& done);
+
+ private:
+  void open(std::size_t show);
+  bool has_failed(std::size_t show);
+  std::vector<Measure> measures_of(const Scene& scene) const;
+  void finish(std::size_t show, const Done& done, RunResult& result);
+  void take_measures(std::size_t show, const Done& done, RunResult& result) const;
+
+  std::vector<Show> shows_;
+  const RunSettings& settings_;
+  const std::function<void()> stop_check_;
+  std::deque<Scene> ending_;  // those of shows that wait for the run's end
+  // By show. It is null, or not used any more, where the show has failed.
+  std::vector<std::unique_ptr<Stage>> stages_;
+  std::mutex failing_;
+  std::vector<std::exception_ptr> failures_;  // by show
+};
+
+}  // namespace carom
