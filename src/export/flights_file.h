@@ -4,29 +4,35 @@
 // The format is little-endian, with doubles as in IEEE 754. A header of 32 bytes comes first:
 //   8 bytes "caromfly", u32 version (7), u32 0x01020304, u64 number of bodies, f64 duration (s)
 // The number of bodies has 2^63 more if collisions are recorded.
-// Then come entries, sorted by the time from which they hold.
-// Each is u32 body (in the order of the scene file), u32 flags, and for each flag set, in this order:
-//   always   start: f64 hi, f64 lo (s, their sum); x, y, z (m) and vx, vy, vz (m/s) at start
-//   1        ax, ay, az (m/s^2); without it, that of the body's previous entry
-//   2        from: f64 (s), the first double at which it holds; without it: hi, or if lo > 0 the next double
-//   4        until: f64 hi, f64 lo (s); hx, hy, hz (m/s^2)
-//   8        the body has merged into another: u64 which; the other one's entries are its own from here on
-//   16       others have merged into it; its new f64 mass (kg), f64 radius (m), 3 f64 half extents (m)
-//   32       f64 length L (s), then c1 to c8 (m) and p (m/s): x, y, z of each
-//   64       the body has left the world
-//   128      f64 rate (1/s): linear drag
-//   256      the velocities are those of Verlet's method
-//   512      a motion in closed form from start on, with the forces of then
-//   1024     f64 rounding (s): a straight line before start - rounding, and x itself from there on
-// The number 0xfffffffe of a body means a collision: u32 kind, u32 a, u32 b, f64 time (s).
-// At a time T let s = (T - hi) - lo. The position is x + s (v + (s/2) a), and the velocity is v + s a.
-// With flag 32 let u = s / L. The position is x + c1 u + ... + c8 u^8, the velocity v - p + (2 c2 u + ... + 8 c8 u^7) /
-// L, both by Horner's scheme. Flag 4 subtracts (until - T) h from the velocity.
 //
+// Then come blocks of entries, sorted by the time from which they hold. Each has a header of 24 bytes:
+//   u32 kind (0 entries; 1 key, 2 more of the same key), u32 entries, u32 bytes that follow,
+//   u32 CRC-32 of this header with 0 in this place and of these bytes, f64 time (s) at which it begins
+// A key repeats the present piece of every body, so that a reader may begin there. Others pass over it.
+// flight_columns.cpp describes the columns of a block, and path_codec.cpp what they have of an entry.
+//
+// A piece of a path has: body, start (two f64, s, their sum), `from` (s, the first double at which it holds), x (m), v
+// (m/s) and a (m/s^2) at start; and for some
+//   kicked   until: two f64 (s); kick (m/s^2)
+//   curve    f64 length L (s), then c1 to c8 (m) and p (m/s)
+//   part     the body has merged into another: which; the other one's entries are its own from here on
+//   joint    others have merged into it; its new mass (kg), radius (m) and half extents (m)
+//   removed  the body has left the world
+//   fading   f64 rate (1/s): linear drag
+//   verlet   the velocities are those of Verlet's method
+//   closed   a motion in closed form from start on, with the forces of then
+//   frame    f64 rounding (s): a straight line before start - rounding, and x itself from there on
+// At a time T let s = (T - hi) - lo. The position is x + s (v + (s/2) a), and the velocity is v + s a. Of a curve let
+// u = s / L. The position is x + c1 u + ... + c8 u^8, the velocity v - p + (2 c2 u + ... + 8 c8 u^7) / L, both by
+// Horner's scheme. A kicked piece has (until - T) kick less velocity.
+// A collision has: kind, a, b, f64 time (s).
+//
+// The index has for each key: f64 time (s), u64 place in the file, u64 entries before it.
 // The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
-//   u64: entries, body-body collisions, body-fixed collisions, merges, strings that went taut, clusters that became
-//        lasting contacts, bodies at rest at the end, impacts that contact took up; instants with impacts that share a
-//        body, of these with ties, and with bodies that had no room; such a body, and two things that it met at once
+//   u64: keys, entries, body-body collisions, body-fixed collisions, merges, strings that went taut, clusters that
+//        became lasting contacts, bodies at rest at the end, impacts that contact took up; instants with impacts that
+//        share a body, of these with ties, and with bodies that had no room; such a body, and two things that it met at
+//        once
 //   f64: first and last collision (s, NaN: none), energy lost (J), work (J), deepest overlap (m), greatest speed (m/s),
 //        lasting contact in crowds (s, summed over bodies), and of the impacts that contact took up
 //        the fastest (m/s) and their energy (J); the first instant with impacts that share a body (s, NaN: none), and
@@ -42,12 +48,14 @@
 #include <string>
 #include <vector>
 
+#include "export/path_codec.h"
 #include "export/writer.h"
 #include "physics/recorded.h"
 
 namespace carom {
 
 struct Scene;
+struct World;
 
 inline constexpr const char* flights_name = "flights.bin";
 
@@ -56,6 +64,13 @@ inline constexpr std::uint64_t largest_flights = 1'000'000'000;
 
 /// An estimate of the bytes of pieces that events begin, and of those of a crowd's steps.
 double flight_bytes(double of_events, double of_crowd);
+
+/// A place at which a reader may begin.
+struct FlightsKey {
+  double time = 0;            // s
+  std::uint64_t place = 0;    // in the file
+  std::uint64_t entries = 0;  // before it
+};
 
 class FlightsFile final : public Writer {
  public:
@@ -79,20 +94,33 @@ class FlightsFile final : public Writer {
   bool has_collisions() const { return has_collisions_; }
 
  private:
+  FlightsFile(const Scene& scene, std::uint64_t most);
   void begin(const Scene& scene);
+  void put(const PathPiece& piece, const PathPiece* next);
   void put(const CollisionMark& collision);
-  void put(const PathPiece& piece);
-  void written(const char* end, std::size_t size);
+  void count();
+  void end_block(std::uint32_t kind, ColumnWriter& columns, std::uint32_t entries, double time);
+  void put_key();
 
   std::optional<OutputFile> file_;
   const bool has_collisions_;
   bool keeps_whole_ = false;
-  std::uint64_t most_, bytes_ = 0, entries_ = 0;
+  const World& world_;
+  std::uint64_t most_;   // bytes
+  std::uint64_t bytes_;  // so far, with those of the end
+  std::uint64_t entries_ = 0;
   std::vector<Collision> collisions_;  // not yet written
-  std::vector<Vec3> acceleration_;     // m/s^2, by body: that of its previous entry
+  PathCodec codec_;
+  // The present block: its columns, its entries, and when it begins (s).
+  ColumnWriter columns_;
+  std::uint32_t in_block_ = 0;
+  double block_time_ = 0;
+  std::vector<char> packed_;
+  std::vector<FlightsKey> keys_;
+  std::uint64_t next_key_;  // the number of bytes from which on a key is due
 };
 
-/// Reads such a file once, from start to end.
+/// Reads such a file, in blocks.
 class FlightsReader {
  public:
   /// `scene`: the scene of the run. Throws ExportError if the file is another scene's, incomplete or unreadable.
@@ -101,32 +129,44 @@ class FlightsReader {
   FlightsReader(Descriptor file, const std::string& path, const Scene& scene);
   /// Reads the next piece or collision. False: the end. Throws ExportError.
   bool next(Recorded& recorded);
+  /// The next parts read are the present piece of each body at `time` (s), in order of `from`, and then all that come
+  /// later. Throws ExportError.
+  void seek(double time);
   bool has_collisions() const { return has_collisions_; }
   const Tally& tally() const { return tally_; }  // at the end of the run
 
  private:
   [[noreturn]] void refuse(const std::string& reason) const;
-  void fill(std::size_t size);
-  void take_end(std::uint64_t offset, const Scene& scene);
-  void take_piece(PathPiece& piece);
-  CollisionMark take_collision();
+  void load(std::uint64_t place, std::size_t size);
+  void take_header(std::uint64_t size, const Scene& scene);
+  void take_tail(std::uint64_t size, const Scene& scene);
+  void take_end(std::uint64_t place, const Scene& scene);
+  void take_keys(std::uint64_t count);
+  struct Block;
+  Block take_block(bool keys);
+  void read_key();
+  bool read(Recorded& recorded);
+  void read_entry(Recorded& recorded);
+  void check(const PathPiece& piece) const;
+  void check(const CollisionMark& collision) const;
   template <typename T>
   T take();
-  Vec3 take_vector();
-  std::shared_ptr<const PolynomialPath> take_curve();
 
   std::string path_;  // of the folder, for messages
   Descriptor file_;
   std::vector<char> buffer_;
-  std::size_t at_ = 0, end_ = 0;  // the unread range of the buffer
-  /// Bytes of the file not yet in the buffer, without the tail.
-  std::uint64_t left_ = 0;
-  std::uint64_t entries_ = 0;  // entries not yet read
-  Entity entities_ = 0;        // bodies and all that they meet
+  std::size_t at_ = 0;  // the start of what is not yet read of the buffer
+  // Places in the file: of the next block, and behind the last one.
+  std::uint64_t place_ = 0;
+  std::uint64_t end_ = 0;
+  std::uint64_t entries_ = 0;
+  std::uint64_t left_ = 0;      // entries not yet read
+  std::uint32_t in_block_ = 0;  // and those of the present block
   bool has_collisions_ = false;
-  /// In s, the time from which the previous entry holds.
-  double last_ = 0;
-  std::vector<Vec3> acceleration_;  // m/s^2, by body: that of its previous entry
+  ColumnReader columns_;
+  PathCodec codec_;
+  std::vector<FlightsKey> keys_;
+  std::vector<Recorded> held_;  // to be read first, from the last one on
   Tally tally_;
 };
 

@@ -162,6 +162,10 @@ std::string wrong_file(int folder, const Manifest& manifest, const std::function
   return {};
 }
 
+std::string run_again(const std::string& folder) {
+  return "carom run " + folder + "/scene.yaml -o " + folder + " --force runs it again";
+}
+
 void sync_file_system(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   if (!folder || syncfs(folder.get()) != 0) fail("write", {-1, path}, "");

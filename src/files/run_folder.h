@@ -22,6 +22,9 @@ struct ExportError : std::runtime_error {
 /// For many small runs the caller syncs the file system from time to time (sync_file_system).
 enum class Durability { synced, deferred };
 
+/// The command that makes the run in `folder` anew, as the second line of an error.
+std::string run_again(const std::string& folder);
+
 /// Writes all pending data of the file system of `path` to disk. Throws ExportError.
 void sync_file_system(const std::string& path);
 

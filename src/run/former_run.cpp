@@ -30,7 +30,7 @@ namespace {
 }
 
 [[noreturn]] void refuse_damaged(const std::string& folder, const std::string& reason) {
-  refuse(reason, fmt::format("carom run {}/scene.yaml -o {} --force runs it again", folder, folder));
+  refuse(reason, run_again(folder));
 }
 
 /// The names of outputs in its manifest.

@@ -1,0 +1,276 @@
+// Reads blocks of entries. It checks every entry, because a wrong path would give wrong results without notice.
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "export/flights_file.h"
+#include "export/flights_format.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
+#include "physics/world.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+using namespace flights_format;
+
+namespace {
+
+/// What a reader takes of a damaged file at most.
+constexpr std::size_t largest_block = std::size_t{1} << 20;
+
+}  // namespace
+
+FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& scene)
+    : FlightsReader(open_stored(folder, flights_name), path, scene) {}
+
+FlightsReader::FlightsReader(Descriptor file, const std::string& path, const Scene& scene)
+    : path_(path), file_(std::move(file)), codec_(scene.world) {
+  struct stat info {};
+  if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is not a file");
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  take_header(size, scene);
+  take_tail(size, scene);
+  place_ = header_size;
+  left_ = entries_;
+}
+
+void FlightsReader::take_header(std::uint64_t size, const Scene& scene) {
+  if (size < header_size) refuse("it is truncated");
+  load(0, header_size);
+  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
+  at_ = magic.size();
+  if (take<std::uint32_t>() != version)
+    refuse(fmt::format("another version of carom wrote it\n  {}", run_again(path_)));
+  if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
+  if (size < header_size + tail_size) refuse("it is truncated");
+  const auto bodies = take<std::uint64_t>();
+  has_collisions_ = (bodies & collisions_bit) != 0;
+  if ((bodies & ~collisions_bit) != scene.world.body_count() || take<double>() != scene.simulate.duration)
+    refuse("it belongs to another scene");
+}
+
+/// Reads the tail, and what comes before it behind the blocks.
+void FlightsReader::take_tail(std::uint64_t size, const Scene& scene) {
+  load(size - tail_size, tail_size);
+  if (take<std::uint32_t>() != last_entry) refuse("it is truncated");
+  const auto has_end = take<std::uint32_t>();
+  if (has_end > 1) refuse("it is truncated");
+  const auto keys = take<std::uint64_t>();
+  entries_ = take<std::uint64_t>();
+  for (std::uint64_t* count : counts_of(tally_)) *count = take<std::uint64_t>();
+  for (Entity* entity : {&tally_.shared.body, &tally_.shared.one, &tally_.shared.other}) {
+    const auto number = take<std::uint64_t>();
+    if (tally_.shared.instants > 0 && number >= scene.world.entity_count()) refuse("it is damaged");
+    *entity = static_cast<Entity>(number);
+  }
+  for (double* value : values_of(tally_)) *value = take<double>();
+
+  std::uint64_t left = size - header_size - tail_size;
+  if (has_end == 1) {
+    if (left < end_size) refuse("it is truncated");
+    left -= end_size;
+    take_end(header_size + left, scene);
+  }
+  if (keys > left / key_size) refuse("it is truncated");
+  end_ = header_size + left - keys * key_size;
+  take_keys(keys);
+}
+
+/// Reads what has ended the run, at `place` in the file, and what it has lost.
+void FlightsReader::take_end(std::uint64_t place, const Scene& scene) {
+  load(place, end_size);
+  const auto time = take<double>();
+  const auto reason = take<std::uint32_t>(), region = take<std::uint32_t>();
+  tally_.removed.bodies = take<std::uint64_t>();
+  tally_.removed.energy = take<double>();
+  for (int k = 0; k < 3; ++k) tally_.removed.momentum[k] = take<double>();
+  if (std::isnan(time)) return;
+  const auto by = static_cast<EndReason>(reason);
+  if (!(time >= 0 && time <= scene.simulate.duration) || reason > static_cast<std::uint32_t>(EndReason::region) ||
+      (by == EndReason::region && region >= scene.world.regions.size()))
+    refuse("it is damaged");
+  tally_.end = RunEnd{time, by, region};
+}
+
+void FlightsReader::take_keys(std::uint64_t count) {
+  FlightsKey last{0, header_size, 0};
+  for (std::uint64_t k = 0; k < count; ++k) {
+    load(end_ + k * key_size, key_size);
+    FlightsKey key;
+    key.time = take<double>();
+    key.place = take<std::uint64_t>();
+    key.entries = take<std::uint64_t>();
+    if (!(key.time >= last.time) || key.place < last.place || key.place >= end_ || key.entries < last.entries ||
+        key.entries > entries_)
+      refuse("it is damaged");
+    keys_.push_back(last = key);
+  }
+}
+
+struct FlightsReader::Block {
+  std::uint32_t kind = 0, entries = 0;
+  double time = 0;  // s
+};
+
+/// Reads the next block. `keys`: only a key's columns are taken; without it, only those of entries.
+FlightsReader::Block FlightsReader::take_block(bool keys) {
+  if (end_ - place_ < block_head) refuse("it is damaged");
+  load(place_, block_head);
+  Block block;
+  block.kind = take<std::uint32_t>();
+  block.entries = take<std::uint32_t>();
+  const std::size_t bytes = take<std::uint32_t>();
+  const auto checksum = take<std::uint32_t>();
+  block.time = take<double>();
+  if (block.kind > more_of_key || bytes > largest_block || bytes > end_ - place_ - block_head ||
+      !std::isfinite(block.time))
+    refuse("it is damaged");
+
+  if (keys == (block.kind != of_entries)) {
+    load(place_, block_head + bytes);
+    std::memset(buffer_.data() + checksum_place, 0, sizeof checksum);
+    if (checksum_of(buffer_) != checksum || !columns_.unpack(std::span(buffer_).subspan(block_head)))
+      refuse("it is damaged");
+  }
+  place_ += block_head + bytes;
+  return block;
+}
+
+bool FlightsReader::next(Recorded& recorded) {
+  if (!held_.empty()) {
+    recorded = std::move(held_.back());
+    held_.pop_back();
+    return true;
+  }
+  return read(recorded);
+}
+
+/// Reads the next entry, with the block that it is in.
+bool FlightsReader::read(Recorded& recorded) {
+  while (in_block_ == 0) {
+    if (!columns_.at_end()) refuse("it is damaged");
+    if (place_ == end_ && left_ == 0) return false;
+    const double last = codec_.from();
+    const Block block = take_block(false);
+    if (block.kind != of_entries) continue;
+    if (block.entries > left_ || block.time < last) refuse("it is damaged");
+    in_block_ = block.entries;
+    codec_.begin_block(block.time);
+  }
+  read_entry(recorded);
+  --in_block_;
+  --left_;
+  return true;
+}
+
+/// Reads an entry of the present block.
+void FlightsReader::read_entry(Recorded& recorded) {
+  const double last = codec_.from();
+  recorded = {};
+  if (!codec_.read(columns_, recorded)) refuse("it is damaged");
+  if (recorded.kind == Recorded::Kind::collision) return check(recorded.collision);
+  if (!(recorded.piece.from >= last)) refuse("it is damaged");
+  check(recorded.piece);
+}
+
+void FlightsReader::check(const CollisionMark& collision) const {
+  const bool known = collision.kind <= CollisionKind::string;
+  if (!known || !has_collisions_ || !std::isfinite(collision.time)) refuse("it is damaged");
+}
+
+void FlightsReader::check(const PathPiece& piece) const {
+  const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  bool right = std::isfinite(piece.from) && finite(piece.start) && finite(piece.until);
+  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick}) right = right && v->allFinite();
+  right = right && std::isfinite(piece.fade) && std::isfinite(piece.rounding) && piece.part_of != piece.body;
+  if (piece.joint)
+    right =
+        right && positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0;
+  if (piece.curve) {
+    right = right && positive(piece.curve->length) && piece.curve->ahead.allFinite();
+    for (const Vec3& term : piece.curve->displacement) right = right && term.allFinite();
+  }
+  if (!right) refuse("it is damaged");
+}
+
+void FlightsReader::seek(double time) {
+  held_.clear();
+  codec_.restart();
+  columns_ = {};
+  in_block_ = 0;
+  place_ = header_size;
+  left_ = entries_;
+  if (const auto later = std::ranges::upper_bound(keys_, time, {}, &FlightsKey::time); later != keys_.begin()) {
+    place_ = std::prev(later)->place;
+    left_ = entries_ - std::prev(later)->entries;
+    read_key();
+  }
+
+  // The next entry is known only when it is read.
+  std::vector<PathPiece> present = codec_.present();
+  Recorded recorded;
+  bool more = read(recorded);
+  for (; more && recorded.from() <= time; more = read(recorded))
+    if (recorded.kind == Recorded::Kind::piece) present[recorded.piece.body] = recorded.piece;
+
+  std::ranges::stable_sort(present, {}, &PathPiece::from);
+  for (PathPiece& piece : present)
+    if (piece.body != no_entity) held_.push_back({Recorded::Kind::piece, std::move(piece), {}});
+  if (more) held_.push_back(recorded);
+  std::ranges::reverse(held_);
+}
+
+/// Reads the present pieces of all bodies.
+void FlightsReader::read_key() {
+  std::uint32_t kind = of_key;
+  double last = 0;  // s
+  for (std::uint64_t begin = place_; begin < end_; begin = place_) {
+    const Block block = take_block(true);
+    if (block.kind != kind) {
+      place_ = begin;
+      break;
+    }
+    if (block.time < last) refuse("it is damaged");
+    codec_.begin_block(block.time);
+    Recorded recorded;
+    for (std::uint32_t k = 0; k < block.entries; ++k) read_entry(recorded);
+    if (!columns_.at_end()) refuse("it is damaged");
+    last = codec_.from();
+    kind = more_of_key;
+  }
+  if (kind == of_key) refuse("it is damaged");
+}
+
+void FlightsReader::load(std::uint64_t place, std::size_t size) {
+  buffer_.resize(size);
+  at_ = 0;
+  for (std::size_t have = 0; have < size;) {
+    const ssize_t n = pread(file_.get(), buffer_.data() + have, size - have, static_cast<off_t>(place + have));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read", {-1, path_}, flights_name);
+    if (n == 0) refuse("it is truncated");
+    have += static_cast<std::size_t>(n);
+  }
+}
+
+template <typename T>
+T FlightsReader::take() {
+  T value;
+  std::memcpy(&value, buffer_.data() + at_, sizeof value);
+  at_ += sizeof value;
+  return value;
+}
+
+void FlightsReader::refuse(const std::string& reason) const {
+  fail("use", {-1, path_}, flights_name, reason);
+}
+
+}  // namespace carom
