@@ -42,13 +42,13 @@ constexpr double gif_bytes = 6.5, webp_bytes = 1.4;
 // Until the first picture.
 constexpr double first_picture_s = 0.3;
 // For a pixel.
-constexpr double pixel_s = 8e-9;
+constexpr double pixel_s = 5e-9;
 // For each sample of a pixel.
-constexpr double sample_s = 3e-9;
+constexpr double sample_s = 2e-9;
 // For a pixel as PNG, encoded beside the drawing.
-constexpr double png_pixel_s = 4e-9;
+constexpr double png_pixel_s = 2.5e-9;
 // For a pixel of a film.
-constexpr double film_pixel_s = 8e-9;
+constexpr double film_pixel_s = 5e-9;
 // For the charts of plots/.
 constexpr double plots_s = 0.35;
 // For a byte of a table.
