@@ -86,12 +86,34 @@ void FlightsFile::record(std::span<const Collision> collisions) {
   if (has_collisions_) collisions_.insert(collisions_.end(), collisions.begin(), collisions.end());
 }
 
+/// The last piece is held until the next one is known, so that the bytes do not depend on where an advance ends.
 void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
   const PathPiece* const end = pieces.data() + pieces.size();
   in_order(
-      collisions_, pieces, [this](const CollisionMark& mark) { put(mark); },
-      [this, end](const PathPiece& piece) { put(piece, &piece + 1 == end ? nullptr : &piece + 1); });
+      collisions_, pieces,
+      [this](const CollisionMark& mark) {
+        if (held_)
+          held_marks_.push_back(mark);
+        else
+          put(mark);
+      },
+      [this, end](const PathPiece& piece) {
+        put_held(&piece);
+        if (&piece + 1 == end)
+          held_ = piece;
+        else
+          put(piece, &piece + 1);
+      });
   collisions_.clear();
+}
+
+/// Writes what is held, before the piece `next`.
+void FlightsFile::put_held(const PathPiece* next) {
+  if (!held_) return;
+  put(*held_, next);
+  held_.reset();
+  for (const CollisionMark& mark : held_marks_) put(mark);
+  held_marks_.clear();
 }
 
 void FlightsFile::put(const CollisionMark& collision) {
@@ -165,6 +187,7 @@ void FlightsFile::put_key() {
 
 void FlightsFile::end(const Tally& tally) {
   record_paths({});
+  put_held(nullptr);
   if (file_ && in_block_ > 0) end_block(of_entries, columns_, in_block_, block_time_);
   if (!file_) return;
 

@@ -96,6 +96,7 @@ class FlightsFile final : public Writer {
  private:
   FlightsFile(const Scene& scene, std::uint64_t most);
   void begin(const Scene& scene);
+  void put_held(const PathPiece* next);
   void put(const PathPiece& piece, const PathPiece* next);
   void put(const CollisionMark& collision);
   void count();
@@ -109,7 +110,10 @@ class FlightsFile final : public Writer {
   std::uint64_t most_;   // bytes
   std::uint64_t bytes_;  // so far, with those of the end
   std::uint64_t entries_ = 0;
-  std::vector<Collision> collisions_;  // not yet written
+  // Not yet written: since the last advance; the last piece before it, and the collisions after that piece.
+  std::vector<Collision> collisions_;
+  std::optional<PathPiece> held_;
+  std::vector<CollisionMark> held_marks_;
   PathCodec codec_;
   // The present block: its columns, its entries, and when it begins (s).
   ColumnWriter columns_;

@@ -50,6 +50,7 @@ class Run {
     if (!stages_.draw()) return simulate({});
     if (!settings_.replay) return stages_.wait() ? simulate_then_draw() : simulate_and_draw();
     simulate({});
+    stages_.take_end(simulator_->tally().end);
     draw_by([this] { return settings_.replay(scene_); });
   }
 
