@@ -4,20 +4,25 @@
 // A packed block has for each column u32 bytes and u32 packed bytes (0: they are as they are), then u64 bits. Then come
 // the columns, each a stream of deflate (RFC 1951) if it is packed, and the bits in words of u64, the first one lowest.
 //
-// ISA-L packs the columns of a pile in two fifths of zlib's time, into 3 % more bytes, or 0.3 % of the file. As in
-// pictures, its bytes are the same on all processors with SSE4.2.
+// zlib packs the columns. ISA-L gives the file the same size to 1 % and takes the same time in all, but the bytes of
+// its level 1 depend on the address of its state (2.30: `.write_first_byte` of igzip_icf_body_h1_gr_bt.asm takes the
+// hash of the third byte from what a register was left with).
 #include "export/flight_columns.h"
 
-#include <isa-l/igzip_lib.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "files/run_folder.h"
-#include "numerics/processor.h"
 
 namespace carom {
 namespace {
+
+/// Of matches, only runs of equal bytes: others cost half of the time, and gain nothing.
+constexpr int level = 1;
+constexpr int strategy = Z_RLE;
+constexpr int memory = 8;  // zlib's default
 
 struct ColumnSizes {
   std::uint32_t bytes[column_count][2];  // of each column, and packed
@@ -35,28 +40,37 @@ constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
 }  // namespace
 
+/// zlib's state, which serves all columns.
+struct ColumnWriter::Deflation {
+  z_stream stream{};
+
+  Deflation() {
+    if (deflateInit2(&stream, level, Z_DEFLATED, -MAX_WBITS, memory, strategy) != Z_OK)
+      throw ExportError("cannot compress flights: there is too little memory");
+  }
+  ~Deflation() { deflateEnd(&stream); }
+  Deflation(const Deflation&) = delete;
+  Deflation& operator=(const Deflation&) = delete;
+};
+
+ColumnWriter::ColumnWriter() : deflation_(std::make_unique<Deflation>()) {}
+ColumnWriter::~ColumnWriter() = default;
+
 /// Appends these bytes to `to`, packed if that makes them fewer. Returns how many packed ones there are; 0: none.
 std::uint32_t ColumnWriter::append(std::span<const std::uint8_t> bytes, std::vector<char>& to) {
   const std::size_t begin = to.size();
   to.resize(begin + bytes.size());
-  work_.resize(ISAL_DEF_LVL1_DEFAULT);
-  isal_zstream stream;
-  isal_deflate_stateless_init(&stream);
-  // The largest window. ISA-L 2.30 initialises all but this.
-  stream.hist_bits = 0;
-  stream.level = 1;
-  stream.level_buf = work_.data();
-  stream.level_buf_size = static_cast<std::uint32_t>(work_.size());
-  stream.gzip_flag = IGZIP_DEFLATE;
-  stream.end_of_stream = 1;
-  stream.next_in = const_cast<std::uint8_t*>(bytes.data());
-  stream.avail_in = static_cast<std::uint32_t>(bytes.size());
-  stream.next_out = reinterpret_cast<std::uint8_t*>(to.data() + begin);
-  stream.avail_out = static_cast<std::uint32_t>(bytes.size());
+  if (bytes.empty()) return 0;
 
-  if (!bytes.empty() && isal_deflate_stateless(&stream) == COMP_OK && stream.avail_out > 0) {
+  z_stream& stream = deflation_->stream;
+  deflateReset(&stream);
+  stream.next_in = const_cast<Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(to.data() + begin);
+  stream.avail_out = static_cast<uInt>(bytes.size());
+  if (deflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_out > 0) {
     to.resize(to.size() - stream.avail_out);
-    return stream.total_out;
+    return static_cast<std::uint32_t>(stream.total_out);
   }
   std::copy(bytes.begin(), bytes.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
   return 0;
@@ -115,7 +129,6 @@ void ColumnWriter::pack(std::vector<char>& to) {
     sizes.bytes[k][1] = append(columns_[k], to);
     columns_[k].clear();
   }
-  end_wide_vectors();
   std::memcpy(to.data() + begin, &sizes, sizeof sizes);
   const auto* const words = reinterpret_cast<const char*>(words_.data());
   to.insert(to.end(), words, words + 8 * words_.size());
@@ -141,13 +154,14 @@ bool ColumnReader::unpack(std::span<const char> packed) {
     if (sizes.bytes[k][1] == 0) {
       std::copy_n(packed.data(), size, column.bytes.begin());
     } else {
-      inflate_state stream;
-      isal_inflate_init(&stream);
-      stream.next_in = reinterpret_cast<std::uint8_t*>(const_cast<char*>(packed.data()));
-      stream.avail_in = static_cast<std::uint32_t>(stored);
+      z_stream stream{};
+      if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return false;
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+      stream.avail_in = static_cast<uInt>(stored);
       stream.next_out = column.bytes.data();
-      stream.avail_out = static_cast<std::uint32_t>(size);
-      const bool whole = isal_inflate_stateless(&stream) == ISAL_DECOMP_OK && stream.avail_out == 0;
+      stream.avail_out = static_cast<uInt>(size);
+      const bool whole = inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_out == 0 && stream.avail_in == 0;
+      inflateEnd(&stream);
       if (!whole) return false;
     }
     packed = packed.subspan(stored);

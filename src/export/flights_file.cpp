@@ -86,34 +86,25 @@ void FlightsFile::record(std::span<const Collision> collisions) {
   if (has_collisions_) collisions_.insert(collisions_.end(), collisions.begin(), collisions.end());
 }
 
-/// The last piece is held until the next one is known, so that the bytes do not depend on where an advance ends.
+/// The pieces of the last instant are held until one of another is known, so that neither the order nor the bytes
+/// depend on where an advance ends.
 void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
-  const PathPiece* const end = pieces.data() + pieces.size();
-  in_order(
-      collisions_, pieces,
-      [this](const CollisionMark& mark) {
-        if (held_)
-          held_marks_.push_back(mark);
-        else
-          put(mark);
-      },
-      [this, end](const PathPiece& piece) {
-        put_held(&piece);
-        if (&piece + 1 == end)
-          held_ = piece;
-        else
-          put(piece, &piece + 1);
-      });
-  collisions_.clear();
+  for (const PathPiece& piece : pieces) {
+    if (!group_.empty() && piece.from != group_.back().from) put_group(&piece);
+    group_.push_back(piece);
+  }
 }
 
-/// Writes what is held, before the piece `next`.
-void FlightsFile::put_held(const PathPiece* next) {
-  if (!held_) return;
-  put(*held_, next);
-  held_.reset();
-  for (const CollisionMark& mark : held_marks_) put(mark);
-  held_marks_.clear();
+/// Writes the pieces of an instant, before the piece `next`, and before them the collisions until then.
+void FlightsFile::put_group(const PathPiece* next) {
+  if (group_.empty()) return;
+  for (; !collisions_.empty(); collisions_.pop_front()) {
+    const std::optional<CollisionMark> mark = mark_until(collisions_.front(), group_.front().from);
+    if (!mark) break;
+    put(*mark);
+  }
+  for (std::size_t k = 0; k < group_.size(); ++k) put(group_[k], k + 1 < group_.size() ? &group_[k + 1] : next);
+  group_.clear();
 }
 
 void FlightsFile::put(const CollisionMark& collision) {
@@ -186,8 +177,8 @@ void FlightsFile::put_key() {
 }
 
 void FlightsFile::end(const Tally& tally) {
-  record_paths({});
-  put_held(nullptr);
+  put_group(nullptr);
+  for (const Collision& collision : collisions_) put(mark_of(collision));
   if (file_ && in_block_ > 0) end_block(of_entries, columns_, in_block_, block_time_);
   if (!file_) return;
 

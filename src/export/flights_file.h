@@ -42,6 +42,7 @@
 //   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region, u64 removed bodies,
 //   f64 their energy (J), and x, y, z of their momentum (kg m/s), f64 0
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -74,7 +75,7 @@ struct FlightsKey {
 
 class FlightsFile final : public Writer {
  public:
-  /// Throws ExportError, as all functions of this class do.
+  /// `scene` must outlive this object. Throws ExportError, as all functions of this class do.
   FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most = largest_flights);
   /// The same in a file without a name, which ends with this object.
   struct Nameless {};
@@ -96,7 +97,7 @@ class FlightsFile final : public Writer {
  private:
   FlightsFile(const Scene& scene, std::uint64_t most);
   void begin(const Scene& scene);
-  void put_held(const PathPiece* next);
+  void put_group(const PathPiece* next);
   void put(const PathPiece& piece, const PathPiece* next);
   void put(const CollisionMark& collision);
   void count();
@@ -110,10 +111,9 @@ class FlightsFile final : public Writer {
   std::uint64_t most_;   // bytes
   std::uint64_t bytes_;  // so far, with those of the end
   std::uint64_t entries_ = 0;
-  // Not yet written: since the last advance; the last piece before it, and the collisions after that piece.
-  std::vector<Collision> collisions_;
-  std::optional<PathPiece> held_;
-  std::vector<CollisionMark> held_marks_;
+  // Not yet written: the last pieces, which hold from one instant, and collisions.
+  std::vector<PathPiece> group_;
+  std::deque<Collision> collisions_;
   PathCodec codec_;
   // The present block: its columns, its entries, and when it begins (s).
   ColumnWriter columns_;

@@ -2,6 +2,7 @@
 // A part of the record of a motion: a piece of a path, or a collision.
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "physics/collision.h"
@@ -28,26 +29,33 @@ struct Recorded {
   double from() const { return kind == Kind::piece ? piece.from : collision.time; }
 };
 
-/// Calls `mark` and `piece` for the collisions and pieces of one advance, each in order. A collision comes before the
-/// pieces that begin with it, and at the first double at which they hold.
+inline CollisionMark mark_of(const Collision& collision) {
+  return {collision.time, collision.kind, collision.a, collision.b};
+}
+
+/// The mark of a collision that comes before pieces from `from` (s) on, at the first double at which they hold if it
+/// begins them. Nothing if it comes later.
+inline std::optional<CollisionMark> mark_until(const Collision& collision, double from) {
+  if (collision.time > from) return {};
+  CollisionMark mark = mark_of(collision);
+  if (std::nextafter(mark.time, from) == from) mark.time = from;
+  return mark;
+}
+
+/// Calls `mark` and `piece` for the collisions and pieces of one advance, each in order, collisions first.
 template <typename Mark, typename Piece>
 void in_order(std::span<const Collision> collisions, std::span<const PathPiece> pieces, const Mark& mark,
               const Piece& piece) {
   std::size_t next = 0;
-  const auto marks_until = [&](double time) {
-    for (; next < collisions.size() && collisions[next].time <= time; ++next) {
-      const Collision& of = collisions[next];
-      const bool rounds_up = std::nextafter(of.time, time) == time;
-      mark(CollisionMark{rounds_up ? time : of.time, of.kind, of.a, of.b});
-    }
-  };
-
   for (const PathPiece& each : pieces) {
-    marks_until(each.from);
+    for (; next < collisions.size(); ++next) {
+      const std::optional<CollisionMark> before = mark_until(collisions[next], each.from);
+      if (!before) break;
+      mark(*before);
+    }
     piece(each);
   }
-  for (; next < collisions.size(); ++next)
-    mark(CollisionMark{collisions[next].time, collisions[next].kind, collisions[next].a, collisions[next].b});
+  for (; next < collisions.size(); ++next) mark(mark_of(collisions[next]));
 }
 
 }  // namespace carom

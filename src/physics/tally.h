@@ -113,12 +113,17 @@ struct Tally {
   std::optional<RunEnd> end;  // none: the run goes on until its duration
 
   /// Counts a record. The end of bounces is not a collision.
-  void count(CollisionKind kind, double time) {
+  void count(CollisionKind kind) {
     if (kind == CollisionKind::rest) return;
     ++(kind == CollisionKind::body_body    ? body_body
        : kind == CollisionKind::body_fixed ? body_fixed
        : kind == CollisionKind::string     ? tautened
                                            : merges);
+  }
+  /// The same, with its time (s).
+  void count(CollisionKind kind, double time) {
+    if (kind == CollisionKind::rest) return;
+    count(kind);
     if (std::isnan(first_collision)) first_collision = time;
     last_collision = time;
   }

@@ -59,7 +59,7 @@ void Replay::advance_to(double time) {
     }
     if (coming_.kind == Recorded::Kind::collision) {
       const CollisionMark& mark = coming_.collision;
-      tally_.count(mark.kind, mark.time);
+      tally_.count(mark.kind);
       collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, 0, 0});
     } else {
       take(coming_.piece);

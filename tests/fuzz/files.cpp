@@ -98,7 +98,8 @@ std::string flights() {
   frame.law = PathLaw::frame;
   frame.rounding = 0x1p-40;
   for (const PathPiece& piece : {step, curved, part, joint, other, frame}) pieces.push_back(piece);
-  FlightsFile file({folder().descriptor(), folder().path()}, small_scene());
+  const Scene scene = small_scene();
+  FlightsFile file({folder().descriptor(), folder().path()}, scene);
   file.record_paths(pieces);
   file.end(Tally{});
   for (OutputFile* output : file.files()) output->publish();
