@@ -1,7 +1,6 @@
 // The picture is no part of the run: its folder's manifest does not name it, and the run stays up to date.
 #include "commands/still.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <new>
@@ -22,11 +21,8 @@ namespace {
 
 /// A motion that is simulated once: for a camera that frames it into a record, because it is followed twice.
 std::function<std::unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoice& engine,
-                                                      const std::string& place) {
-  if (frames_motion(scene)) {
-    const Descriptor folder = open_folder(AT_FDCWD, place, true);
-    return recorded_motion(scene, engine, {folder.get(), place}, stop_if_interrupted);
-  }
+                                                      const FilePlace& place) {
+  if (frames_motion(scene)) return recorded_motion(scene, engine, place, stop_if_interrupted);
   return [&scene, &engine] {
     const OverlayNeeds needs = picture_needs(scene);
     return make_simulator(scene, {.collisions = needs.collisions || needs.collision_counts, .paths = needs.paths},
@@ -36,18 +32,18 @@ std::function<std::unique_ptr<Simulator>()> simulated(const Scene& scene, const 
 
 std::string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
+  OpenFolder folder(planned.folder);
   EngineChoice engine = planned.engine;
   const std::function<std::unique_ptr<Simulator>(const Scene&)> replay =
       replay_of(planned, picture_needs(scene), quiet);
   std::function<std::unique_ptr<Simulator>()> motion = [&] { return replay(scene); };
   if (!replay) {
     settle_steps(scene, engine, stop_if_interrupted);
-    motion = simulated(scene, engine, planned.former->folder);
+    motion = simulated(scene, engine, folder.place());
   }
   const std::string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));
 
-  OpenFolder folder(planned.folder);
   OutputFile file(folder.place(), fmt::format("still_{}s.png", shortest(time)));
   file.write(picture);
   file.publish();

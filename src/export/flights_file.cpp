@@ -87,22 +87,28 @@ void FlightsFile::record(std::span<const Collision> collisions) {
 }
 
 /// The pieces of the last instant are held until one of another is known, so that neither the order nor the bytes
-/// depend on where an advance ends.
+/// depend on where an advance ends. The first pieces of all bodies come before whatever happens at time 0.
 void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
-    if (!group_.empty() && piece.from != group_.back().from) put_group(&piece);
+    if (!group_.empty() && piece.from != group_.back().from) end_group(&piece);
     group_.push_back(piece);
+    if (entries_ == 0 && group_.size() == world_.body_count()) put_group(nullptr);
   }
 }
 
-/// Writes the pieces of an instant, before the piece `next`, and before them the collisions until then.
-void FlightsFile::put_group(const PathPiece* next) {
-  if (group_.empty()) return;
-  for (; !collisions_.empty(); collisions_.pop_front()) {
+/// Writes the pieces of an instant, and before them the collisions until then.
+void FlightsFile::end_group(const PathPiece* next) {
+  while (!group_.empty() && !collisions_.empty()) {
     const std::optional<CollisionMark> mark = mark_until(collisions_.front(), group_.front().from);
     if (!mark) break;
     put(*mark);
+    collisions_.pop_front();
   }
+  put_group(next);
+}
+
+/// Writes the pieces of an instant, before the piece `next`.
+void FlightsFile::put_group(const PathPiece* next) {
   for (std::size_t k = 0; k < group_.size(); ++k) put(group_[k], k + 1 < group_.size() ? &group_[k + 1] : next);
   group_.clear();
 }
@@ -177,7 +183,7 @@ void FlightsFile::put_key() {
 }
 
 void FlightsFile::end(const Tally& tally) {
-  put_group(nullptr);
+  end_group(nullptr);
   for (const Collision& collision : collisions_) put(mark_of(collision));
   if (file_ && in_block_ > 0) end_block(of_entries, columns_, in_block_, block_time_);
   if (!file_) return;

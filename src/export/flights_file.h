@@ -97,6 +97,7 @@ class FlightsFile final : public Writer {
  private:
   FlightsFile(const Scene& scene, std::uint64_t most);
   void begin(const Scene& scene);
+  void end_group(const PathPiece* next);
   void put_group(const PathPiece* next);
   void put(const PathPiece& piece, const PathPiece* next);
   void put(const CollisionMark& collision);

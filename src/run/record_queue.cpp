@@ -49,8 +49,10 @@ bool RecordQueue::next(Recorded& recorded) {
   if (read_ == reading_.size()) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return state_ != State::open || !batches_.empty(); });
-    if (state_ == State::abandoned) throw RecordAbandoned();
-    if (batches_.empty()) return false;
+    if (batches_.empty()) {
+      if (state_ == State::abandoned) throw RecordAbandoned();
+      return false;
+    }
 
     reading_ = std::move(batches_.front());
     batches_.pop_front();

@@ -22,7 +22,7 @@ class RecordQueue {
   void end(bool whole);
   /// Nothing more will be read.
   void leave();
-  /// Waits for the next part. False: the end. Throws RecordAbandoned.
+  /// Waits for the next part. False: the end. Throws RecordAbandoned after the last part of a record without an end.
   bool next(Recorded& recorded);
 
  private:

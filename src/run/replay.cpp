@@ -26,20 +26,25 @@ Instant instant(const DoubleDouble& time) {
 }  // namespace
 
 Replay::Replay(const World& world, NextRecorded next, const Tally& tally, bool counts)
-    : world_(world), next_(std::move(next)), tally_(tally), now_(world.body_count()) {
+    : world_(world), next_(std::move(next)), tally_(tally), end_(tally.end), now_(world.body_count()) {
+  tally_.end.reset();
   if (counts) tally_.body_body = tally_.body_fixed = tally_.merges = tally_.tautened = 0;
   more_ = next_(coming_);
 
-  // All that is recorded at time 0.
-  std::vector<PathPiece> first;
-  std::vector<Collision> collisions;
-  do {
-    advance_to(0);
-    first.insert(first.end(), passed_.begin(), passed_.end());
-    collisions.insert(collisions.end(), collisions_.begin(), collisions_.end());
-  } while (more_ && coming_.from() <= 0);
-  passed_ = std::move(first);
-  collisions_ = std::move(collisions);
+  // The state at time 0 is before whatever happens then: each body is on its first piece.
+  for (std::size_t begun = 0; more_ && begun < now_.size(); ++begun) take_coming();
+}
+
+void Replay::take_coming() {
+  if (coming_.kind == Recorded::Kind::collision) {
+    const CollisionMark& mark = coming_.collision;
+    tally_.count(mark.kind);
+    collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, 0, 0});
+  } else {
+    take(coming_.piece);
+    passed_.push_back(coming_.piece);
+  }
+  more_ = next_(coming_);
 }
 
 void Replay::advance_to(double time) {
@@ -47,27 +52,21 @@ void Replay::advance_to(double time) {
   passed_.clear();
   collisions_.clear();
 
-  // The state at the run's end stays.
-  const double end = tally_.end ? tally_.end->time : std::numeric_limits<double>::infinity();
+  // The state at the run's end stays. It is after whatever happens then.
+  const double end = end_ ? end_->time : std::numeric_limits<double>::infinity();
+  const bool reaches_end = time >= end;
   if (time > end && time_ < end) time = end;
 
-  while (more_ && coming_.from() <= time) {
+  while (more_ && (reaches_end || coming_.from() <= time)) {
     // Stop before the next part, possibly in the middle of an instant.
     if (passed_.size() + collisions_.size() >= path_buffer) {
       time_ = std::max(time_, std::nextafter(coming_.from(), 0));
       return;
     }
-    if (coming_.kind == Recorded::Kind::collision) {
-      const CollisionMark& mark = coming_.collision;
-      tally_.count(mark.kind);
-      collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, 0, 0});
-    } else {
-      take(coming_.piece);
-      passed_.push_back(coming_.piece);
-    }
-    more_ = next_(coming_);
+    take_coming();
   }
   time_ = std::max(time, time_);
+  if (!more_ && time_ >= end) tally_.end = end_;
 }
 
 void Replay::take(const PathPiece& piece) {
@@ -136,7 +135,7 @@ void Replay::place(std::size_t body, const Instant& at) {
 
 const State& Replay::state() {
   if (fresh_) return state_;
-  state_.time = tally_.end ? std::min(time_, tally_.end->time) : time_;
+  state_.time = end_ ? std::min(time_, end_->time) : time_;
   state_.position.resize(now_.size());
   state_.velocity.resize(now_.size());
   const Instant at{state_.time, 0};

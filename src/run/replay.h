@@ -31,9 +31,11 @@ class Replay final : public Simulator {
   const State& state() override;
   std::span<const Collision> collisions() const override { return collisions_; }
   std::span<const PathPiece> paths() const override { return passed_; }
-  const Tally& tally() const override { return tally_; }  // of the whole run, apart from counts
+  /// Of the whole run, apart from counts, and the end, which is there once it is reached.
+  const Tally& tally() const override { return tally_; }
 
  private:
+  void take_coming();
   void take(const PathPiece& piece);
   void take_joint(const PathPiece& piece);
   Vec3 force_at(Entity body, double time, const Vec3& x, const Vec3& v) const;
@@ -42,6 +44,7 @@ class Replay final : public Simulator {
   const World& world_;
   NextRecorded next_;
   Tally tally_;
+  std::optional<RunEnd> end_;
   std::vector<PathPiece> now_;                       // the present piece, by body
   std::vector<std::optional<ClosedMotion>> closed_;  // by body; empty: no piece has been one
   // Since the last advance_to.

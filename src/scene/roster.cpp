@@ -53,7 +53,7 @@ bool drawings_show_collisions(const Scene& scene) {
   const Overlay& overlay = scene.overlay;
   const bool sampled_trails = overlay.trails && !goes_along_parabolas(scene.world, scene.simulate);
   return overlay.flash || sampled_trails || colors_by_collisions(scene) || has_name(overlay.caption, "collisions") ||
-         (scene.output.plots && may_stop(scene));
+         ((scene.output.plots || scene.requested.plots) && may_stop(scene));
 }
 
 }  // namespace carom

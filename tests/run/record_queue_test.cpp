@@ -88,13 +88,14 @@ TEST(RecordQueue, WithoutAReaderDoesNotHoldTheSimulationUp) {
   reader.join();
 }
 
-TEST(RecordQueue, OfASimulationThatFailsHasNoEnd) {
+TEST(RecordQueue, OfASimulationThatFailsEndsWithWhatWasRecordedAndAnError) {
   RecordQueue queue;
   Recorder simulator;
   simulator.pieces = {piece(0, 0)};
   queue.put(simulator);
   queue.end(false);
   Recorded next;
+  EXPECT_TRUE(queue.next(next));
   EXPECT_THROW(queue.next(next), RecordAbandoned);
 }
 

@@ -11,6 +11,7 @@
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "run/engine.h"
+#include "run/run_testing.h"
 #include "scene/engines.h"
 #include "scene/load.h"
 #include "scene/scene.h"
@@ -111,6 +112,41 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scene_file
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
 });
+
+TEST(SceneAgain, HasTheStateAtTime0BeforeWhateverHappensThen) {
+  const RunPlace place;
+  for (const char* more : {"regions: {p: {radius: .4, position: [0, 0, 0], action: remove}}\nsimulate: {duration: 1}\n",
+                           "simulate: {duration: 1, contact: merge}\nrestitution: 0\n", "simulate: {duration: 1}\n"}) {
+    SCOPED_TRACE(more);
+    const Scene scene = place.scene(std::string("scene: 1\nballs:\n"
+                                                "  a: {mass: 1, radius: .1, position: [0, 0, 0], velocity: [1, 0, 0]}\n"
+                                                "  b: {mass: 1, radius: .1, position: [.2, 0, 0]}\n") +
+                                    more);
+    const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
+    expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 20);
+  }
+}
+
+TEST(SceneAgain, OfTheBookHasTheStateAfterTheCollisionThatEndsIt) {
+  const RunPlace place;
+  const Scene scene = place.scene(
+      "scene: 1\nballs: {a: {mass: 1, radius: .1, position: [0, .5, 0], velocity: [1, 0, 0]}}\n"
+      "planes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}}\nrestitution: .6\n"
+      "simulate: {engine: book, step: .0013, duration: 1.2, stop: [{collisions: 2}]}\n");
+  const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
+  ASSERT_TRUE(run.tally.end);
+  const double end = run.tally.end->time;
+  expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 20);
+
+  const auto simulator = make_simulator(scene);
+  carry_to(*simulator, scene.simulate.duration);
+  Replay replay(scene.world, from(run.pieces), run.tally);
+  carry_to(replay, std::nextafter(end, 0));
+  EXPECT_LT(replay.state().velocity[0].y(), 0);
+  carry_to(replay, end);
+  EXPECT_GT(replay.state().velocity[0].y(), 0);
+  EXPECT_TRUE(same_bits(replay.state(), simulator->state()));
+}
 
 // Crowds, merges, forces in windows, cylinders and boxes: combinations that no scene of scenes/ has.
 class RandomSceneAgain : public ::testing::TestWithParam<std::size_t> {};
