@@ -4,9 +4,8 @@
 // A packed block has for each column u32 bytes and u32 packed bytes (0: they are as they are), then u64 bits. Then come
 // the columns, each a stream of deflate (RFC 1951) if it is packed, and the bits in words of u64, the first one lowest.
 //
-// zlib packs the columns. ISA-L gives the file the same size to 1 % and takes the same time in all, but the bytes of
-// its level 1 depend on the address of its state (2.30: `.write_first_byte` of igzip_icf_body_h1_gr_bt.asm takes the
-// hash of the third byte from what a register was left with).
+// zlib packs the columns. ISA-L gives the same size to 1 % in the same time, but bytes that depend on an address
+// (png.cpp).
 #include "export/flight_columns.h"
 
 #include <zlib.h>

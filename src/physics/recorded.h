@@ -33,8 +33,8 @@ inline CollisionMark mark_of(const Collision& collision) {
   return {collision.time, collision.kind, collision.a, collision.b};
 }
 
-/// The mark of a collision that comes before pieces from `from` (s) on, at the first double at which they hold if it
-/// begins them. Nothing if it comes later.
+/// The mark of a collision, if it comes before a piece that holds from `from` (s) on. Otherwise nothing. A collision
+/// that begins the piece may lie between two doubles, the later of which is `from`: then the mark has that one.
 inline std::optional<CollisionMark> mark_until(const Collision& collision, double from) {
   if (collision.time > from) return {};
   CollisionMark mark = mark_of(collision);

@@ -6,21 +6,22 @@
 
 namespace carom {
 
+RecordSink record_into(FlightsFile& file, double end) {
+  return RecordSink(end, [&file](const Simulator& simulator) {
+    file.record(simulator.collisions());
+    file.record_paths(simulator.paths());
+  });
+}
+
 std::function<std::unique_ptr<Simulator>()> recorded_motion(const Scene& scene, const EngineChoice& engine,
                                                             const FilePlace& place,
                                                             const std::function<void()>& stop_check) {
   const auto file = std::make_shared<FlightsFile>(place, scene, FlightsFile::nameless);
-  RecordSink sink(scene.simulate.duration, [&file](const Simulator& simulator) {
-    file->record(simulator.collisions());
-    file->record_paths(simulator.paths());
-  });
-
+  RecordSink sink = record_into(*file, scene.simulate.duration);
   const auto simulator = make_simulator(scene, {.collisions = file->has_collisions(), .paths = true}, engine.steps);
   MotionSink* const sinks[] = {&sink};
-  carry_through(*simulator, sinks, scene.simulate.duration,
-                [](std::size_t, const std::function<void()>& work) { work(); },
-                {.stop_check = stop_check, .advanced = [](const Simulator&) {}});
-  simulator->state();
+  carry_through(*simulator, sinks, scene.simulate.duration, unguarded, {.stop_check = stop_check});
+  simulator->state();  // the tally's sums are then those of the end
   file->end(simulator->tally());
   return
       [file, &scene] { return replay_from(std::make_unique<FlightsReader>(file->reopened(), "", scene), scene.world); };

@@ -10,6 +10,8 @@
 
 namespace carom {
 
+class FlightsFile;
+
 /// Passes the record of a motion on, until `end` (s).
 class RecordSink final : public MotionSink {
  public:
@@ -26,6 +28,9 @@ class RecordSink final : public MotionSink {
   std::function<void(const Simulator&)> put_;
   bool more_ = true;
 };
+
+/// Passes it on to `file`, which must outlive the sink.
+RecordSink record_into(FlightsFile& file, double end);
 
 /// Simulates the scene to its end, with settled steps, and returns a function that makes followers of its record. The
 /// record is a file without a name in this place. `scene` must outlive all. Throws SimulationError, ExportError, and

@@ -64,7 +64,7 @@ class Carrying {
           !is_over())
         throw SimulationError("the simulator makes no progress");
       watch_.stop_check();
-      watch_.advanced(simulator_);
+      watch_.advanced();
     }
   }
 

@@ -26,12 +26,17 @@ class MotionSink {
 /// Functions called between advances of a simulator. `stop_check` may throw.
 struct CarryWatch {
   std::function<void()> stop_check;
-  std::function<void(const Simulator&)> advanced;
+  std::function<void()> advanced = [] {};
   double* advance_s = nullptr;  // wall time of advances is added to it
 };
 
 /// Calls a function for a sink, by its number, and does what a failure means. It may leave sinks out.
 using SinkGuard = std::function<void(std::size_t sink, const std::function<void()>& work)>;
+
+/// The guard of sinks whose failures are not told apart.
+inline void unguarded(std::size_t, const std::function<void()>& work) {
+  work();
+}
 
 /// Carries a simulator, which is at time 0, through all instants of these sinks.
 /// `duration`: of the motion (s). Throws SimulationError, also if the simulator makes no progress, and what the

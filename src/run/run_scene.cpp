@@ -47,8 +47,8 @@ class Run {
   }
 
   void go() {
-    if (!stages_.draw()) return simulate({});
-    if (!settings_.replay) return stages_.wait() ? simulate_then_draw() : simulate_and_draw();
+    if (!stages_.have_drawings()) return simulate({});
+    if (!settings_.replay) return stages_.draw_after_motion() ? simulate_then_draw() : simulate_and_draw();
     simulate({});
     stages_.take_end(simulator_->tally().end);
     draw_by([this] { return settings_.replay(scene_); });
@@ -79,10 +79,10 @@ class Run {
     };
     carry_through(*simulator_, sinks, scene_.simulate.duration, guard,
                   {.stop_check = stop_check,
-                   .advanced = [this](const Simulator&) { report_progress(RunProgress::Phase::simulating); },
+                   .advanced = [this] { report_progress(RunProgress::Phase::simulating); },
                    .advance_s = &simulate_s_});
 
-    simulator_->state();
+    simulator_->state();  // the tally's sums are then those of the end
     stages_.each([this](Stage& stage) { stage.exports.tables().end(simulator_->tally()); });
   }
 
@@ -129,10 +129,7 @@ class Run {
       record->keep_whole();
     } else {
       record = &own.emplace(standing.front().stage->exports.place(), scene_, FlightsFile::nameless);
-      sinks.push_back(&sink.emplace(scene_.simulate.duration, [record](const Simulator& simulator) {
-        record->record(simulator.collisions());
-        record->record_paths(simulator.paths());
-      }));
+      sinks.push_back(&sink.emplace(record_into(*record, scene_.simulate.duration)));
     }
 
     // Where the end is not awaited, the instants of the pictures are known, and cameras frame them on the way.
@@ -189,8 +186,7 @@ class Run {
     const SinkGuard guard = [&](std::size_t sink, const std::function<void()>& work) {
       stages_.guarded(standing[sink].show, work);
     };
-    carry_through(*simulator, sinks, scene_.simulate.duration, guard,
-                  {.stop_check = watch_.stop_check, .advanced = [](const Simulator&) {}});
+    carry_through(*simulator, sinks, scene_.simulate.duration, guard, {.stop_check = watch_.stop_check});
   }
 
   void end_drawings() {

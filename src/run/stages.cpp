@@ -101,11 +101,11 @@ Recording Stages::recording() const {
   return recording;
 }
 
-bool Stages::draw() {
+bool Stages::have_drawings() {
   return std::ranges::any_of(standing(), [](const Standing& each) { return each.stage->exports.draws(); });
 }
 
-bool Stages::wait() const {
+bool Stages::draw_after_motion() const {
   return std::ranges::any_of(shows_, [](const Show& show) { return draws_after_motion(*show.scene); });
 }
 

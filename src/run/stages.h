@@ -38,9 +38,9 @@ class Stages {
   /// What the simulator has to record for all.
   Recording recording() const;
   /// Whether any of them has something to draw.
-  bool draw();
-  /// Whether drawings need to know more of the motion than the present (draws_after_motion).
-  bool wait() const;
+  bool have_drawings();
+  /// Whether any of them draws when the motion is over.
+  bool draw_after_motion() const;
   /// What is known of the run's end when the motion is over.
   void take_end(const std::optional<RunEnd>& end);
   void begin_drawings();

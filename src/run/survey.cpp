@@ -49,9 +49,7 @@ void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const 
   Framing framing(cameras);
   MotionSink* const sinks[] = {&framing};
   try {
-    carry_through(simulator, sinks, duration_of(cameras),
-                  [](std::size_t, const std::function<void()>& work) { work(); },
-                  {.stop_check = stop_check, .advanced = [](const Simulator&) {}});
+    carry_through(simulator, sinks, duration_of(cameras), unguarded, {.stop_check = stop_check});
   } catch (const SimulationError&) {
     // The run comes to the same instant, and reports it.
   }
