@@ -27,6 +27,7 @@ int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Opt
       SceneOutcome outcome = code != 0                      ? without_run(planned, scene_status::not_run)
                              : batch.is_up_to_date(planned) ? batch.up_to_date(planned)
                                                             : batch.run(planned, progress_choice(options), nullptr);
+
       if (names_full_disk(outcome.complaint)) code = 1;
       batch.settle(std::move(outcome));
     } catch (const Interrupted& signal) {

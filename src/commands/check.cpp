@@ -149,6 +149,8 @@ std::string crossings_text(const PlannedScene& planned, const Findings& findings
   if (!findings.camera->out_of_view) return unknown_view;
   const Foresight& foresight = findings.foresight;
   const std::vector<Crossing>& all = foresight.crossings;
+
+  // A text for the bodies that enter, or leave, at one instant.
   std::vector<std::string> texts;
   std::size_t i = 0;
   while (i < all.size() && texts.size() < crossings_shown) {
@@ -161,6 +163,7 @@ std::string crossings_text(const PlannedScene& planned, const Findings& findings
                                 first.enters ? (one ? "enters" : "enter") : (one ? "leaves" : "leave"),
                                 quantity(first.time, "s")));
   }
+
   if (i < all.size()) texts.push_back(fmt::format("{} more", grouped(all.size() - i)));
   std::string text = texts.empty() ? "no body enters or leaves the picture" : joined(texts, "; ");
   if (foresight.cut) text += fmt::format(" (checked up to {})", quantity(foresight.watched_until, "s"));
@@ -257,14 +260,17 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (!planned.scene->world.strings.empty()) block.line("strings", strings_text(planned.scene->world));
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
   if (!planned.scene->world.regions.empty()) block.line("regions", regions_text(*planned.scene));
+
   if (const auto& start = planned.scene->made_from.start)
     block.line("start", fmt::format("the run {} at {}, by its {}", printable(start->run), quantity(start->at, "s"),
                                     start->file));
   for (const std::string& note : planned.scene->made_from.notes) block.line("note", note);
+
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
   if (const std::string slow = slow_text(*planned.scene); !slow.empty()) block.line("slow", slow);
+
   if (findings.camera) {
     block.line(
         "camera",
@@ -275,6 +281,7 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   } else {
     block.line("camera", "none: the scene has no pictures");
   }
+
   block.line("to come", to_come_text(planned, findings));
   block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
   return block.text();
@@ -298,11 +305,13 @@ Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresigh
     crossings.push_back(
         {{"time_s", crossing.time}, {"body", scene.roster.name(crossing.body)}, {"enters", crossing.enters}});
   }
+
   Json names = Json::array();
   for (const Entity body : camera.out_of_view.value_or(std::vector<Entity>())) {
     if (names.size() == bodies_shown) break;
     names.push_back(scene.roster.name(body));
   }
+
   return {{"kind", camera.kind},
           {"plus_x", camera.plus_x},
           {"fov_x_degrees", camera.fov_x},
@@ -331,17 +340,22 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"engine", std::string(name_of(planned.engine.engine))},
                 {"why", planned.engine.why},
                 {"duration_s", scene.simulate.duration}};
+
   if (const auto& start = scene.made_from.start) {
     entry["start"] = {{"run", start->run}, {"at_s", start->at}, {"file", start->file}};
     entry["notes"] = scene.made_from.notes;
   }
+
   entry["volumes"] = volumes_json(scene);
   entry["first_collision"] =
       findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);
   if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
   if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
   if (const std::string slow = slow_text(scene); !slow.empty()) entry["slow"] = slow;
+
   entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
+
+  // What is to come.
   const std::optional<double> steps = steps_of(scene);
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);
   entry["pictures"] = planned.forecast.frames;
@@ -381,6 +395,7 @@ int check_command(const Options& options) {
       continue;
     }
     if (options.quiet) continue;
+
     const Findings findings = examine(planned);
     AccuracyReport accuracy;
     if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.engine);
@@ -393,6 +408,7 @@ int check_command(const Options& options) {
       write_out(as_text(planned, findings, palette, terminal_width(STDOUT_FILENO)) + block.text());
     }
   }
+
   if (options.json) write_out(document("check", entries));
   const std::string errors = error_count(scenes);
   if (errors.empty()) return 0;

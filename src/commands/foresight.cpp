@@ -38,9 +38,11 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
     from = output.frames ? output.frames->from : output.video->from;
     until = (output.frames ? output.frames->until : output.video->until).value_or(until);
   }
+
   if ((until - from) * fps > most) fps = most / (until - from);
   const Ticks ticks = Ticks::rate(fps, from, until);
   if (ticks.count() < 1) return ticks;
+
   result.every = 1 / fps;
   result.watched_from = result.watched_until = ticks.at(ticks.first());
   return ticks;
