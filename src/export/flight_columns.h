@@ -8,9 +8,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
+
+#include "export/deflation.h"
 
 namespace carom {
 
@@ -31,10 +32,6 @@ class ColumnWriter {
  public:
   static constexpr bool writes = true;
 
-  /// Throws ExportError without memory for the compression.
-  ColumnWriter();
-  ~ColumnWriter();
-
   void byte(Column column, std::uint8_t value) { of(column).push_back(value); }
   void number(Column column, std::uint64_t value);
   /// What a reader needs to know `actual`, if it knows `predicted`.
@@ -53,8 +50,7 @@ class ColumnWriter {
   std::vector<std::uint64_t> words_;  // of bits, the first one lowest
   std::uint64_t word_ = 0;            // the last one, of which `used_` bits are there
   unsigned used_ = 0;
-  struct Deflation;
-  std::unique_ptr<Deflation> deflation_;
+  Deflation deflation_;
 };
 
 /// Columns that are read. What is not there reads as zeros, and damaged() from then on.

@@ -1,20 +1,13 @@
 // Writes PNG (ISO/IEC 15948) by the filter `sub`: a pixel becomes its difference to the one on its left.
 // Of the five filters it gives the smallest files of rendered pictures, and a loop that compilers turn into vectors.
-//
-// ISA-L compresses. Its bytes are the same with SSE4.2, AVX2 and AVX-512, by its functions for each of them. Without
-// SSE4.2 it has another hash, and so other bytes. The first bytes are compressed by themselves: its function for many
-// bytes (2.30, `.write_first_byte` of igzip_icf_body_h1_gr_bt.asm) takes the hash of the third byte of all from what a
-// register was left with, the address of its state.
 #include "export/png.h"
 
 #include <isa-l/crc.h>
-#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <string_view>
 
 #include "files/run_folder.h"
-#include "numerics/processor.h"
 
 namespace carom {
 namespace {
@@ -67,42 +60,15 @@ void PngEncoder::take(const Image& image) {
 }
 
 std::size_t PngEncoder::compress() {
-  // Rows that do not shrink are stored, in blocks of up to 65535 bytes with 5 more each.
-  constexpr std::size_t block = 65535, block_head = 5, head_and_checksum = 6;
-  // Those that are left to ISA-L's function for few bytes, and what their own block takes at most.
-  constexpr std::size_t first = 16, block_of_first = 2 * first;
-  const std::size_t most = rows_.size() + block_head * (rows_.size() / block + 1) + block_of_first + head_and_checksum;
+  // Not the room that is left of a larger picture: the bytes may depend on this size.
+  const std::size_t most = Deflation::most(rows_.size());
   if (most > room_size_) {
     room_ = std::make_unique_for_overwrite<std::uint8_t[]>(most);
     room_size_ = most;
   }
-  work_.resize(ISAL_DEF_LVL1_DEFAULT);
-  isal_zstream stream;
-  isal_deflate_init(&stream);
-  // The largest window. ISA-L 2.30 initialises all but this.
-  stream.hist_bits = 0;
-  stream.level = 1;
-  stream.level_buf = work_.data();
-  stream.level_buf_size = static_cast<std::uint32_t>(work_.size());
-  stream.gzip_flag = IGZIP_ZLIB;
-  stream.next_in = rows_.data();
-  stream.next_out = room_.get();
-  // Not the room that is left of a larger picture: the bytes may depend on this size.
-  stream.avail_out = static_cast<std::uint32_t>(most);
-
-  // First the first bytes.
-  const std::size_t few = std::min(first, rows_.size());
-  stream.avail_in = static_cast<std::uint32_t>(few);
-  stream.flush = SYNC_FLUSH;
-  bool packed = isal_deflate(&stream) == COMP_OK;
-
-  // Then the others.
-  stream.avail_in = static_cast<std::uint32_t>(rows_.size() - few);
-  stream.flush = NO_FLUSH;
-  stream.end_of_stream = 1;
-  packed = packed && isal_deflate(&stream) == COMP_OK && stream.internal_state.state == ZSTATE_END;
-  if (!packed) throw ExportError("cannot compress a picture");
-  return stream.total_out;
+  const std::size_t size = deflation_.pack(rows_, room_.get(), most, Deflation::Format::zlib);
+  if (size == 0) throw ExportError("cannot compress a picture");
+  return size;
 }
 
 const std::string& PngEncoder::encode() {
@@ -120,8 +86,6 @@ const std::string& PngEncoder::encode() {
     file_.append(reinterpret_cast<const char*>(room_.get()), size);
   });
   put_chunk(file_, "IEND", [] {});
-  // ISA-L 2.30 does not. Without it the next picture of 100,000 balls takes a tenth longer to draw.
-  end_wide_vectors();
   return file_;
 }
 

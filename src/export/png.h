@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "export/deflation.h"
 #include "render/image.h"
 
 namespace carom {
@@ -25,8 +26,8 @@ class PngEncoder {
   std::size_t compress();
 
   int width_ = 0, height_ = 0, channels_ = 0;
-  std::vector<std::uint8_t> rows_;        // filtered
-  std::vector<std::uint8_t> work_;        // of the compression
+  std::vector<std::uint8_t> rows_;  // filtered
+  Deflation deflation_;
   std::unique_ptr<std::uint8_t[]> room_;  // for the largest stream of so many rows
   std::size_t room_size_ = 0;             // bytes
   std::string file_;

@@ -40,7 +40,6 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"FreeType", {"freetype/"}},
     {"nettle", {"nettle/"}},
     {"ISA-L", {"isa-l/"}},
-    {"zlib", {"zlib.h"}},
     {"libxlsxwriter", {"xlsxwriter"}},
     {"minizip", {"minizip/"}},
     {"CLI11", {"CLI/"}},

@@ -1,0 +1,26 @@
+#pragma once
+// Compression by deflate (RFC 1951).
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+/// Compresses bytes quickly, one text after another. The same bytes give the same ones on all x86-64 processors with
+/// SSE4.2, wherever they are in memory.
+class Deflation {
+ public:
+  enum class Format { plain, zlib };  // RFC 1951, RFC 1950
+
+  /// The most bytes that so many become.
+  static std::size_t most(std::size_t size);
+  /// Writes the compressed bytes to `to`, which has `room` bytes, and gives their number. 0: they have no room. The
+  /// result may depend on `room`.
+  std::size_t pack(std::span<const std::uint8_t> bytes, std::uint8_t* to, std::size_t room, Format format);
+
+ private:
+  std::vector<std::uint8_t> work_;
+};
+
+}  // namespace carom
