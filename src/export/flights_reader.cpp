@@ -186,7 +186,7 @@ void FlightsReader::check(const CollisionMark& collision) const {
 }
 
 void FlightsReader::check(const PathPiece& piece) const {
-  const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
+  const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi + t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   bool right = std::isfinite(piece.from) && finite(piece.start) && finite(piece.until);
   for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick}) right = right && v->allFinite();

@@ -303,6 +303,10 @@ void PathCodec::code(Side<Columns>& side, PathPiece& piece, PredictedImpact& imp
   // When it holds.
   if (!piece.kicked && side.flag(strikes, impact.other != no_entity))
     side.entity(Column::body, piece.body + 1, impact.other, present_.size());
+  if (impact.other != no_entity && (before.body == no_entity || present_[impact.other].body == no_entity)) {
+    side.damaged = true;
+    impact.other = no_entity;
+  }
   code_time(side, piece, impact.other);
   const double from = usual_from(piece);
   if (traits & is_late)

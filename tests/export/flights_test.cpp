@@ -331,6 +331,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.from = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.hi = -infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.lo = infinite; }));
+  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start = {1.7e308, 1.7e308}; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.x[0] = std::nan(""); }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.v[1] = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.a[2] = -infinite; }));
@@ -353,6 +354,30 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
       curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.displacement[6][1] = infinite; }); }));
   EXPECT_TRUE(
       refused_with(curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.ahead[1] = infinite; }); }));
+}
+
+TEST(Flights, WithAnImpactOfABodyWithoutAPathAreDamaged) {
+  const Scene scene = small_scene();
+  PathPiece ball{0, 0, {0, 0}, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3::Zero()};
+  PathPiece target{1, 0, {0, 0}, Vec3(1, 0, 0), Vec3::Zero(), Vec3::Zero()};
+  ColumnWriter before;
+  ColumnWriter impact;
+  PathCodec writer(scene.world);
+  writer.write(before, ball, nullptr, scene.world);
+  writer.write(before, target, nullptr, scene.world);
+  for (PathPiece* piece : {&ball, &target}) piece->from = piece->start.hi = 0.8;
+  ball.x[0] = 0.8;
+  ball.v[0] = 1.0 / 3;  // masses 2 and 1, restitution 1
+  target.v[0] = 4.0 / 3;
+  writer.write(impact, ball, &target, scene.world);
+
+  std::vector<char> packed;
+  impact.pack(packed);
+  ColumnReader columns;
+  ASSERT_TRUE(columns.unpack(packed));
+  PathCodec reader(scene.world);
+  Recorded recorded;
+  EXPECT_FALSE(reader.read(columns, recorded));
 }
 
 TEST(Flights, ThatGoBackInTimeAreRefused) {

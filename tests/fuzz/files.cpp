@@ -98,6 +98,15 @@ std::string flights() {
   frame.law = PathLaw::frame;
   frame.rounding = 0x1p-40;
   for (const PathPiece& piece : {step, curved, part, joint, other, frame}) pieces.push_back(piece);
+  // An impact of two of mass 1 and restitution 1: they swap velocities along x.
+  for (const Entity i : {2u, 3u}) {
+    const double side = i == 2 ? -1 : 1;
+    pieces.push_back({i, 0.19, {0.19, 0}, Vec3(side, 0, 0), Vec3(-side, 0, 0), Vec3::Zero()});
+  }
+  for (const Entity i : {2u, 3u}) {
+    const double side = i == 2 ? -1 : 1;
+    pieces.push_back({i, 0.195, {0.195, 0}, Vec3(side * 0.995, 0, 0), Vec3(side, 0, 0), Vec3::Zero()});
+  }
   const Scene scene = small_scene();
   FlightsFile file({folder().descriptor(), folder().path()}, scene);
   file.record_paths(pieces);
