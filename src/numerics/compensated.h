@@ -95,6 +95,8 @@ class Sum {
   }
   double value() const { return sum_ + lost_; }
 
+  void keep(auto& archive) { archive(sum_, lost_); }
+
  private:
   double sum_ = 0, lost_ = 0;
 };

@@ -33,6 +33,8 @@ class DenseMotion {
   const Vec3& start(std::size_t k) const { return x_[k]; }  // m
   std::size_t size() const { return x_.size(); }
 
+  void keep(auto& archive) { archive(x_, v_, length_); }
+
  protected:
   DenseMotion(std::vector<Vec3> x, std::vector<Vec3> v) : x_(std::move(x)), v_(std::move(v)) {}
 

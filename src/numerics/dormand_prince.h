@@ -15,6 +15,7 @@ class DormandPrince final : public DenseMotion {
   /// The acceleration (m/s^2) of each point at these positions (m) and velocities (m/s).
   using Acceleration = std::function<std::vector<Vec3>(const std::vector<Vec3>& x, const std::vector<Vec3>& v)>;
 
+  DormandPrince() : DenseMotion({}, {}) {}  // to be restored
   /// Starts at x (m) and v (m/s), where the acceleration is a (m/s^2).
   DormandPrince(std::vector<Vec3> x, std::vector<Vec3> v, std::vector<Vec3> a);
 
@@ -30,6 +31,11 @@ class DormandPrince final : public DenseMotion {
   Vec3 displacement(std::size_t k, double t) const override;
   Vec3 velocity(std::size_t k, double t) const override;
   PolynomialPath path(std::size_t k) const override;
+
+  void keep(auto& archive) {
+    DenseMotion::keep(archive);
+    archive(of_displacement_, of_velocity_);
+  }
 
  private:
   static constexpr std::size_t stages = 16, terms = 7;

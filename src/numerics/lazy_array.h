@@ -19,6 +19,12 @@ class LazyArray {
     return values_[i];
   }
   bool empty() const { return values_.empty(); }
+  std::size_t size() const { return size_; }
+
+  void keep(auto& archive) {
+    archive(values_);
+    archive.check(values_.empty() || values_.size() == size_);
+  }
 
  private:
   std::size_t size_;
@@ -42,6 +48,8 @@ class SparseArray {
     }
     return values_[place - 1];
   }
+
+  void keep(auto& archive) { archive(place_, values_); }
 
  private:
   T common_{};

@@ -41,6 +41,8 @@ struct PolynomialPath {
   /// It takes all three values at a step's start and end, and velocity and acceleration in the middle.
   static PolynomialPath through(double length, const Point& start, const Point& middle, const Point& end);
 
+  void keep(auto& archive) { archive(length, is_parabola, displacement, ahead); }
+
   static Vec3 value(const Terms& of, double s);
   static Vec3 slope(const Terms& of, double s) { return of[0] + slope_change(of, s); }
   // The change of the slope since s = 0.

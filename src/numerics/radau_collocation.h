@@ -25,6 +25,7 @@ class RadauCollocation final : public DenseMotion {
   /// 1 + s fade times as heavy.
   using Hold = std::function<void(const std::vector<Vec3>& x, double s, std::vector<Vec3>& u)>;
 
+  RadauCollocation() : DenseMotion({}, {}) {}  // to be restored
   /// Starts at x (m) and v (m/s).
   RadauCollocation(std::vector<Vec3> x, std::vector<Vec3> v) : DenseMotion(std::move(x), std::move(v)) {}
 
@@ -36,6 +37,11 @@ class RadauCollocation final : public DenseMotion {
   Vec3 displacement(std::size_t k, double t) const override;
   Vec3 velocity(std::size_t k, double t) const override;
   PolynomialPath path(std::size_t k) const override;
+
+  void keep(auto& archive) {
+    DenseMotion::keep(archive);
+    archive(of_displacement_, of_velocity_);
+  }
 
  private:
   double sweep(std::span<const Forces> forces, const Hold& hold);

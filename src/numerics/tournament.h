@@ -99,6 +99,11 @@ class Tournament {
     if (first_time_ <= until) collect(levels_.size() - 1, 0, until, due);
   }
 
+  void keep(auto& archive) {
+    archive.sized(times_, winners_);
+    archive(first_, first_time_, close_times_);
+  }
+
  private:
   static constexpr std::size_t width = 8;
   static constexpr double never = std::numeric_limits<double>::infinity();

@@ -20,6 +20,8 @@ struct ClosedForces {
   Vec3 center = Vec3::Zero();      // m, of the attractor
   double strength = 0;             // m^3/s^2; 0: springs, or no force of either kind
 
+  void keep(auto& archive) { archive(fade, stiffness, center, strength); }
+
   friend bool operator==(const ClosedForces&, const ClosedForces&) = default;
 };
 
@@ -48,6 +50,8 @@ class ClosedMotion {
   /// The longest step (s) from there on in which the motion does not turn, and comes at most half way to a centre.
   /// Turns of less than `room` (m) do not count.
   double longest_step(const Point& there, double room) const;
+
+  void keep(auto& archive) { archive(origin_, strength_, motion_); }
 
  private:
   Vec3 origin_ = Vec3::Zero();

@@ -29,6 +29,10 @@ struct Collision {
   double restitution;       // the pair's coefficient
   double impulse;           // N s, along the normal
   double energy_lost;       // J, < 0: made
+
+  void keep(auto& archive) {
+    archive(time, kind, a, b, position, normal, approach_speed, separation_speed, restitution, impulse, energy_lost);
+  }
 };
 
 }  // namespace carom

@@ -27,6 +27,11 @@ class KeplerOrbit {
   /// The period of an ellipse (s), otherwise infinity.
   double period() const { return period_.hi; }
 
+  void keep(auto& archive) {
+    archive(mu_, beta_, root_, momentum_, near_, far_, ahead_, aside_);
+    archive(period_, quarter_, starts_far_, start_, x_, v_);
+  }
+
  private:
   /// One end of the long axis. At parameter s from there on, the time is distance s + bend G3(s). The distance from the
   /// centre is then distance + bend G2(s).

@@ -25,6 +25,8 @@ struct Oscillation {
   double fade = 0;        // 1/s, >= 0
   double stiffness = 1;   // 1/s^2, > 0: spring constants over mass
 
+  void keep(auto& archive) { archive(x, v, a, fade, stiffness); }
+
   void at(double t, Vec3& position, Vec3& velocity) const;
   /// Acceleration (m/s^2) and jerk (m/s^3) at t (s). They are not computed from forces, which cancel where the motion
   /// fades.

@@ -45,6 +45,11 @@ struct PathPiece {
   bool joint = false;
   double mass = 0, radius = 0;  // kg, m
   Vec3 half = Vec3::Zero();     // m, half extents of the volume
+
+  void keep(auto& archive) {
+    archive(body, from, start, x, v, a, fade, law, rounding, kicked, until, kick, curve);
+    archive(part_of, removed, joint, mass, radius, half);
+  }
 };
 
 }  // namespace carom

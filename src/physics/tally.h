@@ -30,6 +30,8 @@ struct SharedImpacts {
   Entity body = no_entity;
   Entity one = no_entity;
   Entity other = no_entity;
+
+  void keep(auto& archive) { archive(instants, ties, without_room, absorbed, first, body, one, other); }
 };
 
 /// What regions have taken out of the world.
@@ -37,6 +39,8 @@ struct Removed {
   std::uint64_t bodies = 0;
   double energy = 0;             // J, kinetic and potential, each body's at its removal
   Vec3 momentum = Vec3::Zero();  // kg m/s
+
+  void keep(auto& archive) { archive(bodies, energy, momentum); }
 };
 
 /// Why a run has ended before its duration.
@@ -50,12 +54,16 @@ struct RunEnd {
   double time = 0;  // s
   EndReason reason = EndReason::rest;
   std::uint32_t region = 0;  // of that reason
+
+  void keep(auto& archive) { archive(time, reason, region); }
 };
 
 /// The greatest speed of a body.
 struct Fastest {
   double speed = 0;         // m/s
   Entity body = no_entity;  // no_entity: none has moved, or it was not recorded
+
+  void keep(auto& archive) { archive(speed, body); }
 };
 
 /// A step of one length for all, in which forces on a body turn.
@@ -65,6 +73,8 @@ struct StiffStep {
   double time = 0;                          // s, of its start
   Entity body = no_entity;                  // no_entity: there was no such step
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();  // m, m/s
+
+  void keep(auto& archive) { archive(phase, length, time, body, x, v); }
 };
 
 /// An acceleration that forces left to a body at rest. It counts as balance, and is more than their rounding.
@@ -72,6 +82,8 @@ struct Unbalanced {
   double acceleration = 0;  // m/s^2
   double way = 0;           // m, how far it would have moved the body by the run's end
   Entity body = no_entity;  // no_entity: there was none
+
+  void keep(auto& archive) { archive(acceleration, way, body); }
 };
 
 /// What may make a run doubtful (run/warnings.h).
@@ -83,6 +95,8 @@ struct Doubts {
   std::uint64_t unsolved_steps = 0;  // of crowds: forces were less accurate than they should be
   StiffStep stiffest;                // the step with the greatest angle, for a method with steps of one length
   Unbalanced unbalanced;             // that with the longest way
+
+  void keep(auto& archive) { archive(contacts, contact_made, crowd_steps, unsolved_steps, stiffest, unbalanced); }
 };
 
 struct Tally {
@@ -128,6 +142,12 @@ struct Tally {
     last_collision = time;
   }
   std::uint64_t collisions() const { return body_body + body_fixed + merges + tautened; }
+
+  void keep(auto& archive) {
+    archive(body_body, body_fixed, merges, tautened, collapses, first_collision, last_collision, energy_lost);
+    archive(method_error, work, force_work, doubts, max_overlap, fastest, resting, stepped_contact);
+    archive(taken_up, shared, removed, end);
+  }
 };
 
 }  // namespace carom

@@ -17,6 +17,8 @@ struct Volume {
   static Volume cylinder(double radius, double height) { return {Shape::cylinder, Vec3(radius, 0.5 * height, radius)}; }
   static Volume box(const Vec3& edges) { return {Shape::box, 0.5 * edges}; }
 
+  void keep(auto& archive) { archive(shape, half); }
+
   /// Radius of the smallest sphere about the centre that holds the volume (m).
   double reach() const;
   /// m^3

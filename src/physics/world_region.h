@@ -29,6 +29,8 @@ struct RegionCrossing {
   std::uint32_t region = 0;
   Entity body = no_entity;
   bool enters = true;
+  void keep(auto& archive) { archive(time, region, body, enters); }
+
   friend bool operator==(const RegionCrossing&, const RegionCrossing&) = default;
 };
 

@@ -20,6 +20,7 @@
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
+#include "simulate/archive.h"
 #include "simulate/event_log.h"
 #include "simulate/tolerances.h"
 
@@ -44,8 +45,13 @@ class BookSimulator final : public Simulator {
   std::span<const RegionCrossing> crossings() const override { return crossings_; }
   const Tally& tally() const override { return log_.tally(); }
   std::vector<Extremes> extremes() const override { return extremes_; }
+  std::string save() override;
+  void restore(std::string_view bytes) override;
 
  private:
+  /// For save() and restore().
+  template <typename Archive>
+  void keep(Archive& archive);
   double frame_time(std::uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
   void do_frame();
   void find_forces();
@@ -78,7 +84,7 @@ class BookSimulator final : public Simulator {
   std::vector<std::uint8_t> inside_;
   std::vector<RegionCrossing> crossings_;
   std::vector<PathPiece> pieces_;   // since the last advance
-  std::vector<bool> lies_;          // by body: its last piece has no velocity
+  std::vector<std::uint8_t> lies_;  // by body: its last piece has no velocity
   std::optional<RunEnd> end_;       // in the last frame done
   std::vector<Extremes> extremes_;  // by options_.watch, at the frames
 };
@@ -188,7 +194,7 @@ void BookSimulator::record_paths() {
   const double from = frames_ == 0 ? 0 : std::nextafter(frame_time(frames_ - 1) + rounding_, end);
   for (Entity i = 0; i < world_.body_count(); ++i) {
     const bool lies = v_[i].isZero(0);
-    if (!(lies && lies_[i])) {
+    if (!(lies && lies_[i] != 0)) {
       PathPiece& piece = pieces_.emplace_back(PathPiece{i, from, {end, 0}, x_[i], v_[i]});
       piece.law = PathLaw::frame;
       piece.rounding = rounding_;
@@ -312,6 +318,26 @@ void BookSimulator::advance_to(double time) {
   }
 
   time_ = std::max(time, time_);
+}
+
+/// Forces are found anew in each frame.
+template <typename Archive>
+void BookSimulator::keep(Archive& archive) {
+  archive.same(options_.step, options_.as_printed, options_.record_collisions, options_.record_paths);
+  archive.sized(x_, v_, inside_, lies_, extremes_);
+  archive(frames_, time_, log_, crossings_, pieces_, end_);
+}
+
+std::string BookSimulator::save() {
+  StateWriter archive;
+  keep(archive);
+  return archive.take();
+}
+
+void BookSimulator::restore(std::string_view bytes) {
+  StateReader archive(bytes, world_);
+  keep(archive);
+  archive.finish();
 }
 
 /// Between frames a body is on the straight line of the frame's update.

@@ -114,6 +114,11 @@ class EventLog {
   }
   const Tally& tally() const { return tally_; }
 
+  void keep(auto& archive) {
+    archive(collisions_, tally_, energy_lost_, absorbed_, made_, method_error_, work_, removed_);
+    archive.sized(force_work_);
+  }
+
   static constexpr std::size_t capacity = 4096;  // collisions
 
  private:

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/collision.h"
@@ -53,6 +55,14 @@ class Simulator {
   virtual Effort effort() const { return {}; }  // up to the present; zero where it is not counted
   /// At time(), ordered by a, then b. Valid until the next advance_to.
   virtual std::span<const ContactForce> contacts() { return {}; }
+
+  /// The whole state at time(), with what has been recorded since the last advance_to. Only this version of the program
+  /// reads the bytes, on a processor of this kind. Saving changes nothing. Empty: it cannot be saved.
+  virtual std::string save() { return {}; }
+  /// Takes that state over. The simulator then goes on with the same bits as the one that was saved. It must be newly
+  /// made, from the same World, State and options. Throws SimulationError where the bytes do not fit. The simulator is
+  /// then of no more use.
+  virtual void restore(std::string_view /*bytes*/) { throw SimulationError("this simulator cannot be restored"); }
 };
 
 }  // namespace carom

@@ -36,6 +36,8 @@ struct ContactConstraint {
   bool bilateral = false;
   // normal . u_b of a fixed thing that moves; in the unit of u. Otherwise 0.
   double surface = 0;
+  void keep(auto& archive) { archive(a, b, normal, target, slack, force, independent, bilateral, surface); }
+
   /// The work of such a thing by the force, which pushes a against the normal.
   double work() const { return -force * surface; }
 };

@@ -34,6 +34,8 @@ class CollapseDetector {
   /// Whether bodies take part in body i's slow impacts, not flat fixed surfaces alone.
   bool among_bodies(Entity i) const { return burst_[i].bodies; }
 
+  void keep(auto& archive) { archive(burst_, collapse_); }
+
  private:
   /// Slow impacts of a body in quick succession.
   struct Burst {
@@ -41,6 +43,8 @@ class CollapseDetector {
     int impacts = 0;
     // Bodies take part, not flat fixed surfaces alone.
     bool bodies = false;
+
+    void keep(auto& archive) { archive(start, impacts, bodies); }
   };
   /// Impacts of a body at one place.
   struct Collapse {

@@ -19,6 +19,8 @@ struct Contact {
   Entity i;              // a body; in steps i < e
   Entity e;              // A string between two bodies is the e of one of them.
   std::uint8_t feature;  // as in Touch
+
+  void keep(auto& archive) { archive(i, e, feature); }
 };
 
 /// By body: the first of the bodies that pairs connect with it. `connects`: whether pair number c does.

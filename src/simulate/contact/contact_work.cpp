@@ -15,9 +15,10 @@ void ContactWork::change(Entity i, const Instant& now, double power) {
   power_.write(i) = {now, power};
 }
 
-void ContactWork::follow(const std::vector<Entity>& members, const Instant& now, std::function<double(double)> by) {
-  const auto path = std::make_shared<Path>(Path{now, std::move(by)});
-  for (const Entity i : members) path_.write(i) = path;
+void ContactWork::follow(const std::vector<Entity>& members, const Instant& now,
+                         std::shared_ptr<const WorkingPath> path) {
+  const auto from_now = std::make_shared<Path>(Path{now, std::move(path)});
+  for (const Entity i : members) path_.write(i) = from_now;
 }
 
 void ContactWork::end_paths(const std::vector<Entity>& members, const Instant& now) {
@@ -25,8 +26,8 @@ void ContactWork::end_paths(const std::vector<Entity>& members, const Instant& n
   for (const Entity i : members) {
     if (!path_[i]) continue;
     Path& path = *path_[i];
-    if (path.work) log_.carry(path.work(now - path.start));
-    path.work = nullptr;
+    if (path.path) log_.carry(path.path->work(now - path.start));
+    path.path = nullptr;
     path_.write(i) = nullptr;
   }
 }

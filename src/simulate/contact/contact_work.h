@@ -1,7 +1,6 @@
 #pragma once
 // The work that fixed things which move do on bodies in lasting contact with them: contact force times velocity, booked
 // as it accrues. Nothing is stored where nothing moves.
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,17 +12,36 @@ namespace carom {
 
 class EventLog;
 
+/// A path along which things that move do work.
+class WorkingPath {
+ public:
+  virtual ~WorkingPath() = default;
+  /// Their work (J) in the first `seconds`.
+  virtual double work(double seconds) const = 0;
+};
+
 class ContactWork {
  public:
   ContactWork(Entity bodies, EventLog& log) : power_(bodies), path_(bodies), log_(log) {}
 
   /// From this instant on, such things do work on body i at this rate (W). The work until then is booked.
   void change(Entity i, const Instant& now, double power);
-  /// Along a path from this instant on, such things do the work (J) that `by` gives for so many seconds. `members`: the
-  /// bodies on the path.
-  void follow(const std::vector<Entity>& members, const Instant& now, std::function<double(double)> by);
+  /// Such things do work along a path from this instant on. `members`: the bodies on the path.
+  void follow(const std::vector<Entity>& members, const Instant& now, std::shared_ptr<const WorkingPath> path);
   /// Books the work along the paths of these bodies, which end at this instant.
   void end_paths(const std::vector<Entity>& members, const Instant& now);
+
+  /// All paths are of the type Made.
+  template <typename Made>
+  void keep(auto& archive) {
+    archive(power_, path_);
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      if (!path_[i]) continue;
+      auto made = std::static_pointer_cast<const Made>(path_[i]->path);
+      archive(made);
+      path_[i]->path = made;
+    }
+  }
 
  private:
   struct Power {
@@ -34,7 +52,9 @@ class ContactWork {
   /// The work along a path of several bodies.
   struct Path {
     Instant start;
-    std::function<double(double)> work;  // none: it is booked
+    std::shared_ptr<const WorkingPath> path;  // none: its work is booked
+
+    void keep(auto& archive) { archive(start); }
   };
 
   LazyArray<Power> power_;                 // by body

@@ -28,6 +28,11 @@ struct ExactBodies : BodyPaths {
   Islands islands;
   ContactWork contact_work;
 
+  void keep(auto& archive) {
+    BodyPaths::keep(archive);
+    archive(ties, neighbours, islands);
+  }
+
   static constexpr double immovable = never;  // kg
 
   /// Throws SimulationError: these things, of which one moves, leave body i no room.

@@ -20,12 +20,16 @@ struct PressingContact {
   Entity partner;
   double force;        // N
   double surface = 0;  // m/s, of a partner that moves: its speed along the normal, away from the body
+
+  void keep(auto& archive) { archive(partner, force, surface); }
 };
 
 /// A flat fixed thing that carries a body.
 struct Floor {
   Vec3 normal;    // towards the body
   Vec3 velocity;  // m/s
+
+  void keep(auto& archive) { archive(normal, velocity); }
 };
 
 /// What an island keeps of a member from step to step.
@@ -34,6 +38,8 @@ struct IslandMember {
   Instant needed;
   std::vector<Floor> floors;  // the flat fixed things that carry it
   double gap = 0;             // m: the widest gap at which things press on it while it sleeps
+
+  void keep(auto& archive) { archive(needed, floors, gap); }
 };
 
 class ExactGroup {
@@ -93,6 +99,8 @@ class ExactGroup {
   void note_power(Entity i);
   /// Appends the forces of sleeping bodies.
   void report(Entity i, std::vector<ContactForce>& forces) const;
+
+  void keep(auto& archive) { archive(pressing, member, parted_, many_parted_); }
 
  private:
   void enlist(Entity i);

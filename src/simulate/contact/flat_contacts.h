@@ -26,6 +26,8 @@ struct FlatContact {
   bool settling;
   Instant rest_time;      // s
   double residual_speed;  // m/s, left by the last bounce
+
+  void keep(auto& archive) { archive(surface, feature, normal, settling, rest_time, residual_speed); }
 };
 
 /// The flat contacts of a body.
@@ -33,6 +35,12 @@ struct FlatContactList {
   static constexpr std::size_t most = 4;
   std::array<FlatContact, most> at;
   std::size_t count = 0;
+
+  void keep(auto& archive) {
+    archive(count);
+    archive.check(count <= most);
+    for (std::size_t k = 0; k < count; ++k) archive(at[k]);
+  }
 };
 
 class FlatContacts {
@@ -87,6 +95,8 @@ class FlatContacts {
 
   /// Appends the forces that keep body i on its surfaces.
   void report(Entity i, std::vector<ContactForce>& forces) const;
+
+  void keep(auto& archive) { archive(contacts_); }
 
  private:
   void note_mode(Entity i);

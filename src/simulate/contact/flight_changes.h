@@ -75,6 +75,8 @@ class FlightChanges {
     return {changed_.data(), std::exchange(changed_count_, 0)};
   }
 
+  void keep(auto& archive) { archive(curved_, in_contact_, ended_); }
+
  private:
   bool follows_closed_form(Entity i) const { return curved_.follows_closed_form(i) && !is_member(bodies_.mode(i)); }
   [[gnu::noinline]] void count_anew(Entity i);

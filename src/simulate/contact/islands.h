@@ -38,6 +38,11 @@ struct Island {
   std::vector<std::shared_ptr<Crowd>> crowds;
   // Bodies of other kinds near it, with a new path since its last step.
   std::vector<Entity> watched;
+
+  void keep(auto& archive) {
+    archive(members, end, busy, planned, next_length, counted, changed, changes, calm, calm_needed, pressing);
+    archive(crowds, watched);
+  }
 };
 
 class Islands {
@@ -66,6 +71,8 @@ class Islands {
   /// Splits an island. Members with another label become islands of their own, equal in all other data.
   /// `labels`: by member, the index of the first member of its part. Returns one member of each part.
   std::vector<Entity> split(Entity i, std::span<const std::uint32_t> labels);
+
+  void keep(auto& archive) { archive(islands_, vacant_, island_, count_); }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};

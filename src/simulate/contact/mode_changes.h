@@ -45,6 +45,8 @@ class ModeChanges {
   using Counts = std::array<std::array<std::uint64_t, number_of_modes>, number_of_modes>;  // from, to
   const Counts& counts() const { return counts_; }
 
+  void keep(auto& archive) { archive(presses_, partners_, counts_); }
+
  private:
   void change(Entity i, Mode to, bool pressed);
   bool rests(Entity i) const;

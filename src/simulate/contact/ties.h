@@ -23,6 +23,8 @@ class Ties {
   /// Removes the strings of body i.
   void untie(Entity i);
 
+  void keep(auto& archive) { archive.sized(of_); }
+
  private:
   const World& world_;
   const bool any_;

@@ -26,6 +26,8 @@ struct CrowdReach {
   Instant sure;                   // until then no other outsiders than those of `coming` come near
   std::vector<Entity> outsiders;  // neighbours of other kinds, or of other crowds
   std::vector<Entity> coming;     // those that may come near until `sure`
+
+  void keep(auto& archive) { archive(listed, reach, most, gone, need, room, sure, outsiders, coming); }
 };
 
 /// The present step.
@@ -43,6 +45,10 @@ struct CrowdStep {
   double shell = 0;            // m, that contacts keep
   int waits = 0;               // steps to come in which missing gaps do not return
   int waited = 0;              // the last number of these
+
+  void keep(auto& archive) {
+    archive(start, end, length, last_length, open, valid, solved, kinetic, next_switch, speed, shell, waits, waited);
+  }
 };
 
 /// What precedes rest, or constrained motion.
@@ -52,6 +58,8 @@ struct CrowdRest {
   std::uint32_t steps = 0;       // in which not all were slow
   double next_try = 0;           // s: forces are not tried for balance before
   double try_after = 0;          // s, between two tries
+
+  void keep(auto& archive) { archive(closing, slow_since, steps, next_try, try_after); }
 };
 
 /// Energy so far.
@@ -115,6 +123,11 @@ struct Crowd {
     const double inside = sum_in_pairs(0, rows.slabs(), [&](std::size_t slab) { return of_slab(slab, 0); });
     return inside + sum_in_pairs(0, rows.slabs() - 1, [&](std::size_t slab) { return of_slab(slab, 1); });
   }
+  void keep(auto& archive) {
+    archive(members, things, x, v, by_name, a, lag, lent, idle, pressed, still, rows, earlier);
+    archive(list, step, rest, struck, smallest, load, balance);
+  }
+
   /// The velocity of member k (m/s) when its drift is so old (s).
   Vec3 velocity(std::size_t k, double age) const { return drift(k) + age * a[k]; }
 };

@@ -155,6 +155,8 @@ class CrowdRows {
     return sum;
   }
 
+  void keep(auto& archive) { archive(hot, change, state, names, parts, place, first); }
+
   std::vector<RowGroup> hot;
   std::vector<RowChange> change;
   std::vector<RowState> state;

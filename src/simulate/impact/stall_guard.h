@@ -30,6 +30,10 @@ class StallGuard {
   /// Whether so many events have happened at this instant that their rounds may be endless.
   bool may_be_endless() const { return at_instant_ >= exact_tolerance::rounds_of_events; }
 
+  void keep(auto& archive) {
+    archive(elastic_, lossy_, restitution_, moving_, instant_, at_instant_, highest_, lowest_, moved_);
+  }
+
  private:
   /// The progress of the clock over many events.
   struct Watch {

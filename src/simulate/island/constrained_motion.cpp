@@ -194,9 +194,7 @@ void ConstrainedMotion::begin_flights(const IslandStep& step) {
       step.motion.forces->leave_out(k);
 
   if (step.motion.forces)
-    bodies_.contact_work.follow(stay, bodies_.now, [path = step.path, forces = step.motion.forces](double seconds) {
-      return forces->work(*path->motion, std::min(seconds, path->motion->length()));
-    });
+    bodies_.contact_work.follow(stay, bodies_.now, std::make_shared<IslandWork>(step.path, step.motion.forces));
   bodies_.islands.retain(step.members.front(), std::move(stay));
 }
 

@@ -35,6 +35,11 @@ class ConstrainedMotion {
   /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
+  void keep(auto& archive) {
+    archive(following_, inexact_steps_);
+    bodies_.contact_work.keep<IslandWork>(archive);
+  }
+
  private:
   /// The path that a body follows, if it is still on this flight.
   struct Following {
@@ -42,6 +47,8 @@ class ConstrainedMotion {
     std::uint32_t place = 0;    // number in the path
     std::uint16_t version = 0;  // of the flight
     bool bound = false;         // things other than flat surfaces press on the body
+
+    void keep(auto& archive) { archive(path, place, version, bound); }
   };
 
   void take_in_touching(Entity i);

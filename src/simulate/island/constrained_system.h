@@ -23,11 +23,16 @@ class ConstrainedSystem {
     Vec3 at_rest;
     double fade;
     bool bent;  // the forces have no closed form
+
+    void keep(auto& archive) { archive(at_rest, fade, bent); }
   };
   /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object. step_error:
   /// of a step, and of parabolas on curved surfaces, as a share of the least radius and of speeds.
   ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied,
                     double step_error);
+
+  /// To be restored: then it has what work() needs.
+  explicit ConstrainedSystem(const World& world) : ConstrainedSystem(world, 0, {}, {}, 0) {}
 
   /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never
   /// opens.
@@ -84,12 +89,16 @@ class ConstrainedSystem {
   const std::vector<ContactConstraint>& rows() const { return rows_; }  // of closed contacts
   const Certificate& certificate() const { return certificate_; }
 
+  void keep(auto& archive) { archive(time_, members_, applied_, inverse_mass_, carriers_, left_, closed_, held_); }
+
  private:
   /// A fixed thing that moves. In a motion that is followed it is one more point, after the members.
   struct Carrier {
     Entity thing;
     Vec3 x;  // m, at the start
     Vec3 v;  // m/s, at the start
+
+    void keep(auto& archive) { archive(thing, x, v); }
   };
 
   /// The errors of a step that are allowed: of positions (m) and of velocities (m/s).
@@ -132,7 +141,7 @@ class ConstrainedSystem {
   Opened classify_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
 
   const World& world_;
-  const double time_;        // s
+  double time_;              // s
   const double step_error_;  // a share of the least radius and of speeds
   // A share of coordinates and speeds: an error that counts as rounding. It is as much smaller in a run with smaller
   // errors of steps, because what it does would else be the same in both.

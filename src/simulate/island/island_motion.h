@@ -33,6 +33,8 @@ class IslandMotion {
       constrained_.report(island, time, forces);
   }
 
+  void keep(auto& archive) { archive(constrained_); }
+
  private:
   ExactBodies& bodies_;
   PathLog& paths_;

@@ -1,12 +1,16 @@
 #pragma once
 // A step of an island by constrained motion, as a value: what is found for it, and what its end will change.
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "numerics/dormand_prince.h"
+#include "numerics/radau_collocation.h"
 #include "physics/collision.h"
 #include "physics/tally.h"
 #include "simulate/contact/contact_list.h"
+#include "simulate/contact/contact_work.h"
 #include "simulate/contact/flat_contacts.h"
 #include "simulate/contact/numbering.h"
 #include "simulate/event_log.h"
@@ -19,6 +23,37 @@ namespace carom {
 struct IslandPath {
   Instant start;
   std::unique_ptr<DenseMotion> motion;
+
+  void keep(auto& archive) {
+    bool stiff = dynamic_cast<const RadauCollocation*>(motion.get()) != nullptr;
+    archive(start, stiff);
+    stiff ? keep_by<RadauCollocation>(archive) : keep_by<DormandPrince>(archive);
+  }
+
+ private:
+  template <typename Method>
+  void keep_by(auto& archive) {
+    if (!motion) motion = std::make_unique<Method>();
+    archive(static_cast<Method&>(*motion));
+  }
+};
+
+/// The work of moving things along such a path.
+class IslandWork final : public WorkingPath {
+ public:
+  IslandWork() = default;  // to be restored
+  IslandWork(std::shared_ptr<const IslandPath> path, std::shared_ptr<const ConstrainedSystem> forces)
+      : path_(std::move(path)), forces_(std::move(forces)) {}
+
+  double work(double seconds) const override {
+    return forces_->work(*path_->motion, std::min(seconds, path_->motion->length()));
+  }
+
+  void keep(auto& archive) { archive(path_, forces_); }
+
+ private:
+  std::shared_ptr<const IslandPath> path_;
+  std::shared_ptr<const ConstrainedSystem> forces_;
 };
 
 /// What becomes of a member.

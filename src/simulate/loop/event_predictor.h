@@ -39,6 +39,8 @@ class EventPredictor {
   std::uint64_t pair_tests() const { return pair_tests_; }
   std::uint64_t surface_tests() const { return surface_tests_; }
 
+  void keep(auto& archive) { archive(pair_tests_, surface_tests_); }
+
  private:
   [[gnu::noinline]] void predict_crowd(Entity i);
   [[gnu::noinline]] void be_watched(Entity i);

@@ -43,6 +43,8 @@ class EventQueue {
   void due_until(double until, std::vector<Due>& due) const { queue_.due_until(until, due); }
   void prefetch(Entity i) const { queue_.prefetch(i); }
 
+  void keep(auto& archive) { archive(queue_); }
+
  private:
   [[gnu::always_inline]] bool before(Entity i, Entity j) const;
 

@@ -10,6 +10,7 @@
 
 #include "physics/restitution.h"
 #include "physics/world.h"
+#include "simulate/archive.h"
 
 namespace carom {
 
@@ -426,6 +427,31 @@ bool ExactSimulator::all_rest() {
     answers_.awake = answers_.awake + 1 == n ? 0 : answers_.awake + 1;
   }
   return true;
+}
+
+/// Prefetched data and answers to queries are left out.
+template <typename Archive>
+void ExactSimulator::keep(Archive& archive) {
+  const World& world = bodies_.world;
+  const ExactOptions& options = bodies_.options;
+  archive.same(world.body_count(), world.entity_count(), world.forces.size(), options.watch.size());
+  archive.same(options.duration, options.merge, options.record_collisions, options.record_paths);
+
+  archive(bodies_, crossings_, paths_, collapses_, modes_, flat_, group_, flights_, queue_, predictor_);
+  archive(islands_, guard_, effort_, time_);
+}
+
+std::string ExactSimulator::save() {
+  StateWriter archive;
+  keep(archive);
+  return archive.take();
+}
+
+void ExactSimulator::restore(std::string_view bytes) {
+  StateReader archive(bytes, bodies_.world);
+  keep(archive);
+  archive.finish();
+  answers_ = {};
 }
 
 Effort ExactSimulator::effort() const {

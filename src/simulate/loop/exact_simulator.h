@@ -36,6 +36,8 @@ class ExactSimulator final : public Simulator {
   }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
+  std::string save() override;
+  void restore(std::string_view bytes) override;
   const ModeChanges& modes() const { return modes_; }
 
  private:
@@ -47,6 +49,9 @@ class ExactSimulator final : public Simulator {
     Entity awake = 0;  // a body that moved when it was last looked for
   };
 
+  /// For save() and restore().
+  template <typename Archive>
+  void keep(Archive& archive);
   void start(const State& initial);
   void begin_island(Entity i);
   std::uint32_t take_event(Entity i);

@@ -50,6 +50,12 @@ class Crossings {
   void sort();
   bool full() const { return recorded_.size() >= capacity; }
 
+  void keep(auto& archive) {
+    archive.sized(standing_);
+    archive(next_, recorded_, latest_);
+    if (queue_) archive(*queue_);
+  }
+
  private:
   static constexpr std::size_t capacity = 4096;
   /// A body's standing towards a region.
@@ -57,6 +63,8 @@ class Crossings {
   struct Next {
     std::uint32_t region;
     Instant at, sure;
+
+    void keep(auto& archive) { archive(region, at, sure); }
   };
 
   bool before(Entity i, Entity j) const;

@@ -31,6 +31,8 @@ class CurvedFlights {
   /// The end of a step of a motion in closed form.
   struct Reached {
     Vec3 x, v;  // m, m/s
+
+    void keep(auto& archive) { archive(x, v); }
   };
   /// The state of body i, if a step of its motion in closed form ends at this instant; null: there is none.
   const Reached* reached(Entity i) const {
@@ -50,6 +52,8 @@ class CurvedFlights {
   /// The state of such a motion at an instant.
   Reached closed_place(Entity i, const Instant& at) const;
 
+  void keep(auto& archive) { archive(next_, method_, closed_); }
+
  private:
   /// A body's motion in closed form.
   struct Closed {
@@ -58,6 +62,8 @@ class CurvedFlights {
     // Start of the motion, and end of its last step.
     Instant start, next{-1, 0};
     Reached end;  // at the end of that step
+
+    void keep(auto& archive) { archive(forces, motion, start, next, end); }
   };
   PolynomialPath closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v);
   PolynomialPath numerical_step(Entity i, const Vec3& x, const Vec3& v);

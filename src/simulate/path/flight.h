@@ -85,6 +85,8 @@ struct Kick {
 
   /// Its part from `at` on (m/s).
   Vec3 rest(const Instant& at) const { return (until - at) * a; }
+
+  void keep(auto& archive) { archive(until, a); }
 };
 
 /// The flights of all bodies. The data of pair tests take one cache line for each body.
@@ -94,6 +96,8 @@ class Flights {
   struct alignas(64) Core {
     Vec3 x, v;
     Instant start;
+
+    void keep(auto& archive) { archive(x, v, start); }
   };
   static_assert(sizeof(Core) == 8 * sizeof(double));
 
@@ -129,11 +133,23 @@ class Flights {
   /// Sets a flight through a step with the path `curve`. Copies of the flight before stay valid until the next call.
   void set(Entity i, const Flight& flight, const PolynomialPath& curve);
 
+  void keep(auto& archive) {
+    archive.sized(core_);
+    archive(acceleration_, fade_, curves_);
+    archive.check(acceleration_.empty() || acceleration_.size() == core_.size());
+  }
+
  private:
   /// The curves of a body: the present one, and the one before.
   struct Curves {
     PolynomialPath of[2];
     std::uint8_t present = 0;
+
+    void keep(auto& archive) {
+      archive(present);
+      archive.check(present < 2);
+      archive(of[present]);
+    }
   };
 
   const PolynomialPath* curve_of(Entity i) const {

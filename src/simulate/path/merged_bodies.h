@@ -43,6 +43,11 @@ class MergedBodies {
   /// Takes body i, with its parts, out of the world.
   void remove(Entity i);
 
+  void keep(auto& archive) {
+    if (joint_) archive.sized(joint_->mass, joint_->radius, joint_->volume, joint_->restitution);
+    archive(whole_of_, parts_, share_);
+  }
+
  private:
   void begin();
 

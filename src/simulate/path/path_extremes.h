@@ -13,6 +13,8 @@ namespace carom {
 struct PathPoint {
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();    // m, and m/s by the scene's method
   Vec3 way = Vec3::Zero(), a = Vec3::Zero();  // m/s, m/s^2: the changes of x and of v
+
+  void keep(auto& archive) { archive(x, v, way, a); }
 };
 
 class PathExtremes {
@@ -26,6 +28,8 @@ class PathExtremes {
   /// The extremes from time 0 to `time` (s), by options.watch. Flights that last are taken up to there.
   std::vector<Extremes> up_to(double time) const;
 
+  void keep(auto& archive) { archive.sized(found_, seen_); }
+
  private:
   /// What has been taken of a body's path.
   struct Seen {
@@ -33,6 +37,8 @@ class PathExtremes {
     Instant until;
     PathPoint end;                // there, not taken yet
     double place = 0, speed = 0;  // m and m/s: bounds of the errors so far
+
+    void keep(auto& archive) { archive(any, until, end, place, speed); }
   };
 
   Seen take(Entity i, const Instant& until, std::vector<Extremes>& found) const;

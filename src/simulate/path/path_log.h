@@ -40,6 +40,10 @@ class PathLog {
   std::span<const PathPiece> pieces() const { return pieces_; }  // in order
   const PathExtremes& extremes() const { return extremes_; }
 
+  void keep(auto& archive) {
+    archive(extremes_, pieces_, changed_, changed_at_, delayed_, end_, latest_, full_, closed_);
+  }
+
  private:
   void note(Entity i);
   bool follows_closed_form(Entity i) const { return curved_->follows_closed_form(i) && !is_member(bodies_.mode(i)); }

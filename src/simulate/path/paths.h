@@ -45,6 +45,12 @@ struct BodyPaths {
   LargeVector<ExactBody> body;
   EventLog log;
 
+  void keep(auto& archive) {
+    archive(merged, now, applied, fade, bent, flights, kick);
+    archive.sized(body);
+    archive(log);
+  }
+
   /// What moves body i now.
   [[gnu::always_inline]] Mode mode(Entity i) const { return body[i].mode(); }
 

@@ -4,6 +4,7 @@
 // The method is that of near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737). A region
 // with few neighbours grows, so that a ball that flies off costs little, however far it goes. Results must not depend
 // on extra neighbours, nor on the order of lists.
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -68,6 +69,28 @@ class Neighbours {
 
   /// Removes body i.
   void remove(Entity i);
+
+  template <typename Archive>
+  void keep(Archive& archive) {
+    archive.same(origin_, unit_);
+    archive.sized(region_);
+    archive(grid_);
+
+    // Lists, not their places in the pool.
+    for (Entity i = 0; i < lists_.size(); ++i) {
+      NeighbourList& list = lists_[i];
+      std::vector<Entity> all(near(i).begin(), near(i).end());
+      std::uint32_t surfaces = list.surfaces, left = list.left;
+      archive(list.level, all, surfaces, left);
+      if constexpr (Archive::reads) {
+        pool_.reserve(list, all.size());
+        std::copy(all.begin(), all.end(), pool_.data(list));
+        list.count = static_cast<std::uint32_t>(all.size());
+        list.surfaces = surfaces & 0xFFFFFF;
+        list.left = left & 0xFF;
+      }
+    }
+  }
 
  private:
   /// The neighbours of a body: bodies, then surfaces.

@@ -32,6 +32,8 @@ class RegionGrid {
   std::size_t near(const Region& region, std::vector<Entity>& found) const;
   static constexpr std::size_t slack = 16;
 
+  void keep(auto& archive) { archive(low_, high_, octaves_, overflow_, free_); }
+
  private:
   using Cell = std::int64_t;
   struct alignas(64) Bucket {
@@ -49,6 +51,8 @@ class RegionGrid {
     LargeVector<Bucket> buckets;
     // Number of regions, and the number from which on more cells are better.
     std::size_t regions = 0, most = 0;
+
+    void keep(auto& archive) { archive(number, half, per_width, low, cells, buckets, regions, most); }
   };
 
   static Cell cell_of(float x, double per_width);

@@ -1,0 +1,82 @@
+// Every scene, and random ones, saved and restored on the way.
+#include "simulate/snapshot.h"
+
+#include <filesystem>
+#include <random>
+
+#include "render/mesh.h"
+#include "run/engine.h"
+#include "scene/load.h"
+#include "scene/scene.h"
+#include "stress/scene.h"
+
+namespace carom {
+namespace {
+
+/// Ascending, at random (s), and the end.
+std::vector<double> some_times(std::mt19937_64& random, double duration, int count) {
+  std::vector<double> times;
+  for (int k = 0; k < count; ++k) times.push_back(duration * static_cast<double>(random() >> 11) * 0x1p-53);
+  std::sort(times.begin(), times.end());
+  times.push_back(duration);
+  return times;
+}
+
+std::vector<WatchedQuantity> watch_all(Entity bodies) {
+  return {{Quantity::y, 0, bodies}, {Quantity::speed, 0, bodies}};
+}
+
+std::vector<std::string> scene_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Scene load(const std::string& name) {
+  LoadOptions options;
+  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  return load_scene(SCENES_DIR "/" + name + ".yaml", options);
+}
+
+class EverySceneRestored : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EverySceneRestored, GoesOnWithTheSameBits) {
+  const Scene scene = load(GetParam());
+  std::mt19937_64 random(1);
+  const double share = GetParam() == "funnel" ? 0.05 : 1;  // it takes long
+  const std::vector<double> times = some_times(random, share * scene.simulate.duration, 8);
+  for (const bool records : {false, true}) {
+    SCOPED_TRACE(records ? "with records" : "without records");
+    const auto watch = records ? watch_all(scene.world.body_count()) : std::vector<WatchedQuantity>();
+    expect_same_when_restored([&] { return make_simulator(scene, {records, records, watch}); }, times, random());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRestored, ::testing::ValuesIn(scene_files()));
+
+class RandomSceneRestored : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(RandomSceneRestored, GoesOnWithTheSameBits) {
+  const std::size_t families = stress::family_names().size();
+  for (std::uint64_t k = 0; k < 48; ++k) {
+    stress::RandomScene scene = stress::make_scene(GetParam() + families * k);
+    if (k % 3 == 2) scene = stress::with_motions(scene);
+    SCOPED_TRACE("seed " + std::to_string(scene.seed));
+
+    std::mt19937_64 random(scene.seed);
+    scene.options.record_paths = random() % 2 == 0;
+    scene.options.record_collisions = random() % 4 != 0;
+    scene.options.stop_at_rest = random() % 4 == 0;
+    if (random() % 2 == 0) scene.options.watch = watch_all(scene.world.body_count());
+    expect_same_when_restored([&] { return make_exact_simulator(scene.world, scene.initial, scene.options); },
+                              some_times(random, scene.options.duration, 6), random());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, RandomSceneRestored, ::testing::Range(std::size_t{0}, stress::family_names().size()),
+                         [](const auto& family) { return std::string(stress::family_names()[family.param]); });
+
+}  // namespace
+}  // namespace carom
