@@ -130,7 +130,7 @@ class Together {
 int run_batch(const Batch& batch, std::vector<PlannedScene>& scenes, const Options& options, std::string_view command) {
   const auto to_do = static_cast<std::size_t>(std::count_if(
       scenes.begin(), scenes.end(), [&](const PlannedScene& planned) { return !batch.is_up_to_date(planned); }));
-  const std::size_t jobs = std::min<std::size_t>(options.at_once.jobs.value_or(1), to_do);
+  const std::size_t jobs = std::min<std::size_t>(options.execution.jobs.value_or(1), to_do);
   if (jobs <= 1) return run_in_turn(batch, scenes, options);
   return Together(batch, scenes, options, command, to_do).go(jobs);
 }

@@ -20,6 +20,7 @@
 #include "commands/volumes.h"
 #include "export/flights_file.h"
 #include "export/tables.h"
+#include "files/checkpoint_file.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"
@@ -177,6 +178,9 @@ std::string content_text(const PlannedScene& planned) {
     case FolderContent::this_run:
       return "up to date";
     case FolderContent::incomplete:
+      if (const std::optional<Checkpoint> kept = any_checkpoint(planned.folder))
+        return fmt::format("interrupted at {} of its motion: the same command goes on there",
+                           quantity(kept->time, "s"));
       return "incomplete, will be run again";
     case FolderContent::earlier:
       return "holds a run of the scene as it was, will be replaced";

@@ -55,10 +55,11 @@ struct SubmitOptions {
   std::vector<std::string> batch;    // further options of the batch system
 };
 
-/// What goes on at a time. No result depends on it.
-struct Concurrency {
-  std::optional<std::uint64_t> jobs;     // runs
+/// How runs are done. No result depends on it.
+struct Execution {
+  std::optional<std::uint64_t> jobs;     // runs at a time
   std::optional<std::uint64_t> threads;  // of each run
+  std::optional<double> checkpoint_s;    // s, wall time; 0: never
 };
 
 /// The options of one command. A command that lacks an option leaves its default.
@@ -68,7 +69,7 @@ struct Options {
   std::vector<std::string> set;                  // path=value
   std::optional<std::vector<std::string>> only;  // names of outputs, not empty
   std::optional<std::uint64_t> seed;
-  Concurrency at_once;
+  Execution execution;
   bool force = false;
   bool quiet = false;
   bool json = false;

@@ -63,6 +63,8 @@ const CommandText& run_text() {
       "Without -o a scene's run goes to output/<scene file's stem>/. All scenes are checked before\n"
       "the first is run. A folder that holds this very run is up to date and costs nothing. A run of the\n"
       "same scene file from before it was edited is replaced, if nothing in its folder was changed.\n"
+      "A run that simulates for more than a minute goes on by the same command after an interrupt or a\n"
+      "kill, with the same result. With pictures by a given camera it needs flights for that.\n"
       "\n"
       "Exit codes: 0 done or up to date, 1 a run failed, 2 the command line or a scene is wrong,\n"
       "130 or 143 interrupted.",
@@ -72,6 +74,7 @@ const CommandText& run_text() {
        {"--seed"},
        {"--jobs"},
        {"--threads"},
+       {"--checkpoint"},
        {"--watch"},
        {"--force"},
        {"--verbose"},
@@ -80,7 +83,7 @@ const CommandText& run_text() {
 }
 
 int run_command(const Options& options) {
-  if (options.at_once.threads) use_threads(*options.at_once.threads);
+  if (options.execution.threads) use_threads(*options.execution.threads);
   if (options.watch) return watch_scenes(options);
   return run_planned(options, "run", plan_scenes(options));
 }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "commands/interrupt.h"
+#include "commands/report.h"
 #include "commands/text.h"
 #include "files/earlier_run.h"
 #include "overlay/history.h"
@@ -22,11 +23,12 @@ Show show_of(const PlannedScene& planned) {
 }
 
 /// A former run supplies the motion by its flights, and its warnings and measures unchanged.
-RunSettings settings_of(const PlannedScene& planned, bool quiet) {
+RunSettings settings_of(const PlannedScene& planned, const Options& options) {
   RunSettings settings;
+  settings.checkpoint_s = options.execution.checkpoint_s.value_or(settings.checkpoint_s);
   if (!planned.former) return settings;
   settings.former = &planned.former->manifest;
-  settings.replay = replay_of(planned, overlay_needs(*planned.scene), quiet);
+  settings.replay = replay_of(planned, overlay_needs(*planned.scene), options.quiet);
   return settings;
 }
 
@@ -47,10 +49,14 @@ std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedS
 }
 
 SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress) {
-  const RunWatch watch{stop_if_interrupted, [&](const RunProgress& now) { progress.update(now); }};
+  const RunWatch watch{stop_if_interrupted, [&](const RunProgress& now) { progress.update(now); },
+                       [&](const std::string& text) {
+                         progress.clear();
+                         remark(options, fmt::format("{}: {}", printable(planned.file), text));
+                       }};
   try {
-    return run_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned, options.quiet), watch),
-                    options, style);
+    return run_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned, options), watch), options,
+                    style);
   } catch (const std::bad_alloc&) {
     return run_failed(planned, "not enough memory");
   } catch (const std::exception& error) {

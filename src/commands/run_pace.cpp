@@ -44,7 +44,7 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
       left_ = std::numeric_limits<double>::infinity();
       break;
     case Phase::simulating:
-      simulating_.note(in_phase, progress.time);
+      simulating_.note(in_phase, progress.time - progress.begun_at);
       if (!ahead_.draws_after) drawing_.note(in_phase, static_cast<double>(progress.pictures));
       left_ = ahead_.draws_after ? simulation_left() + ahead_.draw_s : std::max(simulation_left(), drawing_left());
       break;

@@ -7,6 +7,7 @@
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "files/checkpoint_file.h"
 #include "scene/scene.h"
 #include "yaml/value_json.h"
 
@@ -89,7 +90,10 @@ SceneOutcome run_failed(const PlannedScene& planned, std::string_view why) {
 
 SceneOutcome run_interrupted(const PlannedScene& planned) {
   SceneOutcome outcome = without_run(planned, scene_status::interrupted);
-  outcome.complaint = fmt::format("{}: interrupted; the same command runs what is missing", printable(planned.file));
+  const std::optional<Checkpoint> kept = any_checkpoint(planned.folder);
+  const std::string what = kept ? fmt::format("at {:.4g} s of its motion; the same command goes on there", kept->time)
+                                : "the same command runs what is missing";
+  outcome.complaint = fmt::format("{}: interrupted{}{}", printable(planned.file), kept ? " " : "; ", what);
   return outcome;
 }
 

@@ -97,7 +97,7 @@ if [ -z "${{SLURM_ARRAY_TASK_ID:-}}" ]; then
 fi
 exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
 )",
-      shell_word(name), parts, options.at_once.jobs.value_or(1), batch, counted(runs, "run", "runs"),
+      shell_word(name), parts, options.execution.jobs.value_or(1), batch, counted(runs, "run", "runs"),
       shell_word(words_of({program(), "gather", folder})), words_of(words), counted(parts, "part", "parts"));
   if (options.json)
     write_out(document("submit", Json{{"sweep", options.operands.front()},

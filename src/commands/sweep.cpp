@@ -114,7 +114,7 @@ class SweepSession {
     SweepOutcome outcome;
     for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);
     outcome.to_do = job.left();
-    share_processors(options_.at_once.jobs.value_or(processors()));
+    share_processors(options_.execution.jobs.value_or(processors()));
     show_progress("runs");
     try {
       job.run([&](const SweepProgress& p) { show_progress(p); },
@@ -196,6 +196,7 @@ const CommandText& sweep_text() {
        {"--plan"},
        {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
        {"--threads"},
+       {"--checkpoint"},
        {"--shard"},
        {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
        {"--only"},
@@ -211,7 +212,7 @@ const CommandText& sweep_text() {
 }
 
 int sweep_command(const Options& options) {
-  if (options.at_once.threads) use_threads(*options.at_once.threads);
+  if (options.execution.threads) use_threads(*options.execution.threads);
   return SweepSession(options).go();
 }
 

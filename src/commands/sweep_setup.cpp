@@ -132,9 +132,10 @@ SweepSettings sweep_settings(const Options& options) {
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
   };
   settings.load.former_state = start_reader(settings.load);
-  settings.jobs = options.at_once.jobs.value_or(processors());
+  settings.jobs = options.execution.jobs.value_or(processors());
   settings.shard = shard_of(options);
   settings.force = options.force;
+  settings.checkpoint_s = options.execution.checkpoint_s.value_or(settings.checkpoint_s);
   settings.restrict = [](const Output& requested, const Sweep& sweep) {
     if (sweep.only.empty()) return requested;
     std::vector<std::string> only;

@@ -20,6 +20,8 @@ class CollisionsChart {
   Histogram histogram(CollisionKind kind) const;
   Plot plot() const;
 
+  void keep(auto& archive) { archive(counts_); }
+
  private:
   /// Collisions are counted in so many intervals, and joined afterwards, when their number is known.
   static constexpr std::size_t intervals = 120;

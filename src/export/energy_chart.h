@@ -11,6 +11,8 @@ class EnergyChart {
   void add(double time, double kinetic, double potential);
   Plot plot() const;
 
+  void keep(auto& archive) { archive(instants_, kinetic_, potential_, total_); }
+
  private:
   const Scene& scene_;
   std::uint64_t instants_ = 0;

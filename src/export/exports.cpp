@@ -50,7 +50,7 @@ void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records)
 struct Exports::Impl {
   // Refuse what can be refused here, before the folder is changed.
   Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
-       const Manifest* renewed)
+       const Manifest* renewed, const std::optional<std::string>& request)
       : scene(the_scene), makers(std::move(the_makers)), tables(end_of(the_scene)), plan(plan_pictures(the_scene)) {
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
@@ -59,8 +59,19 @@ struct Exports::Impl {
     if (draws_plots()) find_gnuplot();
 
     folder.emplace(path, durability);
-    first_records = renewed != nullptr ? folder->renew(scene, meshes) : folder->begin(scene, meshes);
+    if (request) find_interrupted(*request);
+    first_records = renewed != nullptr ? folder->renew(scene, meshes)
+                    : interrupted      ? folder->go_on(scene, meshes)
+                                       : folder->begin(scene, meshes);
     open_writers(tables, false);
+  }
+
+  /// `more`: what tells runs apart, besides scene and outputs.
+  void find_interrupted(const std::string& more) {
+    checkpoint.emplace(folder->place(), scene.resolved + outputs_text(scene.output) + more);
+    interrupted = checkpoint->read();
+    is_kept = interrupted.has_value();
+    replaces_interrupted = !interrupted && has_checkpoint(folder->place());
   }
 
   /// Opens the writers that wait for the whole motion, or all others.
@@ -137,6 +148,10 @@ struct Exports::Impl {
   std::vector<FileRecord> first_records;
   // Declared before all that writes into it, so that it is destroyed last and can clean up.
   std::optional<OpenFolder> folder;
+  std::optional<CheckpointFile> checkpoint;
+  std::optional<Checkpoint> interrupted;
+  bool is_kept = false;
+  bool replaces_interrupted = false;
   OutputPart tables;
   std::optional<OutputPart> drawings;
   PictureStreams plan;
@@ -148,10 +163,36 @@ struct Exports::Impl {
 };
 
 Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers,
-                 const Manifest* renewed)
-    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed)) {}
+                 const Manifest* renewed, const std::optional<std::string>& request)
+    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed, request)) {}
 
 Exports::~Exports() = default;
+
+bool Exports::goes_on() const {
+  return impl_->interrupted.has_value();
+}
+
+Checkpoint Exports::take_interrupted() {
+  return std::exchange(*impl_->interrupted, {});
+}
+
+bool Exports::replaces_interrupted() const {
+  return impl_->replaces_interrupted;
+}
+
+void Exports::keep(Checkpoint checkpoint) {
+  impl_->checkpoint->write(std::move(checkpoint));
+  impl_->is_kept = true;
+}
+
+bool Exports::is_kept() const {
+  return impl_->is_kept;
+}
+
+void Exports::forget() {
+  if (is_kept()) impl_->checkpoint->remove();
+  impl_->is_kept = false;
+}
 
 OutputPart& Exports::tables() {
   return impl_->tables;

@@ -4,11 +4,13 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "export/output_part.h"
 #include "export/picture_streams.h"
+#include "files/checkpoint_file.h"
 #include "files/output_file.h"
 #include "files/run_folder.h"
 #include "files/summary.h"
@@ -29,12 +31,28 @@ class Exports {
   /// `scene` must outlive this object. `makers`: the functions of render/ for vtk and gltf. Throws ExportError.
   /// `renewed`: the manifest of the complete run of the same motion that the folder holds.
   /// Of that run all files stay except drawn ones, summary.csv and scene.yaml. Until finish() all of them stay.
+  /// `request`: what tells this run from others, besides scene and outputs. An interrupted run of the same request then
+  /// goes on: see goes_on(). None: it begins anew. Throws ArchiveError if what that run has left is damaged, and
+  /// removes its checkpoint then.
   Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
-          ModelMakers makers = {}, const Manifest* renewed = nullptr);
+          ModelMakers makers = {}, const Manifest* renewed = nullptr, const std::optional<std::string>& request = {});
   /// Without finish(), incomplete files are removed. Complete frames stay.
   ~Exports();
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
+
+  /// Whether an interrupted run goes on.
+  bool goes_on() const;
+  /// What it has kept. The tables must take over their part of that.
+  Checkpoint take_interrupted();
+  /// Whether another request's run was kept in the folder.
+  bool replaces_interrupted() const;
+  /// Keeps this for a run that continues this one. From here on the folder's files stay if the run fails.
+  void keep(Checkpoint checkpoint);
+  /// Whether that has been done, by this run or by the one that it continues.
+  bool is_kept() const;
+  /// Removes what was kept, but no file of this run.
+  void forget();
 
   OutputPart& tables();
   /// The flights among the tables. Null: there are none.

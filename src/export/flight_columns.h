@@ -38,6 +38,7 @@ class ColumnWriter {
   void difference(Column column, double predicted, double actual);
 
   std::size_t size() const;  // in bytes, before they are packed
+  void keep(auto& archive) { archive(columns_, words_, word_, used_); }
   /// Appends the packed columns to `to`, and empties them.
   void pack(std::vector<char>& to);
 

@@ -90,7 +90,11 @@ class FlightsFile final : public Writer {
   void end(const Tally& tally) override;
   std::vector<LeftOut> left_out() const override;
   std::vector<OutputFile*> files() override;
+  void keep(StateWriter& archive) override { keep_all(archive); }
+  void keep(StateReader& archive) override { keep_all(archive); }
 
+  /// Whether it has not been given up.
+  bool is_there() const { return file_.has_value(); }
   /// Whether collisions are recorded: those that pictures of the scene show.
   bool has_collisions() const { return has_collisions_; }
 
@@ -104,6 +108,13 @@ class FlightsFile final : public Writer {
   void count();
   void end_block(std::uint32_t kind, ColumnWriter& columns, std::uint32_t entries, double time);
   void put_key();
+  void keep_all(auto& archive) {
+    bool there = is_there();
+    archive(there);
+    if (!there) file_.reset();
+    if (file_) keep_part(archive, *file_);
+    archive(bytes_, entries_, group_, collisions_, codec_, columns_, in_block_, block_time_, keys_, next_key_);
+  }
 
   std::optional<OutputFile> file_;
   const bool has_collisions_;

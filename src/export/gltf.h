@@ -14,9 +14,13 @@ class GltfWriter : public Writer {
       : scene_(scene), makers_(makers), file_(folder.place(), "animation.glb") {}
   void add(double time, const State& state, std::span<const ContactForce> contacts) override;
   std::vector<OutputFile*> files() override;
+  void keep(StateWriter& archive) override { keep_all(archive); }
+  void keep(StateReader& archive) override { keep_all(archive); }
   static double bytes(const Scene& scene, double instants);
 
  private:
+  void keep_all(auto& archive) { archive(motion_, volumes_); }
+
   const Scene& scene_;
   const ModelMakers& makers_;
   OutputFile file_;

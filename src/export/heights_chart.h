@@ -22,6 +22,11 @@ class HeightsChart {
   void add(double time, const State& state);
   Plot plot() const;
 
+  void keep(auto& archive) {
+    archive(instants_, spreads_);
+    for (ThinnedLine& line : lines_) archive(line);
+  }
+
  private:
   /// The heights below which no body, a quarter, half, three quarters and all of them are.
   struct Spread {

@@ -40,6 +40,11 @@ class OutputPart {
   };
   std::span<const OpenWriter> writers() const { return writers_; }
 
+  void keep(auto& archive) {
+    archive(timeline_);
+    for (const OpenWriter& open : writers_) open.writer->keep(archive);
+  }
+
  private:
   bool due(const OpenWriter& open) const;
 

@@ -49,6 +49,11 @@ class PathCodec {
   const std::vector<PathPiece>& present() const { return present_; }
   double from() const { return from_; }  // s, of the piece before
 
+  void keep(auto& archive) {
+    archive.sized(present_, mass_, radius_);
+    archive(body_, from_, start_, until_, collision_, restitution_, last_mass_, last_radius_, struck_, struck_v_);
+  }
+
  private:
   template <typename Columns>
   struct Side;

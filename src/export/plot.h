@@ -15,6 +15,8 @@ struct PlotPoint {
   std::string label{};
   // The ends of a bar through the point, or of a band. NaN: no bar.
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+
+  void keep(auto& archive) { archive(x, y, label, low, high); }
 };
 
 /// The number of colours, each with a mark.

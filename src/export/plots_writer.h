@@ -18,6 +18,9 @@ class PlotsWriter final : public Writer {
   std::vector<OutputFile*> files() override;
   std::vector<FileRecord> published() const override { return series_.records(); }
 
+  void keep(StateWriter& archive) override { archive(charts_); }
+  void keep(StateReader& archive) override { archive(charts_); }
+
   /// The instants at which states are added.
   static std::vector<Ticks> ticks(const Scene& scene);
 

@@ -31,6 +31,8 @@ struct RunCharts {
   /// Takes what the charts show of a state at its time (s). Times ascend, and are those of `instants`, or others.
   void sample(double time, const State& state);
 
+  void keep(auto& archive) { archive(energy, heights, speeds, collisions, next_energy_, next_heights_); }
+
   EnergyChart energy;
   HeightsChart heights;
   SpeedsChart speeds;

@@ -30,6 +30,8 @@ class SpeedsChart {
   bool has_maxwell() const;
   Plot plot() const;
 
+  void keep(auto& archive) { archive(speeds_, masses_, energy_); }
+
  private:
   PlotSeries maxwell_curve(const Histogram& bars) const;
 

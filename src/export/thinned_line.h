@@ -19,9 +19,13 @@ class ThinnedLine {
   /// All points so far, by x.
   std::vector<PlotPoint> points() const;
 
+  void keep(auto& archive) { archive(now_, open_, closed_); }
+
  private:
   struct Column {
     PlotPoint first, lowest, highest, last;
+
+    void keep(auto& archive) { archive(first, lowest, highest, last); }
   };
   static void put(std::vector<PlotPoint>& points, const Column& column);
 

@@ -60,6 +60,12 @@ class Timeline {
   /// The time (s) of the stream's next tick, which may be due. None: none is left.
   std::optional<double> next(int stream) const;
 
+  /// Which ticks are done. Those that end_at() cuts off are not due any more when it is called.
+  void keep(auto& archive) {
+    archive(time_, ended_);
+    for (Stream& stream : streams_) archive(stream.next, stream.due);
+  }
+
  private:
   struct Stream {
     Ticks ticks;

@@ -20,9 +20,16 @@ class VtkWriter : public Writer {
   void add(double time, const State& state, std::span<const ContactForce> contacts) override;
   std::vector<OutputFile*> files() override;
   std::vector<FileRecord> published() const override { return bodies_.records(); }
+  void keep(StateWriter& archive) override { keep_all(archive); }
+  void keep(StateReader& archive) override { keep_all(archive); }
   static double bytes(const Scene& scene, double instants);
 
  private:
+  void keep_all(auto& archive) {
+    archive(bodies_, instants_, extent_);
+    keep_part(archive, collection_);
+  }
+
   const Scene& scene_;
   const ModelMakers& makers_;
   bool solids_;

@@ -9,6 +9,7 @@
 #include "export/timeline.h"
 #include "files/open_folder.h"
 #include "files/output_file.h"
+#include "physics/archive.h"
 #include "physics/collision.h"
 #include "physics/contact_force.h"
 #include "physics/path_piece.h"
@@ -21,6 +22,10 @@
 namespace carom {
 
 struct Scene;
+
+/// Goes on with a file that is written, or keeps how far it is.
+void keep_part(StateWriter& archive, OutputFile& file);
+void keep_part(StateReader& archive, OutputFile& file);
 
 class Writer {
  public:
@@ -43,6 +48,11 @@ class Writer {
   virtual std::vector<OutputFile*> files() = 0;
   /// Its files that already have their final names.
   virtual std::vector<FileRecord> published() const { return {}; }
+
+  /// Its state between two records or instants, of a run that goes on later. By default that is how far its files are.
+  virtual void keep(StateWriter& archive);
+  /// Takes it over, newly opened. Throws ArchiveError.
+  virtual void keep(StateReader& archive);
 };
 
 struct WriterKind {

@@ -2,13 +2,32 @@
 // in two folders may have one stem, and an edited file has another hash.
 #include "files/earlier_run.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "files/checkpoint_file.h"
+#include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
+#include "files/series_folders.h"
 
 namespace carom {
+namespace {
+
+/// The first entry that no interrupted run leaves. Empty: there is none.
+std::string entry_of_no_run(const FoundFolder& found) {
+  const std::vector<std::string> series = series_folder_names();
+  const auto is_foreign = [&](const std::string& name) {
+    return name != "scene.yaml" && !is_part_name(name) && std::ranges::find(series, name) == series.end();
+  };
+  const auto entry = std::ranges::find_if(found.names, is_foreign);
+  return entry == found.names.end() ? "" : *entry;
+}
+
+}  // namespace
 
 std::string path_from(const std::string& folder, const std::string& scene_file) {
   // Of a relative path that does not exist the canonical form is relative.
@@ -19,10 +38,14 @@ std::string path_from(const std::string& folder, const std::string& scene_file) 
 EarlierRun find_earlier_run(const std::string& path, const SceneOrigin& origin) {
   EarlierRun run;
   const FoundFolder found = find_folder(path);
-  const auto manifest = found.folder ? read_manifest(found.folder.get(), manifest_name) : std::nullopt;
-  run.of_scene = manifest && !origin.path.empty() && manifest->origin == origin;
-  if (!run.of_scene) return run;
-  run.changes = find_changes(path);
+  if (!found.folder || origin.path.empty()) return run;
+  if (const auto manifest = read_manifest(found.folder.get(), manifest_name)) {
+    run.of_scene = manifest->origin == origin;
+    if (run.of_scene) run.changes = find_changes(path);
+  } else if (const auto kept = any_checkpoint(FilePlace{found.folder.get(), path})) {
+    run.of_scene = kept->origin == origin;
+    run.changes.foreign = entry_of_no_run(found);
+  }
   return run;
 }
 

@@ -19,7 +19,8 @@ struct EarlierRun {
 };
 
 /// Reads the folder and every file that its manifest names. Changes nothing. Throws ExportError.
-/// A run of a sweep, and a run by an older version, does not name its scene file.
+/// A run of a sweep, and a run by an older version, does not name its scene file. An interrupted one does, if it was
+/// kept (checkpoint_file.h).
 EarlierRun find_earlier_run(const std::string& folder, const SceneOrigin& origin);
 
 }  // namespace carom

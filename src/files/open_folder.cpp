@@ -16,6 +16,7 @@
 #include <system_error>
 #include <vector>
 
+#include "files/checkpoint_file.h"
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/publication.h"
@@ -158,6 +159,8 @@ OpenFolder::~OpenFolder() {
     for (const std::string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
     return;
   }
+  if (has_checkpoint(place_) || committed_) return;
+  if (!begun_.empty()) remove_own_parts();
   if (keep_) return;
   if (!begun_.empty()) {
     for (const std::string& series : series_folder_names())
@@ -166,6 +169,15 @@ OpenFolder::~OpenFolder() {
   }
   for (const FileRecord& file : begun_) unlinkat(place_.folder, file.name.c_str(), 0);
   if (made_) rmdir(place_.path.c_str());
+}
+
+/// Those that a checkpoint counted on.
+void OpenFolder::remove_own_parts() const {
+  try {
+    remove_parts(place_);
+  } catch (const ExportError&) {
+    // The next run removes them.
+  }
 }
 
 /// Refuses in advance what would make the renaming fail: a folder in a file's place, or a file in a series' place.
@@ -179,6 +191,14 @@ void OpenFolder::refuse_folders(const Scene& scene) const {
   }
 }
 
+/// Writes one of the first files.
+void OpenFolder::put(const std::string& name, const std::string& bytes) {
+  OutputFile file(place_, name);
+  file.write(bytes);
+  file.publish();
+  begun_.push_back(file.record());
+}
+
 std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   const int folder = place_.folder;
@@ -187,7 +207,8 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
   add_files(names, manifest);
   add_files(names, read_manifest(folder, former_manifest));
   const auto stored_scene = read_record(folder, "scene.yaml");
-  if (!manifest && stored_scene && stored_scene->sha256 == sha256(scene.resolved)) add_remains(names, folder, scene);
+  const bool is_scenes = stored_scene && stored_scene->sha256 == sha256(scene.resolved);
+  if (!manifest && (is_scenes || has_checkpoint(place_))) add_remains(names, folder, scene);
   std::erase(names, "scene.yaml");
 
   // The order is essential. First the folder stops being a complete run.
@@ -196,17 +217,19 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
     give_name(folder, manifest_name, place_, former_manifest);
   else
     remove_file(place_, manifest_name);
-  const auto put = [&](const std::string& name, const std::string& bytes) {
-    OutputFile file(place_, name);
-    file.write(bytes);
-    file.publish();
-    begun_.push_back(file.record());
-  };
   put("scene.yaml", scene.resolved);
   remove_files(place_, names);
   remove_leavings(place_);
   remove_file(place_, former_manifest);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
+  return begun_;
+}
+
+std::vector<FileRecord> OpenFolder::go_on(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+  refuse_folders(scene);
+  put("scene.yaml", scene.resolved);
+  for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
+  place_.goes_on = true;
   return begun_;
 }
 

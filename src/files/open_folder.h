@@ -50,7 +50,8 @@ class OpenFolder {
   /// Makes the folder and its parents if needed, locks it against other runs, and finishes an interrupted publication.
   /// Throws ExportError, as all functions of this class do.
   explicit OpenFolder(const std::string& path, Durability durability = Durability::synced);
-  /// Without keep(), removes scene.yaml and meshes, and folders that this run made and that are then empty.
+  /// Where a checkpoint stands (checkpoint_file.h), and after publish(), all stays. Else the run's temporary files are
+  /// removed; and without keep() scene.yaml, meshes, and folders that this run made and that are then empty.
   ~OpenFolder();
   OpenFolder(const OpenFolder&) = delete;
   OpenFolder& operator=(const OpenFolder&) = delete;
@@ -60,6 +61,10 @@ class OpenFolder {
   /// Removes what a former run left, then writes this scene's scene.yaml and the copies of its meshes.
   /// The order ensures that inspect_folder is correct at every moment. Returns the records of all files written.
   std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
+
+  /// Replaces begin() if the folder holds an interrupted run of this request (checkpoint_file.h). All of it stays.
+  /// Returns the records of scene.yaml and of the copies of meshes.
+  std::vector<FileRecord> go_on(const Scene& scene, const std::vector<MeshCopy>& meshes);
 
   /// Replaces begin() if the folder holds a complete run of the same motion. All files stay unchanged until publish().
   /// publish() then puts the new scene.yaml and the files written meanwhile in place.
@@ -82,9 +87,12 @@ class OpenFolder {
   /// Makes the folder's content permanent, temporary files included.
   void commit() {
     keep();
+    committed_ = true;
     renews_ = false;
   }
   void refuse_folders(const Scene& scene) const;
+  void put(const std::string& name, const std::string& bytes);
+  void remove_own_parts() const;
 
   Durability durability_;
   Descriptor folder_;
@@ -92,6 +100,7 @@ class OpenFolder {
   FilePlace place_;
   bool made_ = false;
   std::atomic<bool> keep_ = false;
+  bool committed_ = false;
   std::vector<FileRecord> begun_;  // the files written by begin()
   // After renew(), series are written in temporary folders until publish().
   bool renews_ = false;

@@ -4,13 +4,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include "files/folder_names.h"
 #include "files/run_folder.h"
+#include "physics/archive.h"
 
 namespace carom {
 namespace {
@@ -31,8 +34,23 @@ OutputFile::OutputFile(const FilePlace& place, std::string name)
     : PartFile(place, std::move(name)),
       has_name_(true),
       pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
-  file_ = Descriptor(openat(place.folder, part().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  if (!file_) fail("write", place, record_.name);
+  open_part();
+}
+
+void OutputFile::open_part() {
+  // What an interrupted run has left is no link, and has no other name.
+  struct stat info {};
+  if (place_.goes_on && fstatat(place_.folder, part().c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0) {
+    if (S_ISREG(info.st_mode) && info.st_nlink == 1) {
+      hand_over();
+      file_ = Descriptor(openat(place_.folder, part().c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
+      if (!file_) fail("write", place_, record_.name);
+      return;
+    }
+    remove_entry(place_, part());
+  }
+  file_ = Descriptor(openat(place_.folder, part().c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!file_) fail("write", place_, record_.name);
 }
 
 OutputFile::OutputFile(const FilePlace& place, Descriptor nameless)
@@ -86,11 +104,45 @@ void OutputFile::put(const Piece& piece) {
   }
 }
 
-void OutputFile::complete() {
-  if (!file_) return;
+void OutputFile::drain() {
   flush();
   pieces_.finish();
+}
+
+WrittenPart OutputFile::pause() {
+  drain();
+  hand_over();
+  return {record_.bytes, Sha256(hash_).hex()};
+}
+
+void OutputFile::go_on(const WrittenPart& part) {
+  used_ = 0;
+  size_ = 0;
+  pieces_.finish();
+  hash_ = {};
+  std::vector<char> buffer(least_block);
+  for (record_.bytes = 0; record_.bytes < part.bytes;) {
+    const std::size_t most = std::min<std::uint64_t>(buffer.size(), part.bytes - record_.bytes);
+    const ssize_t n = pread(file_.get(), buffer.data(), most, static_cast<off_t>(record_.bytes));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read", place_, record_.name);
+    if (n == 0) throw ArchiveError();
+    hash_.add({buffer.data(), static_cast<std::size_t>(n)});
+    record_.bytes += static_cast<std::size_t>(n);
+  }
+  if (Sha256(hash_).hex() != part.sha256) throw ArchiveError();
+
+  on_the_way_ = record_.bytes;
+  if (lseek(file_.get(), static_cast<off_t>(record_.bytes), SEEK_SET) < 0) fail("write", place_, record_.name);
+}
+
+void OutputFile::complete() {
+  if (!file_) return;
+  drain();
   if (!has_name_) return;
+  // An interrupted run may have written more.
+  if (place_.goes_on && ftruncate(file_.get(), static_cast<off_t>(record_.bytes)) != 0)
+    fail("write", place_, record_.name);
   record_.sha256 = hash_.hex();
   // Some file systems report a full disk only here.
   if (close(file_.release()) != 0) fail("write", place_, record_.name);

@@ -12,6 +12,14 @@
 
 namespace carom {
 
+/// The part of a file that is written: what a run that goes on later needs to know of it.
+struct WrittenPart {
+  std::uint64_t bytes = 0;
+  std::string sha256;
+
+  void keep(auto& archive) { archive(bytes, sha256); }
+};
+
 /// Writes are hashed and passed to the system in large pieces. A long file does this on a background thread.
 class OutputFile : public PartFile {
  public:
@@ -28,6 +36,12 @@ class OutputFile : public PartFile {
   }
   void written(const char* end) { used_ = static_cast<std::size_t>(end - data_); }
 
+  /// Passes all bytes so far to the system. From here on the temporary file stays, even if the run fails.
+  WrittenPart pause();
+  /// Goes on behind this part of the temporary file that an interrupted run has left, in place of what was written to
+  /// this object. Throws ArchiveError if the file does not have it.
+  void go_on(const WrittenPart& part);
+
   /// Passes all bytes to the system and closes the file,
   /// which keeps its temporary name. record() is valid from here on.
   void complete();
@@ -42,6 +56,8 @@ class OutputFile : public PartFile {
     std::vector<char> bytes;
     std::size_t used = 0;
   };
+  void open_part();
+  void drain();
   void flush();
   void make_room(std::size_t size);
   void put(const Piece& piece);

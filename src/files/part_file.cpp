@@ -103,7 +103,7 @@ PartFile::PartFile(const FilePlace& place, std::string name) : place_(place) {
   record_.name = std::move(name);
   refuse_folder(place_, record_.name);
   // A temporary file of an interrupted run is removed and never opened for writing, because it may be a link.
-  remove_entry(place_, part());
+  if (!place_.goes_on) remove_entry(place_, part());
 }
 
 PartFile::~PartFile() {

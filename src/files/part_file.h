@@ -27,6 +27,8 @@ struct FilePlace {
   int folder = -1;
   /// For messages, as given by the user.
   std::string path;
+  /// Temporary files of an interrupted run stay, to be continued (OutputFile::go_on).
+  bool goes_on = false;
 };
 
 /// The place of an open file or folder, from its descriptor alone.
@@ -37,6 +39,8 @@ struct FileRecord {
   std::string name;  // relative to the run's folder
   std::uint64_t bytes = 0;
   std::string sha256;
+
+  void keep(auto& archive) { archive(name, bytes, sha256); }
 };
 
 /// The entry of a requested file that the run gave up.
@@ -80,7 +84,8 @@ class PartFile {
   bool is_handed_over() const { return handed_over_; }
 
  protected:
-  /// Removes an abandoned temporary file. `name` must be plain and not a folder's. Throws ExportError.
+  /// Removes an abandoned temporary file, unless the run goes on. `name` must be plain and not a folder's. Throws
+  /// ExportError.
   PartFile(const FilePlace& place, std::string name);
   /// A file that has no name.
   explicit PartFile(const FilePlace& place) : place_(place), handed_over_(true) {}

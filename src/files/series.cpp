@@ -2,7 +2,11 @@
 // The complete files of a series stay even if the run fails later.
 #include "files/series.h"
 
+#include <algorithm>
 #include <cstring>
+#include <optional>
+
+#include "files/stored_file.h"
 
 namespace carom {
 
@@ -24,6 +28,15 @@ std::string Series::put(std::int64_t number, const std::string& file_name, std::
   const std::lock_guard lock(mutex_);
   records_.insert_or_assign(number, std::move(record));
   return name;
+}
+
+/// Whether all files that are recorded are there.
+bool Series::has_all() const {
+  return std::ranges::all_of(records_, [this](const auto& entry) {
+    const FileRecord& record = entry.second;
+    const std::optional<FileRecord> stored = read_record(place_.folder, record.name.substr(files_.folder.size() + 1));
+    return stored && stored->bytes == record.bytes && stored->sha256 == record.sha256;
+  });
 }
 
 std::vector<FileRecord> Series::records() const {

@@ -23,7 +23,15 @@ class Series {
   /// In the order of the numbers, or of the calls; names relative to the run's folder.
   std::vector<FileRecord> records() const;
 
+  template <typename Archive>
+  void keep(Archive& archive) {
+    archive(records_);
+    if constexpr (Archive::reads) archive.check(has_all());
+  }
+
  private:
+  bool has_all() const;
+
   std::string put(std::int64_t number, const std::string& name, std::string_view bytes);
 
   OpenFolder& folder_;

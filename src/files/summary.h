@@ -88,6 +88,8 @@ struct SceneOrigin {
   /// The scene file's path from the run's folder. Empty: the run does not name its file.
   std::string path;
   std::vector<std::string> settings;  // path=value: --set and --seed, in their order
+
+  void keep(auto& archive) { archive(path, settings); }
   friend bool operator==(const SceneOrigin&, const SceneOrigin&) = default;
 };
 

@@ -35,6 +35,7 @@ struct Extent {
   void include(const Vec3& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
   void include(const Vec3& center, const Vec3& half) { include(center - half), include(center + half); }
   Vec3 middle() const { return (low + high) / 2; }
+  void keep(auto& archive) { archive(low, high); }
 };
 
 /// The bodies' positions at keyframes, the changes of their volumes, and the camera.
@@ -44,12 +45,16 @@ struct KeyedMotion {
     std::size_t key;
     Entity body;
     std::optional<Volume> volume;
+
+    void keep(auto& archive) { archive(key, body, volume); }
   };
   std::vector<double> times;                   // s, ascending
   std::vector<std::array<float, 3>> position;  // m, by keyframe, then by body
   std::vector<Change> changes;                 // by keyframe
   Extent extent;                               // of all bodies at all keyframes
   std::vector<Camera> cameras;                 // by keyframe; empty: the scene's at time 0
+
+  void keep(auto& archive) { archive(times, position, changes, extent, cameras); }
 };
 
 /// The functions by which render/ makes these for src/export/. They throw RenderError.

@@ -52,6 +52,8 @@ struct EngineChoice {
   double right_until = std::numeric_limits<double>::infinity();
   /// If it is not met to the end.
   Growth growth{};
+
+  void keep(auto& archive) { archive(engine, why, steps, shortfall, right_until, growth); }
 };
 
 /// The engine of the scene, or the choice of `auto` (scene/engines.h).

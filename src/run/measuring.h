@@ -34,6 +34,8 @@ class Measuring {
   /// The values of the measures, in their order.
   std::vector<Measured> values(const MeasuredRun& run) const;
 
+  void keep(auto& archive) { archive.sized(meetings_, visits_); }
+
  private:
   /// The collisions between two things, or of one thing with anything.
   struct Meeting {
@@ -41,6 +43,8 @@ class Measuring {
     std::vector<EntityRange> a, b;  // of the names in `things`
     double count = 0;
     double first;  // s, NaN: none
+
+    void keep(auto& archive) { archive(count, first); }
   };
 
   /// The crossings of one region, or of all members of a repeated one.
@@ -51,6 +55,8 @@ class Measuring {
     double first;  // s, of the first entry; NaN: none
     Entity entrant = no_entity;
     std::map<std::pair<std::uint32_t, Entity>, bool> inside{};  // by region and body
+
+    void keep(auto& archive) { archive(entries, first, entrant, inside); }
   };
 
   double inside(const Visits& visits, const State& end) const;

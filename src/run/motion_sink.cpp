@@ -19,7 +19,7 @@ class Carrying {
       : simulator_(simulator), sinks_(sinks.begin(), sinks.end()), duration_(duration), guard_(guard), watch_(watch) {}
 
   void go() {
-    record();
+    if (!watch_.goes_on) record();
     while (const std::optional<double> time = next_instant()) {
       carry_to(*time);
       if (const std::optional<RunEnd>& end = simulator_.tally().end; end && !ended_ && !(*time < end->time)) {

@@ -28,6 +28,7 @@ struct CarryWatch {
   std::function<void()> stop_check;
   std::function<void()> advanced = [] {};
   double* advance_s = nullptr;  // wall time of advances is added to it
+  bool goes_on = false;         // the sinks have taken what the simulator has recorded so far
 };
 
 /// Calls a function for a sink, by its number, and does what a failure means. It may leave sinks out.
@@ -38,7 +39,7 @@ inline void unguarded(std::size_t, const std::function<void()>& work) {
   work();
 }
 
-/// Carries a simulator, which is at time 0, through all instants of these sinks.
+/// Carries a simulator, which is at time 0 unless it goes on, through all instants of these sinks.
 /// `duration`: of the motion (s). Throws SimulationError, also if the simulator makes no progress, and what the
 /// functions throw.
 void carry_through(Simulator& simulator, std::span<MotionSink* const> sinks, double duration, const SinkGuard& guard,

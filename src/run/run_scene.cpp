@@ -5,22 +5,27 @@
 //   flights.bin where the run keeps it, and drawing begins at the end. Otherwise it goes through a queue, and both go
 //   on together.
 // At the end every folder gets its summary and its manifest, and its files get their final names.
+//
+// A run that goes on after an interrupt (checkpoints.h) draws when its motion is over, because the record has all that
+// is drawn.
 #include "run/run_scene.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "export/flights_file.h"
+#include "physics/archive.h"
+#include "run/checkpoints.h"
 #include "run/drawing_thread.h"
+#include "run/drawings.h"
 #include "run/motion_record.h"
 #include "run/record_queue.h"
 #include "run/replay.h"
-#include "run/stages.h"
 #include "run/stopwatch.h"
 #include "run/survey.h"
 #include "scene/scene.h"
@@ -34,37 +39,74 @@ class Run {
       : scene_(*shows.front().scene),
         settings_(settings),
         watch_(watch),
-        engine_(engine),
-        stages_(shows, settings, watch.stop_check) {
-    const Stopwatch stopwatch(simulate_s_);
-    if (!settings.replay && scene_.simulate.tolerance) {
-      watch.report_progress({RunProgress::Phase::settling});
-      settle_steps(scene_, engine_, watch.stop_check);
-    }
-    simulator_ =
-        settings.replay ? settings.replay(scene_) : settings.simulator(scene_, stages_.recording(), engine_.steps);
-    start_ = stored_energy(scene_, simulator_->state());
+        stages_(shows, settings, watch.stop_check),
+        checkpoints_(stages_, simulated_, settings, watch),
+        drawings_(stages_, scene_, watch.stop_check) {
+    simulated_.engine = engine;
+    if (stages_.have_drawings() && !settings.replay && draws_by_record()) open_record();
+    if (checkpoints_.goes_on())
+      checkpoints_.take_over([this](const StepChoice& steps) { return simulator_by(steps); });
+    else
+      begin();
   }
+
+  /// Wall time (s) of the simulation so far, if an interrupted run goes on.
+  double before_s() const { return checkpoints_.goes_on() ? simulated_.simulate_s : 0; }
 
   void go() {
     if (!stages_.have_drawings()) return simulate({});
-    if (!settings_.replay) return stages_.draw_after_motion() ? simulate_then_draw() : simulate_and_draw();
+    if (!settings_.replay) return draws_by_record() ? simulate_then_draw() : simulate_and_draw();
     simulate({});
-    stages_.take_end(simulator_->tally().end);
-    draw_by([this] { return settings_.replay(scene_); });
+    stages_.take_end(tally().end);
+    draw_by([this] { return settings_.replay(scene_); }, false);
   }
 
   std::vector<RunResult> finish() {
     report_progress(RunProgress::Phase::writing);
-    return stages_.finish({engine_, start_, *simulator_, simulate_s_});
+    return stages_.finish(simulated_);
   }
 
  private:
-  using MakeMotion = std::function<std::unique_ptr<Simulator>()>;
+  const Tally& tally() const { return simulated_.simulator->tally(); }
+
+  std::unique_ptr<Simulator> simulator_by(const StepChoice& steps) {
+    return settings_.replay ? settings_.replay(scene_) : settings_.simulator(scene_, stages_.recording(), steps);
+  }
+
+  void begin() {
+    const Stopwatch stopwatch(simulated_.simulate_s);
+    if (!settings_.replay && scene_.simulate.tolerance) {
+      watch_.report_progress({RunProgress::Phase::settling});
+      settle_steps(scene_, simulated_.engine, watch_.stop_check);
+    }
+    simulated_.simulator = simulator_by(simulated_.engine.steps);
+    simulated_.start = stored_energy(scene_, simulated_.simulator->state());
+  }
+
+  /// Whether drawings follow a record in a file.
+  bool draws_by_record() { return checkpoints_.goes_on() || stages_.draw_after_motion(); }
+
+  /// Opens the record that drawings follow: the flights of the only folder, or a file of its own. It has a name where
+  /// the run goes on by it after an interrupt.
+  void open_record() {
+    const std::vector<Stages::Standing> standing = stages_.standing();
+    const Exports& exports = standing.front().stage->exports;
+    if (standing.size() == 1) record_ = standing.front().stage->exports.flights();
+    if (record_ != nullptr) return;
+
+    if (stages_.lasting() != nullptr)
+      own_record_.emplace(exports.place(), scene_);
+    else
+      own_record_.emplace(exports.place(), scene_, FlightsFile::nameless);
+    record_ = &*own_record_;
+    checkpoints_.add(*own_record_);
+  }
 
   /// Advances the simulator through the whole run. `others` also take the motion. `check` is called often.
   void simulate(
-      const std::vector<MotionSink*>& others, const std::function<void()>& check = [] {}) {
+      std::vector<MotionSink*> others, const std::function<void()>& check = [] {}) {
+    std::optional<RecordSink> own;
+    if (own_record_) others.push_back(&own.emplace(record_into(*own_record_, scene_.simulate.duration)));
     const std::vector<Stages::Standing> standing = stages_.standing();
     std::vector<MotionSink*> sinks;
     for (const Stages::Standing& each : standing) sinks.push_back(&each.stage->tables);
@@ -74,24 +116,53 @@ class Run {
       sink < standing.size() ? stages_.guarded(standing[sink].show, work) : work();
     };
     const auto stop_check = [&] {
-      watch_.stop_check();
-      check();
+      try {
+        watch_.stop_check();
+        check();
+      } catch (...) {
+        keep_at_interrupt();
+        throw;
+      }
     };
-    carry_through(*simulator_, sinks, scene_.simulate.duration, guard,
-                  {.stop_check = stop_check,
-                   .advanced = [this] { report_progress(RunProgress::Phase::simulating); },
-                   .advance_s = &simulate_s_});
+    const auto advanced = [this] {
+      report_progress(RunProgress::Phase::simulating);
+      checkpoints_.keep_if_due();
+    };
+    try {
+      carry_through(*simulated_.simulator, sinks, scene_.simulate.duration, guard,
+                    {.stop_check = stop_check,
+                     .advanced = advanced,
+                     .advance_s = &simulated_.simulate_s,
+                     .goes_on = checkpoints_.goes_on()});
+    } catch (const SimulationError&) {
+      // The same would happen again.
+      checkpoints_.forget();
+      throw;
+    }
+    if (stages_.have_drawings()) checkpoints_.keep_again();
 
-    simulator_->state();  // the tally's sums are then those of the end
-    stages_.each([this](Stage& stage) { stage.exports.tables().end(simulator_->tally()); });
+    simulated_.simulator->state();  // the tally's sums are then those of the end
+    stages_.each([this](Stage& stage) { stage.exports.tables().end(tally()); });
+    if (own_record_) own_record_->end(tally());
+  }
+
+  /// An error leaves what was kept before.
+  void keep_at_interrupt() {
+    try {
+      checkpoints_.keep_again();
+    } catch (const ExportError&) {
+    }
   }
 
   /// Draws while the simulator advances.
   void simulate_and_draw() {
     stages_.begin_drawings();
     RecordQueue queue;
-    DrawingThread drawing([&] { draw_from(queue); });
-    if (!drawing.is_there()) return simulate_then_draw();
+    DrawingThread drawing([&] { drawings_.follow(queue); });
+    if (!drawing.is_there()) {
+      open_record();
+      return simulate_then_draw();
+    }
 
     try {
       RecordSink sink(scene_.simulate.duration, [&queue](const Simulator& simulator) { queue.put(simulator); });
@@ -102,97 +173,41 @@ class Run {
     }
     queue.end(true);
     drawing.wait([this] { watch_while_drawing(); });
-    end_drawings();
-  }
-
-  void draw_from(RecordQueue& queue) {
-    const auto next = [&queue](Recorded& recorded) { return queue.next(recorded); };
-    try {
-      draw_all([&] { return std::make_unique<Replay>(scene_.world, next, Tally{}, true); });
-    } catch (const RecordAbandoned&) {
-      // The simulation has failed, and its error is the run's.
-    } catch (...) {
-      queue.leave();
-      throw;
-    }
-    queue.leave();
+    drawings_.end(tally());
   }
 
   /// Draws once the whole motion is recorded.
   void simulate_then_draw() {
-    const std::vector<Stages::Standing> standing = stages_.standing();
-    FlightsFile* record = standing.size() == 1 ? standing.front().stage->exports.flights() : nullptr;
-    std::optional<FlightsFile> own;
-    std::optional<RecordSink> sink;
+    record_->keep_whole();
     std::vector<MotionSink*> sinks;
-    if (record != nullptr) {
-      record->keep_whole();
-    } else {
-      record = &own.emplace(standing.front().stage->exports.place(), scene_, FlightsFile::nameless);
-      sinks.push_back(&sink.emplace(record_into(*record, scene_.simulate.duration)));
-    }
 
     // Where the end is not awaited, the instants of the pictures are known, and cameras frame them on the way.
-    if (!may_stop(scene_)) stages_.begin_drawings();
-    const std::vector<MovingCamera*> cameras = framing_cameras();
-    Framing framing(cameras);
-    if (framing.any()) sinks.push_back(&framing);
+    std::optional<Framing> framing;
+    if (!may_stop(scene_) && !checkpoints_.goes_on()) {
+      stages_.begin_drawings();
+      framing.emplace(drawings_.framing_cameras());
+      if (framing->any()) sinks.push_back(&*framing);
+    }
 
     simulate(sinks);
-    framing.finish();
-    if (own) own->end(simulator_->tally());
-    stages_.take_end(simulator_->tally().end);
-    draw_by(
-        [this, record] {
-          return replay_from(std::make_unique<FlightsReader>(record->reopened(), "", scene_), scene_.world);
-        },
-        framing.any());
+    if (framing) framing->finish();
+    stages_.take_end(tally().end);
+    const auto motion = [this] {
+      return replay_from(std::make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
+    };
+    draw_by(motion, framing && framing->any());
   }
 
   /// Draws by recorded motions, on a thread of its own if there is one. framed: cameras have been given the motion.
-  void draw_by(const MakeMotion& motion, bool framed = false) {
+  void draw_by(const MakeMotion& motion, bool framed) {
     stages_.begin_drawings();
-    const auto draw = [&] {
-      const std::vector<MovingCamera*> cameras = framing_cameras();
-      if (!framed && !cameras.empty()) survey(cameras, *motion(), watch_.stop_check);
-      draw_all(motion);
-    };
+    const auto draw = [&] { drawings_.draw(motion, framed); };
     DrawingThread drawing(draw);
     if (drawing.is_there())
       drawing.wait([this] { watch_while_drawing(); });
     else
       draw();
-    end_drawings();
-  }
-
-  /// The cameras of drawings that frame the motion.
-  std::vector<MovingCamera*> framing_cameras() {
-    std::vector<MovingCamera*> framing;
-    for (const Stages::Standing& each : stages_.standing()) {
-      if (!each.stage->drawings) continue;
-      for (MovingCamera* camera : each.stage->drawings->cameras())
-        if (camera->frames_motion()) framing.push_back(camera);
-    }
-    return framing;
-  }
-
-  void draw_all(const MakeMotion& motion) {
-    std::vector<Stages::Standing> standing = stages_.standing();
-    std::erase_if(standing, [](const Stages::Standing& each) { return !each.stage->drawings; });
-    std::vector<MotionSink*> sinks;
-    for (const Stages::Standing& each : standing) sinks.push_back(&*each.stage->drawings);
-
-    const std::unique_ptr<Simulator> simulator = motion();
-    const SinkGuard guard = [&](std::size_t sink, const std::function<void()>& work) {
-      stages_.guarded(standing[sink].show, work);
-    };
-    carry_through(*simulator, sinks, scene_.simulate.duration, guard, {.stop_check = watch_.stop_check});
-  }
-
-  void end_drawings() {
-    stages_.each([this](Stage& stage) {
-      if (stage.drawings) stage.exports.drawings().end(simulator_->tally());
-    });
+    drawings_.end(tally());
   }
 
   void watch_while_drawing() const {
@@ -201,17 +216,19 @@ class Run {
   }
 
   void report_progress(RunProgress::Phase phase) const {
-    watch_.report_progress({phase, simulator_->time(), simulator_->tally().collisions(), stages_.pictures()});
+    watch_.report_progress(
+        {phase, simulated_.simulator->time(), tally().collisions(), stages_.pictures(), checkpoints_.begun_at()});
   }
 
   const Scene& scene_;  // one of those that share the motion
   const RunSettings& settings_;
   const RunWatch& watch_;
-  EngineChoice engine_;
+  Simulated simulated_;
   Stages stages_;
-  std::unique_ptr<Simulator> simulator_;
-  StoredEnergy start_;     // at time 0
-  double simulate_s_ = 0;  // wall time
+  Checkpoints checkpoints_;
+  Drawings drawings_;
+  std::optional<FlightsFile> own_record_;
+  FlightsFile* record_ = nullptr;
 };
 
 }  // namespace
@@ -219,19 +236,29 @@ class Run {
 std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
                                  const RunWatch& watch) {
   double wall_s = 0;
+  double before_s = 0;
   std::vector<RunResult> results;
+  const auto run_all = [&] {
+    Run run(shows, engine, settings, watch);
+    before_s = run.before_s();
+    run.go();
+    results = run.finish();
+  };
   {
     const Stopwatch wall(wall_s);
     try {
-      Run run(shows, engine, settings, watch);
-      run.go();
-      results = run.finish();
+      try {
+        run_all();
+      } catch (const ArchiveError&) {
+        watch.remark("begins anew: what the interrupted run in its folder has left is damaged");
+        run_all();
+      }
     } catch (const SimulationError& error) {
       const Roster& roster = shows.front().scene->roster;
       throw error.named([&](Entity body) { return fmt::format("`{}`", roster.name(body)); });
     }
   }
-  for (RunResult& result : results) result.wall_s = wall_s;
+  for (RunResult& result : results) result.wall_s = before_s + wall_s;
   return results;
 }
 

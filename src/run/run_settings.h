@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct RunProgress {
   double time = 0;               // s, simulated
   std::uint64_t collisions = 0;  // so far
   std::uint64_t pictures = 0;    // drawn, of all shows
+  double begun_at = 0;           // s, simulated by the interrupted run that this one continues
 };
 
 struct RunWatch {
@@ -32,10 +34,14 @@ struct RunWatch {
   std::function<void()> stop_check;
   /// Called often by the caller's thread.
   std::function<void(const RunProgress&)> report_progress;
+  /// Called with what is worth knowing before the end.
+  std::function<void(const std::string&)> remark = [](const std::string&) {};
 };
 
 struct RunSettings {
   Durability durability = Durability::synced;
+  /// A run is kept so often (s, wall time), so that an interrupted one goes on from there. 0: never.
+  double checkpoint_s = 60;
   /// Measures for the manifest, besides those of the scenes.
   std::vector<Measure> measures{};
   /// The manifest of a former run with this motion, which supplies warnings and measures. Null: there is none.
@@ -53,7 +59,7 @@ struct RunResult {
   Summary summary;
   RunFacts facts;
   EngineChoice engine{};  // with its steps settled
-  /// The whole run, including finishing the files.
+  /// The whole run, including finishing the files, and the simulation by an interrupted run that it has continued.
   double wall_s = 0;
   /// The error of this show alone: RenderError or ExportError. If it is set, all other members are meaningless.
   std::exception_ptr failure{};

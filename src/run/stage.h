@@ -42,6 +42,8 @@ class TableSink final : public MotionSink {
 
   double export_s() const { return export_s_; }  // wall time
 
+  void keep(auto& archive) { archive(more_, export_s_); }
+
  private:
   OutputPart& part_;
   Measuring& measuring_;
@@ -90,14 +92,19 @@ class DrawingSink final : public MotionSink {
 };
 
 struct Stage {
-  /// Opens the folder, and takes these measures. Throws ExportError, RenderError.
-  Stage(const Show& show, Durability durability, std::vector<Measure> measures);
+  /// Opens the folder, and takes these measures. `request`: as for Exports. Throws ExportError, RenderError,
+  /// ArchiveError.
+  Stage(const Show& show, Durability durability, std::vector<Measure> measures,
+        const std::optional<std::string>& request = {});
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
   /// Opens what is drawn, now that all is known that it waits for.
   void begin_drawings(std::function<void()> stop_check);
   RunFacts facts() const;
+
+  /// What is written and measured so far.
+  void keep(auto& archive) { archive(exports.tables(), measuring, tables); }
 
   const Scene& scene;
   const std::string run;  // the folder's name

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "files/manifest.h"
+#include "physics/archive.h"
 #include "run/warnings.h"
 #include "scene/scene.h"
 
@@ -26,6 +27,20 @@ bool needs_end(const Scene& scene) {
   return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
 }
 
+/// What tells runs apart that have the same scene and outputs.
+std::string request_of(const Scene& scene, const std::vector<Measure>& measures) {
+  std::string text;
+  for (const Measure& measure : measures) text += measure.name + "\n";
+
+  // They may come from another run, and from meshes.
+  State state = scene.initial;
+  World world = scene.world;
+  StateWriter read;
+  read(state.position, state.velocity, world.radius, world.volume);
+  for (Obstacle& obstacle : world.obstacles) read(obstacle.center, obstacle.volume);
+  return text + read.take();
+}
+
 }  // namespace
 
 bool draws_after_motion(const Scene& scene) {
@@ -41,12 +56,23 @@ Stages::Stages(std::span<const Show> shows, const RunSettings& settings, std::fu
   for (std::size_t i = 0; i < shows_.size(); ++i) guarded(i, [&] { open(i); });
 }
 
+bool Stages::may_last() const {
+  return shows_.size() == 1 && shows_.front().renewed == nullptr && !settings_.replay && settings_.checkpoint_s > 0;
+}
+
+Stage* Stages::lasting() {
+  return may_last() ? stages_.front().get() : nullptr;
+}
+
 /// Opens the folder of a show. The end of its run may become known later.
 void Stages::open(std::size_t i) {
   Show& show = shows_[i];
   check_flights(*show.scene);
   if (needs_end(*show.scene)) show.scene = &ending_.emplace_back(*show.scene);
-  stages_[i] = std::make_unique<Stage>(show, settings_.durability, measures_of(*show.scene));
+  const std::vector<Measure> measures = measures_of(*show.scene);
+  std::optional<std::string> request;
+  if (may_last()) request = request_of(*show.scene, measures);
+  stages_[i] = std::make_unique<Stage>(show, settings_.durability, measures, request);
 }
 
 /// The measures of a scene and those of the settings, unless a former run has them.
@@ -128,7 +154,7 @@ std::uint64_t Stages::pictures() const {
   return pictures;
 }
 
-std::vector<RunResult> Stages::finish(const Done& done) {
+std::vector<RunResult> Stages::finish(const Simulated& done) {
   std::vector<RunResult> results(shows_.size());
   for (std::size_t i = 0; i < shows_.size(); ++i) {
     guarded(i, [&] { finish(i, done, results[i]); });
@@ -137,10 +163,10 @@ std::vector<RunResult> Stages::finish(const Done& done) {
   return results;
 }
 
-void Stages::finish(std::size_t i, const Done& done, RunResult& result) {
+void Stages::finish(std::size_t i, const Simulated& done, RunResult& result) {
   Stage& stage = *stages_[i];
-  const State& end = done.simulator.state();
-  const Tally& tally = done.simulator.tally();
+  const State& end = done.simulator->state();
+  const Tally& tally = done.simulator->tally();
   result.engine = done.engine;
   result.summary = account_of(stage.scene, done.engine, done.start, end, tally);
   result.summary.warnings = settings_.former != nullptr
@@ -157,7 +183,7 @@ void Stages::finish(std::size_t i, const Done& done, RunResult& result) {
   stage.exports.finish(result.summary, result.facts);
 }
 
-void Stages::take_measures(std::size_t i, const Done& done, RunResult& result) const {
+void Stages::take_measures(std::size_t i, const Simulated& done, RunResult& result) const {
   const Stage& stage = *stages_[i];
   if (const Manifest* former = settings_.former; former != nullptr) {
     if (result.summary.collisions != former->collisions)
@@ -168,9 +194,9 @@ void Stages::take_measures(std::size_t i, const Done& done, RunResult& result) c
     std::size_t first = 0;
     for (std::size_t k = 0; k < i; ++k)
       if (stages_[k]) first += stages_[k]->measuring.watched().size();
-    const std::vector<Extremes> all = done.simulator.extremes();
+    const std::vector<Extremes> all = done.simulator->extremes();
     const auto own = std::span(all).subspan(first, stage.measuring.watched().size());
-    result.facts.measures = stage.measuring.values({done.simulator.state(), result.summary, own});
+    result.facts.measures = stage.measuring.values({done.simulator->state(), result.summary, own});
   }
 
   for (const OwnMeasure& own : stage.scene.measures.own)

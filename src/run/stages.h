@@ -18,6 +18,17 @@ namespace carom {
 /// Whether a run of the scene draws when its motion is over, and not while it is simulated.
 bool draws_after_motion(const Scene& scene);
 
+/// What a run has simulated.
+struct Simulated {
+  EngineChoice engine{};  // with its steps settled
+  StoredEnergy start{};   // at time 0
+  std::unique_ptr<Simulator> simulator{};
+  double simulate_s = 0;  // wall time
+
+  /// All but the simulator.
+  void keep(auto& archive) { archive(engine, start, simulate_s); }
+};
+
 class Stages {
  public:
   /// Opens the folder of each show. Throws the failure of a single one, and what `stop_check` throws.
@@ -34,6 +45,8 @@ class Stages {
     std::size_t show;
   };
   std::vector<Standing> standing();
+  /// The only one, if it may go on after an interrupt. Null: there are several, or its motion is not simulated.
+  Stage* lasting();
 
   /// What the simulator has to record for all.
   Recording recording() const;
@@ -47,22 +60,16 @@ class Stages {
 
   /// The pictures of all so far.
   std::uint64_t pictures() const;
-  /// What a run has done, for the results.
-  struct Done {
-    const EngineChoice& engine;
-    const StoredEnergy& start;  // at time 0
-    Simulator& simulator;       // at the end
-    double simulate_s;          // wall time
-  };
   /// Finishes the folders. Results are in the order of the shows.
-  std::vector<RunResult> finish(const Done& done);
+  std::vector<RunResult> finish(const Simulated& done);
 
  private:
+  bool may_last() const;
   void open(std::size_t show);
   bool has_failed(std::size_t show);
   std::vector<Measure> measures_of(const Scene& scene) const;
-  void finish(std::size_t show, const Done& done, RunResult& result);
-  void take_measures(std::size_t show, const Done& done, RunResult& result) const;
+  void finish(std::size_t show, const Simulated& done, RunResult& result);
+  void take_measures(std::size_t show, const Simulated& done, RunResult& result) const;
 
   std::vector<Show> shows_;
   const RunSettings& settings_;

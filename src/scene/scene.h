@@ -92,6 +92,8 @@ struct Camera {
   bool fov_horizontal = false;
   double near = 0.1;  // m
   double far = 1000;  // m
+
+  void keep(auto& archive) { archive(eye, target, up, fov, fov_horizontal, near, far); }
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 

@@ -17,10 +17,10 @@
 #include <optional>
 
 #include "geometry/contact_time.h"
+#include "physics/archive.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
-#include "simulate/archive.h"
 #include "simulate/event_log.h"
 #include "simulate/tolerances.h"
 

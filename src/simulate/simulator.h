@@ -60,7 +60,7 @@ class Simulator {
   /// reads the bytes, on a processor of this kind. Saving changes nothing. Empty: it cannot be saved.
   virtual std::string save() { return {}; }
   /// Takes that state over. The simulator then goes on with the same bits as the one that was saved. It must be newly
-  /// made, from the same World, State and options. Throws SimulationError where the bytes do not fit. The simulator is
+  /// made, from the same World, State and options. Throws ArchiveError where the bytes do not fit. The simulator is
   /// then of no more use.
   virtual void restore(std::string_view /*bytes*/) { throw SimulationError("this simulator cannot be restored"); }
 };

@@ -427,6 +427,7 @@ std::string SweepJob::work(const Unit& unit) {
   const RunWatch watch{settings_.stop_check, [](const RunProgress&) {}};
   RunSettings how;
   how.durability = Durability::deferred;
+  how.checkpoint_s = settings_.checkpoint_s;
   std::copy_if(measures_.begin(), measures_.end(), std::back_inserter(how.measures),
                [](const Measure& measure) { return !measure.is_stored(); });
   const std::vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);

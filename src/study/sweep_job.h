@@ -11,6 +11,7 @@
 #include "files/summary.h"
 #include "run/measure.h"
 #include "run/requirements.h"
+#include "run/run_settings.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
 #include "study/shard.h"
@@ -23,6 +24,7 @@ struct SweepSettings {
   std::size_t jobs = 1;
   Shard shard;
   bool force = false;                                           // also run what is done
+  double checkpoint_s = RunSettings{}.checkpoint_s;             // of each run
   bool checks_requirements = false;                             // whether this machine makes the outputs
   std::function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
   /// Called often, in every process. May throw.

@@ -99,6 +99,16 @@ Finished Workplace::interrupted(const std::vector<std::string>& words, const std
   return finish(process);
 }
 
+Finished Workplace::interrupted_after(const std::vector<std::string>& words, std::chrono::milliseconds time,
+                                      int signal) const {
+  std::vector<std::string> line = {CAROM_PROGRAM};
+  line.insert(line.end(), words.begin(), words.end());
+  const int process = start(line);
+  std::this_thread::sleep_for(time);
+  kill(process, signal);
+  return finish(process);
+}
+
 std::string two_balls(const std::string& more) {
   return "scene: 1\n"
          "title: Two balls\n"

@@ -1,5 +1,6 @@
 #pragma once
 // The real program as a subprocess, in its own folder.
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +34,8 @@ class Workplace {
   Finished shell(const std::string& command) const;
   /// Starts the program, sends `signal` as soon as the file or folder `sign` is there, and waits.
   Finished interrupted(const std::vector<std::string>& words, const std::string& sign, int signal) const;
+  /// Starts the program, sends `signal` after this time, and waits.
+  Finished interrupted_after(const std::vector<std::string>& words, std::chrono::milliseconds time, int signal) const;
 
  private:
   int start(const std::vector<std::string>& words) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "physics/archive.h"
 #include "physics/world.h"
 #include "simulate/pile.h"
 
@@ -215,9 +216,9 @@ TEST(Snapshot, ThatIsTruncatedOrTooLongIsRefused) {
   go_to(*simulator, 1);
   const std::string bytes = simulator->save();
   for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 50)
-    EXPECT_THROW(restored(make, bytes.substr(0, length)), SimulationError) << length;
-  EXPECT_THROW(restored(make, bytes.substr(0, bytes.size() - 1)), SimulationError);
-  EXPECT_THROW(restored(make, bytes + '\0'), SimulationError);
+    EXPECT_THROW(restored(make, bytes.substr(0, length)), ArchiveError) << length;
+  EXPECT_THROW(restored(make, bytes.substr(0, bytes.size() - 1)), ArchiveError);
+  EXPECT_THROW(restored(make, bytes + '\0'), ArchiveError);
   EXPECT_NO_THROW(restored(make, bytes));
 }
 
@@ -235,12 +236,12 @@ TEST(Snapshot, OfAnotherSceneIsRefused) {
   elsewhere.initial.position[26].x() += 0.125;
   Problem watched = recorded(problem);
   for (const Problem* other : {&more, &longer, &tied, &elsewhere, &watched})
-    EXPECT_THROW(restored(maker(*other), bytes), SimulationError);
+    EXPECT_THROW(restored(maker(*other), bytes), ArchiveError);
 
   const BookOptions options;
   const MakeSimulator book = [&] { return make_book_simulator(problem.world, problem.initial, options); };
-  EXPECT_THROW(restored(book, bytes), SimulationError);
-  EXPECT_THROW(restored(maker(problem), book()->save()), SimulationError);
+  EXPECT_THROW(restored(book, bytes), ArchiveError);
+  EXPECT_THROW(restored(maker(problem), book()->save()), ArchiveError);
 }
 
 }  // namespace

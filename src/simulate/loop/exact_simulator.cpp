@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/archive.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
-#include "simulate/archive.h"
 
 namespace carom {
 

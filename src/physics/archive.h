@@ -1,7 +1,7 @@
 #pragma once
-// A simulator's whole state as bytes, and back. A class lists what changes in it in a member template `keep(archive)`,
-// once for both directions. Members that the same World, State and options determine are not listed, nor are scratch
-// and caches. The bytes are those of this processor and this version of the program.
+// The state of objects as bytes, and back. A class lists what changes in it in a member template `keep(archive)`, once
+// for both directions. Members that the same World, State and options determine are not listed, nor are scratch and
+// caches. The bytes are those of this processor and this version of the program.
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -17,11 +18,15 @@
 #include <vector>
 
 #include "numerics/vec3.h"
-#include "simulate/simulation_error.h"
 
 namespace carom {
 
 struct World;
+
+/// Bytes do not fit the object that is restored from them.
+struct ArchiveError : std::runtime_error {
+  ArchiveError() : runtime_error("a saved state is damaged, or it belongs to another scene or version") {}
+};
 
 /// Appends bytes. It only reads the state.
 class ByteWriter {
@@ -54,12 +59,12 @@ class ByteWriter {
   std::map<const void*, std::uint64_t> numbers_;
 };
 
-/// Reads them. Throws SimulationError where they do not fit the object that is restored.
+/// Reads them. Throws ArchiveError.
 class ByteReader {
  public:
   static constexpr bool reads = true;
 
-  /// `world`: that of the simulator.
+  /// `world`: that of the objects.
   ByteReader(std::string_view bytes, const World& world) : left_(bytes), world_(world) {}
   /// To be called at the end: all bytes must have been read.
   void finish() const { require(left_.empty()); }
@@ -71,7 +76,7 @@ class ByteReader {
     left_.remove_prefix(count);
   }
   void require(bool fits) const {
-    if (!fits) throw SimulationError("a saved state is damaged, or it belongs to another scene or version");
+    if (!fits) throw ArchiveError();
   }
   /// So many values can follow: each takes a byte at least.
   void check_left(std::uint64_t count) const { require(count <= left_.size()); }
@@ -149,6 +154,16 @@ class StateArchive : public Bytes {
     else
       for (T& value : list) one(value);
   }
+  void one(std::string& text) {
+    resize(text);
+    Bytes::bytes(text.data(), text.size());
+  }
+  template <typename Key, typename T>
+  void one(std::map<Key, T>& map) {
+    std::vector<std::pair<Key, T>> entries(map.begin(), map.end());
+    one(entries);
+    if constexpr (Bytes::reads) map = {entries.begin(), entries.end()};
+  }
   template <typename T>
   void one(std::deque<T>& list) {
     resize(list);
@@ -179,7 +194,7 @@ class StateArchive : public Bytes {
       std::size_t k = 0;
       ((k++ == index ? (void)value.template emplace<Types>() : (void)0), ...);
     }
-    std::visit([this](auto& held) { one(held); }, value);
+    std::visit([this](auto& held) { this->one(held); }, value);
   }
   /// Values that several share are written once.
   template <typename T>

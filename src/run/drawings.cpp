@@ -1,0 +1,58 @@
+#include "run/drawings.h"
+
+#include "run/record_queue.h"
+#include "run/replay.h"
+#include "run/survey.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+std::vector<MovingCamera*> Drawings::framing_cameras() {
+  std::vector<MovingCamera*> framing;
+  for (const Stages::Standing& each : stages_.standing()) {
+    if (!each.stage->drawings) continue;
+    for (MovingCamera* camera : each.stage->drawings->cameras())
+      if (camera->frames_motion()) framing.push_back(camera);
+  }
+  return framing;
+}
+
+void Drawings::follow(RecordQueue& queue) {
+  const auto next = [&queue](Recorded& recorded) { return queue.next(recorded); };
+  try {
+    draw_all([&] { return std::make_unique<Replay>(scene_.world, next, Tally{}, true); });
+  } catch (const RecordAbandoned&) {
+    // The simulation has failed, and its error is the run's.
+  } catch (...) {
+    queue.leave();
+    throw;
+  }
+  queue.leave();
+}
+
+void Drawings::draw(const MakeMotion& motion, bool framed) {
+  const std::vector<MovingCamera*> cameras = framing_cameras();
+  if (!framed && !cameras.empty()) survey(cameras, *motion(), stop_check_);
+  draw_all(motion);
+}
+
+void Drawings::draw_all(const MakeMotion& motion) {
+  std::vector<Stages::Standing> standing = stages_.standing();
+  std::erase_if(standing, [](const Stages::Standing& each) { return !each.stage->drawings; });
+  std::vector<MotionSink*> sinks;
+  for (const Stages::Standing& each : standing) sinks.push_back(&*each.stage->drawings);
+
+  const std::unique_ptr<Simulator> simulator = motion();
+  const SinkGuard guard = [&](std::size_t sink, const std::function<void()>& work) {
+    stages_.guarded(standing[sink].show, work);
+  };
+  carry_through(*simulator, sinks, scene_.simulate.duration, guard, {.stop_check = stop_check_});
+}
+
+void Drawings::end(const Tally& tally) {
+  stages_.each([&tally](Stage& stage) {
+    if (stage.drawings) stage.exports.drawings().end(tally);
+  });
+}
+
+}  // namespace carom
