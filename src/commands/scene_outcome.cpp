@@ -91,9 +91,9 @@ SceneOutcome run_failed(const PlannedScene& planned, std::string_view why) {
 SceneOutcome run_interrupted(const PlannedScene& planned) {
   SceneOutcome outcome = without_run(planned, scene_status::interrupted);
   const std::optional<Checkpoint> kept = any_checkpoint(planned.folder);
-  const std::string what = kept ? fmt::format("at {:.4g} s of its motion; the same command goes on there", kept->time)
-                                : "the same command runs what is missing";
-  outcome.complaint = fmt::format("{}: interrupted{}{}", printable(planned.file), kept ? " " : "; ", what);
+  const std::string how = kept ? fmt::format(" at {:.4g} s of its motion; the same command goes on there", kept->time)
+                               : "; the same command runs what is missing";
+  outcome.complaint = fmt::format("{}: interrupted{}", printable(planned.file), how);
   return outcome;
 }
 

@@ -50,7 +50,7 @@ void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records)
 struct Exports::Impl {
   // Refuse what can be refused here, before the folder is changed.
   Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
-       const Manifest* renewed, const std::optional<std::string>& request)
+       const Manifest* renewed, std::function<std::string()> request)
       : scene(the_scene), makers(std::move(the_makers)), tables(end_of(the_scene)), plan(plan_pictures(the_scene)) {
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
@@ -59,16 +59,15 @@ struct Exports::Impl {
     if (draws_plots()) find_gnuplot();
 
     folder.emplace(path, durability);
-    if (request) find_interrupted(*request);
+    if (request) find_interrupted(std::move(request));
     first_records = renewed != nullptr ? folder->renew(scene, meshes)
                     : interrupted      ? folder->go_on(scene, meshes)
                                        : folder->begin(scene, meshes);
     open_writers(tables, false);
   }
 
-  /// `more`: what tells runs apart, besides scene and outputs.
-  void find_interrupted(const std::string& more) {
-    checkpoint.emplace(folder->place(), scene.resolved + outputs_text(scene.output) + more);
+  void find_interrupted(std::function<std::string()> request) {
+    checkpoint.emplace(folder->place(), std::move(request));
     interrupted = checkpoint->read();
     is_kept = interrupted.has_value();
     replaces_interrupted = !interrupted && has_checkpoint(folder->place());
@@ -163,8 +162,8 @@ struct Exports::Impl {
 };
 
 Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers,
-                 const Manifest* renewed, const std::optional<std::string>& request)
-    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed, request)) {}
+                 const Manifest* renewed, std::function<std::string()> request)
+    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed, std::move(request))) {}
 
 Exports::~Exports() = default;
 

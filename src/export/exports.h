@@ -3,8 +3,8 @@
 // They are made in two ways through the motion: tables and whatever needs no more than the present, and drawings.
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,11 +31,11 @@ class Exports {
   /// `scene` must outlive this object. `makers`: the functions of render/ for vtk and gltf. Throws ExportError.
   /// `renewed`: the manifest of the complete run of the same motion that the folder holds.
   /// Of that run all files stay except drawn ones, summary.csv and scene.yaml. Until finish() all of them stay.
-  /// `request`: what tells this run from others, besides scene and outputs. An interrupted run of the same request then
-  /// goes on: see goes_on(). None: it begins anew. Throws ArchiveError if what that run has left is damaged, and
+  /// `request`: gives what tells runs apart, from what does not change. An interrupted run of the same request then
+  /// goes on: see goes_on(). Unset: it begins anew. Throws ArchiveError if what that run has left is damaged, and
   /// removes its checkpoint then.
   Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
-          ModelMakers makers = {}, const Manifest* renewed = nullptr, const std::optional<std::string>& request = {});
+          ModelMakers makers = {}, const Manifest* renewed = nullptr, std::function<std::string()> request = {});
   /// Without finish(), incomplete files are removed. Complete frames stay.
   ~Exports();
   Exports(const Exports&) = delete;

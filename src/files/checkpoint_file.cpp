@@ -67,7 +67,7 @@ const std::string& program_hash() {
 }  // namespace
 
 std::string CheckpointFile::hash() const {
-  return sha256(program_hash() + request_);
+  return sha256(program_hash() + request_());
 }
 
 std::optional<Checkpoint> CheckpointFile::read() {

@@ -1,5 +1,6 @@
 #pragma once
 // What an interrupted run needs to go on: a file beside its temporary ones, which an ordinary start removes with them.
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,8 +23,9 @@ struct Checkpoint {
 /// The checkpoint of a run's folder. It is that of one request to one build of the program.
 class CheckpointFile {
  public:
-  /// `request`: what tells runs apart. `place` must outlive this object.
-  CheckpointFile(const FilePlace& place, std::string request) : place_(place), request_(std::move(request)) {}
+  /// `request`: gives what tells runs apart, when that is needed. `place` must outlive this object.
+  CheckpointFile(const FilePlace& place, std::function<std::string()> request)
+      : place_(place), request_(std::move(request)) {}
 
   /// None: there is none, or that of another request. Throws ArchiveError, and removes it, if it is damaged.
   /// Throws ExportError, as all functions of this class do.
@@ -37,7 +39,7 @@ class CheckpointFile {
   std::string hash() const;
 
   const FilePlace& place_;
-  const std::string request_;
+  const std::function<std::string()> request_;
 };
 
 /// Whether the folder has a checkpoint, of any request.

@@ -17,10 +17,8 @@ namespace carom {
 
 Checkpoints::Checkpoints(Stages& stages, Simulated& simulated, const RunSettings& settings, const RunWatch& watch)
     : stages_(stages), simulated_(simulated), settings_(settings), watch_(watch), stage_(stages.lasting()) {
-  if (stage_ == nullptr) return;
-  if (stage_->exports.replaces_interrupted())
+  if (stage_ != nullptr && stage_->exports.replaces_interrupted())
     watch.remark("begins anew: the interrupted run in its folder was of another request or program");
-  goes_on_ = stage_->exports.goes_on();
 }
 
 template <typename Archive>

@@ -17,7 +17,7 @@ class Checkpoints {
   Checkpoints(Stages& stages, Simulated& simulated, const RunSettings& settings, const RunWatch& watch);
 
   /// Whether an interrupted run goes on, and the time (s) to which it has come.
-  bool goes_on() const { return goes_on_; }
+  bool goes_on() const { return stage_ != nullptr && stage_->exports.goes_on(); }
   double begun_at() const { return begun_at_; }
   /// The file that the run also writes its record into. Call it before all that follows.
   void add(FlightsFile& own_record) { own_record_ = &own_record; }
@@ -47,7 +47,6 @@ class Checkpoints {
   const RunWatch& watch_;
   Stage* const stage_;  // null: it is never kept
   FlightsFile* own_record_ = nullptr;
-  bool goes_on_ = false;
   double begun_at_ = 0;
   Clock::time_point kept_ = Clock::now();  // when that was last done or tried
   Clock::duration cost_{};                 // and the time that it took

@@ -142,7 +142,7 @@ void DrawingSink::draw(std::size_t stream, Simulator& simulator) {
 }
 
 Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measures,
-             const std::optional<std::string>& request)
+             std::function<std::string()> request)
     : scene(with_font(*show.scene)),
       run(name_of_folder(show.folder)),
       of_model(scene, picture_size(scene.output)),
@@ -150,7 +150,7 @@ Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measu
       exports(scene, show.folder, durability,
               {[](const Scene& of, const Extent& seen) { return still_things(of, seen, false); }, glb,
                [this](const State& state) { return of_model.at(state); }},
-              show.renewed, request),
+              show.renewed, std::move(request)),
       tables(exports.tables(), measuring) {
   loaded.load_s = show.load_s;
   loaded.origin = show.origin;

@@ -95,7 +95,7 @@ struct Stage {
   /// Opens the folder, and takes these measures. `request`: as for Exports. Throws ExportError, RenderError,
   /// ArchiveError.
   Stage(const Show& show, Durability durability, std::vector<Measure> measures,
-        const std::optional<std::string>& request = {});
+        std::function<std::string()> request = {});
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 

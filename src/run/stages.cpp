@@ -27,9 +27,9 @@ bool needs_end(const Scene& scene) {
   return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
 }
 
-/// What tells runs apart that have the same scene and outputs.
+/// What tells runs apart.
 std::string request_of(const Scene& scene, const std::vector<Measure>& measures) {
-  std::string text;
+  std::string text = scene.resolved + outputs_text(scene.output);
   for (const Measure& measure : measures) text += measure.name + "\n";
 
   // They may come from another run, and from meshes.
@@ -70,8 +70,8 @@ void Stages::open(std::size_t i) {
   check_flights(*show.scene);
   if (needs_end(*show.scene)) show.scene = &ending_.emplace_back(*show.scene);
   const std::vector<Measure> measures = measures_of(*show.scene);
-  std::optional<std::string> request;
-  if (may_last()) request = request_of(*show.scene, measures);
+  std::function<std::string()> request;
+  if (may_last()) request = [&scene = *show.scene, measures] { return request_of(scene, measures); };
   stages_[i] = std::make_unique<Stage>(show, settings_.durability, measures, request);
 }
 

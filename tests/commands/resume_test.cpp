@@ -39,16 +39,22 @@ TEST(ResumedRun, KilledAtTwentyRandomInstantsHasTheBytesOfOneThatWasNot) {
   EXPECT_EQ(without_manifest(here.files("killed")), without_manifest(here.files("whole")));
 }
 
+const std::vector<std::string> run_pile = {"run", "pile.yaml", "-o", "run", "--checkpoint", "0.1"};
+
+/// The pile, stopped once it is kept.
+Finished stop_pile(const Workplace& here) {
+  here.write("pile.yaml", pile);
+  return here.interrupted(run_pile, "run/.checkpoint.part", SIGTERM);
+}
+
 TEST(ResumedRun, SaysWhereItWasInterruptedAndWhereItGoesOn) {
   const Workplace here;
-  here.write("pile.yaml", pile);
-  const std::vector<std::string> command = {"run", "pile.yaml", "-o", "run", "--checkpoint", "0.1"};
-  const Finished stopped = here.interrupted(command, "run/.checkpoint.part", SIGTERM);
+  const Finished stopped = stop_pile(here);
   EXPECT_EQ(stopped.code, 143);
   EXPECT_NE(stopped.err.find("of its motion; the same command goes on there"), std::string::npos) << stopped.err;
   EXPECT_NE(here.carom({"check", "pile.yaml", "-o", "run"}).out.find("the same command goes on there"),
             std::string::npos);
-  const Finished done = here.carom(command);
+  const Finished done = here.carom(run_pile);
   EXPECT_EQ(done.code, 0);
   EXPECT_NE(done.err.find("carom: pile.yaml: goes on at "), std::string::npos) << done.err;
   EXPECT_FALSE(here.has("run/.checkpoint.part"));
@@ -56,16 +62,14 @@ TEST(ResumedRun, SaysWhereItWasInterruptedAndWhereItGoesOn) {
 
 TEST(ResumedRun, IsReplacedWhenItsSceneFileIsEdited) {
   const Workplace here;
-  here.write("pile.yaml", pile);
-  const std::vector<std::string> command = {"run", "pile.yaml", "-o", "run", "--checkpoint", "0.1"};
-  ASSERT_EQ(here.interrupted(command, "run/.checkpoint.part", SIGTERM).code, 143);
+  ASSERT_EQ(stop_pile(here).code, 143);
   here.write("other.yaml", pile + "title: Other\n");
   const Finished other = here.carom({"run", "other.yaml", "-o", "run"});
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("--force"), std::string::npos) << other.err;
 
   here.write("pile.yaml", pile + "title: Edited\n");
-  const Finished edited = here.carom(command);
+  const Finished edited = here.carom(run_pile);
   EXPECT_EQ(edited.code, 0) << edited.err;
   EXPECT_NE(edited.err.find("begins anew"), std::string::npos) << edited.err;
   EXPECT_FALSE(here.has("run/.checkpoint.part"));
@@ -73,12 +77,10 @@ TEST(ResumedRun, IsReplacedWhenItsSceneFileIsEdited) {
 
 TEST(ResumedRun, KeepsWhatItHasWhereFilesCannotBeOpened) {
   const Workplace here;
-  here.write("pile.yaml", pile);
-  const std::vector<std::string> command = {"run", "pile.yaml", "-o", "run", "--checkpoint", "0.1"};
-  ASSERT_EQ(here.interrupted(command, "run/.checkpoint.part", SIGTERM).code, 143);
+  ASSERT_EQ(stop_pile(here).code, 143);
   for (int files = 5; files < 12; ++files)
     here.shell("ulimit -n " + std::to_string(files) + "; \"$CAROM\" run pile.yaml -o run");
-  const Finished done = here.carom(command);
+  const Finished done = here.carom(run_pile);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.err.find("goes on at "), std::string::npos) << done.err;
 }

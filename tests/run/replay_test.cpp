@@ -4,16 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <random>
 
 #include "bench/state_hash.h"
 #include "physics/world.h"
-#include "render/mesh.h"
 #include "run/engine.h"
 #include "run/run_testing.h"
 #include "scene/engines.h"
-#include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/exact.h"
 #include "stress/scene.h"
@@ -21,19 +18,11 @@
 namespace carom {
 namespace {
 
-std::vector<std::string> scene_files() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
-  files.push_back("benchmark/gas_1000");
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-Scene load(const std::string& name) {
-  LoadOptions options;
-  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
-  return load_scene(SCENES_DIR "/" + name + ".yaml", options);
+std::vector<std::string> scenes_again() {
+  std::vector<std::string> names = scene_names();
+  names.emplace_back("benchmark/gas_1000");
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 void carry_to(Simulator& simulator, double time) {
@@ -102,12 +91,12 @@ void expect_same_states(const World& world, double duration, const Record& run, 
 class EverySceneAgain : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
-  const Scene scene = load(GetParam());
+  const Scene scene = scene_named(GetParam());
   const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
   expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scene_files()), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scenes_again()), [](const auto& parameter) {
   std::string name = parameter.param;
   std::replace(name.begin(), name.end(), '/', '_');
   return name;

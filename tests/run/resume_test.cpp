@@ -168,7 +168,7 @@ Scene with_outputs(Scene scene, const std::vector<std::string>& outputs) {
 class EverySceneGoesOn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySceneGoesOn, WithTheSameFiles) {
-  Scene scene = scene_at(SCENES_DIR "/" + GetParam() + ".yaml");
+  Scene scene = scene_named(GetParam());
   // They take long.
   if (GetParam() == "funnel") scene.simulate.duration = 0.5;
   if (GetParam() == "pi_to_six_digits") scene.simulate.duration = 1.5;
@@ -183,15 +183,7 @@ TEST_P(EverySceneGoesOn, WithTheSameFiles) {
   expect_to_go_on(with_outputs(scene, {"frames", "gltf", "collisions"}), random);
 }
 
-std::vector<std::string> all_scenes() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(SCENES_DIR))
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneGoesOn, ::testing::ValuesIn(all_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneGoesOn, ::testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 const std::string pile =
@@ -392,7 +384,7 @@ TEST(Resume, WithoutRoomForATableIsAnErrorOfTheRun) {
 TEST(Resume, ThatBecomesImpossibleLeavesTheFilesOfTheRun) {
   const RunPlace place;
   const Scene scene = place.scene(pile + "simulate: {duration: 1}\noutput: {energy: {every: 0.1}}\n");
-  Exports exports(scene, place / "run", Durability::deferred, {}, nullptr, "request");
+  Exports exports(scene, place / "run", Durability::deferred, {}, nullptr, [] { return "request"; });
   exports.keep({.time = 0.5});
   EXPECT_TRUE(fs::exists(place / "run/.checkpoint.part"));
   exports.forget();

@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "run/run_testing.h"
 #include "scene/output_kinds.h"
 
@@ -43,19 +40,11 @@ int simulators_of(Scene scene, const std::vector<std::string>& outputs) {
 class EverySceneRun : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
-  Scene scene = scene_at(SCENES_DIR "/" + GetParam() + ".yaml");
+  Scene scene = scene_named(GetParam());
   const std::vector<std::string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
   EXPECT_EQ(simulators_of(scene, outputs), 1);
   scene.camera.reset();
   EXPECT_EQ(simulators_of(scene, outputs), 1);
-}
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRun, ::testing::ValuesIn(scene_names()),

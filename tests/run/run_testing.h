@@ -1,9 +1,11 @@
 #pragma once
 // A folder of its own for each test, and scenes from files.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "render/mesh.h"
 #include "scene/load.h"
@@ -15,6 +17,19 @@ inline Scene scene_at(const std::string& path) {
   LoadOptions options;
   options.mesh_points = [](const std::string& mesh) { return read_mesh_points(mesh); };
   return load_scene(path, options);
+}
+
+/// Those of scenes/, by name, sorted.
+inline std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+inline Scene scene_named(const std::string& name) {
+  return scene_at(SCENES_DIR "/" + name + ".yaml");
 }
 
 class RunPlace {

@@ -1,13 +1,11 @@
 // Every scene, and random ones, saved and restored on the way.
 #include "simulate/snapshot.h"
 
-#include <filesystem>
+#include <algorithm>
 #include <random>
 
-#include "render/mesh.h"
 #include "run/engine.h"
-#include "scene/load.h"
-#include "scene/scene.h"
+#include "run/run_testing.h"
 #include "stress/scene.h"
 
 namespace carom {
@@ -26,24 +24,10 @@ std::vector<WatchedQuantity> watch_all(Entity bodies) {
   return {{Quantity::y, 0, bodies}, {Quantity::speed, 0, bodies}};
 }
 
-std::vector<std::string> scene_files() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-Scene load(const std::string& name) {
-  LoadOptions options;
-  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
-  return load_scene(SCENES_DIR "/" + name + ".yaml", options);
-}
-
 class EverySceneRestored : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySceneRestored, GoesOnWithTheSameBits) {
-  const Scene scene = load(GetParam());
+  const Scene scene = scene_named(GetParam());
   std::mt19937_64 random(1);
   // They take long.
   const double share = GetParam() == "funnel" ? 0.05 : GetParam() == "pi_to_six_digits" ? 0.25 : 1;
@@ -55,7 +39,7 @@ TEST_P(EverySceneRestored, GoesOnWithTheSameBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRestored, ::testing::ValuesIn(scene_files()));
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRestored, ::testing::ValuesIn(scene_names()));
 
 class RandomSceneRestored : public ::testing::TestWithParam<std::size_t> {};
 

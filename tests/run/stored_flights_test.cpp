@@ -9,9 +9,9 @@
 #include "export/same_piece.h"
 #include "files/open_folder.h"
 #include "physics/world.h"
-#include "render/mesh.h"
 #include "run/engine.h"
 #include "run/replay.h"
+#include "run/run_testing.h"
 #include "scene/load.h"
 #include "stress/scene.h"
 
@@ -54,9 +54,7 @@ void store_run(StoredRun& run) {
 }
 
 void store_scene(StoredRun& run, const std::string& name) {
-  LoadOptions options;
-  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
-  run.scene = load_scene(SCENES_DIR "/" + name + ".yaml", options);
+  run.scene = scene_named(name);
   store_run(run);
 }
 
@@ -93,15 +91,7 @@ TEST_P(SceneInFlights, HasItsPathsToTheLastBit) {
   expect_same_pieces(run);
 }
 
-std::vector<std::string> scenes_in_flights() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, SceneInFlights, ::testing::ValuesIn(scenes_in_flights()),
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneInFlights, ::testing::ValuesIn(scene_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 /// Fixed steps by a method, and what a step and body takes at most: 45.7, 14.8 and 26.7 bytes measured, of 320.
