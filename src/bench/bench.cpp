@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bench/reference.h"
@@ -22,6 +21,7 @@
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -32,7 +32,7 @@ constexpr int halvings = 10;
 constexpr int least_repeats = 3;
 
 /// The errors of dop853's steps, as a share of a radius and of speeds. The last one is the default.
-constexpr std::array step_errors = {0x1p-16, 0x1p-24, 0x1p-32, exact_tolerance::step_error};
+constexpr array step_errors = {0x1p-16, 0x1p-24, 0x1p-32, exact_tolerance::step_error};
 
 class Bench {
  public:
@@ -42,7 +42,7 @@ class Bench {
         options_(options),
         all_(watch),
         watch_{watch.stop_check,
-               [this](double done, const std::string& what) { all_.report_progress(share_ * done, what); }} {}
+               [this](double done, const string& what) { all_.report_progress(share_ * done, what); }} {}
 
   BenchResult go() {
     choose_steps();
@@ -93,7 +93,7 @@ class Bench {
     for (double step = longest; step >= shortest * (1 - 1e-9); step *= 0.5) steps_.push_back(step);
   }
 
-  RecordedRun record(const SimulationMethod& method, const std::function<void()>& stop_check) const {
+  RecordedRun record(const SimulationMethod& method, const function<void()>& stop_check) const {
     return record_run(world_, scene_.initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
                       stop_check);
   }
@@ -129,8 +129,7 @@ class Bench {
       fill(row, run);
       if (method.engine == Engine::exact && !recorded && reference_.horizon > 0)
         evidence_->add({method, run, reference_.rounded});
-      row.repeats =
-          static_cast<int>(std::clamp<std::int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
+      row.repeats = static_cast<int>(std::clamp<int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
     } catch (const Overrun&) {
       result_.left_out.push_back(
           fmt::format("{}: one run takes more than {:.2g} s of CPU time", full_name_of(method), left_));
@@ -163,7 +162,7 @@ class Bench {
         row.cpu_s = bare = time_once(row);
         records = std::max(0.0, run.cpu_s - bare);
         share -= run.cpu_s + bare;
-        row.repeats = static_cast<int>(std::clamp<std::int64_t>(whole_below(share / bare), 0, options_.repeat));
+        row.repeats = static_cast<int>(std::clamp<int64_t>(whole_below(share / bare), 0, options_.repeat));
         share -= row.repeats * bare;
         // The error of the book's engine comes from overlaps of bodies, however smooth their paths are.
         if (reference_.horizon > 0 && method.engine == Engine::stepped) evidence_->add_halved(method, std::move(run));
@@ -218,7 +217,7 @@ class Bench {
   }
 
   void measure_crowds() {
-    const BenchWatch rest{all_.stop_check, [this](double done, const std::string& what) {
+    const BenchWatch rest{all_.stop_check, [this](double done, const string& what) {
                             all_.report_progress(share_ + (1 - share_) * done, what);
                           }};
     result_.qualities = measure_qualities(scene_, (1 - share_) * options_.budget, rest);
@@ -227,16 +226,16 @@ class Bench {
 
   /// A row without repeats already has its time, from the only run that the budget allowed.
   void time_rows() {
-    std::vector<BenchRow*> rows;
-    std::vector<TimedTask> tasks;
+    vector<BenchRow*> rows;
+    vector<TimedTask> tasks;
     for (BenchRow& row : result_.rows) {
       if (!row.failure.empty() || row.repeats == 0) continue;
       rows.push_back(&row);
       tasks.push_back({[this, &row] { time_once(row); }, row.repeats});
     }
     const auto report_progress = [&](double done) { watch_.report_progress(0.5 + 0.5 * done, "timed runs"); };
-    const std::vector<double> medians = time_in_turns(tasks, report_progress);
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
+    const vector<double> medians = time_in_turns(tasks, report_progress);
+    for (size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
     for (BenchRow& row : result_.rows) row.repeats = std::max(row.repeats, 1);
   }
 
@@ -247,10 +246,10 @@ class Bench {
   BenchWatch watch_;  // of all but the qualities of crowds
   double share_ = 1;  // of the bench, that these are not
   const double start_ = cpu_time();
-  double left_ = 0;            // s of CPU time for the rows
-  std::vector<double> steps_;  // s, from the longest
+  double left_ = 0;       // s of CPU time for the rows
+  vector<double> steps_;  // s, from the longest
   Reference reference_;
-  std::optional<Evidence> evidence_;
+  optional<Evidence> evidence_;
   BenchResult result_;
 };
 

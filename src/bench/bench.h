@@ -1,10 +1,5 @@
 #pragma once
 // Run time against error: one scene by every engine, integrator and step, compared with a reference.
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "bench/bench_options.h"
 #include "bench/differences.h"
@@ -12,6 +7,7 @@
 #include "bench/method.h"
 #include "bench/qualities.h"
 #include "bench/statistics.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,15 +17,15 @@ struct Scene;
 struct BenchRow {
   SimulationMethod method;
   /// Empty: the run reached its end, and all other members are set.
-  std::string failure;
+  string failure;
   /// Of one run, the median of `repeats`.
   double cpu_s = 0;
   int repeats = 0;
   /// None: the motion has no unique trajectory at any instant.
-  std::optional<Differences> errors;
+  optional<Differences> errors;
   double max_overlap = 0;  // m
-  std::uint64_t collisions = 0;
-  std::uint64_t hash = 0;
+  uint64_t collisions = 0;
+  uint64_t hash = 0;
   // The following are of a chaotic scene.
   Statistics statistics;      // without speeds
   double speed_distance = 0;  // Kolmogorov-Smirnov distance from the ensemble's speeds
@@ -38,8 +34,8 @@ struct BenchRow {
 
 struct BenchResult {
   SimulationMethod reference;
-  Differences reference_error;     // an estimate (evidence.h)
-  std::vector<Witness> witnesses;  // comparisons with other methods
+  Differences reference_error;  // an estimate (evidence.h)
+  vector<Witness> witnesses;    // comparisons with other methods
   /// Whether islands move along paths that are not exact: in that these methods are no witnesses of one another.
   bool inexact_islands = false;
   /// In m: the greatest difference of runs in shifted coordinates, at any instant.
@@ -47,19 +43,19 @@ struct BenchResult {
   bool chaotic = false;
   double horizon = 0;  // s: trajectories are compared until then
   /// Of the ensemble of a chaotic scene, including the reference.
-  std::size_t members = 0;
+  size_t members = 0;
   Statistics mean;  // of the ensemble
-  std::vector<BenchRow> rows;
+  vector<BenchRow> rows;
   QualityCurve qualities;
   /// A line for each engine, or for an engine's steps, without a row.
-  std::vector<std::string> left_out;
+  vector<string> left_out;
   double cpu_s = 0;  // of the whole bench
 };
 
 struct BenchWatch {
   /// Called often. May throw.
-  std::function<void()> stop_check;
-  std::function<void(double done, const std::string& what)> report_progress;  // done: 0 to 1
+  function<void()> stop_check;
+  function<void(double done, const string& what)> report_progress;  // done: 0 to 1
 };
 
 /// Throws SimulationError if there is no reference, and std::runtime_error if a repeated run has a different result.

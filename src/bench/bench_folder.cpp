@@ -14,6 +14,7 @@
 #include "files/mesh_copies.h"
 #include "run/engine.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -27,7 +28,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_deviation = 0.01;
 
 Json outputs_json(const BenchOptions& options) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  const auto number = [](const optional<double>& value) { return value ? Json(*value) : Json(); };
   return {{"bench",
            {{"longest_step_s", number(options.longest)},
             {"shortest_step_s", number(options.shortest)},
@@ -89,7 +90,7 @@ void write_qualities(OutputFile& file, const QualityCurve& curve) {
       "max_overlap_m\n");
   for (const QualityRow& row : curve.rows) {
     CsvRow cells(file);
-    cells.text(std::string(name_of(row.level))).number(row.cpu_s).number(static_cast<double>(curve.runs));
+    cells.text(string(name_of(row.level))).number(row.cpu_s).number(static_cast<double>(curve.runs));
     cells.number(row.dissipated.value).number(row.dissipated.spread);
     cells.number(row.height.value).number(row.height.spread);
     cells.number(row.made).number(row.unsolved).number(row.max_overlap).end();
@@ -97,26 +98,25 @@ void write_qualities(OutputFile& file, const QualityCurve& curve) {
 }
 
 /// One curve of the errors over run time. The reference has none.
-PlotSeries quality_series(const QualityCurve& curve, std::string name, std::size_t style,
-                          MeanError QualityRow::*error) {
+PlotSeries quality_series(const QualityCurve& curve, string name, size_t style, MeanError QualityRow::*error) {
   PlotSeries series{std::move(name), style, {}};
-  for (std::size_t k = 0; k + 1 < curve.rows.size(); ++k) {
+  for (size_t k = 0; k + 1 < curve.rows.size(); ++k) {
     const QualityRow& row = curve.rows[k];
     const MeanError& of = row.*error;
     if (!std::isfinite(of.value)) continue;
     const double size = std::abs(of.value);
-    series.points.push_back({row.cpu_s, size, std::string(name_of(row.level)), size - of.spread, size + of.spread});
+    series.points.push_back({row.cpu_s, size, string(name_of(row.level)), size - of.spread, size + of.spread});
   }
   return series;
 }
 
-std::size_t style_of(const SimulationMethod& method) {
+size_t style_of(const SimulationMethod& method) {
   return method.engine == Engine::exact  ? 0
          : method.engine == Engine::book ? 5
-                                         : 1 + static_cast<std::size_t>(method.integrator);
+                                         : 1 + static_cast<size_t>(method.integrator);
 }
 
-std::string plot_subtitle(const BenchResult& result) {
+string plot_subtitle(const BenchResult& result) {
   if (result.chaotic)
     return fmt::format("a chaotic scene: from the mean of {} runs by the {} engine that differ by rounding",
                        result.members, name_of(result.reference.engine));
@@ -135,7 +135,7 @@ bool has_exact_bits(const BenchRow& row, const BenchRow& first) {
   return row.method.engine == Engine::stepped && first.method.engine == Engine::exact && row.hash == first.hash;
 }
 
-std::vector<PlotLevel> levels_of(const BenchResult& result) {
+vector<PlotLevel> levels_of(const BenchResult& result) {
   if (result.chaotic) return {{"significant above", significant_deviation}};
   return {{"limit of rounding", result.rounding}};
 }
@@ -150,7 +150,7 @@ nlohmann::ordered_json method_json(const SimulationMethod& method) {
   return json;
 }
 
-nlohmann::ordered_json witnesses_json(const std::vector<Witness>& witnesses) {
+nlohmann::ordered_json witnesses_json(const vector<Witness>& witnesses) {
   Json list = Json::array();
   for (const Witness& witness : witnesses) {
     Json json = method_json(witness.method);
@@ -171,22 +171,22 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
   plot.levels = levels_of(result);
   // Integrators of which runs have the same bits as the exact engine's. They share its point.
-  std::set<std::string> exact;
+  std::set<string> exact;
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     if (has_exact_bits(row, result.rows.front())) {
       exact.emplace(name_of(row.method.integrator));
       continue;
     }
-    const std::string name = name_of(row.method);
+    const string name = name_of(row.method);
     if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, style_of(row.method), {}});
     plot.series.back().points.push_back(point_of(row, result));
   }
   if (exact.size() == 3) exact = {"stepped"};
-  for (const std::string& name : exact) plot.series.front().name += ", " + name;
+  for (const string& name : exact) plot.series.front().name += ", " + name;
   // The labels of the first and the last point suffice for those between.
   for (PlotSeries& series : plot.series)
-    for (std::size_t k = 1; k + 1 < series.points.size(); ++k) series.points[k].label.clear();
+    for (size_t k = 1; k + 1 < series.points.size(); ++k) series.points[k].label.clear();
   return plot;
 }
 
@@ -204,9 +204,9 @@ Plot quality_plot(const Scene& scene, const QualityCurve& curve) {
   return plot;
 }
 
-FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options,
+FolderContent inspect_bench_folder(const string& folder, const Scene& scene, const BenchOptions& options,
                                    FolderChanges* changes) {
-  std::vector<std::string> files = {"scene.yaml"};
+  vector<string> files = {"scene.yaml"};
   files.insert(files.end(), bench_files.begin(), bench_files.end());
   for (const MeshFile& mesh : scene.meshes)
     if (!mesh.copy.empty()) files.push_back(mesh.copy);
@@ -219,18 +219,18 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
 
 void BenchFolder::write(const Scene& scene, const BenchOptions& options, const BenchResult& result) {
   const bool has_qualities = !result.qualities.rows.empty();
-  std::vector<Plot> plots = {work_precision_plot(scene, result)};
+  vector<Plot> plots = {work_precision_plot(scene, result)};
   if (has_qualities) plots.push_back(quality_plot(scene, result.qualities));
-  const std::vector<PlotPictures> pictures = draw_plots(plots, gnuplot_);
+  const vector<PlotPictures> pictures = draw_plots(plots, gnuplot_);
 
-  std::vector<FileRecord> records = folder_.begin(scene, read_meshes(scene));
+  vector<FileRecord> records = folder_.begin(scene, read_meshes(scene));
   const FilePlace& place = folder_.place();
   std::deque<OutputFile> files;
-  for (std::size_t k = 0; k < 3 * plots.size(); ++k) files.emplace_back(place, bench_files[k]);
+  for (size_t k = 0; k < 3 * plots.size(); ++k) files.emplace_back(place, bench_files[k]);
   write_table(files[0], result);
   if (has_qualities) write_qualities(files[3], result.qualities);
-  std::vector<PartFile*> written;
-  for (std::size_t k = 0; k < files.size(); ++k) {
+  vector<PartFile*> written;
+  for (size_t k = 0; k < files.size(); ++k) {
     if (k % 3 == 1) files[k].write(pictures[k / 3].png);
     if (k % 3 == 2) files[k].write(pictures[k / 3].svg);
     files[k].complete();

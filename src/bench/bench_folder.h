@@ -1,19 +1,19 @@
 #pragma once
 // The files of a bench: bench.csv, the plot, the scene, and a manifest with the reference and the other facts.
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "bench/bench.h"
 #include "export/plot.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 
 struct Scene;
 
 /// The content of a folder. A bench of this scene with any options is this_run or incomplete.
-FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options,
+FolderContent inspect_bench_folder(const string& folder, const Scene& scene, const BenchOptions& options,
                                    FolderChanges* changes = nullptr);
 
 /// The work-precision plot: CPU time of a run against its error,
@@ -26,18 +26,18 @@ Plot quality_plot(const Scene& scene, const QualityCurve& curve);
 /// The members in manifest.json: engine, integrator, step_s, step_error.
 nlohmann::ordered_json method_json(const SimulationMethod& method);
 /// The other methods, with apart_m and agrees.
-nlohmann::ordered_json witnesses_json(const std::vector<Witness>& witnesses);
+nlohmann::ordered_json witnesses_json(const vector<Witness>& witnesses);
 
 class BenchFolder {
  public:
   /// Makes and locks the folder. Its content stays until write().
   /// Throws ExportError, as all functions of this class do.
-  BenchFolder(const std::string& path, std::string gnuplot) : folder_(path), gnuplot_(std::move(gnuplot)) {}
+  BenchFolder(const string& path, string gnuplot) : folder_(path), gnuplot_(std::move(gnuplot)) {}
   void write(const Scene& scene, const BenchOptions& options, const BenchResult& result);
 
  private:
   OpenFolder folder_;
-  std::string gnuplot_;
+  string gnuplot_;
 };
 
 }  // namespace carom

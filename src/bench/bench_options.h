@@ -1,20 +1,20 @@
 #pragma once
 // Options of a bench: the steps, and the time limits.
-#include <optional>
 
 #include "scene/simulate_settings.h"
+#include "std.h"
 
 namespace carom {
 
 struct BenchOptions {
   /// In s, the limits of the steps. None: chosen by the scene.
-  std::optional<double> longest, shortest;
+  optional<double> longest, shortest;
   /// Maximum of timed runs of each row.
   int repeat = 5;
   /// In s of CPU time for the whole scene, approximate.
   double budget = 20;
   /// exact or stepped. None: exact if it supports the whole scene.
-  std::optional<Engine> reference;
+  optional<Engine> reference;
 };
 
 }  // namespace carom

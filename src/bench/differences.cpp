@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "numerics/compensated.h"
 #include "physics/body_now.h"
 #include "physics/force.h"
+#include "std.h"
 
 namespace carom {
 
@@ -42,13 +42,12 @@ class Matching {
     }
   }
 
-  std::uint64_t missed() const { return missed_; }
-  std::uint64_t invented() const { return invented_; }
+  uint64_t missed() const { return missed_; }
+  uint64_t invented() const { return invented_; }
 
   bool same_side(Entity body, double time) const {
     const auto& between = between_[body];
-    return std::none_of(between.begin(), between.end(),
-                        [&](const Interval& i) { return i.from <= time && time <= i.to; });
+    return std::ranges::none_of(between, [&](const Interval& i) { return i.from <= time && time <= i.to; });
   }
 
  private:
@@ -65,8 +64,8 @@ class Matching {
   }
 
   /// Matches one pair's collisions in order of time. Of two that are too far apart the earlier one has no counterpart.
-  void match(std::span<const Impact> reference, std::span<const Impact> run) {
-    std::size_t i = 0, j = 0;
+  void match(span<const Impact> reference, span<const Impact> run) {
+    size_t i = 0, j = 0;
     while (i < reference.size() && j < run.size()) {
       const auto [from, to] = std::minmax(reference[i].time, run[j].time);
       if (to - from <= passage(reference[i])) {
@@ -85,14 +84,14 @@ class Matching {
   }
 
   /// A collision near the end may have its counterpart after it and does not count.
-  void count(const Impact& impact, std::uint64_t& sum) const {
+  void count(const Impact& impact, uint64_t& sum) const {
     if (impact.time <= until_ && impact.time + passage(impact) <= end_ && impact.approach_speed >= least_speed_) ++sum;
   }
 
   const World& world_;
   double until_, end_, least_speed_;
-  std::vector<std::vector<Interval>> between_;  // by body
-  std::uint64_t missed_ = 0, invented_ = 0;
+  vector<vector<Interval>> between_;  // by body
+  uint64_t missed_ = 0, invented_ = 0;
 };
 
 }  // namespace
@@ -113,12 +112,12 @@ Differences larger(const Differences& a, const Differences& b) {
 }
 
 Differences differences(const World& world, const RecordedRun& reference, const RecordedRun& run,
-                        const std::vector<double>& instants, double until) {
+                        const vector<double>& instants, double until) {
   const Matching matching(world, reference, run, until);
   Differences most;
   most.missed = matching.missed();
   most.invented = matching.invented();
-  for (std::size_t k = 0; k < instants.size() && instants[k] <= until; ++k) {
+  for (size_t k = 0; k < instants.size() && instants[k] <= until; ++k) {
     const State &there = reference.states[k], &here = run.states[k];
     Sum energy;
     for (Entity body = 0; body < world.body_count(); ++body) {

@@ -1,9 +1,8 @@
 #pragma once
 // The differences of a run from a reference.
-#include <cstdint>
-#include <vector>
 
 #include "bench/recorded_run.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,7 +12,7 @@ struct Differences {
   double velocity = 0;  // m/s, likewise
   /// In J: the greatest difference of the bodies' kinetic and potential energy.
   double energy = 0;
-  std::uint64_t missed = 0, invented = 0;  // collisions
+  uint64_t missed = 0, invented = 0;  // collisions
 };
 
 /// The larger value of each member.
@@ -31,6 +30,6 @@ Differences larger(const Differences& a, const Differences& b);
 /// A body's velocity and energy count only while both runs are on the same side of its collisions.
 /// Between the two times of a matched collision they differ by the whole change of the collision.
 Differences differences(const World& world, const RecordedRun& reference, const RecordedRun& run,
-                        const std::vector<double>& instants, double until);
+                        const vector<double>& instants, double until);
 
 }  // namespace carom

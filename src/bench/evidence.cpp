@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -34,7 +35,7 @@ bool resolves_forces(const SimulationMethod& method) {
 
 }  // namespace
 
-Evidence::Evidence(const World& world, const std::vector<double>& instants, double until, const Differences& rounding,
+Evidence::Evidence(const World& world, const vector<double>& instants, double until, const Differences& rounding,
                    double last_digit, Finding first)
     : world_(world), instants_(instants), until_(until), rounding_(rounding), last_digit_(last_digit) {
   findings_.push_back(std::move(first));
@@ -81,26 +82,26 @@ bool Evidence::agree(const Finding& a, const Finding& b, double apart) const {
 }
 
 Verdict Evidence::verdict(bool settled) const {
-  const std::size_t n = findings_.size();
+  const size_t n = findings_.size();
   Verdict verdict;
-  std::vector<Differences> apart(n * n);
-  std::vector<bool> confirmed(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j) {
+  vector<Differences> apart(n * n);
+  vector<bool> confirmed(n);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = i + 1; j < n; ++j) {
       apart[i * n + j] = apart[j * n + i] = between(findings_[i].run, findings_[j].run);
       // Two methods of fixed steps may agree because neither resolves what happens between its steps.
       if (resolves_forces(findings_[i].method) || resolves_forces(findings_[j].method))
         if (agree(findings_[i], findings_[j], apart[i * n + j].position)) confirmed[i] = confirmed[j] = true;
     }
   // The first finding is the reference unless others confirm a different one, or confirm one with far smaller error.
-  for (std::size_t i = 1; i < n && !settled; ++i) {
+  for (size_t i = 1; i < n && !settled; ++i) {
     const double mine = findings_[i].error.position, held = findings_[verdict.reference].error.position;
     if (confirmed[i] && (!confirmed[verdict.reference] || rounding_room * mine < held)) verdict.reference = i;
   }
   const Finding& reference = findings_[verdict.reference];
   verdict.error = reference.error;
   Differences least{infinite, infinite, infinite, 0, 0};
-  for (std::size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < n; ++i) {
     if (i == verdict.reference) continue;
     const Differences& d = apart[verdict.reference * n + i];
     verdict.witnesses.push_back({findings_[i].method, d.position, agree(reference, findings_[i], d.position)});

@@ -6,12 +6,11 @@
 // Two runs agree if these estimates explain their difference.
 // The reference is the finest run that another method confirms.
 // Where no two agree, the first run is the reference, with at least the smallest difference as its error.
-#include <optional>
-#include <vector>
 
 #include "bench/differences.h"
 #include "bench/method.h"
 #include "bench/recorded_run.h"
+#include "std.h"
 
 namespace carom {
 
@@ -31,9 +30,9 @@ struct Witness {
 
 /// The conclusion from all findings.
 struct Verdict {
-  std::size_t reference = 0;       // index of a finding
-  Differences error;               // of its run
-  std::vector<Witness> witnesses;  // all others
+  size_t reference = 0;       // index of a finding
+  Differences error;          // of its run
+  vector<Witness> witnesses;  // all others
 };
 
 class Evidence {
@@ -41,7 +40,7 @@ class Evidence {
   /// Runs are compared at `instants` (s) until `until` (s).
   /// `rounding`: the effect of rounding on the first finding's run. `last_digit`: its effect on a position, m.
   /// The first finding is the reference unless others contradict it.
-  Evidence(const World& world, const std::vector<double>& instants, double until, const Differences& rounding,
+  Evidence(const World& world, const vector<double>& instants, double until, const Differences& rounding,
            double last_digit, Finding first);
 
   /// Adds another method's run.
@@ -51,7 +50,7 @@ class Evidence {
   /// A run with the same bits as the first finding is ignored.
   void add_halved(const SimulationMethod& method, RecordedRun run);
 
-  const std::vector<Finding>& findings() const { return findings_; }
+  const vector<Finding>& findings() const { return findings_; }
   /// `settled`: the first finding is the reference whatever the others show.
   Verdict verdict(bool settled = false) const;
 
@@ -63,17 +62,17 @@ class Evidence {
   bool agree(const Finding& a, const Finding& b, double apart) const;
 
   const World& world_;
-  const std::vector<double>& instants_;  // s
-  double until_;                         // s
+  const vector<double>& instants_;  // s
+  double until_;                    // s
   Differences rounding_;
   double last_digit_;  // m
-  std::vector<Finding> findings_;
+  vector<Finding> findings_;
   // The present series of halved steps:
-  std::optional<Finding> last_;
+  optional<Finding> last_;
   /// In m: the difference from the previous run. Infinity: there is none.
   double change_ = 0;
   /// Index of the series' finding. 0: none so far.
-  std::size_t best_ = 0;
+  size_t best_ = 0;
 };
 
 }  // namespace carom

@@ -8,21 +8,22 @@
 
 #include "physics/force.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
-std::string name_of(const SimulationMethod& method) {
+string name_of(const SimulationMethod& method) {
   return method.engine == Engine::stepped ? fmt::format("stepped {}", name_of(method.integrator))
-                                          : std::string(name_of(method.engine));
+                                          : string(name_of(method.engine));
 }
 
-std::string full_name_of(const SimulationMethod& method) {
-  const std::string name = name_of(method), steps = steps_text(method);
+string full_name_of(const SimulationMethod& method) {
+  const string name = name_of(method), steps = steps_text(method);
   if (steps.empty()) return name;
   return fmt::format("{} {} {}", name, method.steps.length ? "in steps of" : "to", steps);
 }
 
-std::string steps_text(const SimulationMethod& method) {
+string steps_text(const SimulationMethod& method) {
   if (method.steps.error > 0) return fmt::format("{:.1g}", method.steps.error);
   if (!method.steps.length) return "";
   const double per_second = 1 / *method.steps.length;

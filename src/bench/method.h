@@ -1,10 +1,10 @@
 #pragma once
 // One way to simulate a scene: an engine, and its treatment of paths without a closed form.
-#include <string>
 
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/simulate_settings.h"
+#include "std.h"
 
 namespace carom {
 
@@ -18,11 +18,11 @@ struct SimulationMethod {
 };
 
 /// "exact", "stepped rk4", "book".
-std::string name_of(const SimulationMethod& method);
+string name_of(const SimulationMethod& method);
 /// The same with its steps: "stepped rk4 in steps of 1/1024 s", "stepped dop853 to 1e-12".
-std::string full_name_of(const SimulationMethod& method);
+string full_name_of(const SimulationMethod& method);
 /// "1/16 s", or a decimal for other steps, or "1e-12" for dop853. Empty: the method has no steps.
-std::string steps_text(const SimulationMethod& method);
+string steps_text(const SimulationMethod& method);
 
 /// The stepped engine with dop853. Where all paths have closed forms it still integrates them in steps.
 SimulationMethod dop853(const World& world, double step_error);

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
-#include <string>
 
 #include "bench/bench.h"
 #include "bench/method.h"
@@ -17,24 +15,25 @@
 #include "run/engine.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t samples = 64;  // instants
-constexpr std::size_t most_runs = 6;
-constexpr std::size_t least_runs = 3;
+constexpr size_t samples = 64;  // instants
+constexpr size_t most_runs = 6;
+constexpr size_t least_runs = 3;
 
 /// What is kept of a run.
 struct QualityRun {
-  std::vector<double> taken;  // J, up to each instant
-  double height = 0;          // m
+  vector<double> taken;  // J, up to each instant
+  double height = 0;     // m
   Tally tally;
   double cpu_s = 0;
 };
 
-using QualityRuns = std::vector<QualityRun>;
+using QualityRuns = vector<QualityRun>;
 
 /// The mean of of(run) over runs, and its variance.
 struct RunMean {
@@ -71,10 +70,9 @@ double height_of_heap(const World& world, const State& state) {
 /// The same start with other velocities at random: by a hundredth of the speed of falling by a radius, or a thousandth
 /// of the greatest speed. Rounding would grow so slowly that runs have much of their impacts in common.
 State disturbed(const World& world, State state, int number) {
-  double size =
-      0.01 * std::sqrt(2 * world.gravity.norm() * *std::min_element(world.radius.begin(), world.radius.end()));
+  double size = 0.01 * std::sqrt(2 * world.gravity.norm() * *std::ranges::min_element(world.radius));
   for (const Vec3& v : state.velocity) size = std::max(size, 0.001 * v.norm());
-  std::mt19937_64 draw(static_cast<std::uint64_t>(number));
+  std::mt19937_64 draw(static_cast<uint64_t>(number));
   for (Vec3& v : state.velocity)
     for (int axis = 0; axis < 3; ++axis) v[axis] += size * (static_cast<double>(draw() >> 11) * 0x1p-52 - 1);
   return state;
@@ -84,32 +82,32 @@ class QualityBench {
  public:
   QualityBench(const Scene& scene, double budget, const BenchWatch& watch)
       : scene_(scene), budget_(budget), watch_(watch) {
-    for (std::size_t k = 1; k <= samples; ++k)
+    for (size_t k = 1; k <= samples; ++k)
       instants_.push_back(scene.simulate.duration * static_cast<double>(k) / samples);
   }
 
   QualityCurve go() {
     QualityCurve curve;
     const double once = run_each_once(curve);
-    const auto affordable = static_cast<std::size_t>(whole_below(once > 0 ? budget_ / once : 0));
+    const auto affordable = static_cast<size_t>(whole_below(once > 0 ? budget_ / once : 0));
     curve.runs = std::clamp(affordable, least_runs, most_runs);
     repeat(curve);
 
     // Nothing is compared with the reference alone.
     if (runs_.size() < 2) return curve;
-    for (std::size_t level = 0; level < runs_.size(); ++level) curve.rows.push_back(row_of(level));
+    for (size_t level = 0; level < runs_.size(); ++level) curve.rows.push_back(row_of(level));
     return curve;
   }
 
  private:
-  static std::string cut_at(std::size_t level, const std::string& why) {
+  static string cut_at(size_t level, const string& why) {
     return fmt::format("quality {} and finer: {}", name_of(static_cast<QualityLevel>(level)), why);
   }
 
   /// As long as three runs of all fit. Returns their time (s).
   double run_each_once(QualityCurve& curve) {
     double once = 0;
-    for (std::size_t level = 0; level < contact_qualities.size() && curve.cut.empty(); ++level) {
+    for (size_t level = 0; level < contact_qualities.size() && curve.cut.empty(); ++level) {
       try {
         runs_.push_back({run(level, 1, stop_check_within(budget_ / least_runs - once, watch_.stop_check))});
         once += runs_.back().front().cpu_s;
@@ -123,9 +121,9 @@ class QualityBench {
   }
 
   void repeat(QualityCurve& curve) {
-    for (std::size_t level = 0; level < runs_.size(); ++level) {
+    for (size_t level = 0; level < runs_.size(); ++level) {
       try {
-        for (std::size_t number = 2; number <= curve.runs; ++number)
+        for (size_t number = 2; number <= curve.runs; ++number)
           runs_[level].push_back(run(level, static_cast<int>(number), watch_.stop_check));
       } catch (const SimulationError& error) {
         curve.cut = cut_at(level, error.what());
@@ -134,7 +132,7 @@ class QualityBench {
     }
   }
 
-  QualityRun run(std::size_t level, int number, const std::function<void()>& stop_check) {
+  QualityRun run(size_t level, int number, const function<void()>& stop_check) {
     const auto quality = static_cast<QualityLevel>(level);
     watch_.report_progress(std::min(1.0, spent_ / budget_), fmt::format("quality {}", name_of(quality)));
     Simulate settings = settings_of(scene_.simulate, {});
@@ -158,17 +156,17 @@ class QualityBench {
     return kept;
   }
 
-  QualityRow row_of(std::size_t level) const {
+  QualityRow row_of(size_t level) const {
     const QualityRuns& runs = runs_[level];
     const QualityRuns& reference = runs_.back();
     QualityRow row;
     row.level = static_cast<QualityLevel>(level);
-    std::vector<double> times;
+    vector<double> times;
     for (const QualityRun& run : runs) {
       times.push_back(run.cpu_s);
       row.max_overlap = std::max(row.max_overlap, run.tally.max_overlap);
     }
-    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+    std::nth_element(times.begin(), times.begin() + static_cast<ptrdiff_t>(times.size() / 2), times.end());
     row.cpu_s = times[times.size() / 2];
     row.made = mean_over(runs, [](const QualityRun& run) { return run.tally.doubts.contact_made; }).value;
     row.unsolved =
@@ -180,7 +178,7 @@ class QualityBench {
     // The energy that is taken, over time.
     double squares = 0;
     double variance = 0;
-    for (std::size_t k = 0; k < instants_.size(); ++k) {
+    for (size_t k = 0; k < instants_.size(); ++k) {
       const auto taken = [k](const QualityRun& run) { return run.taken[k]; };
       const RunMean here = mean_over(runs, taken);
       const RunMean there = mean_over(reference, taken);
@@ -201,9 +199,9 @@ class QualityBench {
   const Scene& scene_;
   double budget_;
   const BenchWatch& watch_;
-  std::vector<double> instants_;
-  std::vector<QualityRuns> runs_;  // by level
-  double spent_ = 0;               // s
+  vector<double> instants_;
+  vector<QualityRuns> runs_;  // by level
+  double spent_ = 0;          // s
 };
 
 }  // namespace

@@ -5,11 +5,10 @@
 // the energy that is lost and the height of the heap. Both are means over runs with slightly different
 // velocities at the start, with the standard errors of these means.
 #include <limits>
-#include <string>
-#include <vector>
 
 #include "bench/bench_options.h"
 #include "physics/contact_quality.h"
+#include "std.h"
 
 namespace carom {
 
@@ -33,9 +32,9 @@ struct QualityRow {
 };
 
 struct QualityCurve {
-  std::vector<QualityRow> rows;  // from coarse to fine. The last one is the reference. Empty: fewer than two.
-  std::size_t runs = 0;          // of each
-  std::string cut;               // why finer ones are missing; empty: all are there
+  vector<QualityRow> rows;  // from coarse to fine. The last one is the reference. Empty: fewer than two.
+  size_t runs = 0;          // of each
+  string cut;               // why finer ones are missing; empty: all are there
 };
 
 /// Runs the scene at each quality, as often as `budget` (s of CPU time) allows and at most six times. The finest ones

@@ -8,11 +8,12 @@
 #include "bench/state_hash.h"
 #include "bench/timing.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::vector<double>& instants, const std::function<void()>& stop_check) {
+                       const vector<double>& instants, const function<void()>& stop_check) {
   const double start = cpu_time();
   RecordedRun run;
   run.duration = simulate.duration;
@@ -35,15 +36,15 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
   run.tally = simulator->tally();
   run.inexact_islands = simulator->effort().inexact_steps > 0 || run.tally.stepped_contact > 0;
   run.hash = hash_of(simulator->state(), run.tally);
-  std::stable_sort(run.impacts.begin(), run.impacts.end(), [](const Impact& p, const Impact& q) {
+  std::ranges::stable_sort(run.impacts, [](const Impact& p, const Impact& q) {
     return std::tie(p.a, p.b, p.time) < std::tie(q.a, q.b, q.time);
   });
   run.cpu_s = cpu_time() - start;
   return run;
 }
 
-std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::function<void()>& stop_check) {
+uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
+                  const function<void()>& stop_check) {
   const auto simulator = make_simulator(world, initial, simulate, {}, steps);
   while (simulator->time() < simulate.duration) {
     stop_check();

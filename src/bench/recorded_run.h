@@ -1,8 +1,5 @@
 #pragma once
 // One run, with the data needed to compare it with another one.
-#include <cstdint>
-#include <functional>
-#include <vector>
 
 #include "physics/entity.h"
 #include "physics/state.h"
@@ -10,6 +7,7 @@
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/simulate_settings.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,14 +20,14 @@ struct Impact {
 };
 
 struct RecordedRun {
-  std::vector<State> states;  // at the requested instants
+  vector<State> states;  // at the requested instants
   /// Sorted by a, then b, then time.
-  std::vector<Impact> impacts;
+  vector<Impact> impacts;
   double duration = 0;  // s
   Tally tally;          // of the whole run
   /// Whether islands moved along paths that are not exact. All engines but the book's move them by the same code.
   bool inexact_islands = false;
-  std::uint64_t hash = 0;  // of the result (state_hash.h)
+  uint64_t hash = 0;  // of the result (state_hash.h)
   double cpu_s = 0;
 
   /// In m/s: the limit below which collisions are bounces that die away. Their number differs between engines.
@@ -39,10 +37,10 @@ struct RecordedRun {
 /// Runs from `initial` to simulate.duration, and samples at `instants` (s, ascending).
 /// `stop_check` is called from time to time, and may throw. Throws SimulationError.
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::vector<double>& instants, const std::function<void()>& stop_check);
+                       const vector<double>& instants, const function<void()>& stop_check);
 
 /// The same run without samples and records, for timing. Returns the result's hash.
-std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::function<void()>& stop_check);
+uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
+                  const function<void()>& stop_check);
 
 }  // namespace carom

@@ -14,6 +14,7 @@
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,11 +27,11 @@ constexpr int ensemble_runs = 12;
 constexpr double astray = 0.01;  // of the largest radius
 constexpr double last_digit = 0x1p-53, grown = 0x1p14;
 
-std::vector<double> instants_in(double from, double to, std::size_t bodies) {
-  const auto most = static_cast<int>(places_kept / static_cast<double>(std::max<std::size_t>(bodies, 1)));
+vector<double> instants_in(double from, double to, size_t bodies) {
+  const auto most = static_cast<int>(places_kept / static_cast<double>(std::max<size_t>(bodies, 1)));
   const int count = std::clamp(most, 8, most_instants);
-  std::vector<double> instants(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) instants[static_cast<std::size_t>(k)] = from + (to - from) * (k + golden) / count;
+  vector<double> instants(static_cast<size_t>(count));
+  for (int k = 0; k < count; ++k) instants[static_cast<size_t>(k)] = from + (to - from) * (k + golden) / count;
   return instants;
 }
 
@@ -72,7 +73,7 @@ class Making {
     reference_.instants = instants_in(0, duration, world_.body_count());
     reference_.run = record(world_, scene_.initial, reference_.method);
     const double once = reference_.run.cpu_s;
-    std::vector<RecordedRun> others;
+    vector<RecordedRun> others;
     for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * once < 0.2 * options_.budget); ++k)
       others.push_back(shifted_run(k, reference_.method));
     judge(others);
@@ -128,30 +129,30 @@ class Making {
   }
 
   /// Determines whether rounding grows until trajectories are meaningless, and until when they are comparable.
-  void judge(const std::vector<RecordedRun>& others) {
+  void judge(const vector<RecordedRun>& others) {
     const double first = last_digit * extent(world_, scene_.initial);
     double until = 0;
-    for (std::size_t k = 0; k < reference_.instants.size(); ++k) {
+    for (size_t k = 0; k < reference_.instants.size(); ++k) {
       for (const RecordedRun& other : others)
         for (Entity i = 0; i < world_.body_count(); ++i)
           reference_.rounding = std::max(reference_.rounding,
                                          (other.states[k].position[i] - reference_.run.states[k].position[i]).norm());
       if (reference_.rounding <= grown * first) until = reference_.instants[k];
     }
-    reference_.chaotic = reference_.rounding > astray * *std::max_element(world_.radius.begin(), world_.radius.end());
+    reference_.chaotic = reference_.rounding > astray * *std::ranges::max_element(world_.radius);
     reference_.horizon = reference_.chaotic ? until : scene_.simulate.duration;
   }
 
   /// Samples the reference and more shifted runs before the horizon, and then after it.
   void gather_ensemble() {
-    std::vector<double>& instants = reference_.instants;
+    vector<double>& instants = reference_.instants;
     instants = instants_in(0, reference_.horizon, world_.body_count());
     if (!(reference_.horizon > 0)) instants.clear();
     reference_.trajectory_instants = instants.size();
     for (const double later : instants_in(reference_.horizon, scene_.simulate.duration, world_.body_count()))
       instants.push_back(later);
     reference_.run = record(world_, scene_.initial, reference_.method);
-    std::vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
+    vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
     for (int k = 1; k <= ensemble_runs; ++k) {
       if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
       watch_.report_progress(0, "the reference, shifted");
@@ -172,7 +173,7 @@ class Making {
 
 }  // namespace
 
-std::function<void()> stop_check_within(double share, const std::function<void()>& stop_check) {
+function<void()> stop_check_within(double share, const function<void()>& stop_check) {
   return [end = cpu_time() + share, &stop_check] {
     stop_check();
     if (cpu_time() > end) throw Overrun{};

@@ -7,9 +7,6 @@
 // and the scene is chaotic.
 // Trajectories of a chaotic scene are compared until rounding has grown 2^14-fold.
 // Beyond that, statistics are compared, and more shifted runs show how much these vary.
-#include <functional>
-#include <optional>
-#include <vector>
 
 #include "bench/bench.h"
 #include "bench/differences.h"
@@ -18,6 +15,7 @@
 #include "bench/recorded_run.h"
 #include "bench/statistics.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,15 +25,15 @@ struct Scene;
 struct Overrun {};
 
 /// Calls `stop_check`, and throws Overrun once `share` (s) of CPU time has passed since this call.
-std::function<void()> stop_check_within(double share, const std::function<void()>& stop_check);
+function<void()> stop_check_within(double share, const function<void()>& stop_check);
 
 struct Reference {
   SimulationMethod method;  // exact, or stepped with dop853
   double duration = 0;      // s, of the scene
   /// In s. Of a chaotic scene those before the horizon, then those after it.
-  std::vector<double> instants;
+  vector<double> instants;
   /// Of a chaotic scene: the number before the horizon.
-  std::size_t trajectory_instants = 0;
+  size_t trajectory_instants = 0;
   RecordedRun run;
   /// In m: the greatest difference of shifted runs, at any instant.
   double rounding = 0;
@@ -46,9 +44,9 @@ struct Reference {
   /// The same. Of a stepped reference, also the effect of smaller step errors.
   Differences error;
   /// By dop853 where paths have closed forms. None: they are parabolas.
-  std::optional<Finding> second;
+  optional<Finding> second;
   /// Of a chaotic scene, including the reference.
-  std::optional<Ensemble> ensemble;
+  optional<Ensemble> ensemble;
 
   Differences off(const World& world, const RecordedRun& other) const {
     return differences(world, run, other, instants, horizon);

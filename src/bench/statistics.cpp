@@ -7,13 +7,14 @@
 #include <numeric>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
-Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from) {
+Statistics statistics_of(const World& world, const RecordedRun& run, double duration, size_t from) {
   Statistics statistics;
-  std::uint64_t struck = 0;  // number of bodies, over all collisions
-  double on_fixed = 0;       // N s
+  uint64_t struck = 0;  // number of bodies, over all collisions
+  double on_fixed = 0;  // N s
   for (const Impact& impact : run.impacts) {
     if (impact.approach_speed < run.least_speed()) continue;
     const bool bodies = world.second_body(impact.b) != no_entity;
@@ -22,17 +23,17 @@ Statistics statistics_of(const World& world, const RecordedRun& run, double dura
   }
   statistics.collision_rate = static_cast<double>(struck) / (static_cast<double>(world.body_count()) * duration);
   statistics.force_on_fixed = on_fixed / duration;
-  for (std::size_t k = from; k < run.states.size(); ++k)
+  for (size_t k = from; k < run.states.size(); ++k)
     for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());
-  std::sort(statistics.speeds.begin(), statistics.speeds.end());
+  std::ranges::sort(statistics.speeds);
   statistics.mean_speed = std::accumulate(statistics.speeds.begin(), statistics.speeds.end(), 0.0) /
                           std::max(1.0, static_cast<double>(statistics.speeds.size()));
   return statistics;
 }
 
-double distance(std::span<const double> a, std::span<const double> b) {
+double distance(span<const double> a, span<const double> b) {
   double most = 0;
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+  for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     const double x = std::min(a[i], b[j]);
     while (i < a.size() && a[i] <= x) ++i;
     while (j < b.size() && b[j] <= x) ++j;
@@ -45,7 +46,7 @@ double distance(std::span<const double> a, std::span<const double> b) {
 namespace {
 
 /// (value - mean of the sample) / (standard deviation of one more draw). 0 for a sample without spread.
-double deviation_from(const std::vector<double>& sample, double value) {
+double deviation_from(const vector<double>& sample, double value) {
   const auto n = static_cast<double>(sample.size());
   const double mean = std::accumulate(sample.begin(), sample.end(), 0.0) / n;
   double squares = 0;
@@ -55,8 +56,8 @@ double deviation_from(const std::vector<double>& sample, double value) {
 }
 
 template <typename Get>
-std::vector<double> each(const std::vector<Statistics>& members, const Get& get) {
-  std::vector<double> values(members.size());
+vector<double> each(const vector<Statistics>& members, const Get& get) {
+  vector<double> values(members.size());
   std::transform(members.begin(), members.end(), values.begin(), get);
   return values;
 }
@@ -71,25 +72,25 @@ double force(const Statistics& s) {
   return s.force_on_fixed;
 }
 
-double mean_of(const std::vector<double>& values) {
+double mean_of(const vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace
 
-Ensemble::Ensemble(std::vector<Statistics> members) : members_(std::move(members)) {
+Ensemble::Ensemble(vector<Statistics> members) : members_(std::move(members)) {
   mean_.collision_rate = mean_of(each(members_, rate));
   mean_.mean_speed = mean_of(each(members_, speed));
   mean_.force_on_fixed = mean_of(each(members_, force));
-  for (std::size_t m = 0; m < members_.size(); ++m) {
-    std::vector<double> others;
-    for (std::size_t k = 0; k < members_.size(); ++k)
+  for (size_t m = 0; m < members_.size(); ++m) {
+    vector<double> others;
+    for (size_t k = 0; k < members_.size(); ++k)
       if (k != m) others.insert(others.end(), members_[k].speeds.begin(), members_[k].speeds.end());
-    std::sort(others.begin(), others.end());
+    std::ranges::sort(others);
     distances_.push_back(distance(members_[m].speeds, others));
     speeds_.insert(speeds_.end(), members_[m].speeds.begin(), members_[m].speeds.end());
   }
-  std::sort(speeds_.begin(), speeds_.end());
+  std::ranges::sort(speeds_);
 }
 
 Deviation Ensemble::deviation(const Statistics& run) const {

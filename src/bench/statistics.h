@@ -1,25 +1,24 @@
 #pragma once
 // Statistics of a chaotic motion, for runs without common trajectories.
-#include <span>
-#include <vector>
 
 #include "bench/recorded_run.h"
+#include "std.h"
 
 namespace carom {
 
 struct Statistics {
-  double collision_rate = 0;   // 1/s, for each body, without slow collisions (RecordedRun::least_speed)
-  double mean_speed = 0;       // m/s
-  double force_on_fixed = 0;   // N, the impulse on fixed things over time
-  std::vector<double> speeds;  // m/s, of all bodies at all instants, ascending
+  double collision_rate = 0;  // 1/s, for each body, without slow collisions (RecordedRun::least_speed)
+  double mean_speed = 0;      // m/s
+  double force_on_fixed = 0;  // N, the impulse on fixed things over time
+  vector<double> speeds;      // m/s, of all bodies at all instants, ascending
 };
 
 /// `from`: the first of the run's instants at which speeds count.
-Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from);
+Statistics statistics_of(const World& world, const RecordedRun& run, double duration, size_t from);
 
 /// The Kolmogorov-Smirnov distance of two samples, each ascending.
 /// It is the greatest difference of their distribution functions, 0 to 1.
-double distance(std::span<const double> a, std::span<const double> b);
+double distance(span<const double> a, span<const double> b);
 
 /// A deviation (see below) that rounding alone exceeds once in fifty runs.
 /// It assumes twelve members (Student's t, four numbers).
@@ -33,21 +32,21 @@ struct Deviation {
 /// Runs that differ by rounding alone, and the spread that chaos gives them.
 class Ensemble {
  public:
-  explicit Ensemble(std::vector<Statistics> members);  // at least 3
+  explicit Ensemble(vector<Statistics> members);  // at least 3
 
   /// The distance of a run's speeds from those of all members.
   double speed_distance(const Statistics& run) const { return distance(run.speeds, speeds_); }
   /// The deviation of a run from the members' mean, in standard deviations of one more member.
   /// It is the greatest of those of collision rate, mean speed, force on fixed things and speed distance.
   Deviation deviation(const Statistics& run) const;
-  std::size_t size() const { return members_.size(); }
+  size_t size() const { return members_.size(); }
   const Statistics& mean() const { return mean_; }
 
  private:
-  std::vector<Statistics> members_;
-  Statistics mean_;                // without speeds
-  std::vector<double> speeds_;     // of all members
-  std::vector<double> distances_;  // of each member from the others
+  vector<Statistics> members_;
+  Statistics mean_;           // without speeds
+  vector<double> speeds_;     // of all members
+  vector<double> distances_;  // of each member from the others
 };
 
 }  // namespace carom

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <ctime>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
@@ -27,10 +29,9 @@ double cpu_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks,
-                                  const std::function<void(double)>& report_progress) {
-  std::vector<int> runs;  // executions in a turn
-  std::vector<std::vector<double>> times(tasks.size());
+vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void(double)>& report_progress) {
+  vector<int> runs;  // executions in a turn
+  vector<vector<double>> times(tasks.size());
   int rounds = 0;
   for (const TimedTask& task : tasks) {
     int many = 1;
@@ -46,12 +47,12 @@ std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks,
   }
   for (int round = 0; round < rounds; ++round) {
     report_progress(static_cast<double>(round) / rounds);
-    for (std::size_t k = 0; k < tasks.size(); ++k)
+    for (size_t k = 0; k < tasks.size(); ++k)
       if (round < tasks[k].repeats) times[k].push_back(turn(tasks[k], runs[k]));
   }
-  std::vector<double> medians;
-  for (std::vector<double>& all : times) {
-    std::sort(all.begin(), all.end());
+  vector<double> medians;
+  for (vector<double>& all : times) {
+    std::ranges::sort(all);
     medians.push_back(0.5 * (all[(all.size() - 1) / 2] + all[all.size() / 2]));
   }
   return medians;

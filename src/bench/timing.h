@@ -1,7 +1,7 @@
 #pragma once
 // CPU times, measured so that other work on the machine affects all tasks alike.
-#include <functional>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -9,7 +9,7 @@ namespace carom {
 double cpu_time();
 
 struct TimedTask {
-  std::function<void()> run;
+  function<void()> run;
   int repeats;  // number of timings, at least 1
 };
 
@@ -17,7 +17,6 @@ struct TimedTask {
 /// Tasks take turns, so that a machine that is slow for a while is slow for all.
 /// A task too short for the clock is executed several times in a turn.
 /// `report_progress` is called before each round of turns, with the share done, 0 to 1.
-std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks,
-                                  const std::function<void(double)>& report_progress);
+vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void(double)>& report_progress);
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include "physics/world.h"
 #include "run/accuracy.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,19 +23,19 @@ Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-std::string integrator_text(const Assessment& assessment) {
+string integrator_text(const Assessment& assessment) {
   if (!assessment.integrator) return "closed forms: no step error";
   if (std::isnan(*assessment.integrator)) return "not known: a smaller step error changes nothing";
   return fmt::format("{} at most, between runs with two step errors", quantity(*assessment.integrator, "m"));
 }
 
-std::string contact_text(const Assessment& assessment) {
+string contact_text(const Assessment& assessment) {
   if (assessment.stepped_contact == 0) return "none in steps of crowds";
   return fmt::format("{} in steps of crowds, summed over bodies; they lost {} beyond impacts",
                      quantity(assessment.stepped_contact, "s"), quantity(assessment.method_error, "J"));
 }
 
-std::string chaos_text(const Assessment& assessment) {
+string chaos_text(const Assessment& assessment) {
   const Growth& growth = assessment.growth;
   if (growth.chaotic) return fmt::format("a disturbance grows e-fold in {}", quantity(growth.lyapunov_time, "s"));
   if (!std::isfinite(growth.large_at))
@@ -43,15 +44,15 @@ std::string chaos_text(const Assessment& assessment) {
                      quantity(growth.large_at, "s"));
 }
 
-std::string order_text(const Assessment& assessment) {
+string order_text(const Assessment& assessment) {
   if (!assessment.order) return "rigid bodies leave no impacts of one instant open";
   return fmt::format("{} at most, if impacts of one instant act one by one, the fastest first",
                      quantity(*assessment.order, "m"));
 }
 
-std::string right_text(const Assessment& assessment) {
-  const std::string to = quantity(assessment.tolerance, "m");
-  std::string text = fmt::format("positions are right to {} until ", to);
+string right_text(const Assessment& assessment) {
+  const string to = quantity(assessment.tolerance, "m");
+  string text = fmt::format("positions are right to {} until ", to);
   text += std::isfinite(assessment.right_until) ? quantity(assessment.right_until, "s") : "the end";
   if (assessment.order.value_or(0) > assessment.tolerance)
     text += fmt::format(", under carom's law for impacts of one instant; another one changes them by {}",

@@ -1,19 +1,18 @@
 #pragma once
 // The sources of a run's error, as text and as JSON.
 #include <nlohmann/json.hpp>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "run/engine.h"
+#include "std.h"
 
 namespace carom {
 
 struct Scene;
 
 struct AccuracyReport {
-  std::vector<std::pair<std::string, std::string>> lines;  // label, text
-  nlohmann::ordered_json json;                             // an object; null: the scene has no motion
+  vector<std::pair<string, string>> lines;  // label, text
+  nlohmann::ordered_json json;              // an object; null: the scene has no motion
 };
 
 /// Runs the scene several times for it. Throws Interrupted.

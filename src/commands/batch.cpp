@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "commands/interrupt.h"
@@ -15,12 +14,13 @@
 #include "files/failed_run.h"
 #include "files/processors.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "study/workers.h"
 
 namespace carom {
 namespace {
 
-int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Options& options) {
+int run_in_turn(const Batch& batch, vector<PlannedScene>& scenes, const Options& options) {
   int code = 0;
   for (PlannedScene& planned : scenes) {
     try {
@@ -42,23 +42,21 @@ int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Opt
 /// Runs scenes in separate processes.
 class Together {
  public:
-  Together(const Batch& batch, const std::vector<PlannedScene>& scenes, const Options& options,
-           std::string_view command, std::size_t to_do)
+  Together(const Batch& batch, const vector<PlannedScene>& scenes, const Options& options, string_view command,
+           size_t to_do)
       : batch_(batch),
         scenes_(scenes),
         to_do_(to_do),
         outcomes_(scenes.size()),
         fractions_(scenes.size()),
-        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), std::string(command)) {
+        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), string(command)) {
     progress_.begin_early();
   }
 
-  int go(std::size_t jobs) {
+  int go(size_t jobs) {
     Tasks tasks;
     tasks.next = [this] { return next(); };
-    tasks.work = [this](std::size_t i) {
-      return packed(batch_.run(scenes_[i], ProgressChoice::none, fractions_.at(i)));
-    };
+    tasks.work = [this](size_t i) { return packed(batch_.run(scenes_[i], ProgressChoice::none, fractions_.at(i))); };
     tasks.done = [this](const TaskOutcome& outcome) { take(outcome); };
     tasks.stop_check = [this] {
       stop_if_interrupted();
@@ -70,22 +68,21 @@ class Together {
       work_off(tasks, jobs);
       if (disk_is_full_) code = 1;
     } catch (const Interrupted& signal) {
-      for (std::size_t i = settled_; i < begun_; ++i)
+      for (size_t i = settled_; i < begun_; ++i)
         if (!outcomes_[i]) outcomes_[i] = run_interrupted(scenes_[i]);
       code = signal.exit_code();
     }
-    for (std::size_t i = begun_; i < outcomes_.size(); ++i)
-      outcomes_[i] = without_run(scenes_[i], scene_status::not_run);
+    for (size_t i = begun_; i < outcomes_.size(); ++i) outcomes_[i] = without_run(scenes_[i], scene_status::not_run);
     settle_in_order();
     return code;
   }
 
  private:
-  std::optional<std::size_t> next() {
-    if (disk_is_full_) return std::nullopt;
+  optional<size_t> next() {
+    if (disk_is_full_) return nullopt;
     for (; begun_ < scenes_.size() && batch_.is_up_to_date(scenes_[begun_]); ++begun_)
       outcomes_[begun_] = batch_.up_to_date(scenes_[begun_]);
-    return begun_ < scenes_.size() ? std::optional(begun_++) : std::nullopt;
+    return begun_ < scenes_.size() ? optional(begun_++) : nullopt;
   }
 
   void take(const TaskOutcome& outcome) {
@@ -116,21 +113,21 @@ class Together {
   }
 
   const Batch& batch_;
-  const std::vector<PlannedScene>& scenes_;
-  const std::size_t to_do_;  // scenes that are not up to date
-  std::size_t begun_ = 0, finished_ = 0, settled_ = 0;
-  bool disk_is_full_ = false;                          // no further scene begins
-  std::vector<std::optional<SceneOutcome>> outcomes_;  // by scene
-  SharedFractions fractions_;                          // by scene
+  const vector<PlannedScene>& scenes_;
+  const size_t to_do_;  // scenes that are not up to date
+  size_t begun_ = 0, finished_ = 0, settled_ = 0;
+  bool disk_is_full_ = false;                // no further scene begins
+  vector<optional<SceneOutcome>> outcomes_;  // by scene
+  SharedFractions fractions_;                // by scene
   Progress progress_;
 };
 
 }  // namespace
 
-int run_batch(const Batch& batch, std::vector<PlannedScene>& scenes, const Options& options, std::string_view command) {
-  const auto to_do = static_cast<std::size_t>(std::count_if(
-      scenes.begin(), scenes.end(), [&](const PlannedScene& planned) { return !batch.is_up_to_date(planned); }));
-  const std::size_t jobs = std::min<std::size_t>(options.execution.jobs.value_or(1), to_do);
+int run_batch(const Batch& batch, vector<PlannedScene>& scenes, const Options& options, string_view command) {
+  const auto to_do = static_cast<size_t>(
+      std::ranges::count_if(scenes, [&](const PlannedScene& planned) { return !batch.is_up_to_date(planned); }));
+  const size_t jobs = std::min<size_t>(options.execution.jobs.value_or(1), to_do);
   if (jobs <= 1) return run_in_turn(batch, scenes, options);
   return Together(batch, scenes, options, command, to_do).go(jobs);
 }

@@ -16,6 +16,7 @@
 #include "commands/text.h"
 #include "files/processors.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -31,7 +32,7 @@ class BenchSession {
 
   int go() {
     refuse_other_content(scenes_, options_);
-    if (const std::string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
+    if (const string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
     int code = 0, interrupted = 0;
     for (PlannedScene& planned : scenes_) {
       Json entry = {{"scene", planned.file}, {"status", "not run"}, {"folder", planned.folder}};
@@ -52,7 +53,7 @@ class BenchSession {
   }
 
  private:
-  int refuse(const std::string& errors) {
+  int refuse(const string& errors) {
     for (const PlannedScene& planned : scenes_) {
       write_err(planned.error);
       Json entry = {{"scene", planned.file}, {"status", planned.errors > 0 ? "wrong" : "not run"}};
@@ -83,8 +84,7 @@ class BenchSession {
     const Scene& scene = *planned.scene;
     BenchFolder folder(planned.folder, gnuplot_);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), printable(planned.name));
-    const BenchWatch watch{stop_if_interrupted,
-                           [&](double done, const std::string& what) { progress.update(done, what); }};
+    const BenchWatch watch{stop_if_interrupted, [&](double done, const string& what) { progress.update(done, what); }};
     const BenchResult result = run_bench(scene, options_.bench, watch);
     stop_if_interrupted();
     progress.clear();
@@ -100,15 +100,15 @@ class BenchSession {
     flush_out();
   }
 
-  void fail(const PlannedScene& planned, Json& entry, std::string_view text) {
+  void fail(const PlannedScene& planned, Json& entry, string_view text) {
     complain(options_, fmt::format("{}: the bench failed: {}", printable(planned.file), text));
     entry["status"] = "failed";
     entry["errors"] = errors_json(error_of_text(text, planned.file));
   }
 
   const Options& options_;
-  std::string gnuplot_;
-  std::vector<PlannedScene> scenes_;
+  string gnuplot_;
+  vector<PlannedScene> scenes_;
   Json document_ = Json::array();
 };
 

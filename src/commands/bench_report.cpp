@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bench/bench_folder.h"
 #include "commands/error_list.h"
 #include "commands/text.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,19 +17,19 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-using Cells = std::vector<std::string>;
+using Cells = vector<string>;
 
-std::string digits(double value) {
+string digits(double value) {
   return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "";
 }
 
 bool is_confirmed(const BenchResult& result) {
-  return std::any_of(result.witnesses.begin(), result.witnesses.end(), [](const Witness& w) { return w.agrees; });
+  return std::ranges::any_of(result.witnesses, [](const Witness& w) { return w.agrees; });
 }
 
-std::string reference_text(const BenchResult& result) {
+string reference_text(const BenchResult& result) {
   const Differences& error = result.reference_error;
-  const std::string text = full_name_of(result.reference);
+  const string text = full_name_of(result.reference);
   if (!(result.horizon > 0)) return text;
   const bool disputed = !result.witnesses.empty() && !is_confirmed(result);
   const char* how = disputed ? "no other method agrees with it: its estimated error is"
@@ -42,20 +42,20 @@ std::string reference_text(const BenchResult& result) {
 }
 
 /// How the other methods agree with the reference.
-std::string witnesses_text(const BenchResult& result) {
+string witnesses_text(const BenchResult& result) {
   if (result.witnesses.empty()) return "nothing: no other method converges, or all follow the same paths";
-  std::vector<std::string> agree, differ;
+  vector<string> agree, differ;
   for (const Witness& witness : result.witnesses)
     (witness.agrees ? agree : differ)
         .push_back(fmt::format("{} ({})", full_name_of(witness.method), quantity(witness.apart, "m")));
   const char* where = result.inexact_islands ? "in agreement outside islands: " : "in agreement: ";
-  std::string text = agree.empty() ? "" : where + listed(agree, agree.size());
+  string text = agree.empty() ? "" : where + listed(agree, agree.size());
   if (differ.empty()) return text;
   if (!text.empty()) text += "; ";
   return text + "in disagreement: " + listed(differ, differ.size());
 }
 
-std::string motion_text(const BenchResult& result) {
+string motion_text(const BenchResult& result) {
   if (!result.chaotic)
     return fmt::format("regular: rounding moves no body by more than {}", quantity(result.rounding, "m"));
   return fmt::format(
@@ -131,7 +131,7 @@ Json row_json(const BenchRow& row, bool chaotic) {
 }
 
 /// "0.21 +- 0.05" %, or nothing.
-std::string percent_text(const MeanError& error) {
+string percent_text(const MeanError& error) {
   if (!std::isfinite(error.value)) return "";
   return fmt::format("{:.2f} +- {:.2f}", 100 * error.value, 100 * error.spread);
 }
@@ -139,9 +139,9 @@ std::string percent_text(const MeanError& error) {
 void describe(Block& block, const QualityCurve& curve) {
   block.line("qualities", fmt::format("of lasting contact of many bodies: means of {} runs, against `{}`", curve.runs,
                                       name_of(curve.rows.back().level)));
-  std::vector<Cells> rows = {{"quality", "CPU s", "energy lost %", "height %", "made J", "unsolved %", "overlap m"}};
+  vector<Cells> rows = {{"quality", "CPU s", "energy lost %", "height %", "made J", "unsolved %", "overlap m"}};
   for (const QualityRow& row : curve.rows)
-    rows.push_back({std::string(name_of(row.level)), digits(row.cpu_s), percent_text(row.dissipated),
+    rows.push_back({string(name_of(row.level)), digits(row.cpu_s), percent_text(row.dissipated),
                     percent_text(row.height), digits(row.made), digits(100 * row.unsolved), digits(row.max_overlap)});
   block.table(rows);
 }
@@ -168,12 +168,12 @@ void describe(Block& block, const PlannedScene& planned, const BenchResult& resu
                "no independent check: all methods move bodies in lasting contact and on strings by the same code");
   block.line("motion", motion_text(result));
 
-  std::vector<Cells> rows = {heading(result)};
+  vector<Cells> rows = {heading(result)};
   for (const BenchRow& row : result.rows) rows.push_back(cells_of(row, result.chaotic));
   block.table(rows);
   if (!result.qualities.rows.empty()) describe(block, result.qualities);
 
-  for (const std::string& line : result.left_out) block.line("left out", line);
+  for (const string& line : result.left_out) block.line("left out", line);
   for (const BenchRow& row : result.rows)
     if (!row.failure.empty()) block.line("failed", fmt::format("{}: {}", full_name_of(row.method), row.failure));
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), listed(files_in(planned.folder), 100)));

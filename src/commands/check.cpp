@@ -24,6 +24,7 @@
 #include "physics/world.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -32,66 +33,66 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t bodies_shown = 10, crossings_shown = 10, crossings_listed = 1000;
+constexpr size_t bodies_shown = 10, crossings_shown = 10, crossings_listed = 1000;
 constexpr double trial_budget = 0.1;  // s of wall time
 constexpr const char* unknown_view = "not known: the camera frames the motion, which takes longer to simulate";
 
 // "red, blue and gas (1,000)".
-std::string bodies_text(const Scene& scene) {
-  std::vector<std::string> names;
-  const std::vector<BodyRange>& bodies = scene.roster.bodies;
-  for (std::size_t i = 0; i < bodies.size();) {
-    const std::string name(bodies[i].thing());
+string bodies_text(const Scene& scene) {
+  vector<string> names;
+  const vector<BodyRange>& bodies = scene.roster.bodies;
+  for (size_t i = 0; i < bodies.size();) {
+    const string name(bodies[i].thing());
     const bool several = bodies[i].group || bodies[i].name != name;
-    std::uint64_t count = 0;
+    uint64_t count = 0;
     do count += bodies[i].count;
     while (++i < bodies.size() && name != bodies[i].name && bodies[i].thing() == name);
     names.push_back(several ? fmt::format("{} ({})", name, grouped(count)) : name);
   }
-  const std::string count = counted(scene.world.body_count(), "body", "bodies");
+  const string count = counted(scene.world.body_count(), "body", "bodies");
   return names.empty() ? count : fmt::format("{}: {}", count, listed(names, bodies_shown));
 }
 
-std::string fixed_text(const World& world) {
-  const std::string text = fmt::format("{}, {}", counted(world.planes.size(), "plane", "planes"),
-                                       counted(world.walls.size(), "wall", "walls"));
+string fixed_text(const World& world) {
+  const string text = fmt::format("{}, {}", counted(world.planes.size(), "plane", "planes"),
+                                  counted(world.walls.size(), "wall", "walls"));
   if (world.obstacles.empty()) return text;
   return text + ", " + counted(world.obstacles.size(), "obstacle", "obstacles");
 }
 
-std::string strings_text(const World& world) {
-  const auto rods = static_cast<std::size_t>(
-      std::count_if(world.strings.begin(), world.strings.end(), [](const String& string) { return string.rod; }));
-  const std::size_t strings = world.strings.size() - rods;
+string strings_text(const World& world) {
+  const auto rods =
+      static_cast<size_t>(std::ranges::count_if(world.strings, [](const String& string) { return string.rod; }));
+  const size_t strings = world.strings.size() - rods;
   if (rods == 0) return counted(strings, "string", "strings");
   return strings == 0 ? counted(rods, "rod", "rods")
                       : fmt::format("{}, {}", counted(strings, "string", "strings"), counted(rods, "rod", "rods"));
 }
 
-std::string forces_text(const World& world) {
+string forces_text(const World& world) {
   return counted(world.forces.size(), "force", "forces") + " in addition to gravity";
 }
 
-std::string regions_text(const Scene& scene) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < scene.world.regions.size(); ++i) {
+string regions_text(const Scene& scene) {
+  vector<string> names;
+  for (size_t i = 0; i < scene.world.regions.size(); ++i) {
     const WorldRegion& region = scene.world.regions[i];
     names.push_back(scene.roster.regions[i] + (region.removes ? " (remove)" : region.stops ? " (stop)" : ""));
   }
-  const std::size_t most = 4, count = names.size();
+  const size_t most = 4, count = names.size();
   if (count > most) names.resize(most);
   return fmt::format("{}: {}{}", counted(count, "region", "regions"), joined(names, ", "), count > most ? ", ..." : "");
 }
 
-std::string engine_text(const PlannedScene& planned) {
+string engine_text(const PlannedScene& planned) {
   const Simulate& simulate = planned.scene->simulate;
-  std::string text(name_of(planned.engine.engine));
+  string text(name_of(planned.engine.engine));
   if (simulate.as_printed) text += ", as printed";
   if (!planned.engine.why.empty()) text += fmt::format(" ({})", planned.engine.why);
   return text + fmt::format(", {} of motion", quantity(simulate.duration, "s"));
 }
 
-std::string first_collision_text(const PlannedScene& planned, const Foresight& foresight) {
+string first_collision_text(const PlannedScene& planned, const Foresight& foresight) {
   if (!foresight.trouble.empty()) return "not known: " + foresight.trouble;
   if (!foresight.first) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
   const Collision& c = *foresight.first;
@@ -99,8 +100,8 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
   // Smaller coordinates are rounding errors.
   const double nothing = 1e-9 * planned.scene->world.radius[c.a];
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
-  const bool tautens = c.kind == CollisionKind::string;
-  std::string text =
+  const bool tautens = c.kind == CollisionKind::taut;
+  string text =
       fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, {} at {}", roster.name(c.a), roster.name(c.b),
                   quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()), shown(c.position.z()),
                   tautens ? "which goes taut" : "closing", quantity(c.approach_speed, "m/s"));
@@ -110,53 +111,53 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
 
 struct Findings {
   Foresight foresight;
-  std::optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
+  optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
 };
 
 /// How the camera moves; empty: it stands still. `kind`: as in CameraPreview.
-std::string camera_text(const Scene& scene, std::string_view kind) {
+string camera_text(const Scene& scene, string_view kind) {
   if (kind == "still") return "";
   if (kind == "fit") return "frames the motion; ";
   if (kind == "path") return counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
   const auto& follow = scene.camera->follow;
   const BodyRange& range = scene.roster.range_of(follow->first);
-  const std::string name = follow->count == range.count  ? range.name
-                           : follow->count < range.count ? scene.roster.name(follow->first)
-                                                         : std::string(range.thing());
+  const string name = follow->count == range.count  ? range.name
+                      : follow->count < range.count ? scene.roster.name(follow->first)
+                                                    : string(range.thing());
   return fmt::format("follows {}; ", name);
 }
 
-std::string plus_x_text(const std::string& direction) {
+string plus_x_text(const string& direction) {
   if (direction == "left" || direction == "right") return fmt::format("+x points to the {} of the picture", direction);
   if (direction == "up" || direction == "down") return fmt::format("+x points {} in the picture", direction);
   return direction == "away" ? "+x points away from the eye" : "+x points toward the eye";
 }
 
-std::string out_of_view_text(const PlannedScene& planned, const CameraPreview& view) {
+string out_of_view_text(const PlannedScene& planned, const CameraPreview& view) {
   if (!view.out_of_view) return unknown_view;
   if (view.out_of_view->empty()) return "no body at time 0";
-  std::vector<std::string> names;
+  vector<string> names;
   for (const Entity body : *view.out_of_view) {
     if (names.size() == bodies_shown) break;
     names.push_back(planned.scene->roster.name(body));
   }
-  const std::size_t more = view.out_of_view->size() - names.size();
+  const size_t more = view.out_of_view->size() - names.size();
   return more == 0 ? listed(names) + " at time 0"
                    : fmt::format("{} and {} more at time 0", joined(names, ", "), grouped(more));
 }
 
 // "red and blue enter at 0.3 s; red leaves at 1.2 s"
-std::string crossings_text(const PlannedScene& planned, const Findings& findings) {
+string crossings_text(const PlannedScene& planned, const Findings& findings) {
   if (!findings.camera->out_of_view) return unknown_view;
   const Foresight& foresight = findings.foresight;
-  const std::vector<Crossing>& all = foresight.crossings;
+  const vector<Crossing>& all = foresight.crossings;
 
   // A text for the bodies that enter, or leave, at one instant.
-  std::vector<std::string> texts;
-  std::size_t i = 0;
+  vector<string> texts;
+  size_t i = 0;
   while (i < all.size() && texts.size() < crossings_shown) {
     const Crossing& first = all[i];
-    std::vector<std::string> names;
+    vector<string> names;
     for (; i < all.size() && all[i].time == first.time && all[i].enters == first.enters; ++i)
       names.push_back(planned.scene->roster.name(all[i].body));
     const bool one = names.size() == 1;
@@ -166,19 +167,19 @@ std::string crossings_text(const PlannedScene& planned, const Findings& findings
   }
 
   if (i < all.size()) texts.push_back(fmt::format("{} more", grouped(all.size() - i)));
-  std::string text = texts.empty() ? "no body enters or leaves the picture" : joined(texts, "; ");
+  string text = texts.empty() ? "no body enters or leaves the picture" : joined(texts, "; ");
   if (foresight.cut) text += fmt::format(" (checked up to {})", quantity(foresight.watched_until, "s"));
   return text;
 }
 
-std::string content_text(const PlannedScene& planned) {
+string content_text(const PlannedScene& planned) {
   switch (planned.content) {
     case FolderContent::nothing:
       return "new";
     case FolderContent::this_run:
       return "up to date";
     case FolderContent::incomplete:
-      if (const std::optional<Checkpoint> kept = any_checkpoint(planned.folder))
+      if (const optional<Checkpoint> kept = any_checkpoint(planned.folder))
         return fmt::format("interrupted at {} of its motion: the same command goes on there",
                            quantity(kept->time, "s"));
       return "incomplete, will be run again";
@@ -194,7 +195,7 @@ std::string content_text(const PlannedScene& planned) {
   return "holds another run, or files that no run wrote: run needs --force or another -o";
 }
 
-std::string content_name(FolderContent content) {
+string content_name(FolderContent content) {
   switch (content) {
     case FolderContent::nothing:
       return "new";
@@ -217,34 +218,33 @@ std::string content_name(FolderContent content) {
 Findings examine(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
   if (!scene.camera && !scene.output.pictures())
-    return {foresee(scene, planned.engine, nullptr, trial_budget), std::nullopt};
+    return {foresee(scene, planned.engine, nullptr, trial_budget), nullopt};
   MovingCamera camera(scene, picture_size(scene.output));
   const bool known = frame_motion(camera, trial_budget);
   return {foresee(scene, planned.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
 }
 
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
-std::optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
-  if (!findings.foresight.simulate_s) return std::nullopt;
+optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
+  if (!findings.foresight.simulate_s) return nullopt;
   return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
 }
 
 /// Of all files: flights by the part that was simulated, all others by the scene.
-std::uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
+uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!planned.scene->output.flights) return planned.forecast.bytes;
   const PiecesAhead& pieces = findings.foresight.pieces;
   const double flights = flight_bytes(pieces.of_events, pieces.of_crowd);
-  return planned.forecast.bytes + static_cast<std::uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
+  return planned.forecast.bytes + static_cast<uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
 }
 
-std::string steps_text(double steps) {
-  return steps < 1e15 ? counted(static_cast<std::uint64_t>(steps), "step", "steps")
-                      : fmt::format("{:.4g} steps", steps);
+string steps_text(double steps) {
+  return steps < 1e15 ? counted(static_cast<uint64_t>(steps), "step", "steps") : fmt::format("{:.4g} steps", steps);
 }
 
-std::string to_come_text(const PlannedScene& planned, const Findings& findings) {
-  const std::optional<double> seconds = seconds_to_come(planned, findings);
-  const std::optional<double> steps = steps_of(*planned.scene);
+string to_come_text(const PlannedScene& planned, const Findings& findings) {
+  const optional<double> seconds = seconds_to_come(planned, findings);
+  const optional<double> steps = steps_of(*planned.scene);
   return fmt::format("{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
                      counted(planned.forecast.frames, "picture", "pictures"),
                      counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
@@ -255,12 +255,12 @@ std::string to_come_text(const PlannedScene& planned, const Findings& findings) 
                                       : "roughly " + wait_text(std::round(*seconds)));
 }
 
-std::string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, std::size_t width) {
+string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, size_t width) {
   Block block(palette, width);
   block.heading(planned.name, planned.scene->title);
   block.line("bodies", bodies_text(*planned.scene));
   block.line("fixed", fixed_text(planned.scene->world));
-  if (const std::string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
+  if (const string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
   if (!planned.scene->world.strings.empty()) block.line("strings", strings_text(planned.scene->world));
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
   if (!planned.scene->world.regions.empty()) block.line("regions", regions_text(*planned.scene));
@@ -268,12 +268,12 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (const auto& start = planned.scene->made_from.start)
     block.line("start", fmt::format("the run {} at {}, by its {}", printable(start->run), quantity(start->at, "s"),
                                     start->file));
-  for (const std::string& note : planned.scene->made_from.notes) block.line("note", note);
+  for (const string& note : planned.scene->made_from.notes) block.line("note", note);
 
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
-  if (const std::string slow = slow_text(*planned.scene); !slow.empty()) block.line("slow", slow);
+  if (const string slow = slow_text(*planned.scene); !slow.empty()) block.line("slow", slow);
 
   if (findings.camera) {
     block.line(
@@ -311,7 +311,7 @@ Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresigh
   }
 
   Json names = Json::array();
-  for (const Entity body : camera.out_of_view.value_or(std::vector<Entity>())) {
+  for (const Entity body : camera.out_of_view.value_or(vector<Entity>())) {
     if (names.size() == bodies_shown) break;
     names.push_back(scene.roster.name(body));
   }
@@ -341,7 +341,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"strings", scene.world.strings.size()},
                 {"regions", scene.roster.regions},
                 {"forces", scene.world.forces.size()},
-                {"engine", std::string(name_of(planned.engine.engine))},
+                {"engine", string(name_of(planned.engine.engine))},
                 {"why", planned.engine.why},
                 {"duration_s", scene.simulate.duration}};
 
@@ -355,17 +355,17 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
       findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);
   if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
   if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
-  if (const std::string slow = slow_text(scene); !slow.empty()) entry["slow"] = slow;
+  if (const string slow = slow_text(scene); !slow.empty()) entry["slow"] = slow;
 
   entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
 
   // What is to come.
-  const std::optional<double> steps = steps_of(scene);
+  const optional<double> steps = steps_of(scene);
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);
   entry["pictures"] = planned.forecast.frames;
   entry["trajectory_rows"] = planned.forecast.rows;
   entry["bytes"] = bytes_to_come(planned, findings);
-  const std::optional<double> seconds = seconds_to_come(planned, findings);
+  const optional<double> seconds = seconds_to_come(planned, findings);
   entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);
   entry["folder"] = planned.folder;
   entry["content"] = content_name(planned.content);
@@ -388,7 +388,7 @@ const CommandText& check_text() {
 }
 
 int check_command(const Options& options) {
-  const std::vector<PlannedScene> scenes = plan_scenes(options);
+  const vector<PlannedScene> scenes = plan_scenes(options);
   const Palette palette(uses_color(options.color, STDOUT_FILENO));
   Json entries = Json::array();
   for (const PlannedScene& planned : scenes) {
@@ -414,7 +414,7 @@ int check_command(const Options& options) {
   }
 
   if (options.json) write_out(document("check", entries));
-  const std::string errors = error_count(scenes);
+  const string errors = error_count(scenes);
   if (errors.empty()) return 0;
   flush_out();
   complain(options, errors);

@@ -8,15 +8,16 @@
 #include <algorithm>
 
 #include "commands/options.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
 
 namespace {
 
-std::string operands_text(const CommandText& command) {
+string operands_text(const CommandText& command) {
   if (command.most == 0) return "";
-  const std::string text = " " + command.operand + (command.most > 1 ? "..." : "");
+  const string text = " " + command.operand + (command.most > 1 ? "..." : "");
   return command.least == 0 ? " [" + text.substr(1) + "]" : text;
 }
 
@@ -27,14 +28,14 @@ class HelpFormatter : public CLI::Formatter {
     column_width(26);
     label("Positionals", "Operands");
   }
-  std::string make_description(const CLI::App*) const override {
+  string make_description(const CLI::App*) const override {
     return fmt::format("carom {}: {}\n\nExamples:\n{}", command_.name, command_.line, command_.examples);
   }
-  std::string make_usage(const CLI::App*, std::string) const override {
+  string make_usage(const CLI::App*, string) const override {
     return fmt::format("\nUsage:\n  carom {}{} [OPTIONS]\n", command_.name, operands_text(command_));
   }
-  std::string make_option_opts(const CLI::Option* option) const override {
-    const std::string value = option->get_type_name();
+  string make_option_opts(const CLI::Option* option) const override {
+    const string value = option->get_type_name();
     return value.empty() || option->get_positional() ? "" : " " + value;
   }
 
@@ -45,33 +46,32 @@ class HelpFormatter : public CLI::Formatter {
 /// An option of the table and its values on the command line; it may be repeated until it is read.
 struct Given {
   OptionUse use;
-  std::vector<std::string> words;
+  vector<string> words;
 };
 
 void add_option(CLI::App& app, Given& given) {
   const Option& option = option_named(given.use.name);
-  const std::string names =
-      option.letter.empty() ? std::string(option.name) : fmt::format("{},{}", option.letter, option.name);
-  const std::string help(given.use.help);
+  const string names = option.letter.empty() ? string(option.name) : fmt::format("{},{}", option.letter, option.name);
+  const string help(given.use.help);
   if (option.value.empty()) {
     app.add_flag_function(
-           names, [&given](std::int64_t count) { given.words.assign(static_cast<std::size_t>(count), ""); }, help)
+           names, [&given](int64_t count) { given.words.assign(static_cast<size_t>(count), ""); }, help)
         ->disable_flag_override();
     return;
   }
   app.add_option(names, given.words, help)
-      ->type_name(std::string(option.value))
+      ->type_name(string(option.value))
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 // "-output x" would parse as "-o utput": a long option after a single dash is an error.
-void refuse_single_dash(const CLI::App& app, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
+void refuse_single_dash(const CLI::App& app, const vector<string>& words) {
+  for (const string& word : words) {
     if (word == "--") return;
     if (word.size() < 4 || word[0] != '-' || word[1] == '-') continue;
-    const std::string name = word.substr(1, word.find('=') - 1);
+    const string name = word.substr(1, word.find('=') - 1);
     for (const CLI::Option* option : app.get_options()) {
       if (option->check_lname(name)) {
         throw UsageError(fmt::format("no option {}; did you mean `--{}`?", in_backticks(word), name));
@@ -81,31 +81,31 @@ void refuse_single_dash(const CLI::App& app, const std::vector<std::string>& wor
 }
 
 void refuse_unknown(const CLI::App& app) {
-  const std::vector<std::string> extras = app.remaining();
+  const vector<string> extras = app.remaining();
   if (extras.empty()) return;
-  std::vector<std::string> known;
+  vector<string> known;
   for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const string& name : option->get_lnames()) known.push_back("--" + name);
   }
-  const std::string word = extras.front().substr(0, extras.front().find('='));
+  const string word = extras.front().substr(0, extras.front().find('='));
   throw UsageError(
       fmt::format("no option {}{}", in_backticks(word), word.starts_with("--") ? did_you_mean(word, known) : ""));
 }
 
 // CLI11's texts begin with the option's name; the error is a missing value or one too many.
-std::string in_our_words(const CLI::ParseError& error) {
-  const std::string text = error.what();
-  std::string name = text.substr(0, text.find_first_of(": "));
+string in_our_words(const CLI::ParseError& error) {
+  const string text = error.what();
+  string name = text.substr(0, text.find_first_of(": "));
   if (!name.starts_with('-')) name.insert(0, "--");
-  if (text.find("disallowed flag override") != std::string::npos) return fmt::format("{} takes no value", name);
+  if (text.find("disallowed flag override") != string::npos) return fmt::format("{} takes no value", name);
   if (error.get_name() == "ArgumentMismatch") return fmt::format("{} needs a value", name);
   return text;
 }
 
-void check_operands(const CommandText& command, const std::vector<std::string>& operands) {
+void check_operands(const CommandText& command, const vector<string>& operands) {
   if (operands.size() < command.least) throw UsageError(fmt::format(fmt::runtime(command.missing), command.name));
   if (operands.size() <= command.most) return;
-  const std::string& extra = operands[command.most];
+  const string& extra = operands[command.most];
   throw UsageError(command.most == 0
                        ? fmt::format("unexpected {}", in_backticks(extra))
                        : fmt::format("it takes {}, not {} too",
@@ -116,7 +116,7 @@ void check_operands(const CommandText& command, const std::vector<std::string>& 
 
 }  // namespace
 
-ParsedOptions parse_options(const CommandText& command, const std::vector<std::string>& words) {
+ParsedOptions parse_options(const CommandText& command, const vector<string>& words) {
   CLI::App app;
   app.formatter(std::make_shared<HelpFormatter>(command));
   app.set_help_flag("-h,--help", "show this help");
@@ -125,15 +125,15 @@ ParsedOptions parse_options(const CommandText& command, const std::vector<std::s
   ParsedOptions parsed;
   Options& options = parsed.options;
   if (command.most > 0) app.add_option(command.operand, options.operands, command.operand_help)->type_name("");
-  std::vector<Given> given;
+  vector<Given> given;
   for (const OptionUse& use : options_of(command)) given.push_back({use, {}});
   for (Given& option : given) add_option(app, option);
   refuse_single_dash(app, words);
   // Every word after "--" is an operand.
-  const auto mark = std::find(words.begin(), words.end(), "--");
+  const auto mark = std::ranges::find(words, "--");
   try {
     // CLI11 reads from the back.
-    app.parse(std::vector<std::string>(std::reverse_iterator(mark), words.rend()));
+    app.parse(vector<string>(std::reverse_iterator(mark), words.rend()));
   } catch (const CLI::CallForHelp&) {
     parsed.help = app.help();
     return parsed;

@@ -14,11 +14,12 @@
 #include "commands/schema.h"
 #include "commands/submit.h"
 #include "commands/sweep.h"
+#include "std.h"
 
 namespace carom {
 
-const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {
+const vector<Command>& commands() {
+  static const vector<Command> all = {
       {run_text(), run_command},         {check_text(), check_command},   {sweep_text(), sweep_command},
       {gather_text(), gather_command},   {submit_text(), submit_command}, {compare_text(), compare_command},
       {diff_text(), diff_command},       {render_text(), render_command}, {plot_text(), plot_command},

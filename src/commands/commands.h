@@ -1,8 +1,8 @@
 #pragma once
 // The table of commands.
-#include <vector>
 
 #include "commands/command_line.h"
+#include "std.h"
 
 namespace carom {
 
@@ -12,6 +12,6 @@ struct Command {
 };
 
 /// In the order of the help.
-const std::vector<Command>& commands();
+const vector<Command>& commands();
 
 }  // namespace carom

@@ -23,6 +23,7 @@
 #include "overlay/font.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
+#include "std.h"
 #include "study/comparison_film.h"
 #include "study/run_list.h"
 #include "study/sweep_folder.h"
@@ -36,10 +37,10 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// Title of the workbook: the names of the runs, shortened.
-std::string title_of(const std::vector<std::string>& folders) {
-  std::vector<std::string> names;
-  for (const std::string& folder : folders) names.push_back(name_of_folder(folder));
-  constexpr std::size_t most = 4;
+string title_of(const vector<string>& folders) {
+  vector<string> names;
+  for (const string& folder : folders) names.push_back(name_of_folder(folder));
+  constexpr size_t most = 4;
   return "Comparison of " + listed(names, most);
 }
 
@@ -71,17 +72,17 @@ class CompareSession {
  private:
   int compare() {
     settle_folder(folder_);
-    for (const std::string& folder : options_.operands) refuse_own_folder(folder);
-    std::vector<ListedRun> runs;
+    for (const string& folder : options_.operands) refuse_own_folder(folder);
+    vector<ListedRun> runs;
     try {
       runs = list_runs(options_.operands, stop_if_interrupted);
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
     // The file of a single sweep has the varied paths and the measures.
-    const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : std::nullopt;
+    const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : nullopt;
     const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs), stop_if_interrupted);
-    std::vector<FilmTile> tiles;
+    vector<FilmTile> tiles;
     try {
       if (options_.compare.video) tiles = film_tiles(differences);
     } catch (const ExportError& error) {
@@ -97,7 +98,7 @@ class CompareSession {
     for (const ChartWords& chart : options_.compare.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
     plan.collisions = plan.collisions || options_.compare.collisions;
     check(plan, differences.runs());
-    const std::string request =
+    const string request =
         request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.compare.video);
     FolderChanges changes;
     const FolderContent content = inspect_comparison_folder(folder_, request, changes);
@@ -113,45 +114,44 @@ class CompareSession {
   }
 
   /// A comparison never overwrites a run that it compares.
-  void refuse_own_folder(const std::string& folder) const {
+  void refuse_own_folder(const string& folder) const {
     if (canonical(folder) == canonical(folder_))
       throw UsageError(fmt::format("{} is both compared and written to", printable(folder)),
                        "name another folder with -o");
   }
 
   /// The names of the measures that the scene of the first whole run defines.
-  static std::vector<std::string> own_measures_of(const std::vector<ListedRun>& runs) {
-    const auto whole = std::find_if(runs.begin(), runs.end(), [](const ListedRun& run) { return run.done; });
+  static vector<string> own_measures_of(const vector<ListedRun>& runs) {
+    const auto whole = std::ranges::find_if(runs, [](const ListedRun& run) { return run.done; });
     if (whole == runs.end()) return {};
     const Descriptor folder = open_folder(AT_FDCWD, whole->folder, true);
-    const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : std::nullopt;
-    return text ? own_measure_names(*text) : std::vector<std::string>();
+    const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : nullopt;
+    return text ? own_measure_names(*text) : vector<string>();
   }
 
   /// Measures and charts must exist in the first whole run.
-  static void check(const ComparisonPlan& plan, const std::vector<ListedRun>& runs) {
+  static void check(const ComparisonPlan& plan, const vector<ListedRun>& runs) {
     check_charts(plan);
-    const auto whole = std::find_if(runs.begin(), runs.end(), [](const ListedRun& run) { return run.done; });
-    const std::vector<Measure> measures = measures_of(plan);
-    const bool of_bodies = std::any_of(measures.begin(), measures.end(), [](const Measure& m) { return !m.column; });
+    const auto whole = std::ranges::find_if(runs, [](const ListedRun& run) { return run.done; });
+    const vector<Measure> measures = measures_of(plan);
+    const bool of_bodies = std::ranges::any_of(measures, [](const Measure& m) { return !m.column; });
     if (!of_bodies || whole == runs.end()) return;
     const Scene scene = load_run_scene(whole->folder);
     for (const Measure& measure : measures) parse_measure(measure.name, scene);
   }
 
-  void write(const ComparisonPlan& plan, const RunSet& differences, std::vector<FilmTile> tiles,
-             const std::string& request) {
-    const std::size_t count = differences.runs().size();
+  void write(const ComparisonPlan& plan, const RunSet& differences, vector<FilmTile> tiles, const string& request) {
+    const size_t count = differences.runs().size();
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), "compare");
-    const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); },
-                                [&](std::size_t runs) { doubtful_ = runs; }};
+    const ComparisonWatch watch{stop_if_interrupted, [&](size_t read) { progress.update(read, count, "runs"); },
+                                [&](size_t runs) { doubtful_ = runs; }};
     ComparisonFolder folder(folder_);
-    std::unique_ptr<SideBySide> film;
+    unique_ptr<SideBySide> film;
     if (options_.compare.video)
-      film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles),
-                                          find_font("the text of a film", "leave --video out"));
+      film = make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles),
+                                     find_font("the text of a film", "leave --video out"));
     const auto files = write_comparison(
-        folder.place(), plan, count, [&](std::size_t number) { return differences.run(number); }, watch);
+        folder.place(), plan, count, [&](size_t number) { return differences.run(number); }, watch);
     if (film) {
       progress.update(1, "film");
       film->complete();
@@ -167,10 +167,10 @@ class CompareSession {
   }
 
   int done(const ComparisonPlan& plan, const RunSet& differences) {
-    const std::vector<ListedRun>& runs = differences.runs();
-    const auto failed = static_cast<std::size_t>(
-        std::count_if(runs.begin(), runs.end(), [](const ListedRun& run) { return !run.done; }));
-    std::vector<std::string> varied, measures;
+    const vector<ListedRun>& runs = differences.runs();
+    const auto failed =
+        static_cast<size_t>(std::ranges::count_if(runs, [](const ListedRun& run) { return !run.done; }));
+    vector<string> varied, measures;
     for (const Parameter& parameter : plan.parameters) varied.push_back(parameter.path);
     for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);
     document_["runs"] = runs.size();
@@ -180,7 +180,7 @@ class CompareSession {
     document_["measures"] = measures;
     document_["files"] = files_in(folder_);
     if (!options_.json && !options_.quiet) {
-      constexpr std::size_t most = 12;
+      constexpr size_t most = 12;
       Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
       block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
       block.line("runs",
@@ -194,7 +194,7 @@ class CompareSession {
     return end("done", 0);
   }
 
-  int fail(const char* status, const std::string& text, int code) {
+  int fail(const char* status, const string& text, int code) {
     complain(options_, text);
     document_["errors"] = errors_json(error_of_text(text));
     return end(status, code);
@@ -207,8 +207,8 @@ class CompareSession {
   }
 
   const Options& options_;
-  std::string folder_;
-  std::size_t doubtful_ = 0;  // runs
+  string folder_;
+  size_t doubtful_ = 0;  // runs
   Json document_ = Json::object();
 };
 
@@ -236,7 +236,7 @@ const CommandText& compare_text() {
       "DIR",
       "folders of runs, or of sweeps",
       1,
-      std::numeric_limits<std::size_t>::max(),
+      std::numeric_limits<size_t>::max(),
       "name the folders of runs: carom {} output/half output/full"};
   return text;
 }

@@ -63,7 +63,7 @@ CrowdAhead crowd_ahead(const Scene& scene, Engine engine) {
   if (!(kept < 1)) return {};
 
   const double fall = std::sqrt(2 * height / load);
-  const double smallest = *std::min_element(world.radius.begin(), world.radius.end());
+  const double smallest = *std::ranges::min_element(world.radius);
   const ContactQuality& quality = quality_of(scene.simulate.contact.quality);
   const double step = quality.longest_step * std::sqrt(2 * smallest / load);
   CrowdAhead ahead;

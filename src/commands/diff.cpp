@@ -13,6 +13,7 @@
 #include "commands/text.h"
 #include "files/run_folder.h"
 #include "scene/load.h"
+#include "std.h"
 #include "study/run_difference.h"
 #include "yaml/value_json.h"
 
@@ -22,41 +23,41 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t most_shown = 20;  // values, bodies
+constexpr size_t most_shown = 20;  // values, bodies
 
-std::string exact(double value) {
+string exact(double value) {
   return fmt::format("{}",
                      value == 0 ? 0.0 : value);  // shortest digits that read back: two runs may differ in the last one
 }
 
-std::string collision_text(const std::optional<CollisionFacts>& collision) {
+string collision_text(const optional<CollisionFacts>& collision) {
   if (!collision) return "no more collisions";
-  const std::string bodies = collision->b.empty() ? collision->a : fmt::format("{} and {}", collision->a, collision->b);
+  const string bodies = collision->b.empty() ? collision->a : fmt::format("{} and {}", collision->a, collision->b);
   return fmt::format("{} at {} s ({})", bodies, exact(collision->time), collision->kind);
 }
 
 /// The number, from 1, of the collision in which the runs part. None: they part in a row of kind `rest`.
-std::optional<std::uint64_t> part_number(const CollisionDifference& difference) {
-  const auto is_collision = [](const std::optional<CollisionFacts>& row) { return row && !row->is_rest(); };
-  if (!is_collision(difference.next_a) && !is_collision(difference.next_b)) return std::nullopt;
+optional<uint64_t> part_number(const CollisionDifference& difference) {
+  const auto is_collision = [](const optional<CollisionFacts>& row) { return row && !row->is_rest(); };
+  if (!is_collision(difference.next_a) && !is_collision(difference.next_b)) return nullopt;
   return difference.same + 1;
 }
 
-std::string count_text(const CollisionDifference& difference) {
+string count_text(const CollisionDifference& difference) {
   if (!difference.part)
     return difference.same == 0 ? "none in both" : fmt::format("{}, the same in both", grouped(difference.same));
-  const std::string all = fmt::format("{} and {}", grouped(difference.count_a), grouped(difference.count_b));
+  const string all = fmt::format("{} and {}", grouped(difference.count_a), grouped(difference.count_b));
   return difference.same == 0 ? all : fmt::format("{}, the first {} the same", all, grouped(difference.same));
 }
 
-std::string end_text(const RunDifference& difference) {
+string end_text(const RunDifference& difference) {
   if (!difference.end)
     return fmt::format("not known: {} has no trajectory.csv; run its scene again with the output `trajectory`",
                        printable(difference.no_end));
   const EndDifference& end = *difference.end;
-  std::string text = end.bodies == 0     ? std::string("no body is in both")
-                     : end.greatest == 0 ? std::string("all bodies at the same positions")
-                                         : fmt::format("at most {} m apart: {}", exact(end.greatest), end.body);
+  string text = end.bodies == 0     ? string("no body is in both")
+                : end.greatest == 0 ? string("all bodies at the same positions")
+                                    : fmt::format("at most {} m apart: {}", exact(end.greatest), end.body);
   if (end.time_a != end.time_b)
     text += fmt::format("; the ends are at {} s and {} s", exact(end.time_a), exact(end.time_b));
   for (const auto& [names, id] : {std::pair(&end.only_a, &difference.a.id), std::pair(&end.only_b, &difference.b.id)})
@@ -65,16 +66,16 @@ std::string end_text(const RunDifference& difference) {
 }
 
 void describe(Block& block, const RunDifference& difference) {
-  const std::string a = printable(difference.a.id), b = printable(difference.b.id);
+  const string a = printable(difference.a.id), b = printable(difference.b.id);
   block.heading(fmt::format("{} and {}", a, b), "");
   if (difference.equal()) block.line("equal", "scenes, collisions and final positions");
   block.line("scenes", difference.values.empty()       ? "the same values"
                        : difference.values.size() == 1 ? "1 value differs"
                                                        : grouped(difference.values.size()) + " values differ");
-  std::vector<std::vector<std::string>> rows = {{"", a, b}};
+  vector<vector<string>> rows = {{"", a, b}};
   for (const ValueDifference& value : difference.values) {
     if (rows.size() > most_shown) break;
-    const std::string name = value.unit.empty() ? value.path : fmt::format("{} ({})", value.path, value.unit);
+    const string name = value.unit.empty() ? value.path : fmt::format("{} ({})", value.path, value.unit);
     rows.push_back(
         {"  " + name, value.a.empty() ? "-" : printable(value.a), value.b.empty() ? "-" : printable(value.b)});
   }
@@ -85,14 +86,14 @@ void describe(Block& block, const RunDifference& difference) {
   block.line("collisions", count_text(collisions));
   if (collisions.outcome) {
     const bool by_speed = collisions.outcome_a.separation_speed != collisions.outcome_b.separation_speed;
-    const std::string how =
+    const string how =
         by_speed ? fmt::format("they leave at {} m/s in {}, {} m/s in {}", exact(collisions.outcome_a.separation_speed),
                                a, exact(collisions.outcome_b.separation_speed), b)
                  : fmt::format("{} is {} in {}, {} in {}", collisions.column, printable(collisions.cell_a), a,
                                printable(collisions.cell_b), b);
-    const std::string which = collisions.outcome_a.is_rest()
-                                  ? fmt::format("after {}", counted(*collisions.outcome, "collision", "collisions"))
-                                  : fmt::format("collision {}", grouped(*collisions.outcome + 1));
+    const string which = collisions.outcome_a.is_rest()
+                             ? fmt::format("after {}", counted(*collisions.outcome, "collision", "collisions"))
+                             : fmt::format("collision {}", grouped(*collisions.outcome + 1));
     block.line("outcome", fmt::format("{}, {}, differs: {}", which, collision_text(collisions.outcome_a), how));
   }
   if (collisions.part)
@@ -104,7 +105,7 @@ void describe(Block& block, const RunDifference& difference) {
   block.line("end", end_text(difference));
 }
 
-Json collision_json(const std::optional<CollisionFacts>& collision) {
+Json collision_json(const optional<CollisionFacts>& collision) {
   if (!collision) return nullptr;
   return {{"time_s", collision->time},
           {"kind", collision->kind},
@@ -114,7 +115,7 @@ Json collision_json(const std::optional<CollisionFacts>& collision) {
 }
 
 /// Null for an empty text: the scene lacks the value.
-Json value_json(const std::string& text) {
+Json value_json(const string& text) {
   if (text.empty()) return nullptr;
   const Json number = json_of_text(text);
   return number.is_number() ? number : Json(text);
@@ -148,7 +149,7 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int fail_diff(const Options& options, const std::string& text, int code, const std::vector<ErrorRecord>& errors) {
+int fail_diff(const Options& options, const string& text, int code, const vector<ErrorRecord>& errors) {
   complain(options, text);
   if (options.json)
     write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"errors", errors_json(errors)}}));

@@ -1,9 +1,8 @@
 // All commands have the same members, so that a reader of one can read every other.
 #include "commands/error_list.h"
 
-#include <string>
-
 #include "files/failed_run.h"
+#include "std.h"
 
 namespace carom {
 
@@ -11,23 +10,23 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json text_or_null(const std::string& text) {
+Json text_or_null(const string& text) {
   return text.empty() ? Json() : Json(text);
 }
 
-Json number_or_null(std::size_t number) {
+Json number_or_null(size_t number) {
   return number == 0 ? Json() : Json(number);
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \n");
-  if (first == std::string_view::npos) return {};
+string_view trimmed(string_view text) {
+  const size_t first = text.find_first_not_of(" \n");
+  if (first == string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \n") - first + 1);
 }
 
 }  // namespace
 
-Json errors_json(const std::vector<ErrorRecord>& errors) {
+Json errors_json(const vector<ErrorRecord>& errors) {
   Json list = Json::array();
   for (const ErrorRecord& error : errors)
     list.push_back({{"file", text_or_null(error.file)},
@@ -39,18 +38,18 @@ Json errors_json(const std::vector<ErrorRecord>& errors) {
   return list;
 }
 
-std::string with_remedy(const std::string& why) {
+string with_remedy(const string& why) {
   return names_full_disk(why)
              ? why + "\n  make room, then the same command runs what is missing, or write elsewhere with -o"
              : why;
 }
 
-std::vector<ErrorRecord> error_of_text(std::string_view text, std::string_view file) {
+vector<ErrorRecord> error_of_text(string_view text, string_view file) {
   text = trimmed(text);
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  ErrorRecord error{std::string(file), 0, 0, std::string(text.substr(0, end)), {}, suggestion_in(text)};
+  const size_t end = std::min(text.find('\n'), text.size());
+  ErrorRecord error{string(file), 0, 0, string(text.substr(0, end)), {}, suggestion_in(text)};
   for (text.remove_prefix(end); !(text = trimmed(text)).empty();) {
-    const std::size_t stop = std::min(text.find('\n'), text.size());
+    const size_t stop = std::min(text.find('\n'), text.size());
     if (!error.remedy.empty()) error.remedy += '\n';
     error.remedy += text.substr(0, stop);
     text.remove_prefix(stop);

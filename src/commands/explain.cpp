@@ -13,6 +13,7 @@
 #include "scene/absent_words.h"
 #include "scene/field_places.h"
 #include "scene/format_page.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 #include "yaml/value_json.h"
@@ -23,32 +24,32 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::vector<std::string> strings(const std::vector<std::string_view>& views) {
+vector<string> strings(const vector<string_view>& views) {
   return {views.begin(), views.end()};
 }
 
 // "one of a or b", "a number above 0 in kg".
-std::string value_text(const Field& field) {
+string value_text(const Field& field) {
   return (field.type == Type::choice ? "one of " : "") + expected(field);
 }
 
 bool has_defaults(const FieldPlaces& row) {
-  return std::any_of(row.kinds.begin(), row.kinds.end(), [](const Kind* kind) { return !kind->defaults.empty(); });
+  return std::ranges::any_of(row.kinds, [](const Kind* kind) { return !kind->defaults.empty(); });
 }
 
 // The keys of which one is needed; empty: none.
-std::vector<std::string> needed_keys(const Field& field, const Kind& kind) {
+vector<string> needed_keys(const Field& field, const Kind& kind) {
   return strings(need_with(kind, field));
 }
 
-std::vector<std::string> needed_keys(const FieldPlaces& row) {
+vector<string> needed_keys(const FieldPlaces& row) {
   return needed_keys(*row.field, *row.kinds.front());
 }
 
-std::string needed_text(const FieldPlaces& row) {
-  const std::vector<std::string> keys = needed_keys(row);
+string needed_text(const FieldPlaces& row) {
+  const vector<string> keys = needed_keys(row);
   if (keys.empty()) return "no";
-  std::string text = "yes";
+  string text = "yes";
   if (keys.size() > 1) {
     text = fmt::format("one of {}", listed(keys, keys.size()));
   }
@@ -56,35 +57,34 @@ std::string needed_text(const FieldPlaces& row) {
 }
 
 /// A line for each key or kind with its meaning.
-std::string key_list(const std::vector<std::pair<std::string_view, std::string>>& rows, std::size_t width) {
-  constexpr std::size_t column = 20;
-  std::string text;
+string key_list(const vector<std::pair<string_view, string>>& rows, size_t width) {
+  constexpr size_t column = 20;
+  string text;
   for (const auto& [name, doc] : rows)
     text += fmt::format("    {:{}}{}\n", name, column - 4, wrapped(doc, column, width));
   return text;
 }
 
 /// "kg; mass or density needed", "m/s; default [0, 0, 0]": follows the meaning of a key in a list.
-std::string facts_text(const Field& field, const Kind& kind) {
-  std::vector<std::string> facts;
+string facts_text(const Field& field, const Kind& kind) {
+  vector<string> facts;
   if (!field.unit.empty()) facts.emplace_back(field.unit);
   if (field.type == Type::choice) facts.push_back(expected(field));
-  const std::vector<std::string> needed = needed_keys(field, kind);
+  const vector<string> needed = needed_keys(field, kind);
   if (needed.size() == 1) facts.emplace_back("needed");
-  if (needed.size() > 1)
-    facts.push_back(listed(std::vector<std::string_view>(needed.begin(), needed.end())) + " needed");
+  if (needed.size() > 1) facts.push_back(listed(vector<string_view>(needed.begin(), needed.end())) + " needed");
   if (!field.initial.empty()) facts.push_back(fmt::format("default {}", field.initial));
   return facts.empty() ? "" : fmt::format(" ({})", joined(facts, "; "));
 }
 
-std::string keys_text(const Kind& kind, std::size_t width) {
-  std::vector<std::pair<std::string_view, std::string>> rows;
-  for (const Field& field : kind.fields) rows.emplace_back(field.key, std::string(field.doc) + facts_text(field, kind));
+string keys_text(const Kind& kind, size_t width) {
+  vector<std::pair<string_view, string>> rows;
+  for (const Field& field : kind.fields) rows.emplace_back(field.key, string(field.doc) + facts_text(field, kind));
   if (kind.also != nullptr) rows.emplace_back(kind.also->key, kind.also->doc);
   return key_list(rows, width);
 }
 
-std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t width) {
+string row_text(const FieldPlaces& row, const Palette& palette, size_t width) {
   const Field& field = *row.field;
   Block block(palette, width);
   block.heading(field.key, title_of(field) + (field.unit.empty() ? "" : fmt::format(" ({})", field.unit)));
@@ -104,19 +104,18 @@ std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t
   return block.text() + keys_text(*held, width);
 }
 
-std::string kind_text(const Kind& kind, const Palette& palette, std::size_t width) {
+string kind_text(const Kind& kind, const Palette& palette, size_t width) {
   Block block(palette, width);
   block.heading(kind.name, kind.doc);
-  std::vector<std::string> paths = paths_of(kind);
-  std::stable_partition(paths.begin(), paths.end(),
-                        [](const std::string& path) { return !path.starts_with("defaults."); });
+  vector<string> paths = paths_of(kind);
+  std::stable_partition(paths.begin(), paths.end(), [](const string& path) { return !path.starts_with("defaults."); });
   if (!paths.empty()) block.line("stands at", listed(paths, paths.size()));
   block.line("keys", "those below");
   return block.text() + keys_text(kind, width);
 }
 
 /// `is_key`: the format has a key or a kind of this name too.
-std::string word_text(const AbsentWord& word, bool is_key, const Palette& palette, std::size_t width) {
+string word_text(const AbsentWord& word, bool is_key, const Palette& palette, size_t width) {
   Block block(palette, width);
   block.heading(parts_of(word.words).front(), is_key ? "other meanings" : "no key of the format");
   block.line("instead", word.meaning);
@@ -135,7 +134,7 @@ Json range_json(const Range& range) {
   return out;
 }
 
-Json text_or_null(std::string_view text) {
+Json text_or_null(string_view text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
 
@@ -171,10 +170,10 @@ Json kind_json(const Kind& kind) {
 }
 
 /// All kinds of maps, a file's own first.
-std::string overview(std::size_t width) {
-  std::string text;
+string overview(size_t width) {
+  string text;
   for (const auto family : families()) {
-    std::vector<std::pair<std::string_view, std::string>> rows;
+    vector<std::pair<string_view, string>> rows;
     for (const Kind& kind : family) rows.emplace_back(kind.name, kind.doc);
     text += fmt::format("Kinds of maps in a {} file:\n", family.front().name) + key_list(rows, width) + "\n";
   }
@@ -183,19 +182,18 @@ std::string overview(std::size_t width) {
 
 /// Whether every path of the row is below `defaults`.
 bool is_default_alone(const FieldPlaces& row) {
-  return std::all_of(row.paths.begin(), row.paths.end(),
-                     [](const std::string& path) { return path.starts_with("defaults."); });
+  return std::ranges::all_of(row.paths, [](const string& path) { return path.starts_with("defaults."); });
 }
 
 /// Several operands may be one term: `carom explain slow motion`.
-std::vector<std::string> words_of(const std::vector<std::string>& operands) {
-  const std::string term = joined(operands, " ");
-  return operands.size() > 1 && find_absent_word(term) != nullptr ? std::vector<std::string>{term} : operands;
+vector<string> words_of(const vector<string>& operands) {
+  const string term = joined(operands, " ");
+  return operands.size() > 1 && find_absent_word(term) != nullptr ? vector<string>{term} : operands;
 }
 
-[[noreturn]] void refuse(const std::string& key) {
-  const std::string near = suggest_place(key);
-  const std::size_t line = near.find('\n');
+[[noreturn]] void refuse(const string& key) {
+  const string near = suggest_place(key);
+  const size_t line = near.find('\n');
   throw UsageError(fmt::format("the format has no {}{}", in_backticks(key),
                                near.empty() ? "; `carom explain` lists its kinds" : "; " + near.substr(0, line)));
 }
@@ -227,13 +225,13 @@ int explain_command(const Options& options) {
     return 0;
   }
   const Palette palette(uses_color(options.color, STDOUT_FILENO));
-  const std::size_t width = terminal_width(STDOUT_FILENO);
-  std::vector<std::string> texts;
+  const size_t width = terminal_width(STDOUT_FILENO);
+  vector<string> texts;
   Json fields = Json::array(), all = Json::array(), words = Json::array();
-  for (const std::string& key : words_of(options.operands)) {
+  for (const string& key : words_of(options.operands)) {
     const AbsentWord* word = find_absent_word(key);
     const Kind* kind = find_kind(key);
-    std::vector<FieldPlaces> rows = find_places(key);
+    vector<FieldPlaces> rows = find_places(key);
     // `ball` is the kind, not the key of `defaults` with the same name.
     if (kind != nullptr) std::erase_if(rows, is_default_alone);
     if (rows.empty() && kind == nullptr && word == nullptr) refuse(key);
@@ -242,8 +240,7 @@ int explain_command(const Options& options) {
       words.push_back(word_json(*word));
     }
     // The kind comes first. A key that is called like its kind shows the kind's keys itself.
-    const bool shown =
-        std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
+    const bool shown = std::ranges::any_of(rows, [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
     if (kind != nullptr && !shown) {
       texts.push_back(kind_text(*kind, palette, width));
       all.push_back(kind_json(*kind));

@@ -7,9 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <filesystem>
+
+#include "std.h"
 
 namespace carom {
 
@@ -29,29 +30,29 @@ constexpr auto look_anyway = std::chrono::seconds(1);
 
 FileWatch::FileWatch() : events_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {}
 
-FileWatch::Stamp FileWatch::stamp_of(const std::string& file) {
+FileWatch::Stamp FileWatch::stamp_of(const string& file) {
   struct stat info {};
   if (stat(file.c_str(), &info) != 0) return {};
-  const auto ns = static_cast<std::uint64_t>(info.st_mtim.tv_sec) * 1'000'000'000 +
-                  static_cast<std::uint64_t>(info.st_mtim.tv_nsec);
-  return {static_cast<std::uint64_t>(info.st_ino), static_cast<std::uint64_t>(info.st_size), ns};
+  const auto ns =
+      static_cast<uint64_t>(info.st_mtim.tv_sec) * 1'000'000'000 + static_cast<uint64_t>(info.st_mtim.tv_nsec);
+  return {static_cast<uint64_t>(info.st_ino), static_cast<uint64_t>(info.st_size), ns};
 }
 
-void FileWatch::watch_folder(const std::string& file) {
+void FileWatch::watch_folder(const string& file) {
   if (!events_) return;
-  constexpr std::uint32_t events = IN_CLOSE_WRITE | IN_MODIFY | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE | IN_DELETE;
+  constexpr uint32_t events = IN_CLOSE_WRITE | IN_MODIFY | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE | IN_DELETE;
   std::error_code error;
   // The folder of a link, and that of the file behind it.
   for (const std::filesystem::path& path :
        {std::filesystem::path(file), std::filesystem::weakly_canonical(file, error)}) {
-    const std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
+    const string folder = path.parent_path().empty() ? "." : path.parent_path().string();
     inotify_add_watch(events_.get(), folder.c_str(), events);
   }
 }
 
-void FileWatch::follow(const std::set<std::string>& files) {
-  std::map<std::string, Stamp> stamps;
-  for (const std::string& file : files) {
+void FileWatch::follow(const std::set<string>& files) {
+  std::map<string, Stamp> stamps;
+  for (const string& file : files) {
     const auto known = stamps_.find(file);
     if (known == stamps_.end()) watch_folder(file);
     stamps[file] = known == stamps_.end() ? stamp_of(file) : known->second;
@@ -63,15 +64,15 @@ void FileWatch::follow(const std::set<std::string>& files) {
 bool FileWatch::wait() const {
   pollfd events{events_.get(), POLLIN, 0};
   if (poll(&events, events_ ? 1 : 0, check_interval) <= 0) return false;
-  std::array<char, 4096> buffer{};
+  array<char, 4096> buffer{};
   while (read(events_.get(), buffer.data(), buffer.size()) > 0) {
   }
   return true;
 }
 
-std::set<std::string> FileWatch::changed(const std::function<void()>& stop_check) {
-  std::set<std::string> changed;
-  std::set<std::string> gone;
+std::set<string> FileWatch::changed(const function<void()>& stop_check) {
+  std::set<string> changed;
+  std::set<string> gone;
   Clock::time_point looked, last;
   while (true) {
     stop_check();

@@ -1,11 +1,10 @@
 #pragma once
 // Waits for changes of files, however an editor writes them: in place, or as another file that is then renamed.
-#include <functional>
 #include <map>
 #include <set>
-#include <string>
 
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,24 +13,24 @@ class FileWatch {
   FileWatch();
 
   /// Watches these files instead of those before. Changes since the last call count for files that stay.
-  void follow(const std::set<std::string>& files);
+  void follow(const std::set<string>& files);
 
   /// Waits until files have changed, appeared or disappeared, and all have then been left alone for a tenth of a
   /// second. Returns them. `stop_check`: called often, may throw.
-  std::set<std::string> changed(const std::function<void()>& stop_check);
+  std::set<string> changed(const function<void()>& stop_check);
 
  private:
   /// What changes whenever a file is written or replaced. All 0: there is no such file.
   struct Stamp {
-    std::uint64_t file = 0, bytes = 0, changed_ns = 0;
+    uint64_t file = 0, bytes = 0, changed_ns = 0;
     friend bool operator==(const Stamp&, const Stamp&) = default;
   };
-  static Stamp stamp_of(const std::string& file);
-  void watch_folder(const std::string& file);
+  static Stamp stamp_of(const string& file);
+  void watch_folder(const string& file);
   bool wait() const;
 
   Descriptor events_;
-  std::map<std::string, Stamp> stamps_;  // by file
+  std::map<string, Stamp> stamps_;  // by file
 };
 
 }  // namespace carom

@@ -17,6 +17,7 @@
 #include "render/moving_camera.h"
 #include "run/survey.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -30,7 +31,7 @@ double since(Clock::time_point start) {
 
 /// The instants of the pictures; if there are too many, the largest allowed number, evenly spaced.
 Ticks instants_of(const Scene& scene, Foresight& result) {
-  constexpr std::int64_t most = 2000;
+  constexpr int64_t most = 2000;
   const Output& output = scene.output;
   double fps = 30, from = 0, until = scene.simulate.duration;
   if (output.frames || output.video) {
@@ -82,10 +83,10 @@ class Trial {
   }
 
   /// Wall time of the whole simulation, scaled up from this part of it; none: nothing was simulated.
-  std::optional<double> whole() const {
+  optional<double> whole() const {
     const double duration = scene_.simulate.duration;
     if (duration == 0 && oracle_) return made_s_;
-    if (!oracle_ || !(oracle_->time() > 0)) return std::nullopt;
+    if (!oracle_ || !(oracle_->time() > 0)) return nullopt;
     const double rate = advance_s_ / oracle_->time();
     return made_s_ + advance_s_ +
            time_ahead(crowd_ahead(scene_, most_exact(scene_.world)), oracle_->time(), duration, rate);
@@ -153,16 +154,16 @@ class Trial {
   Clock::time_point start_ = Clock::now();
   const MovingCamera* camera_;  // null: crossings are not sought
   Ticks ticks_ = Ticks::even(0, 0, 0);
-  std::int64_t next_ = 0, last_ = -1;  // ticks left to check
-  std::vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
-  std::unique_ptr<Simulator> oracle_;
+  int64_t next_ = 0, last_ = -1;  // ticks left to check
+  vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
+  unique_ptr<Simulator> oracle_;
   double made_s_ = 0, advance_s_ = 0;  // wall times
   PiecesAhead pieces_;                 // so far
   Foresight result_;
 };
 
 /// Wall time of a simulation by the scene's own engine, extrapolated from the part that the budget (s) allows.
-std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engine, double budget) {
+optional<double> own_engine_s(const Scene& scene, const EngineChoice& engine, double budget) {
   const double duration = scene.simulate.duration;
   const auto start = Clock::now();
   try {
@@ -173,12 +174,12 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
       stop_if_interrupted();
       simulator->advance_to(std::min(duration, simulator->time() + duration / 1000));
     }
-    if (!(simulator->time() > 0)) return std::nullopt;
+    if (!(simulator->time() > 0)) return nullopt;
     const double spent = since(start) - made;
     const double time = simulator->time();
     return made + spent + time_ahead(crowd_ahead(scene, engine.engine), time, duration, spent / time);
   } catch (const SimulationError&) {
-    return std::nullopt;
+    return nullopt;
   }
 }
 

@@ -1,14 +1,12 @@
 #pragma once
 // Simulates the beginning of a scene: the first collision, the bodies that enter and leave the picture, and the time a
 // run takes.
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "commands/crowd_ahead.h"
 #include "physics/collision.h"
 #include "physics/entity.h"
 #include "run/engine.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,14 +21,14 @@ struct Crossing {
 };
 
 struct Foresight {
-  std::optional<Collision> first;              // none: no collision within the duration
-  std::string trouble;                         // why the first collision is unknown; empty: it is known
-  std::string failure;                         // what stops a run later, as far as was simulated; empty: nothing
-  std::vector<Crossing> crossings;             // in order of time
+  optional<Collision> first;                   // none: no collision within the duration
+  string trouble;                              // why the first collision is unknown; empty: it is known
+  string failure;                              // what stops a run later, as far as was simulated; empty: nothing
+  vector<Crossing> crossings;                  // in order of time
   double watched_from = 0, watched_until = 0;  // s: crossings are known in between
   double every = 0;                            // s between the watched instants; 0: there were none
   bool cut = false;                            // the budget ended before the pictures
-  std::optional<double> simulate_s;            // approximate wall time of the whole simulation; none: unknown
+  optional<double> simulate_s;                 // approximate wall time of the whole simulation; none: unknown
   PiecesAhead pieces;                          // roughly those of the whole motion, if flights are requested
 };
 

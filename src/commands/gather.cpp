@@ -24,6 +24,7 @@
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/stored_file.h"
+#include "std.h"
 #include "study/sweep_folder.h"
 
 namespace carom {
@@ -32,8 +33,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::uint64_t largest_text = 1 << 30;  // bytes
-constexpr std::size_t parts_shown = 10;
+constexpr uint64_t largest_text = 1 << 30;  // bytes
+constexpr size_t parts_shown = 10;
 
 class GatherSession {
  public:
@@ -41,7 +42,7 @@ class GatherSession {
 
   int go() {
     settle_folder(folder_);
-    const std::string source = has_sweep(folder_) ? folder_ : options_.operands.back();
+    const string source = has_sweep(folder_) ? folder_ : options_.operands.back();
     if (!has_sweep(source)) {
       return refuse(fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
     }
@@ -54,7 +55,7 @@ class GatherSession {
       skipped_text_ = text_of(source, stored_skipped).value_or("");
       if (inspect_sweep_folder(folder_, sweep, *base) == SweepContent::other)
         return refuse(fmt::format("the folder {} holds something else", printable(folder_)));
-      for (std::size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
+      for (size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
       return gather(sweep, *base);
     } catch (const SceneError& error) {
       write_err(error.what());
@@ -63,52 +64,50 @@ class GatherSession {
   }
 
  private:
-  int refuse(const std::string& what) const { return refuse(what, error_of_text(what)); }
+  int refuse(const string& what) const { return refuse(what, error_of_text(what)); }
 
-  int refuse(const std::string& what, const std::vector<ErrorRecord>& errors) const {
+  int refuse(const string& what, const vector<ErrorRecord>& errors) const {
     complain(options_, what + "; nothing was gathered");
     if (options_.json)
       write_out(document("gather", Json{{"folder", folder_}, {"status", "wrong"}, {"errors", errors_json(errors)}}));
     return 2;
   }
 
-  static bool has_sweep(const std::string& folder) {
-    return what_stands(folder + "/" + stored_sweep) != Standing::nothing;
-  }
+  static bool has_sweep(const string& folder) { return what_stands(folder + "/" + stored_sweep) != Standing::nothing; }
 
-  static std::optional<std::string> text_of(const std::string& folder, const char* name) {
+  static optional<string> text_of(const string& folder, const char* name) {
     const Descriptor place = open_folder(AT_FDCWD, folder, true);
-    return place ? read_text(place.get(), name, largest_text) : std::nullopt;
+    return place ? read_text(place.get(), name, largest_text) : nullopt;
   }
 
-  void refuse_other(const std::string& folder, const Sweep& sweep, const std::string& base) const {
+  void refuse_other(const string& folder, const Sweep& sweep, const string& base) const {
     if (text_of(folder, stored_sweep) == sweep.resolved(stored_base) && text_of(folder, stored_base) == base) return;
     throw UsageError(fmt::format("{} holds no part of the sweep in {}", printable(folder), printable(folder_)),
                      "gather parts of one sweep");
   }
 
-  int gather(const Sweep& sweep, const std::string& base) {
-    if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
+  int gather(const Sweep& sweep, const string& base) {
+    if (const string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(name_of_folder(folder_)));
-    std::vector<std::vector<bool>> whole;  // by folder, run
-    for (const std::string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
-    if (const std::string edited = edited_run(sweep, whole.front()); !edited.empty()) {
+    vector<vector<bool>> whole;  // by folder, run
+    for (const string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
+    if (const string edited = edited_run(sweep, whole.front()); !edited.empty()) {
       progress.clear();
       return refuse(edited + ": remove it or rename it");
     }
-    std::vector<RunStatus> statuses;
-    std::vector<std::string> missing, failed;
-    for (std::size_t number = 0; number < sweep.size(); ++number) {
+    vector<RunStatus> statuses;
+    vector<string> missing, failed;
+    for (size_t number = 0; number < sweep.size(); ++number) {
       stop_if_interrupted();
       if (skipped_.contains(sweep.id(number))) {
         statuses.push_back(RunStatus::left_out);
         continue;
       }
-      const auto has = std::find_if(whole.begin(), whole.end(), [&](const auto& runs) { return runs[number]; });
-      statuses.push_back(bring(sweep.id(number), static_cast<std::size_t>(has - whole.begin())));
+      const auto has = std::ranges::find_if(whole, [&](const auto& runs) { return runs[number]; });
+      statuses.push_back(bring(sweep.id(number), static_cast<size_t>(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
       progress.update(number, 2 * sweep.size(), "runs checked or compared");
@@ -123,10 +122,10 @@ class GatherSession {
     }
     ComparisonWatch watch;
     watch.stop_check = stop_if_interrupted;
-    watch.done = [&](std::size_t done) {
+    watch.done = [&](size_t done) {
       progress.update(sweep.size() + done, 2 * sweep.size(), "runs checked or compared");
     };
-    watch.doubtful = [&](std::size_t runs) { doubtful_ = runs; };
+    watch.doubtful = [&](size_t runs) { doubtful_ = runs; };
     folder.finish(sweep, statuses, watch);
     progress.clear();
     if (!failed.empty())
@@ -138,11 +137,11 @@ class GatherSession {
 
   /// A run of the ended sweep here that was changed since, in words. Empty: there is none. `whole`: flags of those
   /// here.
-  std::string edited_run(const Sweep& sweep, const std::vector<bool>& whole) const {
-    const std::size_t ended = is_ended_sweep(folder_) ? sweep.size() : 0;
-    for (std::size_t number = 0; number < ended; ++number) {
+  string edited_run(const Sweep& sweep, const vector<bool>& whole) const {
+    const size_t ended = is_ended_sweep(folder_) ? sweep.size() : 0;
+    for (size_t number = 0; number < ended; ++number) {
       if (whole[number]) continue;
-      const std::string run = fmt::format("{}/runs/{}", folder_, sweep.id(number));
+      const string run = fmt::format("{}/runs/{}", folder_, sweep.id(number));
       if (const FolderChanges changes = find_changes(run); !changes.changed.empty())
         return fmt::format("the folder {} holds {}", printable(run), obstacle_of(changes));
     }
@@ -150,11 +149,11 @@ class GatherSession {
   }
 
   /// Flags of the sweep's runs that are whole in a folder.
-  std::vector<bool> whole_runs(Sweep sweep, const std::string& folder, const std::string& base) const {
-    std::vector<bool> whole(sweep.size());
+  vector<bool> whole_runs(Sweep sweep, const string& folder, const string& base) const {
+    vector<bool> whole(sweep.size());
     // Meshes and former runs lie where the sweep ran: a run that cannot be checked against its scene is taken as it is.
     if (may_read_files(sweep, base)) {
-      for (std::size_t number = 0; number < sweep.size(); ++number)
+      for (size_t number = 0; number < sweep.size(); ++number)
         whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
       return whole;
     }
@@ -165,22 +164,22 @@ class GatherSession {
     settings.load.budget.enforced = false;
     SweepJob job(std::move(sweep), folder, std::move(settings));
     job.plan([](const SweepProgress&) {});
-    for (std::size_t number = 0; number < whole.size(); ++number)
+    for (size_t number = 0; number < whole.size(); ++number)
       whole[number] = job.runs()[number].status == RunStatus::done;
     return whole;
   }
 
   /// A run's status here, copied if necessary from folder `from` of the operands; `from` is their number if none has
   /// it.
-  RunStatus bring(const std::string& id, std::size_t from) const {
-    const auto path = [&](const std::string& folder) { return fmt::format("{}/runs/{}", folder, id); };
+  RunStatus bring(const string& id, size_t from) const {
+    const auto path = [&](const string& folder) { return fmt::format("{}/runs/{}", folder, id); };
     if (from < options_.operands.size()) {
       if (from > 0) copy_run(path(options_.operands[from]), path(folder_));
       return RunStatus::done;
     }
     if (!stored_failure(path(folder_)).empty()) return RunStatus::failed;
-    for (std::size_t i = 1; i < options_.operands.size(); ++i) {
-      const std::string why = stored_failure(path(options_.operands[i]));
+    for (size_t i = 1; i < options_.operands.size(); ++i) {
+      const string why = stored_failure(path(options_.operands[i]));
       if (why.empty()) continue;
       store_failure(path(folder_), why);
       return RunStatus::failed;
@@ -188,20 +187,15 @@ class GatherSession {
     return RunStatus::missing;
   }
 
-  void show(std::string_view status, const Sweep& sweep, const std::vector<std::string>& missing,
-            const std::vector<std::string>& failed) const {
+  void show(string_view status, const Sweep& sweep, const vector<string>& missing, const vector<string>& failed) const {
     if (options_.json) {
-      const Json json = {{"folder", folder_},
-                         {"status", std::string(status)},
-                         {"runs", sweep.size() - skipped_.size()},
-                         {"missing", missing},
-                         {"failed", failed},
-                         {"skipped", skipped_},
+      const Json json = {{"folder", folder_},    {"status", string(status)}, {"runs", sweep.size() - skipped_.size()},
+                         {"missing", missing},   {"failed", failed},         {"skipped", skipped_},
                          {"doubtful", doubtful_}};
       write_out(document("gather", json));
     }
     if (options_.json || options_.quiet || status != "done") return;
-    const std::size_t runs = sweep.size() - skipped_.size();
+    const size_t runs = sweep.size() - skipped_.size();
     Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
     block.heading(name_of_folder(folder_), sweep.title);
     block.line("runs", failed.empty() ? counted(runs, "run", "runs")
@@ -214,10 +208,10 @@ class GatherSession {
   }
 
   const Options& options_;
-  std::string folder_;
-  std::set<std::string> skipped_;  // ids of runs that are left out
-  std::string skipped_text_;
-  std::size_t doubtful_ = 0;  // runs
+  string folder_;
+  std::set<string> skipped_;  // ids of runs that are left out
+  string skipped_text_;
+  size_t doubtful_ = 0;  // runs
 };
 
 }  // namespace
@@ -236,7 +230,7 @@ const CommandText& gather_text() {
       "DIR",
       "the sweep's folder, then those of parts elsewhere",
       1,
-      std::numeric_limits<std::size_t>::max(),
+      std::numeric_limits<size_t>::max(),
       "name the sweep's folder: carom {} output/falls"};
   return text;
 }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <string_view>
 
 #include "commands/text.h"
 #include "export/picture_streams.h"
@@ -15,23 +14,24 @@
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/path_field.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const OutputKind* output_set(std::string_view path) {
-  constexpr std::string_view outputs = "output.";
+const OutputKind* output_set(string_view path) {
+  constexpr string_view outputs = "output.";
   if (!path.starts_with(outputs)) return nullptr;
   path.remove_prefix(outputs.size());
-  const std::string_view name = path.substr(0, path.find('.'));
+  const string_view name = path.substr(0, path.find('.'));
   const auto kinds = output_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const OutputKind& k) { return k.name == name; });
+  const auto found = std::ranges::find_if(kinds, [&](const OutputKind& k) { return k.name == name; });
   return found == kinds.end() ? nullptr : &*found;
 }
 
 /// The outputs with their settings, and what the sheet's pictures take from the others.
-std::string written_text(const Scene& scene) {
-  const std::string outputs = outputs_text(scene.output);
+string written_text(const Scene& scene) {
+  const string outputs = outputs_text(scene.output);
   if (!scene.output.sheet) return outputs;
   const PictureStream picture = still_stream(scene, 0);
   return fmt::format("{} {} {} {} {} {}", outputs, picture.size.width, picture.size.height, picture.samples,
@@ -40,21 +40,21 @@ std::string written_text(const Scene& scene) {
 
 bool draws(const Output& output) {
   const auto kinds = output_kinds();
-  return std::any_of(kinds.begin(), kinds.end(), [&](const OutputKind& k) { return k.draws && k.asked(output); });
+  return std::ranges::any_of(kinds, [&](const OutputKind& k) { return k.draws && k.asked(output); });
 }
 
 }  // namespace
 
-std::vector<std::string> idle_settings(const std::vector<std::string>& set, const Scene& written,
-                                       const std::function<Scene(const std::vector<std::string>& set)>& written_with) {
-  std::vector<std::string> found;
-  const auto report = [&](const std::string& setting, std::string_view why) {
+vector<string> idle_settings(const vector<string>& set, const Scene& written,
+                             const function<Scene(const vector<string>& set)>& written_with) {
+  vector<string> found;
+  const auto report = [&](const string& setting, string_view why) {
     found.push_back(fmt::format("--set {} changes nothing: {}", printable(setting), why));
   };
   // Whether a text of the scene is the same without an option.
-  const auto is_same_without = [&](std::size_t option, const std::function<std::string(const Scene&)>& text) {
-    std::vector<std::string> others = set;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(option));
+  const auto is_same_without = [&](size_t option, const function<string(const Scene&)>& text) {
+    vector<string> others = set;
+    others.erase(others.begin() + static_cast<ptrdiff_t>(option));
     try {
       return text(written_with(others)) == text(written);
     } catch (const std::exception&) {
@@ -62,8 +62,8 @@ std::vector<std::string> idle_settings(const std::vector<std::string>& set, cons
       return false;
     }
   };
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const std::string_view path = std::string_view(set[i]).substr(0, set[i].find('='));
+  for (size_t i = 0; i < set.size(); ++i) {
+    const string_view path = string_view(set[i]).substr(0, set[i].find('='));
     if (const OutputKind* kind = output_set(path); kind != nullptr && !kind->asked(written.output)) {
       if (is_same_without(i, written_text)) report(set[i], fmt::format("the output `{}` is not written", kind->name));
     } else if (is_drawn(path) && !draws(written.output)) {

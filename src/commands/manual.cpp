@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <span>
-#include <vector>
 
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "scene/field_places.h"
 #include "scene/fields.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -20,8 +19,8 @@ namespace carom {
 namespace {
 
 /// Plain text for roff: nothing in it is a request or an escape.
-std::string roff(std::string_view text) {
-  std::string out;
+string roff(string_view text) {
+  string out;
   bool begins = true;
   for (const char c : text) {
     if (begins && (c == '.' || c == '\'')) out += "\\&";
@@ -37,17 +36,17 @@ std::string roff(std::string_view text) {
 }
 
 /// Lines without filling.
-std::string example(std::string_view text) {
-  std::string lines(text);
+string example(string_view text) {
+  string lines(text);
   while (lines.ends_with('\n')) lines.pop_back();
   return fmt::format(".PP\n.nf\n{}\n.fi\n", roff(lines));
 }
 
 /// Paragraphs, filled by roff.
-std::string paragraphs(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find("\n\n", i), text.size());
+string paragraphs(string_view text) {
+  string out;
+  for (size_t i = 0; i < text.size();) {
+    const size_t end = std::min(text.find("\n\n", i), text.size());
     out += ".PP\n" + roff(text.substr(i, end - i)) + "\n";
     i = end + 2;
   }
@@ -55,29 +54,29 @@ std::string paragraphs(std::string_view text) {
   return out;
 }
 
-std::string option_item(const OptionUse& use) {
+string option_item(const OptionUse& use) {
   const Option& option = option_named(use.name);
-  std::string names = fmt::format("\\fB{}\\fR", roff(option.name));
+  string names = fmt::format("\\fB{}\\fR", roff(option.name));
   if (!option.letter.empty()) names = fmt::format("\\fB{}\\fR, {}", roff(option.letter), names);
   if (!option.value.empty()) names += fmt::format(" \\fI{}\\fR", roff(option.value));
   return fmt::format(".TP\n{}\n{}\n", names, roff(use.help));
 }
 
-bool is_common(std::string_view name) {
+bool is_common(string_view name) {
   return name == "--color" || name == "--json" || name == "--quiet";
 }
 
-std::string operands(const CommandText& command) {
+string operands(const CommandText& command) {
   if (command.most == 0) return "";
-  const std::string word = fmt::format("\\fI{}\\fR{}", roff(command.operand), command.most > 1 ? "..." : "");
+  const string word = fmt::format("\\fI{}\\fR{}", roff(command.operand), command.most > 1 ? "..." : "");
   return command.least == 0 ? fmt::format(" [{}]", word) : " " + word;
 }
 
-std::string command_section(const CommandText& command) {
-  std::string out = fmt::format(".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name),
-                                roff(command.name), operands(command),
-                                static_cast<char>(std::toupper(static_cast<unsigned char>(command.line[0]))),
-                                roff(command.line.substr(1)));
+string command_section(const CommandText& command) {
+  string out = fmt::format(".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name),
+                           roff(command.name), operands(command),
+                           static_cast<char>(std::toupper(static_cast<unsigned char>(command.line[0]))),
+                           roff(command.line.substr(1)));
   out += example(command.examples);
   if (!command.notes.empty()) out += paragraphs(command.notes);
   for (const OptionUse& use : options_of(command))
@@ -87,27 +86,27 @@ std::string command_section(const CommandText& command) {
 
 /// A word list for the shell.
 template <typename Words>
-std::string list(const Words& words) {
+string list(const Words& words) {
   return joined(words, " ");
 }
 
 /// Completion of an operand or a value of this name; empty: none.
-std::string offer_for(std::string_view name) {
-  const auto words = [](std::string_view all) { return fmt::format("_carom_words '{}'", all); };
+string offer_for(string_view name) {
+  const auto words = [](string_view all) { return fmt::format("_carom_words '{}'", all); };
   if (name == "DIR") return "_carom_files -d";
   if (name == "SCENE" || name == "SWEEP") return "_carom_files -f -X '!*.@(yaml|yml)'";
   if (name == "KEY") return words(list(plain_paths()));
   if (name == "PATH=VALUE" || name == "PATH=FROM:TO:COUNT")
     return fmt::format("_carom_paths '{}'", list(settable_paths()));
   if (name == "KIND") {
-    std::vector<std::string_view> kinds;
-    for (const std::span<const Kind> family : families()) kinds.push_back(family.front().name);
+    vector<string_view> kinds;
+    for (const span<const Kind> family : families()) kinds.push_back(family.front().name);
     return words(list(kinds));
   }
   return "";
 }
 
-std::string offer_for(const Option& option) {
+string offer_for(const Option& option) {
   if (option.name == "--only") return fmt::format("_carom_list '{}'", list(output_names()));
   if (!option.choices.empty()) return fmt::format("_carom_words '{}'", list(option.choices));
   return offer_for(option.value);
@@ -115,8 +114,8 @@ std::string offer_for(const Option& option) {
 
 }  // namespace
 
-std::string manual_page() {
-  std::string out = fmt::format(
+string manual_page() {
+  string out = fmt::format(
       ".TH CAROM 1 \"\" \"carom {}\" \"User Commands\"\n"
       ".SH NAME\ncarom \\- exact motion of colliding balls, walls and planes, as data and pictures\n"
       ".SH SYNOPSIS\n.B carom\n\\fICOMMAND\\fR [\\fIOPERAND\\fR...] [\\fIOPTIONS\\fR]\n.br\n.B carom\n\\-\\-help | "
@@ -129,8 +128,7 @@ std::string manual_page() {
       CAROM_VERSION);
   for (const Command& command : commands()) out += command_section(command.text);
   out += ".SH OPTIONS OF EVERY COMMAND\n";
-  for (const std::string_view name : {"--color", "--json", "--quiet"})
-    out += option_item({name, option_named(name).help});
+  for (const string_view name : {"--color", "--json", "--quiet"}) out += option_item({name, option_named(name).help});
   out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe help of the command, examples first\n";
   out +=
       ".SH EXIT STATUS\n"
@@ -148,26 +146,26 @@ std::string manual_page() {
   return out;
 }
 
-std::string bash_completion() {
-  std::vector<std::string> names;
-  std::string of_command, of_value;
+string bash_completion() {
+  vector<string> names;
+  string of_command, of_value;
   for (const Command& command : commands()) {
     const CommandText& text = command.text;
     names.push_back(text.name);
-    std::vector<std::string_view> options;
+    vector<string_view> options;
     for (const OptionUse& use : options_of(text)) {
       const Option& option = option_named(use.name);
       options.push_back(option.name);
       if (!option.letter.empty()) options.push_back(option.letter);
     }
-    const std::string offer = text.most > 0 ? offer_for(text.operand) : "";
+    const string offer = text.most > 0 ? offer_for(text.operand) : "";
     of_command += fmt::format("    {}) options='{} --help -h' operand=\"{}\" ;;\n", text.name, list(options), offer);
   }
   for (const Option& option : all_options()) {
     if (option.value.empty()) continue;
-    const std::string both =
-        option.letter.empty() ? std::string(option.name) : fmt::format("{} | {}", option.letter, option.name);
-    const std::string offer = offer_for(option);
+    const string both =
+        option.letter.empty() ? string(option.name) : fmt::format("{} | {}", option.letter, option.name);
+    const string offer = offer_for(option);
     of_value += fmt::format("    {}) {}return ;;\n", both, offer.empty() ? "" : offer + "; ");
   }
   return fmt::format(R"(# bash completion for carom

@@ -1,13 +1,14 @@
 #pragma once
 // The manual page and bash completion, made from the tables of commands and options.
-#include <string>
+
+#include "std.h"
 
 namespace carom {
 
 /// carom.1, in roff with the macros of man(7).
-std::string manual_page();
+string manual_page();
 
 /// What bash sources to complete commands, options, their values and files.
-std::string bash_completion();
+string bash_completion();
 
 }  // namespace carom

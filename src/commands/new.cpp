@@ -14,6 +14,7 @@
 #include "files/stored_file.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -22,13 +23,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view schema_name = "scene.schema.json";
+constexpr string_view schema_name = "scene.schema.json";
 
-fs::path scene_path(const std::string& name) {
+fs::path scene_path(const string& name) {
   fs::path path(name);
-  const std::string ending = path.extension().string();
+  const string ending = path.extension().string();
   if (ending != ".yaml" && ending != ".yml") path += ".yaml";
-  const std::string file = path.filename().string();
+  const string file = path.filename().string();
   // Longer names leave no room for the names of a run's folder and files.
   if (path.stem().empty() || name.ends_with('/') || !is_plain_name(file) || file.front() == '-' || file.size() > 150) {
     throw UsageError(
@@ -40,7 +41,7 @@ fs::path scene_path(const std::string& name) {
 }
 
 /// Creates the folder if necessary and opens it.
-Descriptor opened(const std::string& folder) {
+Descriptor opened(const string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) fail("make", {-1, folder}, "", error.message());
@@ -50,13 +51,13 @@ Descriptor opened(const std::string& folder) {
 }
 
 /// Throws UsageError if a folder has the name, or any other file has it and --force is not given.
-void refuse_existing(const FilePlace& place, const std::string& name, bool force) {
+void refuse_existing(const FilePlace& place, const string& name, bool force) {
   struct stat info {};
   if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
     if (!is_absent(errno)) fail("look at", place, name);
     return;
   }
-  const std::string path = printable((fs::path(place.path) / name).lexically_normal().string());
+  const string path = printable((fs::path(place.path) / name).lexically_normal().string());
   if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder", path), "choose another name");
   if (!force)
     throw UsageError(fmt::format("{} exists already", path), "choose another name, or overwrite it with --force");
@@ -64,9 +65,9 @@ void refuse_existing(const FilePlace& place, const std::string& name, bool force
 
 /// A schema of another version is replaced; any other file of that name stays.
 bool is_schema(const FilePlace& place) {
-  constexpr std::uint64_t most = 10'000'000;
-  const std::string whole = json_schema("scene"), start = whole.substr(0, whole.find("\"description\""));
-  const auto text = read_text(place.folder, std::string(schema_name), most);
+  constexpr uint64_t most = 10'000'000;
+  const string whole = json_schema("scene"), start = whole.substr(0, whole.find("\"description\""));
+  const auto text = read_text(place.folder, string(schema_name), most);
   return text && text->starts_with(start);
 }
 
@@ -92,14 +93,14 @@ const CommandText& new_text() {
 
 int new_command(const Options& options) {
   const fs::path path = scene_path(options.operands.front());
-  const std::string file = path.filename().string(), parent = path.parent_path().string();
-  const std::string folder = parent.empty() ? "." : parent;
+  const string file = path.filename().string(), parent = path.parent_path().string();
+  const string folder = parent.empty() ? "." : parent;
   const Descriptor open = opened(folder);
   const FilePlace place{open.get(), folder};
   refuse_existing(place, file, options.force);
-  refuse_existing(place, std::string(schema_name), options.force || is_schema(place));
+  refuse_existing(place, string(schema_name), options.force || is_schema(place));
 
-  OutputFile schema(place, std::string(schema_name)), scene(place, file);
+  OutputFile schema(place, string(schema_name)), scene(place, file);
   schema.write(json_schema("scene"));
   scene.write(starting_scene());
   schema.complete();
@@ -107,7 +108,7 @@ int new_command(const Options& options) {
   schema.publish();
   scene.publish();
 
-  const std::string beside = (path.parent_path() / schema_name).string();
+  const string beside = (path.parent_path() / schema_name).string();
   if (options.json) {
     write_out(document("new", {{"scene", path.string()}, {"schema", beside}}));
   } else if (!options.quiet) {

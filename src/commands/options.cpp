@@ -5,15 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <optional>
 
 #include "commands/text.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 
@@ -21,18 +20,18 @@ namespace carom {
 
 namespace {
 
-using Words = std::vector<std::string>;
+using Words = vector<string>;
 
-const std::string& single(const Words& words, std::string_view option) {
+const string& single(const Words& words, string_view option) {
   if (words.size() > 1) throw UsageError(fmt::format("{} is given {} times", option, words.size()));
   if (words.front().empty()) throw UsageError(fmt::format("{} is given an empty value", option));
   return words.front();
 }
 
 template <typename Choice>
-Choice chosen(const Words& words, std::string_view option, std::span<const std::string_view> names) {
-  const std::string& word = single(words, option);
-  const auto found = std::find(names.begin(), names.end(), word);
+Choice chosen(const Words& words, string_view option, span<const string_view> names) {
+  const string& word = single(words, option);
+  const auto found = std::ranges::find(names, word);
   if (found == names.end()) {
     throw UsageError(fmt::format("{} takes {}, not {}{}", option, joined(names, ", "), in_backticks(word),
                                  did_you_mean(word, {names.begin(), names.end()})));
@@ -42,16 +41,16 @@ Choice chosen(const Words& words, std::string_view option, std::span<const std::
 
 /// None: the text is no such number, or has more than it.
 template <typename Number>
-std::optional<Number> parsed(std::string_view text) {
+optional<Number> parsed(string_view text) {
   Number value{};
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
+  return error == std::errc() && stop == end ? optional(value) : nullopt;
 }
 
-std::uint64_t whole(const Words& words, std::string_view option, std::uint64_t least, std::uint64_t most) {
-  const std::string& word = single(words, option);
-  const auto value = parsed<std::uint64_t>(word);
+uint64_t whole(const Words& words, string_view option, uint64_t least, uint64_t most) {
+  const string& word = single(words, option);
+  const auto value = parsed<uint64_t>(word);
   if (!value || *value < least || *value > most)
     throw UsageError(
         fmt::format("{} takes a whole number from {} to {}, not {}", option, least, most, in_backticks(word)));
@@ -59,7 +58,7 @@ std::uint64_t whole(const Words& words, std::string_view option, std::uint64_t l
 }
 
 /// A positive number.
-double number(const std::string& word, std::string_view option) {
+double number(const string& word, string_view option) {
   const auto value = parsed<double>(word);
   if (!value || !(*value > 0) || !std::isfinite(*value))
     throw UsageError(fmt::format("{} takes a number above 0, not {}", option, in_backticks(word)));
@@ -67,7 +66,7 @@ double number(const std::string& word, std::string_view option) {
 }
 
 /// A time of a run, in s.
-double time_of(const std::string& word, std::string_view option) {
+double time_of(const string& word, string_view option) {
   const auto value = parsed<double>(word);
   if (!value || !(*value >= 0) || !std::isfinite(*value))
     throw UsageError(fmt::format("{} takes a time in seconds, such as 1.25, not {}", option, in_backticks(word)));
@@ -76,16 +75,16 @@ double time_of(const std::string& word, std::string_view option) {
 
 void read_set(Options& options, const Words& words) {
   options.set = words;
-  for (const std::string& set : words) {
-    if (const std::size_t equals = set.find('='); equals == std::string::npos || equals == 0)
+  for (const string& set : words) {
+    if (const size_t equals = set.find('='); equals == string::npos || equals == 0)
       throw UsageError(fmt::format("--set takes path=value, such as balls.red.mass=2, not {}", in_backticks(set)));
   }
 }
 
 /// The parts between commas, of all words. A comma in parentheses separates nothing.
-std::vector<std::string> split_lists(const Words& words) {
-  std::vector<std::string> parts;
-  for (const std::string& list : words) {
+vector<string> split_lists(const Words& words) {
+  vector<string> parts;
+  for (const string& list : words) {
     int depth = 0;
     parts.emplace_back();
     for (const char c : list) {
@@ -100,26 +99,26 @@ std::vector<std::string> split_lists(const Words& words) {
 }
 
 void read_only(Options& options, const Words& words) {
-  std::vector<std::string> only;
-  for (const std::string& name : split_lists(words)) {
+  vector<string> only;
+  for (const string& name : split_lists(words)) {
     const auto& known = output_names();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (std::ranges::find(known, name) == known.end()) {
       throw UsageError(
           fmt::format("--only takes {}, not {}{}", joined(known, ", "), in_backticks(name), did_you_mean(name, known)));
     }
-    if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
+    if (std::ranges::find(only, name) == only.end()) only.push_back(name);
   }
   options.only = std::move(only);
 }
 
 void read_charts(Options& options, const Words& words) {
-  for (const std::string& text : split_lists(words)) {
-    const std::size_t first = text.find(':'), second = text.find(':', first + 1);
+  for (const string& text : split_lists(words)) {
+    const size_t first = text.find(':'), second = text.find(':', first + 1);
     ChartWords chart{text.substr(0, first), {}, {}};
-    if (first != std::string::npos) chart.y = text.substr(first + 1, second - first - 1);
-    if (first != std::string::npos && second != std::string::npos) chart.by = text.substr(second + 1);
-    const bool lacks_by = second != std::string::npos && first != std::string::npos && chart.by.empty();
-    if (chart.x.empty() || chart.y.empty() || lacks_by || chart.by.find(':') != std::string::npos)
+    if (first != string::npos) chart.y = text.substr(first + 1, second - first - 1);
+    if (first != string::npos && second != string::npos) chart.by = text.substr(second + 1);
+    const bool lacks_by = second != string::npos && first != string::npos && chart.by.empty();
+    if (chart.x.empty() || chart.y.empty() || lacks_by || chart.by.find(':') != string::npos)
       throw UsageError(fmt::format("--charts takes x:y or x:y:by, such as restitution.default:energy_lost_J, not {}",
                                    in_backticks(text)));
     options.compare.charts.push_back(std::move(chart));
@@ -128,11 +127,11 @@ void read_charts(Options& options, const Words& words) {
 
 void read_steps(Options& options, const Words& words) {
   constexpr double most_halvings = 30;
-  const std::string& steps = single(words, "--steps");
-  const std::size_t colon = steps.find(':');
+  const string& steps = single(words, "--steps");
+  const size_t colon = steps.find(':');
   BenchOptions& bench = options.bench;
   bench.longest = number(steps.substr(0, colon), "--steps");
-  bench.shortest = colon == std::string::npos ? bench.longest : number(steps.substr(colon + 1), "--steps");
+  bench.shortest = colon == string::npos ? bench.longest : number(steps.substr(colon + 1), "--steps");
   if (!(*bench.shortest <= *bench.longest))
     throw UsageError(
         fmt::format("--steps takes the longest and the shortest step, such as 0.1:0.001, not {}", in_backticks(steps)));
@@ -141,9 +140,9 @@ void read_steps(Options& options, const Words& words) {
         fmt::format("--steps takes at most {} halvings, fewer than {}", most_halvings, in_backticks(steps)));
 }
 
-std::string_view only_help() {
-  constexpr std::size_t width = 56;  // columns
-  static const std::string text = wrapped(
+string_view only_help() {
+  constexpr size_t width = 56;  // columns
+  static const string text = wrapped(
       fmt::format("write only these outputs, of {}; one that the scene lacks is written with default settings; frames, "
                   "video and sheet take theirs from each other",
                   joined(output_names(), ", ")),
@@ -152,19 +151,19 @@ std::string_view only_help() {
 }
 
 /// "2/5"
-Shard read_shard(const std::string& word) {
-  const std::string_view text = word;
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = parsed<std::size_t>(text.substr(0, slash));
-  const auto count = parsed<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+Shard read_shard(const string& word) {
+  const string_view text = word;
+  const size_t slash = std::min(text.find('/'), text.size());
+  const auto index = parsed<size_t>(text.substr(0, slash));
+  const auto count = parsed<size_t>(text.substr(std::min(slash + 1, text.size())));
   if (!index || !count || *index < 1 || *index > *count)
     throw UsageError(fmt::format("--shard takes I/N, such as 1/4 to 4/4, not {}", in_backticks(word)));
   return {*index, *count};
 }
 
-constexpr std::array<std::string_view, 4> progress_names = {"auto", "bar", "lines", "none"};
-constexpr std::array<std::string_view, 3> color_names = {"auto", "always", "never"};
-constexpr std::array<std::string_view, 2> reference_names = {"exact", "stepped"};
+constexpr array<string_view, 4> progress_names = {"auto", "bar", "lines", "none"};
+constexpr array<string_view, 3> color_names = {"auto", "always", "never"};
+constexpr array<string_view, 2> reference_names = {"exact", "stepped"};
 
 const Option table[] = {
     {"--output", "-o", "DIR",
@@ -176,8 +175,8 @@ const Option table[] = {
      "vary a value of a scene, restitution.default=0.5:1:6\nor balls.red.mass=1,2,5; several give all combinations;\n"
      "FROM:TO without a count is a range of --random or --latin",
      [](Options& o, const Words& w) {
-       for (const std::string& grid : w)
-         if (const std::size_t equals = grid.find('='); equals == std::string::npos || equals == 0)
+       for (const string& grid : w)
+         if (const size_t equals = grid.find('='); equals == string::npos || equals == 0)
            throw UsageError(
                fmt::format("--grid takes path=from:to:count or path=value,value, not {}", in_backticks(grid)));
        o.sweep.grid = w;
@@ -197,8 +196,8 @@ const Option table[] = {
      [](Options& o, const Words& w) { o.submit.parts = whole(w, "--parts", 1, 1'000'000); }},
     {"--batch", "", "OPTION", "an additional option of sbatch, such as\n--batch=--time=1:00:00; may be repeated",
      [](Options& o, const Words& w) {
-       for (const std::string& option : w)
-         if (!option.starts_with("-") || option.find('\n') != std::string::npos)
+       for (const string& option : w)
+         if (!option.starts_with("-") || option.find('\n') != string::npos)
            throw UsageError(fmt::format("--batch takes an option of sbatch, such as --batch=--time=1:00:00, not {}",
                                         in_backticks(option)));
        o.submit.batch = w;
@@ -206,7 +205,7 @@ const Option table[] = {
     {"--plan", "", "", "show the runs, their values and which are done",
      [](Options& o, const Words&) { o.sweep.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
-     [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
+     [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<uint64_t>::max()); }},
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halving (set by\nthe scene: ten halvings)",
      read_steps},
     {"--repeat", "", "N", "at most N timed runs of each row (5)",
@@ -259,36 +258,36 @@ const Option table[] = {
 
 }  // namespace
 
-std::span<const Option> all_options() {
+span<const Option> all_options() {
   return table;
 }
 
-const Option& option_named(std::string_view name) {
+const Option& option_named(string_view name) {
   for (const Option& option : table) {
     if (option.name == name) return option;
   }
   std::abort();  // a command names an option that the table does not have
 }
 
-std::vector<OptionUse> options_of(const CommandText& command) {
-  std::vector<OptionUse> options = command.options;
-  for (const std::string_view name : {"--color", "--json", "--quiet"}) options.push_back({name});
+vector<OptionUse> options_of(const CommandText& command) {
+  vector<OptionUse> options = command.options;
+  for (const string_view name : {"--color", "--json", "--quiet"}) options.push_back({name});
   for (OptionUse& use : options)
     if (use.help.empty()) use.help = option_named(use.name).help;
   return options;
 }
 
-const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
+const vector<string>& output_names() {
+  static const vector<string> names = [] {
+    vector<string> all;
     for (const OutputKind& kind : output_kinds()) all.emplace_back(kind.name);
     return all;
   }();
   return names;
 }
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const std::string name = nearest(word, {known.begin(), known.end()});
+string did_you_mean(string_view word, const vector<string>& known) {
+  const string name = nearest(word, {known.begin(), known.end()});
   return name.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(name));
 }
 

@@ -6,10 +6,10 @@
 #include <fmt/ranges.h>
 
 #include <utility>
-#include <vector>
 
 #include "commands/report.h"
 #include "commands/text.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -23,16 +23,16 @@ void OutcomeList::add(SceneOutcome outcome) {
   flush_out();
 }
 
-void OutcomeList::end(std::string_view command, double wall) {
+void OutcomeList::end(string_view command, double wall) {
   if (options_.json)
     write_out(document(command, entries_));
   else if (entries_.size() > 1 && !options_.quiet)
     write_out(total(wall));
 }
 
-std::string OutcomeList::total(double wall) {
-  std::vector<std::string> parts;
-  std::size_t rest = entries_.size();
+string OutcomeList::total(double wall) {
+  vector<string> parts;
+  size_t rest = entries_.size();
   for (const char* status :
        {scene_status::done, scene_status::up_to_date, scene_status::failed, scene_status::not_run}) {
     if (counts_[status] > 0) parts.push_back(fmt::format("{} {}", counts_[status], status));

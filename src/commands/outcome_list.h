@@ -2,10 +2,9 @@
 // Prints the scenes of a command line: each as it ends, and at the end the document of --json or a line of counts.
 #include <map>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 
 #include "commands/scene_outcome.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,15 +14,15 @@ class OutcomeList {
 
   void add(SceneOutcome outcome);
   /// `wall`: s, of all of them.
-  void end(std::string_view command, double wall);
-  std::size_t count(const std::string& status) { return counts_[status]; }
+  void end(string_view command, double wall);
+  size_t count(const string& status) { return counts_[status]; }
 
  private:
-  std::string total(double wall);
+  string total(double wall);
 
   const Options& options_;
   nlohmann::ordered_json entries_ = nlohmann::ordered_json::array();
-  std::map<std::string, std::size_t> counts_;  // of scenes, by status
+  std::map<string, size_t> counts_;  // of scenes, by status
 };
 
 }  // namespace carom

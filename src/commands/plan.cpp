@@ -28,6 +28,7 @@
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -35,14 +36,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string folder_of(const Options& options, const std::string& name, Purpose purpose) {
+string folder_of(const Options& options, const string& name, Purpose purpose) {
   if (!options.output) return (fs::path("output") / (purpose == Purpose::bench ? name + ".bench" : name)).string();
   return options.operands.size() == 1 ? *options.output : (fs::path(*options.output) / name).string();
 }
 
 // Two runs in one folder would overwrite each other.
-void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
-  std::map<std::string, const PlannedScene*> owner;
+void refuse_shared_folders(const vector<PlannedScene>& scenes) {
+  std::map<string, const PlannedScene*> owner;
   for (const PlannedScene& scene : scenes) {
     const auto [found, is_new] = owner.emplace(canonical(scene.folder), &scene);
     if (is_new) continue;
@@ -52,7 +53,7 @@ void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
   }
 }
 
-void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& text, std::vector<ErrorRecord> records) {
+void mark_failed(PlannedScene& planned, size_t errors, const string& text, vector<ErrorRecord> records) {
   planned.scene.reset();
   planned.errors = errors;
   planned.records = std::move(records);
@@ -60,13 +61,13 @@ void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& t
   if (planned.error.empty() || planned.error.back() != '\n') planned.error += '\n';
 }
 
-void mark_failed(PlannedScene& planned, const std::string& text) {
+void mark_failed(PlannedScene& planned, const string& text) {
   mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), text), error_of_text(text, planned.file));
 }
 
 SceneOrigin origin_of(const PlannedScene& planned, const Options& options) {
   SceneOrigin origin{path_from(planned.folder, planned.file), {}};
-  for (const std::string& set : options.set) origin.settings.push_back(valid_utf8(set));
+  for (const string& set : options.set) origin.settings.push_back(valid_utf8(set));
   if (options.seed) origin.settings.push_back(fmt::format("seed={}", *options.seed));
   return origin;
 }
@@ -82,7 +83,7 @@ void find_obstacle(PlannedScene& planned) {
 struct Planning {
   const Options& options;
   Purpose purpose;
-  const std::function<void(PlannedScene&)>& inspected;  // may be unset
+  const function<void(PlannedScene&)>& inspected;  // may be unset
   Requirements requirements{};
 };
 
@@ -104,11 +105,11 @@ void check(PlannedScene& planned, Planning& planning) {
   const Purpose purpose = planning.purpose;
   const auto start = std::chrono::steady_clock::now();
   SceneFile file(planned.file, load_options(options, options.only || purpose == Purpose::bench));
-  planned.scene = std::make_unique<Scene>(file.scene());
+  planned.scene = make_unique<Scene>(file.scene());
   const Output requested = planned.scene->output;
   const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
   planned.scene->output = written(requested);
-  planned.notes = idle_settings(options.set, *planned.scene, [&](const std::vector<std::string>& set) {
+  planned.notes = idle_settings(options.set, *planned.scene, [&](const vector<string>& set) {
     LoadOptions load = load_options(options, true);
     load.set = set;
     Scene scene = load_scene(planned.file, load);
@@ -148,7 +149,7 @@ bool is_up_to_date(const PlannedScene& planned, const Options& options) {
   return planned.content == FolderContent::this_run && !options.force;
 }
 
-std::string obstacle_of(const FolderChanges& changes) {
+string obstacle_of(const FolderChanges& changes) {
   if (!changes.changed.empty())
     return fmt::format("a run of this scene with a changed file, {}", printable(changes.changed));
   if (!changes.foreign.empty()) return fmt::format("{}, which the run there did not write", printable(changes.foreign));
@@ -169,9 +170,9 @@ void inspect_own_folder(PlannedScene& planned) {
   if (!changes.changed.empty()) planned.obstacle = obstacle_of(changes);
 }
 
-std::vector<PlannedScene> planned_folders(const Options& options) {
-  std::vector<PlannedScene> runs;
-  for (const std::string& folder : options.operands) {
+vector<PlannedScene> planned_folders(const Options& options) {
+  vector<PlannedScene> runs;
+  for (const string& folder : options.operands) {
     PlannedScene& run = runs.emplace_back();
     run.file = folder;
     while (run.file.size() > 1 && run.file.ends_with('/')) run.file.pop_back();
@@ -191,13 +192,13 @@ LoadOptions load_options(const Options& options, bool lifted) {
   if (lifted) load.budget = load.budget.without_outputs();
   load.chooses_outputs = lifted;
   load.measure_fault = measure_fault;
-  load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  load.mesh_points = [](const string& path) { return read_mesh_points(path); };
   load.former_state = start_reader(load);
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;
 }
 
-void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker) {
+void hold_to_budget(const Scene& scene, const Forecast& forecast, string_view asker) {
   const Budget budget;
   if (forecast.frames > budget.frames) {
     throw ExportError(fmt::format("{} {}, more than the {} that a run may draw without --force", asker,
@@ -209,9 +210,9 @@ void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_vi
   }
 }
 
-std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) {
-  std::vector<PlannedScene> scenes(options.operands.size());
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
+vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) {
+  vector<PlannedScene> scenes(options.operands.size());
+  for (size_t i = 0; i < scenes.size(); ++i) {
     scenes[i].file = options.operands[i];
     scenes[i].name = fs::path(options.operands[i]).stem().string();
     scenes[i].folder = folder_of(options, scenes[i].name, purpose);
@@ -219,18 +220,17 @@ std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) 
   return scenes;
 }
 
-std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
+vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
   return plan_scenes(named_scenes(options, purpose), options, purpose);
 }
 
-std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options, Purpose purpose,
-                                      const std::function<void(PlannedScene&)>& inspected) {
+vector<PlannedScene> plan_scenes(vector<PlannedScene> scenes, const Options& options, Purpose purpose,
+                                 const function<void(PlannedScene&)>& inspected) {
   Planning planning{options, purpose, inspected};
   return plan_scenes(std::move(scenes), [&](PlannedScene& planned) { check(planned, planning); });
 }
 
-std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
-                                      const std::function<void(PlannedScene&)>& check_one) {
+vector<PlannedScene> plan_scenes(vector<PlannedScene> scenes, const function<void(PlannedScene&)>& check_one) {
   refuse_shared_folders(scenes);
   for (PlannedScene& planned : scenes) {
     stop_if_interrupted();
@@ -247,30 +247,30 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
   return scenes;
 }
 
-void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options) {
+void refuse_other_content(vector<PlannedScene>& scenes, const Options& options) {
   for (PlannedScene& planned : scenes) {
     const bool more = planned.content == FolderContent::more;
     const bool other = planned.content == FolderContent::other_run || planned.content == FolderContent::touched;
     if (planned.errors > 0 || !(other || more) || options.force) continue;
-    const std::string text = fmt::format(
-        "the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force", printable(planned.folder),
-        !other                     ? "more outputs of this scene, which this run would remove"
-        : planned.obstacle.empty() ? "another run, or files that no run wrote"
-                                   : planned.obstacle);
+    const string text = fmt::format("the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force",
+                                    printable(planned.folder),
+                                    !other ? "more outputs of this scene, which this run would remove"
+                                    : planned.obstacle.empty() ? "another run, or files that no run wrote"
+                                                               : planned.obstacle);
     planned.errors = 1;
     planned.error = fmt::format("{}: {}\n", printable(planned.file), text);
     planned.records = error_of_text(text, planned.file);
   }
 }
 
-std::string error_count(const std::vector<PlannedScene>& scenes) {
-  std::size_t errors = 0, wrong = 0;
+string error_count(const vector<PlannedScene>& scenes) {
+  size_t errors = 0, wrong = 0;
   for (const PlannedScene& scene : scenes) {
     errors += scene.errors;
     wrong += scene.errors > 0 ? 1 : 0;
   }
   if (errors == 0) return "";
-  const std::string text = counted(errors, "error", "errors");
+  const string text = counted(errors, "error", "errors");
   return scenes.size() == 1 ? text : fmt::format("{} in {} of {} scenes", text, wrong, scenes.size());
 }
 

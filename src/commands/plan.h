@@ -1,71 +1,65 @@
 #pragma once
 // Checks all scenes of the command line before the first is simulated. Changes nothing.
-#include <functional>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "commands/command_line.h"
 #include "export/forecast.h"
 #include "files/run_folder.h"
 #include "run/engine.h"
 #include "run/former_run.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
 
 /// A checked scene of the command line: either `scene` and what follows from it, or `error`.
 struct PlannedScene {
-  std::string file;    // as on the command line
-  std::string name;    // the file's stem
-  std::string folder;  // where its run goes
-  std::string error;   // for the terminal, whole lines; empty: none
-  std::size_t errors = 0;
-  std::vector<ErrorRecord> records;  // of the error, in parts
-  std::unique_ptr<Scene> scene;
+  string file;    // as on the command line
+  string name;    // the file's stem
+  string folder;  // where its run goes
+  string error;   // for the terminal, whole lines; empty: none
+  size_t errors = 0;
+  vector<ErrorRecord> records;  // of the error, in parts
+  unique_ptr<Scene> scene;
   double load_s = 0;  // wall time
   EngineChoice engine;
   Forecast forecast;
   FolderContent content = FolderContent::nothing;
-  SceneOrigin origin{};    // of a scene that is run; its settings as UTF-8
-  std::string obstacle{};  // what of another content must not be overwritten, where that is known
+  SceneOrigin origin{};  // of a scene that is run; its settings as UTF-8
+  string obstacle{};     // what of another content must not be overwritten, where that is known
   /// What the user may not expect of this command, for the terminal.
-  std::vector<std::string> notes{};
+  vector<string> notes{};
   std::shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
 };
 
 enum class Purpose { run, bench };
 
 /// The scenes of the command line, each with its file, name and folder.
-std::vector<PlannedScene> named_scenes(const Options& options, Purpose purpose = Purpose::run);
+vector<PlannedScene> named_scenes(const Options& options, Purpose purpose = Purpose::run);
 
 /// Loads and checks every scene, wrong ones as far as possible, so that one run shows all errors of all files.
 /// Throws UsageError where two scenes would share a folder.
-std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = Purpose::run);
+vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = Purpose::run);
 
 /// The same for some of named_scenes(). `inspected`: called for each scene of which the folder's content is known,
 /// which it may change. May be unset.
-std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes, const Options& options,
-                                      Purpose purpose = Purpose::run,
-                                      const std::function<void(PlannedScene&)>& inspected = {});
+vector<PlannedScene> plan_scenes(vector<PlannedScene> scenes, const Options& options, Purpose purpose = Purpose::run,
+                                 const function<void(PlannedScene&)>& inspected = {});
 
 /// The same for scenes with a file, a name and a folder: `check` fills in the rest, or throws the error.
-std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
-                                      const std::function<void(PlannedScene&)>& check);
+vector<PlannedScene> plan_scenes(vector<PlannedScene> scenes, const function<void(PlannedScene&)>& check);
 
 /// The runs that the operands name by their folders, each with the folder that is to be written: the run's own, that of
 /// --output, or for several runs one in it.
-std::vector<PlannedScene> planned_folders(const Options& options);
+vector<PlannedScene> planned_folders(const Options& options);
 
 /// Options to load scenes of a command line. `lifted`: no limit on pictures and rows; hold_to_budget checks these.
 LoadOptions load_options(const Options& options, bool lifted);
 
 /// Throws ExportError if a run would draw or write too much. `asker`: "--only requests".
-void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker);
+void hold_to_budget(const Scene& scene, const Forecast& forecast, string_view asker);
 
 /// What of a folder must not be overwritten, for use after "holds". Empty: nothing was changed.
-std::string obstacle_of(const FolderChanges& changes);
+string obstacle_of(const FolderChanges& changes);
 
 /// Whether the folder holds this very run, and --force does not ask for it again.
 bool is_up_to_date(const PlannedScene& planned, const Options& options);
@@ -76,9 +70,9 @@ void inspect(PlannedScene& planned);
 void inspect_own_folder(PlannedScene& planned);
 
 /// Adds an error for each folder that holds something else, unless --force.
-void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options);
+void refuse_other_content(vector<PlannedScene>& scenes, const Options& options);
 
 /// "2 errors in 1 of 3 scenes", or empty if there is none.
-std::string error_count(const std::vector<PlannedScene>& scenes);
+string error_count(const vector<PlannedScene>& scenes);
 
 }  // namespace carom

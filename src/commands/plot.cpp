@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <new>
-#include <optional>
 
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
@@ -21,6 +20,7 @@
 #include "run/plot_run.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -30,11 +30,11 @@ using Json = nlohmann::ordered_json;
 
 /// Settings by which the scene lists the run's tables, where it lists none or another interval (--only may add tables).
 /// Charts of their rows are then those that the scene asks for.
-std::vector<Setting> settings_of_tables(const Scene& scene, const FormerRun& former) {
+vector<Setting> settings_of_tables(const Scene& scene, const FormerRun& former) {
   const PlotIntervals run = plot_intervals(former.scene.output), listed = plot_intervals(scene.output);
-  std::vector<Setting> settings;
+  vector<Setting> settings;
   if (former.has_flights()) return settings;
-  const auto list = [&](const char* table, const std::optional<double>& every, const std::optional<double>& known) {
+  const auto list = [&](const char* table, const optional<double>& every, const optional<double>& known) {
     if (every && every != known) settings.push_back({fmt::format("output.{}={{every: {}}}", table, *every), ""});
   };
   list("energy", run.energy, listed.energy);
@@ -54,17 +54,17 @@ class PlotPlanner {
     SceneFile file(former_scene_file(planned.file), load);
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
     const bool in_place = planned.folder == planned.file;
-    std::optional<PossibleCharts> charts;
-    auto former = std::make_shared<FormerRun>(
-        read_former_run(planned.file, file, [&](const FormerRun& run, std::string_view name) {
+    optional<PossibleCharts> charts;
+    auto former =
+        std::make_shared<FormerRun>(read_former_run(planned.file, file, [&](const FormerRun& run, string_view name) {
           if (!charts) charts = possible_charts(run);
           // In another folder pictures are not needed. In the run's own they stay, and must be right.
           return is_drawn_by(*charts, name) || (!in_place && is_picture(name));
         }));
-    planned.scene = std::make_unique<Scene>(file.scene());
+    planned.scene = make_unique<Scene>(file.scene());
     if (const auto settings = settings_of_tables(*planned.scene, *former); !in_place && !settings.empty())
       *planned.scene = file.scene(settings);
-    std::vector<std::string> outputs = {std::string(plot_files.folder)};
+    vector<string> outputs = {string(plot_files.folder)};
     for (const OutputKind& kind : output_kinds())
       if (in_place && kind.asked(former->scene.output)) outputs.emplace_back(kind.name);
     planned.scene->output = restricted(planned.scene->output, outputs);
@@ -87,9 +87,8 @@ class PlotPlanner {
           fmt::format("it has neither tables nor flights to plot\n  carom run {}/scene.yaml --only plots -o OTHER "
                       "simulates it again and draws the charts",
                       printable(planned.file)));
-    std::vector<std::string> files = run_files(*planned.scene, planned.scene->output);
-    std::erase_if(files,
-                  [&](const std::string& name) { return series_of(name) != nullptr && !is_drawn_by(charts, name); });
+    vector<string> files = run_files(*planned.scene, planned.scene->output);
+    std::erase_if(files, [&](const string& name) { return series_of(name) != nullptr && !is_drawn_by(charts, name); });
     FolderChanges changes;
     planned.content =
         inspect_folder(planned.folder, *planned.scene, outputs_text(planned.scene->output), files, &changes);
@@ -103,12 +102,12 @@ class PlotPlanner {
 /// Lines and members about the charts.
 void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const Style& style) {
   const PossibleCharts charts = possible_charts(*planned.former);
-  std::vector<std::string> names(charts.names.begin(), charts.names.end());
+  vector<string> names(charts.names.begin(), charts.names.end());
   outcome.entry["plots"] = names;
   outcome.entry["left_out"] = Json::object();
   Block block(style.palette, style.width);
   block.heading(planned.name, planned.scene->title);
-  const std::vector<std::string> files = files_in(planned.folder);
+  const vector<string> files = files_in(planned.folder);
   for (const LeftOut& chart : charts.missing) {
     // One of the run itself stays.
     if (std::binary_search(files.begin(), files.end(), fmt::format("{}/{}.svg", plot_files.folder, chart.name)))
@@ -122,7 +121,7 @@ void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const S
   outcome.out = block.text();
 }
 
-SceneOutcome plot_one(const PlannedScene& planned, const std::string& gnuplot, const Style& style, Progress& progress) {
+SceneOutcome plot_one(const PlannedScene& planned, const string& gnuplot, const Style& style, Progress& progress) {
   SceneOutcome outcome = without_run(planned, scene_status::failed);
   try {
     plot_run({planned.former.get(), planned.scene.get(), planned.folder, gnuplot}, [&](double done) {
@@ -175,7 +174,7 @@ const CommandText& plot_text() {
 }
 
 int plot_command(const Options& options) {
-  const std::string gnuplot = find_gnuplot();
+  const string gnuplot = find_gnuplot();
   const PlotPlanner planner(options);
   return run_planned(options, "plot",
                      plan_scenes(planned_folders(options), [&](PlannedScene& run) { planner.check(run); }),

@@ -7,20 +7,21 @@
 #include "physics/world.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 // The picture's axis closest to +x; away or toward only if +x has no length in the picture.
-std::string direction_of_plus_x(const CameraFrame& view) {
+string direction_of_plus_x(const CameraFrame& view) {
   const double right = view.right.x(), up = view.up.x();
   if (std::max(std::abs(right), std::abs(up)) < 1e-9) return view.forward.x() > 0 ? "away" : "toward";
   if (std::abs(right) >= std::abs(up)) return right > 0 ? "right" : "left";
   return up > 0 ? "up" : "down";
 }
 
-std::string kind_of(const MovingCamera& camera) {
+string kind_of(const MovingCamera& camera) {
   if (camera.frames_motion()) return "fit";
   return camera.scene().camera->follow ? "follow" : camera.stands_still() ? "still" : "path";
 }

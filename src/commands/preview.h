@@ -1,21 +1,19 @@
 #pragma once
 // What a scene's camera sees at time 0.
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
 class MovingCamera;
 
 struct CameraPreview {
-  std::string plus_x;           // where +x points in the picture: "right", "left", "up", "down", "away", "toward"
+  string plus_x;                // where +x points in the picture: "right", "left", "up", "down", "away", "toward"
   double fov_x = 0, fov_y = 0;  // degrees, full angles
-  std::string kind;             // "still", "fit", "follow" or "path"
+  string kind;                  // "still", "fit", "follow" or "path"
   // Bodies wholly outside the picture at time 0; none: not known.
-  std::optional<std::vector<Entity>> out_of_view;
+  optional<vector<Entity>> out_of_view;
 };
 
 /// `known`: whether the place of a camera that frames the motion is known. Its direction always is.

@@ -12,6 +12,7 @@
 #include "commands/manual.h"
 #include "commands/report.h"
 #include "commands/text.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -21,14 +22,14 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 // "run, check and bench"
-std::string command_names() {
-  std::vector<std::string> names;
+string command_names() {
+  vector<string> names;
   for (const Command& command : commands()) names.push_back(command.text.name);
   return listed(names, names.size());
 }
 
-std::string program_help() {
-  std::string text =
+string program_help() {
+  string text =
       "carom turns scenes of balls, walls and planes into exact motion, data and pictures.\n\n"
       "Examples:\n"
       "  carom new first                               writes first.yaml, a scene to start from\n"
@@ -48,20 +49,20 @@ std::string program_help() {
   return text;
 }
 
-const Command* find_command(const std::string& name) {
+const Command* find_command(const string& name) {
   for (const Command& command : commands()) {
     if (command.text.name == name) return &command;
   }
   return nullptr;
 }
 
-[[noreturn]] void refuse_command(const std::string& word) {
+[[noreturn]] void refuse_command(const string& word) {
   if (word.starts_with('-')) {
     throw UsageError("options come after the command", fmt::format("carom run SCENE {}", printable(word)));
   }
-  std::vector<std::string_view> names = {"help"};
+  vector<string_view> names = {"help"};
   for (const Command& command : commands()) names.push_back(command.text.name);
-  if (const std::string near = nearest(word, names); !near.empty()) {
+  if (const string near = nearest(word, names); !near.empty()) {
     throw UsageError(fmt::format("no command {}; did you mean {}?", in_backticks(word), in_backticks(near)));
   }
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
@@ -71,30 +72,29 @@ const Command* find_command(const std::string& name) {
 }
 
 /// The document of --json for an error that leaves a command without one.
-void write_failure(const std::vector<std::string>& words, std::string_view status,
-                   const std::vector<ErrorRecord>& errors) {
-  if (std::find(words.begin(), words.end(), "--json") == words.end() || find_command(words.front()) == nullptr) return;
-  Json json = {{"status", std::string(status)}};
+void write_failure(const vector<string>& words, string_view status, const vector<ErrorRecord>& errors) {
+  if (std::ranges::find(words, "--json") == words.end() || find_command(words.front()) == nullptr) return;
+  Json json = {{"status", string(status)}};
   if (!errors.empty()) json["errors"] = errors_json(errors);
   write_out(document(words.front(), std::move(json)));
 }
 
-int usage_error(const std::string& command, const UsageError& error, const std::vector<std::string>& words) {
-  const std::string program = command.empty() ? "carom" : "carom " + command;
+int usage_error(const string& command, const UsageError& error, const vector<string>& words) {
+  const string program = command.empty() ? "carom" : "carom " + command;
   write_failure(words, "wrong", {{"", 0, 0, error.fault, error.remedy, suggestion_in(error.what())}});
   write_err(fmt::format("{}: {}\n  {} --help shows how it is used\n", program, error.what(), program));
   return 2;
 }
 
-int dispatch(const std::vector<std::string>& words) {
-  std::string name;
+int dispatch(const vector<string>& words) {
+  string name;
   try {
     if (words.empty()) {
       write_err(program_help());
       return 2;
     }
-    std::string first = words.front();
-    std::vector<std::string> rest(words.begin() + 1, words.end());
+    string first = words.front();
+    vector<string> rest(words.begin() + 1, words.end());
     if (first == "--version") {
       write_out("carom " CAROM_VERSION "\n");
       return 0;
@@ -125,7 +125,7 @@ int dispatch(const std::vector<std::string>& words) {
   }
 }
 
-int guarded(const std::vector<std::string>& words) {
+int guarded(const vector<string>& words) {
   try {
     return dispatch(words);
   } catch (const Interrupted& interrupted) {
@@ -144,9 +144,9 @@ int guarded(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& words) {
+int run_program(const vector<string>& words) {
   const int code = guarded(words);
-  std::string reason;
+  string reason;
   if (finish_output(reason)) return code;
   write_err(fmt::format("carom: cannot write to standard output: {}\n", reason));
   return code == 0 ? 1 : code;

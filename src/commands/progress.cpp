@@ -10,6 +10,7 @@
 
 #include "commands/text.h"
 #include "numerics/whole.h"
+#include "std.h"
 #include "yaml/letters.h"
 
 namespace carom {
@@ -22,7 +23,7 @@ ProgressChoice progress_choice(const Options& options) {
   return options.progress == ProgressChoice::bar && !terminal ? ProgressChoice::lines : options.progress;
 }
 
-Progress::Progress(ProgressChoice choice, bool color, std::string name)
+Progress::Progress(ProgressChoice choice, bool color, string name)
     : choice_(choice), color_(color), name_(std::move(name)) {}
 
 Progress::~Progress() {
@@ -37,7 +38,7 @@ void Progress::clear() {
 namespace {
 
 // Whole seconds: the estimate is no more precise.
-std::string left_text(double left) {
+string left_text(double left) {
   if (!std::isfinite(left)) return "";
   const double whole = std::ceil(left);
   return (whole < 60 ? fmt::format("{:.0f} s", whole) : wait_text(whole)) + " left";
@@ -45,19 +46,18 @@ std::string left_text(double left) {
 
 }  // namespace
 
-void Progress::draw_bar(double done, const std::string& counts, const std::string& left) {
+void Progress::draw_bar(double done, const string& counts, const string& left) {
   // One line, narrower than the terminal: a wrapped line cannot be drawn over.
-  const std::size_t width = terminal_width(STDERR_FILENO) - 1;
-  constexpr std::size_t bar_width = 20;
-  std::string text = fmt::format("{} ", name_);
+  const size_t width = terminal_width(STDERR_FILENO) - 1;
+  constexpr size_t bar_width = 20;
+  string text = fmt::format("{} ", name_);
   if (letters_of(text) + bar_width + 24 < width) {
-    const auto full = static_cast<std::size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
+    const auto full = static_cast<size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
     const Palette palette(color_);
-    std::string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
-    const std::size_t taken = letters_of(text) + bar_width + 2 + rest.size();
+    string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
+    const size_t taken = letters_of(text) + bar_width + 2 + rest.size();
     rest += taken + letters_of(counts) <= width ? counts : left;
-    text += fmt::format("[{}{}{}{:{}}]{}", palette.green, std::string(full, '='), palette.reset, "", bar_width - full,
-                        rest);
+    text += fmt::format("[{}{}{}{:{}}]{}", palette.green, string(full, '='), palette.reset, "", bar_width - full, rest);
   } else {
     text = fmt::format("{:3.0f} %", done * 100);
   }
@@ -81,11 +81,11 @@ bool Progress::due() const {
 }
 
 /// "1,830/s", or per minute for slower rates.
-std::string Progress::rate(double count) const {
+string Progress::rate(double count) const {
   const double per_second = elapsed() > 0 ? count / elapsed() : 0;
   if (per_second < 1) return fmt::format("{:.2g}/min", 60 * per_second);
   return per_second < 10 ? fmt::format("{:.2g}/s", per_second)
-                         : grouped(static_cast<std::uint64_t>(whole_below(per_second))) + "/s";
+                         : grouped(static_cast<uint64_t>(whole_below(per_second))) + "/s";
 }
 
 double Progress::elapsed() const {
@@ -99,11 +99,11 @@ double Progress::left(double done) {
 }
 
 /// left_s: the time to come (s).
-void Progress::show(double done, double left_s, const std::string& what) {
+void Progress::show(double done, double left_s, const string& what) {
   const Clock::time_point now = Clock::now();
   const double since_last = std::chrono::duration<double>(now - last_).count();
-  const std::string left = left_text(left_s);
-  const std::string counts = left.empty() ? what : what + ", " + left;
+  const string left = left_text(left_s);
+  const string counts = left.empty() ? what : what + ", " + left;
   if (choice_ == ProgressChoice::bar) {
     draw_bar(done, counts, left);
   } else {
@@ -123,14 +123,14 @@ void Progress::update(const RunProgress& progress) {
   if (due()) show(run_->share(), run_->left(), run_->text());
 }
 
-void Progress::update(std::size_t done, std::size_t of, std::string_view things, const std::string& more) {
+void Progress::update(size_t done, size_t of, string_view things, const string& more) {
   if (!due()) return;
   const auto count = static_cast<double>(done);
-  const double share = count / static_cast<double>(std::max<std::size_t>(of, 1));
+  const double share = count / static_cast<double>(std::max<size_t>(of, 1));
   show(share, left(share), fmt::format("{} of {} {} ({}){}", grouped(done), grouped(of), things, rate(count), more));
 }
 
-void Progress::update(double done, const std::string& what) {
+void Progress::update(double done, const string& what) {
   store(done);
   if (!due()) return;
   const double share = std::clamp(done, 0.0, 1.0);

@@ -2,13 +2,10 @@
 // Progress of a run on stderr: a bar on a terminal, lines in a log, or nothing.
 #include <atomic>
 #include <chrono>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "commands/command_line.h"
 #include "commands/run_pace.h"
+#include "std.h"
 
 namespace carom {
 
@@ -18,7 +15,7 @@ ProgressChoice progress_choice(const Options& options);
 class Progress {
  public:
   /// `name`: of what goes on.
-  Progress(ProgressChoice choice, bool color, std::string name);
+  Progress(ProgressChoice choice, bool color, string name);
   ~Progress();  // clears the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -27,9 +24,9 @@ class Progress {
   /// never two within two seconds.
   void update(const RunProgress& progress);
   /// The same for `done` of so many things, such as runs; `more`: a text that follows.
-  void update(std::size_t done, std::size_t of, std::string_view things, const std::string& more = "");
+  void update(size_t done, size_t of, string_view things, const string& more = "");
   /// The same for other work: the fraction `done`, 0 to 1, and its present step.
-  void update(double done, const std::string& what);
+  void update(double done, const string& what);
   /// What the run has before it. Call it before the first update of a run.
   void expect(const RunAhead& ahead) { run_.emplace(ahead); }
   /// From here on the fraction done is also stored there, even if nothing is shown. Null: nowhere.
@@ -43,16 +40,16 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   bool due() const;
   void store(double done);
-  std::string rate(double count) const;
+  string rate(double count) const;
   double elapsed() const;
   double left(double done);
-  void show(double done, double left_s, const std::string& counts);
-  void draw_bar(double done, const std::string& counts, const std::string& left);
+  void show(double done, double left_s, const string& counts);
+  void draw_bar(double done, const string& counts, const string& left);
 
   ProgressChoice choice_;
   bool color_;
-  std::string name_;
-  std::optional<RunPace> run_;
+  string name_;
+  optional<RunPace> run_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
   Pace pace_;  // of all else
   int tenth_ = 0;

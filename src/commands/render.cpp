@@ -21,6 +21,7 @@
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
 
@@ -29,34 +30,34 @@ namespace carom {
 namespace {
 
 /// The outputs that are drawn, or those that are not; flights are neither.
-std::vector<std::string> names_of(const Output& output, bool draws) {
-  std::vector<std::string> names;
+vector<string> names_of(const Output& output, bool draws) {
+  vector<string> names;
   for (const OutputKind& kind : output_kinds())
     if (kind.asked(output) && kind.draws == draws && kind.name != "flights") names.emplace_back(kind.name);
   return names;
 }
 
 void refuse_tables(const Options& options) {
-  const std::vector<std::string> drawn = names_of(with_all({}), true);
-  for (const std::string& name : options.only.value_or(std::vector<std::string>{}))
-    if (std::find(drawn.begin(), drawn.end(), name) == drawn.end())
+  const vector<string> drawn = names_of(with_all({}), true);
+  for (const string& name : options.only.value_or(vector<string>{}))
+    if (std::ranges::find(drawn, name) == drawn.end())
       throw UsageError(fmt::format("render makes {}", joined(drawn, ", ")),
                        fmt::format("carom {} {}", name == plot_files.folder ? "plot makes" : "run writes", name));
 }
 
 /// Charts show tables and flights, whatever the pictures.
-void refuse_charts(const Options& options, const std::string& folder) {
-  const std::string path = fmt::format("output.{}", plot_files.folder);
-  for (const std::string& set : options.set)
+void refuse_charts(const Options& options, const string& folder) {
+  const string path = fmt::format("output.{}", plot_files.folder);
+  for (const string& set : options.set)
     if (set.substr(0, set.find('=')) == path)
       throw ExportError(fmt::format("--set {}: render makes no {}\n  carom plot {} makes them", printable(set),
                                     plot_files.whats, printable(folder)));
 }
 
 /// As typed in a shell.
-std::string settings_text(const std::vector<std::string>& settings) {
-  std::string text;
-  for (const std::string& setting : settings) text += " --set " + shell_word(setting);
+string settings_text(const vector<string>& settings) {
+  string text;
+  for (const string& setting : settings) text += " --set " + shell_word(setting);
   return text;
 }
 
@@ -69,26 +70,26 @@ class Planner {
     settle_folder(planned.file);
     settle_folder(planned.folder);
     refuse_charts(options_, planned.file);
-    const std::string path = former_scene_file(planned.file);
+    const string path = former_scene_file(planned.file);
     LoadOptions load = load_options(options_, true);
     load.set.clear();
     SceneFile file(path, load);
     auto former = std::make_shared<FormerRun>(
-        read_former_run(planned.file, file, [](const FormerRun&, std::string_view name) { return is_picture(name); }));
+        read_former_run(planned.file, file, [](const FormerRun&, string_view name) { return is_picture(name); }));
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
-    std::vector<Setting> settings;
-    for (const std::string& set : options_.set) settings.push_back({set, ""});
-    planned.scene = std::make_unique<Scene>(file.scene(settings));
+    vector<Setting> settings;
+    for (const string& set : options_.set) settings.push_back({set, ""});
+    planned.scene = make_unique<Scene>(file.scene(settings));
     refuse_other_motion(file, *former, *planned.scene, path);
     if (!options_.at) {
       choose_outputs(planned, *former);
-      planned.notes = idle_settings(options_.set, *planned.scene, [&](const std::vector<std::string>& set) {
-        std::vector<Setting> others;
-        for (const std::string& text : set) others.push_back({text, ""});
+      planned.notes = idle_settings(options_.set, *planned.scene, [&](const vector<string>& set) {
+        vector<Setting> others;
+        for (const string& text : set) others.push_back({text, ""});
         PlannedScene other;
         other.file = planned.file;
         other.folder = planned.folder;
-        other.scene = std::make_unique<Scene>(file.scene(others));
+        other.scene = make_unique<Scene>(file.scene(others));
         choose_outputs(other, *former);
         return std::move(*other.scene);
       });
@@ -106,7 +107,7 @@ class Planner {
       requirements_.check(file, *planned.scene, outputs_drawn(*planned.scene));
     if (planned.folder == planned.file && !former->manifest.origin.path.empty()) {
       planned.origin = former->manifest.origin;
-      for (const std::string& set : options_.set) planned.origin.settings.push_back(valid_utf8(set));
+      for (const string& set : options_.set) planned.origin.settings.push_back(valid_utf8(set));
     }
     // One scene in memory is enough.
     former->scene = {};
@@ -136,12 +137,11 @@ class Planner {
           fmt::format("--at {} is after its end\n  name a time from 0 to {} s", shortest(*options_.at), shortest(end)));
   }
 
-  void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene,
-                           const std::string& path) const {
-    const std::string motion = motion_text(former.scene);
+  void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene, const string& path) const {
+    const string motion = motion_text(former.scene);
     if (motion_text(scene) == motion) return;
-    std::vector<Setting> settings;
-    for (const std::string& set : options_.set) {
+    vector<Setting> settings;
+    for (const string& set : options_.set) {
       settings.push_back({set, ""});
       if (motion_text(file.scene(settings)) == motion) continue;
       throw ExportError(
@@ -158,7 +158,7 @@ class Planner {
       throw ExportError("its scene has no pictures\n  add them with --only frames, video or sheet");
     output.flights = requested.flights;
     if (planned.folder != planned.file) return;
-    const std::vector<std::string> tables = names_of(former.scene.output, false);
+    const vector<string> tables = names_of(former.scene.output, false);
     Output kept = restricted(requested, tables);
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
@@ -218,7 +218,7 @@ int render_command(const Options& options) {
   refuse_tables(options);
   if (options.at && options.only) throw UsageError("--at draws one picture", "leave out --only");
   Planner planner(options);
-  std::vector<PlannedScene> runs =
+  vector<PlannedScene> runs =
       plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); });
   if (!options.at) return run_planned(options, "render", std::move(runs));
   return run_planned(options, "render", std::move(runs),

@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 #include "yaml/letters.h"
 #include "yaml/value_json.h"
 
@@ -24,19 +25,19 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t label_width = 12;
+constexpr size_t label_width = 12;
 
 /// Whether a run that is drawn again in its own folder left this file as it was.
-bool is_kept(const PlannedScene& planned, const std::string& file) {
+bool is_kept(const PlannedScene& planned, const string& file) {
   return planned.former && planned.former->folder == planned.folder && output_of(file) != nullptr &&
          !is_picture(file) && planned.former->has(file);
 }
 
 // "a.csv, b.csv and 60 pictures in frames/".
-std::string written_files(const PlannedScene& planned) {
-  std::vector<std::string> names;
-  std::map<const OutputKind*, std::uint64_t> series;
-  for (const std::string& file : files_in(planned.folder)) {
+string written_files(const PlannedScene& planned) {
+  vector<string> names;
+  std::map<const OutputKind*, uint64_t> series;
+  for (const string& file : files_in(planned.folder)) {
     if (is_kept(planned, file)) continue;
     if (const OutputKind* kind = series_of(file)) {
       ++series[kind];
@@ -46,18 +47,18 @@ std::string written_files(const PlannedScene& planned) {
   }
   for (const OutputKind& kind : output_kinds()) {
     const FileSeries& files = kind.series;
-    if (const std::uint64_t count = series[&kind]; count > 0)
+    if (const uint64_t count = series[&kind]; count > 0)
       names.push_back(fmt::format("{} in {}/", counted(count, files.what, files.whats), files.folder));
   }
   return listed(names, names.size());
 }
 
 /// Contact in steps of crowds: how long, and with which errors.
-std::string stepped_text(const Summary& summary, const Scene& scene) {
+string stepped_text(const Summary& summary, const Scene& scene) {
   const QualityLevel level = scene.simulate.contact.quality;
   const double overlap = quality_of(level).overlap;
-  std::string text = fmt::format("{} of lasting contact, summed over bodies, in steps of crowds at `quality: {}`",
-                                 quantity(summary.stepped_contact, "s"), name_of(level));
+  string text = fmt::format("{} of lasting contact, summed over bodies, in steps of crowds at `quality: {}`",
+                            quantity(summary.stepped_contact, "s"), name_of(level));
   if (overlap > 0) text += fmt::format(", which may overlap by {:.0f} % of a radius", 100 * overlap);
   text += fmt::format(", {} made by errors", quantity(summary.contact.made, "J"));
   if (summary.contact.unsolved_steps > 0)
@@ -66,10 +67,10 @@ std::string stepped_text(const Summary& summary, const Scene& scene) {
   return text;
 }
 
-std::string collisions_text(const Summary& summary) {
+string collisions_text(const Summary& summary) {
   if (summary.collisions == 0) return "none";
-  std::string text = fmt::format("{} ({} body-body, {} body-fixed", grouped(summary.collisions),
-                                 grouped(summary.body_body), grouped(summary.body_fixed));
+  string text = fmt::format("{} ({} body-body, {} body-fixed", grouped(summary.collisions), grouped(summary.body_body),
+                            grouped(summary.body_fixed));
   if (summary.contact.merges > 0) text += fmt::format(", {}", counted(summary.contact.merges, "merge", "merges"));
   if (summary.contact.tautened > 0) text += fmt::format(", {} by strings", grouped(summary.contact.tautened));
   text += ")";
@@ -78,37 +79,37 @@ std::string collisions_text(const Summary& summary) {
                             quantity(summary.last_collision, "s"));
 }
 
-std::string contact_text(const Summary& summary) {
-  std::string text = fmt::format("{} of {} in lasting contact at the end", grouped(summary.resting),
-                                 counted(summary.bodies, "body", "bodies"));
+string contact_text(const Summary& summary) {
+  string text = fmt::format("{} of {} in lasting contact at the end", grouped(summary.resting),
+                            counted(summary.bodies, "body", "bodies"));
   if (summary.contact.collapses == 0) return text;
   return text + fmt::format("; {} of accelerating collisions turned into contact",
                             counted(summary.contact.collapses, "cluster", "clusters"));
 }
 
-std::string energy_text(const Summary& summary) {
-  std::string text = summary.energy.lost == 0  ? "none lost"
-                     : summary.energy.lost > 0 ? quantity(summary.energy.lost, "J lost")
-                                               : quantity(-summary.energy.lost, "J gained in collisions");
+string energy_text(const Summary& summary) {
+  string text = summary.energy.lost == 0  ? "none lost"
+                : summary.energy.lost > 0 ? quantity(summary.energy.lost, "J lost")
+                                          : quantity(-summary.energy.lost, "J gained in collisions");
   text += fmt::format(", {} -> {}", quantity(summary.energy.start, "J"), quantity(summary.energy.end, "J"));
   if (summary.energy.work != 0) text += fmt::format(" with {} of work", quantity(summary.energy.work, "J"));
   return text + fmt::format(", residual {}", quantity(summary.energy.residual, "J"));
 }
 
 /// Impacts of one instant, whose outcome is the law's choice; empty: there were none.
-std::string shared_text(const Summary& summary) {
+string shared_text(const Summary& summary) {
   const SharedImpacts& shared = summary.contact.shared;
   if (shared.instants == 0) return {};
-  std::string text = fmt::format("rigid bodies leave {} open with several impacts on a body, first {}",
-                                 counted(shared.instants, "instant", "instants"), summary.contact.first_shared);
+  string text = fmt::format("rigid bodies leave {} open with several impacts on a body, first {}",
+                            counted(shared.instants, "instant", "instants"), summary.contact.first_shared);
   if (shared.ties > 0)
     text += fmt::format("; at {} they come from both sides at one speed, where the slightest difference decides",
                         grouped(shared.ties));
   return text;
 }
 
-std::string work_text(const Summary& summary) {
-  std::vector<std::string> each;
+string work_text(const Summary& summary) {
+  vector<string> each;
   for (const ForceWork& force : summary.energy.of_forces)
     each.push_back(fmt::format("{} of {}", quantity(force.work, "J"), force.force));
   return listed(each);
@@ -120,30 +121,30 @@ Json number_or_null(double value) {
 
 }  // namespace
 
-void Block::heading(std::string_view name, std::string_view title) {
+void Block::heading(string_view name, string_view title) {
   text_ += fmt::format("{}{}{}", palette_.bold, printable(name), palette_.reset);
   if (!title.empty() && title != name) text_ += ": " + wrapped(printable(title), letters_of(name) + 2, width_);
   text_ += '\n';
 }
 
-void Block::line(std::string_view label, std::string_view text) {
+void Block::line(string_view label, string_view text) {
   text_ += fmt::format("  {}{:{}}{}{}\n", palette_.dim, label, label_width, palette_.reset,
                        wrapped(text, label_width + 2, width_));
 }
 
-void Block::warning(std::string_view label, std::string_view text) {
+void Block::warning(string_view label, string_view text) {
   text_ += fmt::format("  {}{:{}}{}{}\n", palette_.yellow, label, label_width, palette_.reset,
                        wrapped(text, label_width + 2, width_));
 }
 
-void Block::table(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
+void Block::table(const vector<vector<string>>& rows) {
+  vector<size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], letters_of(row[k]));
+    for (size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], letters_of(row[k]));
   for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::string gap(widths[k] - letters_of(row[k]), ' ');
+    string line;
+    for (size_t k = 0; k < row.size(); ++k) {
+      const string gap(widths[k] - letters_of(row[k]), ' ');
       line += k == 0 ? row[k] + gap : "  " + gap + row[k];
     }
     line.erase(line.find_last_not_of(' ') + 1);
@@ -152,28 +153,28 @@ void Block::table(const std::vector<std::vector<std::string>>& rows) {
   }
 }
 
-std::vector<std::string> files_in(const std::string& folder) {
-  std::vector<std::string> files;
+vector<string> files_in(const string& folder) {
+  vector<string> files;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const std::optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
+  const optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
   if (!manifest) return files;
   for (const FileRecord& record : manifest->files) files.push_back(record.name);
   files.push_back(manifest_name);
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 
-std::vector<Warning> warnings_in(const std::string& folder) {
+vector<Warning> warnings_in(const string& folder) {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const std::optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
-  return manifest ? manifest->warnings : std::vector<Warning>();
+  const optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+  return manifest ? manifest->warnings : vector<Warning>();
 }
 
-void describe(Block& block, const std::vector<Warning>& warnings) {
+void describe(Block& block, const vector<Warning>& warnings) {
   for (const Warning& warning : warnings) block.warning("doubtful", warning.text);
 }
 
-void describe_doubtful(Block& block, std::size_t runs) {
+void describe_doubtful(Block& block, size_t runs) {
   if (runs > 0)
     block.warning("doubtful",
                   fmt::format("{}: see the column `status` of summary.csv, and the warnings in their manifests",
@@ -183,8 +184,8 @@ void describe_doubtful(Block& block, std::size_t runs) {
 void describe(Block& block, const PlannedScene& planned, const RunResult& result) {
   const Summary& summary = result.summary;
   const EngineChoice& engine = result.engine;
-  const std::string_view name = name_of(engine.engine);
-  block.line("engine", engine.why.empty() ? std::string(name) : fmt::format("{} ({})", name, engine.why));
+  const string_view name = name_of(engine.engine);
+  block.line("engine", engine.why.empty() ? string(name) : fmt::format("{} ({})", name, engine.why));
   if (summary.ended_by != "duration")
     block.line("ended", fmt::format("at {}, by {}", quantity(summary.duration, "s"), summary.ended_by));
 
@@ -196,7 +197,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
-  if (const std::string text = shared_text(summary); !text.empty()) block.line("at once", text);
+  if (const string text = shared_text(summary); !text.empty()) block.line("at once", text);
   if (const SharedImpacts& shared = summary.contact.shared; shared.without_room > 0)
     block.line("no room",
                fmt::format("bodies could not rebound at {}, and absorbed {}",
@@ -250,7 +251,7 @@ Json summary_json(const Summary& s) {
           {"contact_made_J", number_or_null(s.contact.made)}};
 }
 
-Json warnings_json(const std::vector<Warning>& warnings) {
+Json warnings_json(const vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& warning : warnings) list.push_back({{"code", warning.code}, {"text", warning.text}});
   return list;
@@ -287,8 +288,8 @@ Json facts_json(const RunResult& result) {
           {"peak_memory_bytes", result.facts.peak_memory}};
 }
 
-std::string document(std::string_view command, Json scenes) {
-  Json whole = {{"carom", CAROM_VERSION}, {"command", std::string(command)}};
+string document(string_view command, Json scenes) {
+  Json whole = {{"carom", CAROM_VERSION}, {"command", string(command)}};
   if (scenes.is_object())
     whole.update(scenes);
   else
@@ -297,12 +298,12 @@ std::string document(std::string_view command, Json scenes) {
   return text_of_json(whole, 2) + "\n";
 }
 
-void complain(const Options& options, std::string_view text) {
+void complain(const Options& options, string_view text) {
   const Palette palette(uses_color(options.color, STDERR_FILENO));
   write_err(fmt::format("{}carom:{} {}\n", palette.red, palette.reset, text));
 }
 
-void remark(const Options& options, std::string_view text) {
+void remark(const Options& options, string_view text) {
   if (options.quiet) return;
   const Palette palette(uses_color(options.color, STDERR_FILENO));
   write_err(fmt::format("{}carom:{} {}\n", palette.yellow, palette.reset, text));

@@ -16,12 +16,12 @@
 #include "files/processors.h"
 #include "run/stages.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-int refuse(const Options& options, std::string_view command, const std::vector<PlannedScene>& scenes,
-           const std::string& errors) {
+int refuse(const Options& options, string_view command, const vector<PlannedScene>& scenes, const string& errors) {
   nlohmann::ordered_json entries = nlohmann::ordered_json::array();
   for (const PlannedScene& planned : scenes) {
     write_err(planned.error);
@@ -34,9 +34,9 @@ int refuse(const Options& options, std::string_view command, const std::vector<P
 }
 
 /// "2/3 two_bowling_balls", or the name alone.
-std::string label(const std::vector<PlannedScene>& scenes, const PlannedScene& planned) {
-  const auto number = static_cast<std::size_t>(&planned - scenes.data()) + 1;
-  const std::string name = printable(planned.name);
+string label(const vector<PlannedScene>& scenes, const PlannedScene& planned) {
+  const auto number = static_cast<size_t>(&planned - scenes.data()) + 1;
+  const string name = printable(planned.name);
   return scenes.size() == 1 ? name : fmt::format("{}/{} {}", number, scenes.size(), name);
 }
 
@@ -88,19 +88,18 @@ int run_command(const Options& options) {
   return run_planned(options, "run", plan_scenes(options));
 }
 
-int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes) {
+int run_planned(const Options& options, string_view command, vector<PlannedScene> scenes) {
   return run_planned(options, command, std::move(scenes),
                      [&](const PlannedScene& planned, const Style& style, Progress& progress) {
                        return run_one(planned, options, style, progress);
                      });
 }
 
-int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
-                const SceneWork& work) {
+int run_planned(const Options& options, string_view command, vector<PlannedScene> scenes, const SceneWork& work) {
   refuse_other_content(scenes, options);
-  if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
+  if (const string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
   for (const PlannedScene& planned : scenes)
-    for (const std::string& note : planned.notes) remark(options, fmt::format("{}: {}", printable(planned.file), note));
+    for (const string& note : planned.notes) remark(options, fmt::format("{}: {}", printable(planned.file), note));
   const auto start = std::chrono::steady_clock::now();
   const Style style{Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)};
   OutcomeList list(options);

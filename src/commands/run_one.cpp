@@ -11,6 +11,7 @@
 #include "files/earlier_run.h"
 #include "overlay/history.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -34,8 +35,8 @@ RunSettings settings_of(const PlannedScene& planned, const Options& options) {
 
 }  // namespace
 
-std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned,
-                                                                  const OverlayNeeds& needs, bool quiet) {
+function<unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, const OverlayNeeds& needs,
+                                                        bool quiet) {
   const FormerRun& former = *planned.former;
   const bool collisions = needs.collisions || needs.collision_counts;
   if (collisions ? former.has_flights_with_collisions(*planned.scene) : former.has_flights())
@@ -50,7 +51,7 @@ std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedS
 
 SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress) {
   const RunWatch watch{stop_if_interrupted, [&](const RunProgress& now) { progress.update(now); },
-                       [&](const std::string& text) {
+                       [&](const string& text) {
                          progress.clear();
                          remark(options, fmt::format("{}: {}", printable(planned.file), text));
                        }};

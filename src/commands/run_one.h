@@ -1,11 +1,10 @@
 #pragma once
 // One planned scene -> its folder and its report.
-#include <functional>
-#include <memory>
 
 #include "commands/progress.h"
 #include "commands/scene_outcome.h"
 #include "overlay/history.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,7 +13,7 @@ SceneOutcome run_one(const PlannedScene& planned, const Options& options, const 
 
 /// A function that makes a simulator of the recorded motion of a planned run. Empty: it has no record, and is simulated
 /// again, which is said unless `quiet`.
-std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned,
-                                                                  const OverlayNeeds& needs, bool quiet);
+function<unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, const OverlayNeeds& needs,
+                                                        bool quiet);
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "commands/text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -77,9 +78,9 @@ double RunPace::left() const {
   return early || !std::isfinite(left_) ? std::numeric_limits<double>::quiet_NaN() : left_;
 }
 
-std::string RunPace::text() const {
+string RunPace::text() const {
   using Phase = RunProgress::Phase;
-  const std::string pictures = fmt::format("{} of {}", grouped(now_.pictures), grouped(ahead_.pictures));
+  const string pictures = fmt::format("{} of {}", grouped(now_.pictures), grouped(ahead_.pictures));
   switch (now_.phase) {
     case Phase::settling:
       return "finding the steps for the tolerance";

@@ -1,18 +1,17 @@
 #pragma once
 // How far a run is, and how much time it will still take: by phases, from the pace of each.
-#include <cstdint>
 #include <deque>
-#include <string>
 
 #include "commands/crowd_ahead.h"
 #include "run/run_scene.h"
+#include "std.h"
 
 namespace carom {
 
 /// What a run has before it.
 struct RunAhead {
-  double duration = 0;         // s of motion
-  std::uint64_t pictures = 0;  // of frames and video
+  double duration = 0;    // s of motion
+  uint64_t pictures = 0;  // of frames and video
   CrowdAhead crowd{};
   double draw_s = 0;         // s, a guess of the wall time of drawing and writing
   bool draws_after = false;  // drawing begins when the motion is over
@@ -45,7 +44,7 @@ class RunPace {
   /// The time to come (s). Not a number: it is unknown, as in the first seconds of a phase.
   double left() const;
   /// "simulating 0.41 of 3 s", "drawing 23 of 91".
-  std::string text() const;
+  string text() const;
 
  private:
   double simulation_left();

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string_view>
-#include <vector>
 
 #include "files/manifest.h"
 #include "files/output_file.h"
@@ -16,6 +14,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
+#include "std.h"
 #include "yaml/source.h"
 #include "yaml/value_json.h"
 
@@ -24,15 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t longest_text = 256 << 20;  // bytes of a mesh
+constexpr uint64_t longest_text = 256 << 20;  // bytes of a mesh
 
-std::string text_of(const std::string& file) {
+string text_of(const string& file) {
   const Descriptor open(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  std::string text;
+  string text;
   if (!open) return text;
   try {
-    std::vector<char> buffer(std::size_t{64} * 1024);
-    while (const std::size_t n = read_some(open.get(), buffer.data(), buffer.size())) {
+    vector<char> buffer(size_t{64} * 1024);
+    while (const size_t n = read_some(open.get(), buffer.data(), buffer.size())) {
       if (text.size() + n > longest_text) return text;
       text.append(buffer.data(), n);
     }
@@ -42,19 +41,19 @@ std::string text_of(const std::string& file) {
   return text;
 }
 
-bool is_named(std::string_view file, std::initializer_list<std::string_view> endings) {
-  std::string ending = fs::path(file).extension().string();
+bool is_named(string_view file, std::initializer_list<string_view> endings) {
+  string ending = fs::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return std::ranges::find(endings, ending) != endings.end();
 }
 
 /// "%20" to " ".
-std::string decoded(std::string_view uri) {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
+string decoded(string_view uri) {
+  string out;
+  for (size_t i = 0; i < uri.size(); ++i) {
     int code = 0;
-    for (std::size_t k = i + 1; uri[i] == '%' && k < std::min(i + 3, uri.size()); ++k) {
+    for (size_t k = i + 1; uri[i] == '%' && k < std::min(i + 3, uri.size()); ++k) {
       const char c = uri[k];
       const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c - 'A' + 10;
       code = 16 * code + digit;
@@ -65,21 +64,20 @@ std::string decoded(std::string_view uri) {
   return out;
 }
 
-void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, std::set<std::string>& files) {
+void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, std::set<string>& files) {
   for (const char* list : {"buffers", "images"}) {
     if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
     for (const auto& entry : json[list])
       if (entry.is_object() && entry.contains("uri") && entry["uri"].is_string())
-        if (const std::string uri = entry["uri"]; !uri.starts_with("data:"))
-          files.insert((folder / decoded(uri)).string());
+        if (const string uri = entry["uri"]; !uri.starts_with("data:")) files.insert((folder / decoded(uri)).string());
   }
 }
 
 /// The names behind the first word of lines that begin with `word`: all behind it, and the last of its parts.
-void add_names(std::string_view text, std::string_view word, const fs::path& folder, std::set<std::string>& files) {
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", i), text.size());
-    std::string_view line = text.substr(i, end - i);
+void add_names(string_view text, string_view word, const fs::path& folder, std::set<string>& files) {
+  for (size_t i = 0; i < text.size();) {
+    const size_t end = std::min(text.find_first_of("\r\n", i), text.size());
+    string_view line = text.substr(i, end - i);
     i = end + 1;
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
     if (!line.starts_with(word)) continue;
@@ -92,14 +90,14 @@ void add_names(std::string_view text, std::string_view word, const fs::path& fol
   }
 }
 
-void add_mesh(const std::string& mesh, std::set<std::string>& files) {
+void add_mesh(const string& mesh, std::set<string>& files) {
   if (!files.insert(mesh).second) return;
   const fs::path folder = fs::path(mesh).parent_path();
   if (is_named(mesh, {".gltf"})) add_uris(json_of_text(text_of(mesh)), folder, files);
   if (!is_named(mesh, {".obj"})) return;
-  std::set<std::string> libraries;
+  std::set<string> libraries;
   add_names(text_of(mesh), "mtllib", folder, libraries);
-  for (const std::string& library : libraries) {
+  for (const string& library : libraries) {
     files.insert(library);
     add_names(text_of(library), "map_", folder, files);
   }
@@ -107,15 +105,15 @@ void add_mesh(const std::string& mesh, std::set<std::string>& files) {
 
 }  // namespace
 
-std::set<std::string> files_of_scene(const PlannedScene& planned) {
-  std::set<std::string> files = {planned.file};
+std::set<string> files_of_scene(const PlannedScene& planned) {
+  std::set<string> files = {planned.file};
   if (planned.scene)
     for (const MeshFile& mesh : planned.scene->meshes) add_mesh(mesh.file, files);
   if (planned.scene && planned.scene->made_from.start)
     files.insert((fs::path(planned.scene->made_from.start->folder) / manifest_name).string());
   if (planned.scene) return files;
   try {
-    const std::string folder = fs::path(planned.file).parent_path().string();
+    const string folder = fs::path(planned.file).parent_path().string();
     for (const SceneValue& value : scene_values(planned.file, text_of(planned.file)))
       if (value.path.ends_with(".mesh"))
         add_mesh(beneath(folder, cell_text(value.text)), files);

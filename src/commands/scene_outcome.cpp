@@ -9,6 +9,7 @@
 #include "commands/text.h"
 #include "files/checkpoint_file.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -17,12 +18,12 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json begin(const PlannedScene& planned, std::string_view status) {
-  return {{"scene", planned.file}, {"status", std::string(status)}, {"folder", planned.folder}};
+Json begin(const PlannedScene& planned, string_view status) {
+  return {{"scene", planned.file}, {"status", string(status)}, {"folder", planned.folder}};
 }
 
-std::string doubtful_text(const PlannedScene& planned, const std::vector<Warning>& warnings) {
-  std::string text;
+string doubtful_text(const PlannedScene& planned, const vector<Warning>& warnings) {
+  string text;
   for (const Warning& warning : warnings)
     text += fmt::format("{}{}: doubtful: {}", text.empty() ? "" : "\ncarom: ", printable(planned.file), warning.text);
   return text;
@@ -40,8 +41,8 @@ void add_members(Json& entry, const PlannedScene& planned, const RunResult& resu
 
 }  // namespace
 
-SceneOutcome without_run(const PlannedScene& planned, std::string_view status) {
-  return {std::string(status), begin(planned, status), {}, {}};
+SceneOutcome without_run(const PlannedScene& planned, string_view status) {
+  return {string(status), begin(planned, status), {}, {}};
 }
 
 SceneOutcome wrong_scene(const PlannedScene& planned) {
@@ -70,7 +71,7 @@ SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, cons
 SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
   SceneOutcome outcome = without_run(planned, scene_status::up_to_date);
   outcome.entry["files"] = files_in(planned.folder);
-  const std::vector<Warning> warnings = warnings_in(planned.folder);
+  const vector<Warning> warnings = warnings_in(planned.folder);
   outcome.entry["warnings"] = warnings_json(warnings);
   Block block(style.palette, style.width);
   block.heading(planned.name, planned.scene->title);
@@ -80,8 +81,8 @@ SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
   return outcome;
 }
 
-SceneOutcome run_failed(const PlannedScene& planned, std::string_view why) {
-  const std::string text = with_remedy(std::string(why));
+SceneOutcome run_failed(const PlannedScene& planned, string_view why) {
+  const string text = with_remedy(string(why));
   SceneOutcome outcome = without_run(planned, scene_status::failed);
   outcome.entry["errors"] = errors_json(error_of_text(text, planned.file));
   outcome.complaint = fmt::format("{}: the run failed: {}", printable(planned.file), text);
@@ -90,18 +91,18 @@ SceneOutcome run_failed(const PlannedScene& planned, std::string_view why) {
 
 SceneOutcome run_interrupted(const PlannedScene& planned) {
   SceneOutcome outcome = without_run(planned, scene_status::interrupted);
-  const std::optional<Checkpoint> kept = any_checkpoint(planned.folder);
-  const std::string how = kept ? fmt::format(" at {:.4g} s of its motion; the same command goes on there", kept->time)
-                               : "; the same command runs what is missing";
+  const optional<Checkpoint> kept = any_checkpoint(planned.folder);
+  const string how = kept ? fmt::format(" at {:.4g} s of its motion; the same command goes on there", kept->time)
+                          : "; the same command runs what is missing";
   outcome.complaint = fmt::format("{}: interrupted{}", printable(planned.file), how);
   return outcome;
 }
 
-std::string packed(const SceneOutcome& outcome) {
+string packed(const SceneOutcome& outcome) {
   return text_of_json(Json::array({outcome.status, outcome.entry, outcome.out, outcome.complaint}));
 }
 
-SceneOutcome unpacked(const std::string& text) {
+SceneOutcome unpacked(const string& text) {
   Json parts = json_of_text(text);
   return {parts[0], std::move(parts[1]), parts[2], parts[3]};
 }

@@ -1,13 +1,12 @@
 #pragma once
 // The outcome of a scene: for the terminal, and as an entry of the document of --json.
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 
 #include "commands/command_line.h"
 #include "commands/plan.h"
 #include "commands/report.h"
 #include "run/run_scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,27 +16,27 @@ inline constexpr const char *done = "done", *up_to_date = "up to date", *failed 
 }
 
 struct SceneOutcome {
-  std::string status;
+  string status;
   nlohmann::ordered_json entry;  // of the document of --json
-  std::string out;               // for stdout
-  std::string complaint;         // for stderr; empty: none
+  string out;                    // for stdout
+  string complaint;              // for stderr; empty: none
 };
 
 /// Form of the text on stdout.
 struct Style {
   Palette palette;
-  std::size_t width;  // columns
+  size_t width;  // columns
 };
 
-SceneOutcome without_run(const PlannedScene& planned, std::string_view status);
+SceneOutcome without_run(const PlannedScene& planned, string_view status);
 SceneOutcome wrong_scene(const PlannedScene& planned);  // its error has been printed already
 SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options, const Style& style);
 SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style);
-SceneOutcome run_failed(const PlannedScene& planned, std::string_view text);
+SceneOutcome run_failed(const PlannedScene& planned, string_view text);
 SceneOutcome run_interrupted(const PlannedScene& planned);
 
 /// As text, to pass between processes.
-std::string packed(const SceneOutcome& outcome);
-SceneOutcome unpacked(const std::string& text);
+string packed(const SceneOutcome& outcome);
+SceneOutcome unpacked(const string& text);
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include "scene/fields.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -32,10 +33,10 @@ const CommandText& schema_text() {
 }
 
 int schema_command(const Options& options) {
-  const std::string name = options.operands.empty() ? "scene" : options.operands.front();
-  std::vector<std::string> known;
+  const string name = options.operands.empty() ? "scene" : options.operands.front();
+  vector<string> known;
   for (const auto family : families()) known.emplace_back(family.front().name);
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
+  if (std::ranges::find(known, name) == known.end()) {
     throw UsageError(fmt::format("no kind of file {}{}; the kinds are {}", in_backticks(name),
                                  did_you_mean(name, known), listed(known, known.size())));
   }

@@ -1,24 +1,25 @@
 #pragma once
 // How far each of several runs is, in memory that worker processes share with the process that started them.
 #include <atomic>
-#include <cstddef>
+
+#include "std.h"
 
 namespace carom {
 
 class SharedFractions {
  public:
   /// All are 0. If the system has no such memory, nothing is shared and all remain 0.
-  explicit SharedFractions(std::size_t count);
+  explicit SharedFractions(size_t count);
   ~SharedFractions();
   SharedFractions(const SharedFractions&) = delete;
   SharedFractions& operator=(const SharedFractions&) = delete;
 
   /// For Progress::share. Null: nothing is shared.
-  std::atomic<double>* at(std::size_t number) const { return shared_ == nullptr ? nullptr : shared_ + number; }
+  std::atomic<double>* at(size_t number) const { return shared_ == nullptr ? nullptr : shared_ + number; }
   double sum() const;
 
  private:
-  std::size_t count_;
+  size_t count_;
   std::atomic<double>* shared_ = nullptr;
 };
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -21,7 +21,7 @@ constexpr double least_mass = 5e-9;  // of the heaviest body on a string
 
 }  // namespace
 
-std::string slow_text(const Scene& scene) {
+string slow_text(const Scene& scene) {
   const World& world = scene.world;
   double heaviest = 0;  // kg
   for (const String& string : world.strings)
@@ -35,7 +35,7 @@ std::string slow_text(const Scene& scene) {
       if (const double size = world.radius[i] / string.length; size < least) small = i, least = size;
       if (const double mass = world.mass[i] / heaviest; mass < lightest) light = i, lightest = mass;
     }
-  std::vector<std::string> texts;
+  vector<string> texts;
   if (small != no_entity)
     texts.push_back(
         fmt::format("the radius of {} is {:.1g} of the length of its string, and errors of a step are held to a "

@@ -1,10 +1,11 @@
 // The scene is a text in the program, so that `carom new` needs no installed files.
 #include "commands/new.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
-std::string_view starting_scene() {
+string_view starting_scene() {
   return R"(# yaml-language-server: $schema=scene.schema.json
 # A red ball is thrown over a floor, bounces, and lands on a blue one. Change any of it: `carom check` shows what a run
 # would do, and `carom explain KEY` explains a key. By the first line an editor with a YAML language server completes

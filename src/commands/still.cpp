@@ -14,14 +14,14 @@
 #include "run/motion_record.h"
 #include "run/still.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 /// A motion that is simulated once: for a camera that frames it into a record, because it is followed twice.
-std::function<std::unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoice& engine,
-                                                      const FilePlace& place) {
+function<unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoice& engine, const FilePlace& place) {
   if (frames_motion(scene)) return recorded_motion(scene, engine, place, stop_if_interrupted);
   return [&scene, &engine] {
     const OverlayNeeds needs = picture_needs(scene);
@@ -30,18 +30,17 @@ std::function<std::unique_ptr<Simulator>()> simulated(const Scene& scene, const 
   };
 }
 
-std::string draw(const PlannedScene& planned, double time, bool quiet) {
+string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
   OpenFolder folder(planned.folder);
   EngineChoice engine = planned.engine;
-  const std::function<std::unique_ptr<Simulator>(const Scene&)> replay =
-      replay_of(planned, picture_needs(scene), quiet);
-  std::function<std::unique_ptr<Simulator>()> motion = [&] { return replay(scene); };
+  const function<unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, picture_needs(scene), quiet);
+  function<unique_ptr<Simulator>()> motion = [&] { return replay(scene); };
   if (!replay) {
     settle_steps(scene, engine, stop_if_interrupted);
     motion = simulated(scene, engine, folder.place());
   }
-  const std::string picture =
+  const string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));
 
   OutputFile file(folder.place(), fmt::format("still_{}s.png", shortest(time)));
@@ -56,7 +55,7 @@ std::string draw(const PlannedScene& planned, double time, bool quiet) {
 SceneOutcome still_of(const PlannedScene& planned, const Options& options) {
   try {
     SceneOutcome outcome = without_run(planned, scene_status::done);
-    const std::string name = draw(planned, *options.at, options.quiet);
+    const string name = draw(planned, *options.at, options.quiet);
     outcome.entry["files"] = {name};
     outcome.out = fmt::format("{}/{}\n", printable(planned.folder), printable(name));
     return outcome;

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "commands/error_list.h"
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
 #include "files/processors.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -22,20 +22,20 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t runs_a_part = 50, most_parts = 16;  // without --parts
+constexpr size_t runs_a_part = 50, most_parts = 16;  // without --parts
 
-std::string words_of(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : " ") + shell_word(word);
+string words_of(const vector<string>& words) {
+  string out;
+  for (const string& word : words) out += (out.empty() ? "" : " ") + shell_word(word);
   return out;
 }
 
 /// Never parsed as an option, even with a leading dash.
-std::string as_operand(const std::string& path) {
+string as_operand(const string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }
 
-std::string program() {
+string program() {
   std::error_code error;
   const fs::path path = fs::read_symlink("/proc/self/exe", error);
   return error ? "carom" : path.string();
@@ -49,19 +49,19 @@ int submit(const Options& options) {
   SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
   check_comparison(job);
   job.plan([](const SweepProgress&) {});
-  const std::size_t runs = job.sweep().size() - job.invalid().size();
-  const std::size_t parts =
+  const size_t runs = job.sweep().size() - job.invalid().size();
+  const size_t parts =
       std::min(options.submit.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
-  const std::string folder = sweep_folder_of(options);
-  const std::string stem = fs::path(options.operands.front()).stem().string();
-  std::vector<std::string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
-                                    "--progress", "lines"};
-  const auto add = [&](const std::string& name, const std::string& value) {
+  const string folder = sweep_folder_of(options);
+  const string stem = fs::path(options.operands.front()).stem().string();
+  vector<string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
+                          "--progress", "lines"};
+  const auto add = [&](const string& name, const string& value) {
     words.push_back(name);
     words.push_back(value);
   };
-  for (const std::string& grid : options.sweep.grid) add("--grid", grid);
-  for (const std::string& set : options.set) add("--set", set);
+  for (const string& grid : options.sweep.grid) add("--grid", grid);
+  for (const string& set : options.set) add("--set", set);
   if (options.only) add("--only", joined(*options.only, ","));
   if (options.sweep.random) add("--random", std::to_string(*options.sweep.random));
   if (options.sweep.latin) add("--latin", std::to_string(*options.sweep.latin));
@@ -70,11 +70,11 @@ int submit(const Options& options) {
   if (!options.compare.measures.empty()) add("--measures", joined(options.compare.measures, ","));
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.force) words.emplace_back("--force");
-  std::string batch;
-  for (const std::string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
-  const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);
+  string batch;
+  for (const string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
+  const string name = "carom-" + (stem.empty() ? "sweep" : stem);
   // After SIGTERM a task has half a minute to finish its files. --open-mode: a requeued task appends to its log.
-  const std::string script = fmt::format(
+  const string script = fmt::format(
       R"(#!/bin/sh
 #SBATCH --job-name={0}
 #SBATCH --array=1-{1}

@@ -19,6 +19,7 @@
 #include "files/processors.h"
 #include "files/publication.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "study/sweep_folder.h"
 
 namespace carom {
@@ -48,7 +49,7 @@ class SweepSession {
       return interrupted.exit_code();
     } catch (const ExportError& error) {
       progress_.reset();
-      const std::string why = with_remedy(error.what());
+      const string why = with_remedy(error.what());
       complain(options_, why);
       if (cut_) show_cut(options_, *cut_);
       show_failure(options_, "failed", error_of_text(why), cut_);
@@ -77,21 +78,21 @@ class SweepSession {
       show(outcome, job);
       return 0;
     }
-    if (const std::string changed = comparison_obstacle(changes_of_comparison(folder_));
+    if (const string changed = comparison_obstacle(changes_of_comparison(folder_));
         !changed.empty() && shard_.count <= 1 && !options_.force)
       return refuse(fmt::format("the folder {} holds {}", printable(folder_), changed));
     show_progress("scenarios");
     job.plan([&](const SweepProgress& p) { show_progress(p); });
     progress_.reset();
-    if (const auto other = options_.force ? std::nullopt : job.other_content()) {
-      const std::string place = job.run_folder(*other);
+    if (const auto other = options_.force ? nullopt : job.other_content()) {
+      const string place = job.run_folder(*other);
       const bool touched = job.runs()[*other].content == FolderContent::touched;
       return refuse(fmt::format("the folder {} holds {}", printable(place),
                                 touched ? obstacle_of(find_changes(place)) : "something other than this run"));
     }
-    for (const std::string& path : job.idle_paths())
+    for (const string& path : job.idle_paths())
       complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
-    for (const std::string& note : notes_on_start(job)) remark(options_, note);
+    for (const string& note : notes_on_start(job)) remark(options_, note);
     if (options_.sweep.plan) {
       show_plan(options_, job);
       return 0;
@@ -99,7 +100,7 @@ class SweepSession {
     return run(job);
   }
 
-  int refuse(const std::string& what) const {
+  int refuse(const string& what) const {
     constexpr const char* way_out = "write elsewhere with -o, or overwrite it with --force";
     complain(options_, fmt::format("{}: {}\n  {}", printable(options_.operands.front()), what, way_out));
     show_failure(options_, "wrong", error_of_text(what + "\n" + way_out));
@@ -118,22 +119,22 @@ class SweepSession {
     show_progress("runs");
     try {
       job.run([&](const SweepProgress& p) { show_progress(p); },
-              [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
+              [&](size_t number, const string& why) { outcome.failures.emplace_back(number, why); });
     } catch (const ExportError&) {
-      const std::size_t left = job.left(), failed = outcome.failures.size();
+      const size_t left = job.left(), failed = outcome.failures.size();
       cut_ = {outcome.to_do - left, failed, left - failed};
       throw;
     }
     if (!is_part) {
-      std::vector<RunStatus> statuses;
+      vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
       show_progress("runs compared");
       ComparisonWatch watch;
       watch.stop_check = stop_if_interrupted;
-      watch.done = [&](std::size_t done) {
+      watch.done = [&](size_t done) {
         show_progress(SweepProgress{done, 0, job.runs().size() - job.invalid().size()});
       };
-      watch.doubtful = [&](std::size_t runs) { outcome.doubtful = runs; };
+      watch.doubtful = [&](size_t runs) { outcome.doubtful = runs; };
       folder.finish(job.sweep(), statuses, watch);
     } else {
       sync_file_system(folder_);
@@ -148,7 +149,7 @@ class SweepSession {
 
   void show(const SweepOutcome& outcome, const SweepJob& job) const { show_outcome(options_, outcome, job); }
 
-  void show_progress(std::string what) {
+  void show_progress(string what) {
     what_ = std::move(what);
     progress_.emplace(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(fs::path(options_.operands.front()).stem().string()));
@@ -160,11 +161,11 @@ class SweepSession {
   }
 
   const Options& options_;
-  std::string folder_;
+  string folder_;
   Shard shard_;
-  std::string what_;
-  std::optional<Progress> progress_;
-  std::optional<SweepCut> cut_;  // once the runs have ended early
+  string what_;
+  optional<Progress> progress_;
+  optional<SweepCut> cut_;  // once the runs have ended early
 };
 
 }  // namespace

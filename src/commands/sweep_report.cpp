@@ -13,6 +13,7 @@
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
 #include "files/failed_run.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -21,42 +22,42 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t failures_shown = 10;
+constexpr size_t failures_shown = 10;
 
 /// A line for each of the first ones: "r0003: `mass` is 0".
-void describe_skipped(Block& block, const std::vector<std::pair<std::string, std::string>>& skipped) {
+void describe_skipped(Block& block, const vector<std::pair<string, string>>& skipped) {
   if (skipped.empty()) return;
   block.warning("left out", counted(skipped.size(), "invalid run", "invalid runs"));
-  for (std::size_t i = 0; i < std::min(skipped.size(), failures_shown); ++i)
+  for (size_t i = 0; i < std::min(skipped.size(), failures_shown); ++i)
     block.line("", fmt::format("{}: {}", skipped[i].first, printable(skipped[i].second)));
   if (skipped.size() > failures_shown) block.line("", fmt::format("and {} more", skipped.size() - failures_shown));
 }
 
-Json skipped_json(const std::vector<std::pair<std::string, std::string>>& skipped) {
+Json skipped_json(const vector<std::pair<string, string>>& skipped) {
   Json list = Json::array();
   for (const auto& [run, errors] : skipped)
     list.push_back({{"run", run}, {"errors", errors_json(error_of_text(errors))}});
   return list;
 }
 
-std::string state_of(const SweepJob& job, std::size_t number) {
+string state_of(const SweepJob& job, size_t number) {
   if (job.runs()[number].status == RunStatus::done) return "done";
   return stored_failure(job.run_folder(number)).empty() ? "new" : "failed";
 }
 
-std::string name_of(const Options& options) {
+string name_of(const Options& options) {
   return std::filesystem::path(options.operands.front()).stem().string();
 }
 
-Json begin_json(const Options& options, const SweepJob& job, std::string_view status) {
-  return {{"sweep", options.operands.front()}, {"status", std::string(status)}, {"folder", job.folder()}};
+Json begin_json(const Options& options, const SweepJob& job, string_view status) {
+  return {{"sweep", options.operands.front()}, {"status", string(status)}, {"folder", job.folder()}};
 }
 
 }  // namespace
 
 void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job) {
   flush_out();
-  for (std::size_t i = 0; i < std::min(outcome.failures.size(), failures_shown) && !options.json; ++i) {
+  for (size_t i = 0; i < std::min(outcome.failures.size(), failures_shown) && !options.json; ++i) {
     const auto& [number, why] = outcome.failures[i];
     complain(options, fmt::format("{}: the run failed: {}", job.sweep().id(number), why));
   }
@@ -99,16 +100,15 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
 }
 
 void show_cut(const Options& options, const SweepCut& cut) {
-  const std::string failed = cut.failed == 0 ? "" : fmt::format("{} failed, ", grouped(cut.failed));
+  const string failed = cut.failed == 0 ? "" : fmt::format("{} failed, ", grouped(cut.failed));
   complain(options, fmt::format("{}: {} made, {}{} not run", printable(options.operands.front()),
                                 counted(cut.made, "run", "runs"), failed, grouped(cut.not_run)));
 }
 
-void show_failure(const Options& options, std::string_view status, const std::vector<ErrorRecord>& errors,
-                  const std::optional<SweepCut>& cut) {
+void show_failure(const Options& options, string_view status, const vector<ErrorRecord>& errors,
+                  const optional<SweepCut>& cut) {
   if (!options.json) return;
-  Json json = {
-      {"sweep", options.operands.front()}, {"status", std::string(status)}, {"folder", sweep_folder_of(options)}};
+  Json json = {{"sweep", options.operands.front()}, {"status", string(status)}, {"folder", sweep_folder_of(options)}};
   if (cut) json.update({{"made", cut->made}, {"not_run", cut->not_run}});
   if (!errors.empty()) json["errors"] = errors_json(errors);
   write_out(document("sweep", json));
@@ -116,16 +116,16 @@ void show_failure(const Options& options, std::string_view status, const std::ve
 
 void show_plan(const Options& options, const SweepJob& job) {
   const Sweep& sweep = job.sweep();
-  std::vector<std::pair<std::string, std::string>> skipped;
+  vector<std::pair<string, string>> skipped;
   for (const InvalidRun& run : job.invalid()) skipped.emplace_back(sweep.id(run.number), run.messages);
   if (options.json) {
     Json json = begin_json(options, job, "planned");
     json["paths"] = sweep.paths;
     Json runs = Json::array();
-    for (const std::size_t number : job.of_part()) {
+    for (const size_t number : job.of_part()) {
       const SweepRun run = sweep.run(number);
       Json values = Json::object();
-      for (std::size_t p = 0; p < sweep.paths.size(); ++p)
+      for (size_t p = 0; p < sweep.paths.size(); ++p)
         values[sweep.paths[p]] = run.values[p] ? json_of_yaml(*run.values[p]) : Json();
       runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
     }
@@ -135,12 +135,12 @@ void show_plan(const Options& options, const SweepJob& job) {
     return;
   }
   if (options.quiet) return;
-  const std::vector<std::size_t> all = job.of_part();
-  std::vector<std::vector<std::string>> rows;
+  const vector<size_t> all = job.of_part();
+  vector<vector<string>> rows;
   rows.push_back({"run", "state"});
   rows.front().insert(rows.front().end(), sweep.paths.begin(), sweep.paths.end());
-  std::size_t left = 0;
-  for (const std::size_t number : all) {
+  size_t left = 0;
+  for (const size_t number : all) {
     const SweepRun run = sweep.run(number);
     rows.push_back({run.id, state_of(job, number)});
     for (const auto& value : run.values) rows.back().push_back(value ? printable(cell_text(*value)) : "-");

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <memory>
 
 #include "commands/interrupt.h"
 #include "commands/options.h"
@@ -23,6 +22,7 @@
 #include "scene/output_kinds.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "study/sweep_folder.h"
 #include "yaml/values.h"
 
@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool varies(const Sweep& sweep, std::string_view path) {
-  return std::find(sweep.paths.begin(), sweep.paths.end(), path) != sweep.paths.end();
+bool varies(const Sweep& sweep, string_view path) {
+  return std::ranges::find(sweep.paths, path) != sweep.paths.end();
 }
 
-void set_for_all(Sweep& sweep, const std::string& text, std::string_view option) {
-  const std::size_t equals = text.find('=');
-  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+void set_for_all(Sweep& sweep, const string& text, string_view option) {
+  const size_t equals = text.find('=');
+  const string path = text.substr(0, equals), value = text.substr(equals + 1);
   if (varies(sweep, path))
     throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, in_backticks(path)));
   // The last of several values counts.
@@ -49,11 +49,11 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
 }
 
 /// The number in a variable of Slurm.
-std::optional<std::size_t> slurm(const char* name) {
+optional<size_t> slurm(const char* name) {
   const char* text = std::getenv(name);
-  if (text == nullptr) return std::nullopt;
-  std::size_t value = 0;
-  const char* end = text + std::string_view(text).size();
+  if (text == nullptr) return nullopt;
+  size_t value = 0;
+  const char* end = text + string_view(text).size();
   const auto [stop, error] = std::from_chars(text, end, value);
   if (error != std::errc() || stop != end)
     throw UsageError(fmt::format("{} is {}, which is not a number", name, in_backticks(text)), "use --shard I/N");
@@ -68,14 +68,14 @@ bool varies_scene(const Options& options) {
 /// Options of samples need ranges, and ranges need them.
 void refuse_samples(const Options& options) {
   const SweepWords& words = options.sweep;
-  const std::string& file = options.operands.front();
+  const string& file = options.operands.front();
   const bool samples = words.random || words.latin;
   if ((!words.grid.empty() || samples) && is_sweep_file(file))
     throw UsageError(fmt::format("{} a scene; {} is a sweep",
                                  words.grid.empty() ? "--random and --latin vary" : "--grid varies", printable(file)),
                      fmt::format("add to its {}", words.grid.empty() ? "`random` or `latin`" : "`grid`"));
   if (words.random && words.latin) throw UsageError("--random and --latin exclude one another", "remove one of them");
-  const auto open = std::find_if(words.grid.begin(), words.grid.end(), is_open_range);
+  const auto open = std::ranges::find_if(words.grid, is_open_range);
   if (open != words.grid.end() && !samples)
     throw UsageError(fmt::format("--grid {} has no count", printable(*open)),
                      fmt::format("add one, such as {}:6, or draw from it with --latin 50", printable(*open)));
@@ -88,14 +88,14 @@ void refuse_samples(const Options& options) {
 }  // namespace
 
 Sweep read_sweep(const Options& options) {
-  const std::string& file = options.operands.front();
+  const string& file = options.operands.front();
   SweepOptions how{options.seed, options.sweep.random, options.sweep.latin, options.sweep.repeat, false};
   how.color = !options.json && uses_color(options.color, STDERR_FILENO);
   refuse_samples(options);
   Sweep sweep = varies_scene(options) ? grid_sweep(file, options.sweep.grid, how) : load_sweep(file, how);
-  for (const std::string& set : options.set) set_for_all(sweep, set, "--set");
+  for (const string& set : options.set) set_for_all(sweep, set, "--set");
   if (options.seed && sweep.seeds > 0) {
-    if (*options.seed > std::numeric_limits<std::uint64_t>::max() - sweep.seeds)
+    if (*options.seed > std::numeric_limits<uint64_t>::max() - sweep.seeds)
       throw UsageError(fmt::format("--seed {} leaves too few seeds for {} repeats", *options.seed, sweep.seeds));
     sweep.first_seed = options.seed;
   } else if (options.seed) {
@@ -104,19 +104,18 @@ Sweep read_sweep(const Options& options) {
   if (options.sweep.skip_invalid) sweep.skip_invalid = true;
   if (options.only) {
     sweep.only.clear();
-    for (const std::string& name : *options.only) sweep.only.push_back({name, "--only"});
+    for (const string& name : *options.only) sweep.only.push_back({name, "--only"});
   }
-  for (const std::string& name : options.compare.measures) {
+  for (const string& name : options.compare.measures) {
     const auto is_named = [&](const SweepMeasure& measure) { return measure.name == name; };
-    if (std::none_of(sweep.measures.begin(), sweep.measures.end(), is_named))
-      sweep.measures.push_back({name, "--measures"});
+    if (std::ranges::none_of(sweep.measures, is_named)) sweep.measures.push_back({name, "--measures"});
   }
   return sweep;
 }
 
-std::string sweep_folder_of(const Options& options) {
+string sweep_folder_of(const Options& options) {
   if (options.output) return *options.output;
-  const std::string stem = fs::path(options.operands.front()).stem().string();
+  const string stem = fs::path(options.operands.front()).stem().string();
   return (fs::path("output") / (varies_scene(options) ? stem + ".sweep" : stem)).string();
 }
 
@@ -125,9 +124,9 @@ SweepSettings sweep_settings(const Options& options) {
   settings.load.budget.enforced = !options.force;
   settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   // Every scenario has the base's meshes, so each mesh is read once.
-  auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
+  auto known = std::make_shared<std::map<string, vector<Vec3>>>();
   settings.load.measure_fault = measure_fault;
-  settings.load.mesh_points = [known](const std::string& path) {
+  settings.load.mesh_points = [known](const string& path) {
     const auto found = known->find(path);
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
   };
@@ -138,7 +137,7 @@ SweepSettings sweep_settings(const Options& options) {
   settings.checkpoint_s = options.execution.checkpoint_s.value_or(settings.checkpoint_s);
   settings.restrict = [](const Output& requested, const Sweep& sweep) {
     if (sweep.only.empty()) return requested;
-    std::vector<std::string> only;
+    vector<string> only;
     for (const SweepValue& name : sweep.only) only.push_back(name.text);
     return restricted(requested, only);
   };
@@ -149,10 +148,10 @@ SweepSettings sweep_settings(const Options& options) {
 namespace {
 
 /// `where`: "file:line:column", or an option.
-ErrorRecord placed(const std::string& where, const std::string& message) {
+ErrorRecord placed(const string& where, const string& message) {
   ErrorRecord record{where, 0, 0, message, {}, suggestion_in(message)};
-  const std::size_t last = where.rfind(':'), middle = where.rfind(':', last == 0 ? 0 : last - 1);
-  if (last == std::string::npos || middle == std::string::npos || middle == last) return record;
+  const size_t last = where.rfind(':'), middle = where.rfind(':', last == 0 ? 0 : last - 1);
+  if (last == string::npos || middle == string::npos || middle == last) return record;
   const auto line = parse_index(where.substr(middle + 1, last - middle - 1)),
              column = parse_index(where.substr(last + 1));
   if (line && column) record = {where.substr(0, middle), *line, *column, message, {}, record.near};
@@ -160,28 +159,28 @@ ErrorRecord placed(const std::string& where, const std::string& message) {
 }
 
 /// The scenario that stands for all. None: it is invalid.
-std::optional<Scene> first_valid(SweepJob& job) {
-  const std::size_t most = job.sweep().skip_invalid ? job.sweep().size() : 1;
-  for (std::size_t number = 0; number < most; ++number) {
+optional<Scene> first_valid(SweepJob& job) {
+  const size_t most = job.sweep().skip_invalid ? job.sweep().size() : 1;
+  for (size_t number = 0; number < most; ++number) {
     try {
       return job.scene(number);
     } catch (const SceneError&) {
       continue;
     }
   }
-  return std::nullopt;
+  return nullopt;
 }
 
 }  // namespace
 
 void check_comparison(SweepJob& job) {
   const Sweep& sweep = job.sweep();
-  const std::optional<Scene> first = first_valid(job);
+  const optional<Scene> first = first_valid(job);
   if (!first) return;
   const Scene& scene = *first;
-  std::string errors;
-  std::vector<ErrorRecord> records;
-  const auto check = [&](const std::string& where, const auto& work) {
+  string errors;
+  vector<ErrorRecord> records;
+  const auto check = [&](const string& where, const auto& work) {
     try {
       work();
     } catch (const MeasureError& error) {
@@ -202,18 +201,18 @@ void check_comparison(SweepJob& job) {
   if (!records.empty()) throw SceneError(errors, records.size(), records);
 }
 
-std::vector<std::string> notes_on_start(SweepJob& job) {
+vector<string> notes_on_start(SweepJob& job) {
   if (!may_read_files(job.sweep(), job.base_text())) return {};
-  const std::optional<Scene> first = first_valid(job);
-  return first ? first->made_from.notes : std::vector<std::string>();
+  const optional<Scene> first = first_valid(job);
+  return first ? first->made_from.notes : vector<string>();
 }
 
 Shard shard_of(const Options& options) {
   if (options.shard) return *options.shard;
   const auto task = slurm("SLURM_ARRAY_TASK_ID"), count = slurm("SLURM_ARRAY_TASK_COUNT");
   if (!task || !count) return {};
-  const std::size_t step = std::max<std::size_t>(slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
-  const std::size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
+  const size_t step = std::max<size_t>(slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
+  const size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
   const Shard shard{*task < least ? 0 : (*task - least) / step + 1, *count};
   if (shard.index < 1 || shard.index > shard.count || (*task - least) % step != 0)
     throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps", "use --shard I/N");

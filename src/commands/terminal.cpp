@@ -12,6 +12,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "std.h"
 #include "yaml/printable.h"
 #include "yaml/source.h"
 
@@ -32,7 +33,7 @@ bool is_terminal(int descriptor) {
   return isatty(descriptor) == 1;
 }
 
-std::size_t terminal_width(int descriptor) {
+size_t terminal_width(int descriptor) {
   winsize size{};
   if (is_terminal(descriptor) && ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col >= 20) return size.ws_col;
   return is_terminal(descriptor) ? 80 : 100;
@@ -58,30 +59,29 @@ Palette::Palette(bool color) {
 namespace {
 
 /// Length of the escape sequence at the front of `text`, if it is one of Palette's or of a diagnostic's; else 0.
-std::size_t own_sequence(std::string_view text) {
-  for (const std::string_view own :
-       {"\x1b[0m", "\x1b[1m", "\x1b[2m", "\x1b[32m", "\x1b[33m", "\x1b[1;31m", "\x1b[1;32m"})
+size_t own_sequence(string_view text) {
+  for (const string_view own : {"\x1b[0m", "\x1b[1m", "\x1b[2m", "\x1b[32m", "\x1b[33m", "\x1b[1;31m", "\x1b[1;32m"})
     if (text.starts_with(own)) return own.size();
   return 0;
 }
 
 /// Escapes control characters that came into `text` from files and names. Line ends, tabs and the program's own colours
 /// stay.
-std::string harmless(std::string_view text) {
-  std::string result;
+string harmless(string_view text) {
+  string result;
   result.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    std::size_t plain = i;
+  for (size_t i = 0; i < text.size();) {
+    size_t plain = i;
     while (plain < text.size() && text[plain] >= ' ' && text[plain] < 0x7F) ++plain;
     result += text.substr(i, plain - i);
     i = plain;
     if (i == text.size()) break;
-    std::size_t length = text[i] == '\n' || text[i] == '\t' ? 1 : own_sequence(text.substr(i));
+    size_t length = text[i] == '\n' || text[i] == '\t' ? 1 : own_sequence(text.substr(i));
     if (length > 0) {
       result += text.substr(i, length);
     } else {
       char32_t code = 0;
-      length = static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
+      length = static_cast<size_t>(std::max(utf8_length(text, i, code), 1));
       result += printable(text.substr(i, length));
     }
     i += length;
@@ -89,23 +89,23 @@ std::string harmless(std::string_view text) {
   return result;
 }
 
-void write_raw(std::string_view text, std::FILE* stream) {
+void write_raw(string_view text, std::FILE* stream) {
   const bool whole = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   if (!whole && stream == stdout && output_error == 0) output_error = errno;
 }
 
 }  // namespace
 
-void write_out(std::string_view text) {
+void write_out(string_view text) {
   write_raw(harmless(text), stdout);
 }
 
-void write_err(std::string_view text) {
+void write_err(string_view text) {
   write_raw(harmless(text), stderr);
   std::fflush(stderr);
 }
 
-void draw_line(std::string_view text) {
+void draw_line(string_view text) {
   write_raw("\r" + harmless(text) + "\x1b[K", stderr);
   std::fflush(stderr);
 }
@@ -123,7 +123,7 @@ void flush_out() {
   if (std::fflush(stdout) != 0 && output_error == 0) output_error = errno;
 }
 
-bool finish_output(std::string& reason) {
+bool finish_output(string& reason) {
   flush_out();
   if (output_error != 0) reason = std::strerror(output_error);
   return output_error == 0;

@@ -4,52 +4,52 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "std.h"
 #include "yaml/letters.h"
 
 namespace carom {
 
-std::string quantity(double value, std::string_view unit) {
+string quantity(double value, string_view unit) {
   if (std::isnan(value)) return "-";
   return fmt::format("{:.4g} {}", value == 0 ? 0.0 : value, unit);
 }
 
-std::string grouped(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+string grouped(uint64_t count) {
+  string digits = std::to_string(count);
+  for (size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
   return digits;
 }
 
-std::string counted(std::uint64_t count, std::string_view singular, std::string_view plural) {
+string counted(uint64_t count, string_view singular, string_view plural) {
   return fmt::format("{} {}", grouped(count), count == 1 ? singular : plural);
 }
 
-std::string bytes_text(std::uint64_t bytes) {
+string bytes_text(uint64_t bytes) {
   if (bytes < 1000) return counted(bytes, "byte", "bytes");
-  constexpr std::array units = {"kB", "MB", "GB", "TB", "PB", "EB"};
+  constexpr array units = {"kB", "MB", "GB", "TB", "PB", "EB"};
   double value = static_cast<double>(bytes) / 1000;
-  std::size_t unit = 0;
+  size_t unit = 0;
   while (value >= 999.5 && unit + 1 < units.size()) value /= 1000, ++unit;
   return fmt::format(fmt::runtime(value < 9.95 ? "{:.1f} {}" : "{:.0f} {}"), value, units[unit]);
 }
 
-std::string wait_text(double seconds) {
+string wait_text(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) return "-";
   if (seconds < 0.00995) return fmt::format("{:.1f} ms", seconds * 1000);
   if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
   if (seconds < 9.995) return fmt::format("{:.2f} s", seconds);
-  const auto whole = static_cast<std::uint64_t>(std::min(std::round(seconds), 1e15));
+  const auto whole = static_cast<uint64_t>(std::min(std::round(seconds), 1e15));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-std::string listed(const std::vector<std::string>& names, std::size_t most) {
-  const std::size_t shown = names.size() <= most ? names.size() : most;
-  std::string text;
-  for (std::size_t i = 0; i < shown; ++i) {
+string listed(const vector<string>& names, size_t most) {
+  const size_t shown = names.size() <= most ? names.size() : most;
+  string text;
+  for (size_t i = 0; i < shown; ++i) {
     if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
     text += names[i];
   }
@@ -57,16 +57,16 @@ std::string listed(const std::vector<std::string>& names, std::size_t most) {
   return text;
 }
 
-std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
-  std::string result;
+string wrapped(string_view text, size_t indent, size_t width) {
+  string result;
   // The caller writes the beginning of the first line.
-  std::size_t column = indent;
+  size_t column = indent;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    const std::size_t length = letters_of(word);
+    const size_t end = std::min(text.find(' '), text.size());
+    const string_view word = text.substr(0, end);
+    const size_t length = letters_of(word);
     if (column > indent && column + 1 + length > width) {
-      result += '\n' + std::string(indent, ' ');
+      result += '\n' + string(indent, ' ');
       column = indent;
     } else if (column > indent) {
       result += ' ';
@@ -79,20 +79,20 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
   return result;
 }
 
-std::string shell_word(const std::string& word) {
+string shell_word(const string& word) {
   if (printable(word) != word) {
     // In octal, so that the word can be read and copied.
-    std::string octal;
+    string octal;
     for (const char c : word) octal += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
     return "\"$(printf '" + octal + "')\"";
   }
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+  const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./=,:@%+").find(c) != std::string_view::npos;
+           string_view("_-./=,:@%+").find(c) != string_view::npos;
   });
   if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  string out = "'";
+  for (const char c : word) out += c == '\'' ? string("'\\''") : string(1, c);
   return out + "'";
 }
 

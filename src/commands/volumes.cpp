@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "commands/text.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -21,9 +19,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t kinds_shown = 10, names_shown = 3;
+constexpr size_t kinds_shown = 10, names_shown = 3;
 
-std::string volume_text(const Volume& volume) {
+string volume_text(const Volume& volume) {
   switch (volume.shape) {
     case Shape::sphere:
       return fmt::format("a sphere of radius {}", quantity(volume.half.x(), "m"));
@@ -51,22 +49,22 @@ Json volume_json(const Volume& volume) {
 
 }  // namespace
 
-std::string volumes_text(const Scene& scene) {
+string volumes_text(const Scene& scene) {
   struct Alike {
-    std::string text;
-    std::vector<std::string> names;
+    string text;
+    vector<string> names;
   };
-  std::vector<Alike> all;
-  std::unordered_map<std::string, std::size_t> numbers;  // in `all`, by text
+  vector<Alike> all;
+  std::unordered_map<string, size_t> numbers;  // in `all`, by text
   const World& world = scene.world;
-  const auto add = [&](Entity e, const std::string& name, const std::optional<MeshUse>& mesh) {
-    std::string text = volume_text(world.volume_of(e));
+  const auto add = [&](Entity e, const string& name, const optional<MeshUse>& mesh) {
+    string text = volume_text(world.volume_of(e));
     if (mesh) text += fmt::format(", drawn as {}", printable(std::filesystem::path(mesh->file).filename().string()));
     const auto [found, fresh] = numbers.emplace(text, all.size());
     if (fresh) all.push_back({text, {}});
-    std::vector<std::string>& names = all[found->second].names;
+    vector<string>& names = all[found->second].names;
     // All members of a repeated thing are named once.
-    const std::string_view family = family_of(name), thing = family.empty() ? std::string_view(name) : family;
+    const string_view family = family_of(name), thing = family.empty() ? string_view(name) : family;
     if (names.empty() || names.back() != thing) names.emplace_back(thing);
   };
   for (const BodyRange& range : scene.roster.bodies) {
@@ -77,13 +75,13 @@ std::string volumes_text(const Scene& scene) {
   for (auto i = static_cast<Entity>(world.planes.size() + world.walls.size()); i < world.fixed_count(); ++i) {
     add(world.body_count() + i, scene.roster.fixed[i].name, scene.roster.fixed[i].mesh);
   }
-  std::vector<std::string> texts;
+  vector<string> texts;
   for (const Alike& alike : all) {
     if (texts.size() == kinds_shown) break;
     texts.push_back(
         fmt::format("{} {}{}", listed(alike.names, names_shown), alike.names.size() > 1 ? "each " : "", alike.text));
   }
-  const std::string text = joined(texts, "; ");
+  const string text = joined(texts, "; ");
   return all.size() > texts.size() ? text + fmt::format("; and {} more kinds", grouped(all.size() - texts.size()))
                                    : text;
 }

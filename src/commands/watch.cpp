@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
-#include <vector>
 
 #include "commands/file_watch.h"
 #include "commands/interrupt.h"
@@ -16,6 +15,7 @@
 #include "commands/run.h"
 #include "commands/scene_files.h"
 #include "commands/text.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,8 +26,8 @@ class WatchSession {
   explicit WatchSession(const Options& options) : options_(options), files_(options.operands.size()) {}
 
   int go() {
-    std::set<std::string> changed(options_.operands.begin(), options_.operands.end());
-    for (std::size_t i = 0; i < files_.size(); ++i) files_[i] = {options_.operands[i]};
+    std::set<string> changed(options_.operands.begin(), options_.operands.end());
+    for (size_t i = 0; i < files_.size(); ++i) files_[i] = {options_.operands[i]};
     watch_.follow(changed);
     while (true) {
       if (const int code = round(changed); code > 2) return code;
@@ -38,29 +38,28 @@ class WatchSession {
   }
 
  private:
-  static constexpr std::size_t names_shown = 6;
+  static constexpr size_t names_shown = 6;
 
   /// Gives the exit code of the runs.
-  int round(const std::set<std::string>& changed) {
-    std::vector<PlannedScene> scenes = named_scenes(options_), affected;
-    std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      if (std::none_of(files_[i].begin(), files_[i].end(), [&](const auto& file) { return changed.contains(file); }))
-        continue;
+  int round(const std::set<string>& changed) {
+    vector<PlannedScene> scenes = named_scenes(options_), affected;
+    vector<size_t> numbers;
+    for (size_t i = 0; i < scenes.size(); ++i) {
+      if (std::ranges::none_of(files_[i], [&](const auto& file) { return changed.contains(file); })) continue;
       numbers.push_back(i);
       affected.push_back(std::move(scenes[i]));
     }
     affected = plan_scenes(std::move(affected), options_, Purpose::run,
                            [&](PlannedScene& planned) { renew_pictures(planned, changed); });
-    for (std::size_t k = 0; k < affected.size(); ++k) files_[numbers[k]] = files_of_scene(affected[k]);
+    for (size_t k = 0; k < affected.size(); ++k) files_[numbers[k]] = files_of_scene(affected[k]);
     follow();
     refuse_other_content(affected, options_);
     return run(std::move(affected));
   }
 
   /// Scenes with errors do not keep the others from running.
-  int run(std::vector<PlannedScene> scenes) const {
-    std::vector<PlannedScene> right;
+  int run(vector<PlannedScene> scenes) const {
+    vector<PlannedScene> right;
     for (PlannedScene& planned : scenes) {
       if (planned.errors == 0) {
         right.push_back(std::move(planned));
@@ -74,31 +73,30 @@ class WatchSession {
   }
 
   /// Textures and materials are not among what makes a run up to date.
-  static void renew_pictures(PlannedScene& planned, const std::set<std::string>& changed) {
+  static void renew_pictures(PlannedScene& planned, const std::set<string>& changed) {
     if (planned.content != FolderContent::this_run || !planned.scene || !planned.scene->output.pictures()) return;
-    const std::set<std::string> files = files_of_scene(planned);
-    if (std::any_of(files.begin(), files.end(),
-                    [&](const auto& file) { return file != planned.file && changed.contains(file); }))
+    const std::set<string> files = files_of_scene(planned);
+    if (std::ranges::any_of(files, [&](const auto& file) { return file != planned.file && changed.contains(file); }))
       planned.content = FolderContent::incomplete;
   }
 
   void follow() {
-    std::set<std::string> all;
+    std::set<string> all;
     for (const auto& files : files_) all.insert(files.begin(), files.end());
     watch_.follow(all);
   }
 
-  std::vector<std::string> watched() const {
-    std::vector<std::string> names;
-    for (const std::string& scene : options_.operands) names.push_back(printable(scene));
-    std::size_t others = 0;
+  vector<string> watched() const {
+    vector<string> names;
+    for (const string& scene : options_.operands) names.push_back(printable(scene));
+    size_t others = 0;
     for (const auto& files : files_) others += files.size() - 1;
     if (others > 0) names.push_back(counted(others, "other file", "other files"));
     return names;
   }
 
   const Options& options_;
-  std::vector<std::set<std::string>> files_;  // by scene
+  vector<std::set<string>> files_;  // by scene
   FileWatch watch_;
 };
 

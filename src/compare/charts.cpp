@@ -6,32 +6,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24;
+constexpr size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24;
 /// Points of a chart, which has fewer pixels than that.
-constexpr std::size_t most_charted = 2000;
+constexpr size_t most_charted = 2000;
 
-std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, std::string_view name) {
-  for (std::size_t k = 0; k < measures.size(); ++k)
+optional<size_t> find_measure(const vector<Measure>& measures, string_view name) {
+  for (size_t k = 0; k < measures.size(); ++k)
     if (measures[k].name == name) return k;
-  return std::nullopt;
+  return nullopt;
 }
 
 /// The x axis: a number or a text for each point.
 struct XAxis {
-  std::string label;
+  string label;
   // `chosen`: a parameter and not a measure.
   bool numeric = true, chosen = true;
-  std::function<Cell(std::size_t)> of_point;
+  function<Cell(size_t)> of_point;
 };
 
-XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const vector<Measure>& measures,
              const Outcomes& outcomes) {
   XAxis axis;
   const auto parameter = find_parameter(plan, chart.x);
@@ -40,41 +41,40 @@ XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const std::vector<M
     const Varied& varied = outcomes.varied()[*parameter];
     axis.label = label_of(plan.parameters[*parameter]);
     axis.numeric = varied.numeric;
-    axis.of_point = [&varied](std::size_t i) { return varied.values[varied.of_point[i]]; };
+    axis.of_point = [&varied](size_t i) { return varied.values[varied.of_point[i]]; };
   } else if (measure) {
     axis.label = label_of(chart.x);
     axis.chosen = false;
-    axis.of_point = [&outcomes, m = *measure](std::size_t i) { return Cell{{}, outcomes.spread(i, m).mean()}; };
+    axis.of_point = [&outcomes, m = *measure](size_t i) { return Cell{{}, outcomes.spread(i, m).mean()}; };
   } else {
     axis.label = "run";
     axis.numeric = false;
-    axis.of_point = [&outcomes](std::size_t i) { return Cell{std::string(outcomes.id(i))}; };
+    axis.of_point = [&outcomes](size_t i) { return Cell{string(outcomes.id(i))}; };
   }
   return axis;
 }
 
 }  // namespace
 
-std::optional<std::size_t> find_parameter(const ComparisonPlan& plan, std::string_view path) {
-  for (std::size_t p = 0; p < plan.parameters.size(); ++p)
+optional<size_t> find_parameter(const ComparisonPlan& plan, string_view path) {
+  for (size_t p = 0; p < plan.parameters.size(); ++p)
     if (plan.parameters[p].path == path) return p;
-  return std::nullopt;
+  return nullopt;
 }
 
-std::string label_of(const Parameter& parameter) {
+string label_of(const Parameter& parameter) {
   return parameter.unit.empty() ? parameter.path : fmt::format("{} ({})", parameter.path, parameter.unit);
 }
 
-std::string name_of_value(const Parameter& parameter, const std::string& value) {
+string name_of_value(const Parameter& parameter, const string& value) {
   return fmt::format("{} = {}{}{}", parameter.path, value, parameter.unit.empty() ? "" : " ", parameter.unit);
 }
 
-std::vector<Chart> chosen_charts(const ComparisonPlan& plan, const std::vector<Measure>& measures,
-                                 const Outcomes& outcomes) {
+vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes) {
   if (!plan.charts.empty()) return plan.charts;
-  std::vector<std::size_t> independent = outcomes.independent();
-  const auto values = [&](std::size_t p) { return outcomes.varied()[p].values.size(); };
-  std::string x, by;
+  vector<size_t> independent = outcomes.independent();
+  const auto values = [&](size_t p) { return outcomes.varied()[p].values.size(); };
+  string x, by;
   if (!independent.empty()) {
     // The parameter with few values makes the lines.
     if (independent.size() > 1 && values(independent[1]) > most_default_lines &&
@@ -84,17 +84,16 @@ std::vector<Chart> chosen_charts(const ComparisonPlan& plan, const std::vector<M
     if (independent.size() > 1 && values(independent[1]) <= most_default_lines)
       by = plan.parameters[independent[1]].path;
   }
-  std::vector<Chart> charts;
-  for (std::size_t k = 0; k < measures.size() && k < most_default_charts; ++k)
-    charts.push_back({x, measures[k].name, by});
+  vector<Chart> charts;
+  for (size_t k = 0; k < measures.size() && k < most_default_charts; ++k) charts.push_back({x, measures[k].name, by});
   return charts;
 }
 
-ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vector<Measure>& measures,
                      const Outcomes& outcomes) {
   const XAxis axis = x_axis(chart, plan, measures, outcomes);
-  const std::size_t y = find_measure(measures, chart.y).value_or(0);
-  const auto by = chart.by.empty() ? std::nullopt : find_parameter(plan, chart.by);
+  const size_t y = find_measure(measures, chart.y).value_or(0);
+  const auto by = chart.by.empty() ? nullopt : find_parameter(plan, chart.by);
   const Varied* lines = by && by != plan.seed ? &outcomes.varied()[*by] : nullptr;
   ChartData data;
   data.x_label = axis.label;
@@ -102,33 +101,33 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
   data.title = fmt::format("{} by {}", data.y_label, axis.label);
   data.numeric = axis.numeric;
 
-  const std::size_t all = lines == nullptr ? 1 : lines->values.size();
+  const size_t all = lines == nullptr ? 1 : lines->values.size();
   data.lines.resize(std::min(all, most_lines));
   if (all > most_lines) data.note = fmt::format("{} of {} values of {}", most_lines, all, chart.by);
-  for (std::size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
+  for (size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
     data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
 
   // Make a row for each x, and several rows if a line has several points there.
-  const auto line_of = [&](std::size_t i) -> std::size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
-  std::vector<std::size_t> points_of_line(data.lines.size());
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < outcomes.points(); ++i) shown += line_of(i) < data.lines.size() ? 1 : 0;
-  const std::size_t every = 1 + (std::max<std::size_t>(shown, 1) - 1) / most_charted;
+  const auto line_of = [&](size_t i) -> size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
+  vector<size_t> points_of_line(data.lines.size());
+  size_t shown = 0;
+  for (size_t i = 0; i < outcomes.points(); ++i) shown += line_of(i) < data.lines.size() ? 1 : 0;
+  const size_t every = 1 + (std::max<size_t>(shown, 1) - 1) / most_charted;
   if (every * outcomes.every() > 1)
     data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
   // x, or the order of its text; the number of earlier points with it.
-  using Row = std::pair<std::pair<double, std::size_t>, std::size_t>;
-  std::map<Row, std::vector<std::pair<std::size_t, std::size_t>>> rows;  // line and point
-  std::map<std::string, std::size_t> texts;
-  std::map<std::pair<std::size_t, std::pair<double, std::size_t>>, std::size_t> seen;
-  for (std::size_t i = 0; i < outcomes.points(); ++i) {
-    const std::size_t line = line_of(i);
+  using Row = std::pair<std::pair<double, size_t>, size_t>;
+  std::map<Row, vector<std::pair<size_t, size_t>>> rows;  // line and point
+  std::map<string, size_t> texts;
+  std::map<std::pair<size_t, std::pair<double, size_t>>, size_t> seen;
+  for (size_t i = 0; i < outcomes.points(); ++i) {
+    const size_t line = line_of(i);
     // Each line is thinned separately, so that no line is lost.
     if (line >= data.lines.size() || points_of_line[line]++ % every != 0) continue;
     const Cell x = axis.of_point(i);
     if (axis.numeric && !x.is_number()) continue;
-    const std::pair<double, std::size_t> key =
-        axis.numeric ? std::pair(x.number, std::size_t{0}) : std::pair(0.0, texts.emplace(x.text, i).first->second);
+    const std::pair<double, size_t> key =
+        axis.numeric ? std::pair(x.number, size_t{0}) : std::pair(0.0, texts.emplace(x.text, i).first->second);
     rows[{key, seen[{line, key}]++}].emplace_back(line, i);
   }
   for (ChartLine& line : data.lines) {

@@ -6,47 +6,48 @@
 
 #include "compare/data_dictionary.h"
 #include "compare/number_look.h"
+#include "std.h"
 
 namespace carom {
 
-CollisionSheet::CollisionSheet(Worksheet& sheet, std::size_t runs)
-    : sheet_(sheet), share_(std::max<std::size_t>(1, most / std::max<std::size_t>(runs, 1))) {}
+CollisionSheet::CollisionSheet(Worksheet& sheet, size_t runs)
+    : sheet_(sheet), share_(std::max<size_t>(1, most / std::max<size_t>(runs, 1))) {}
 
 void CollisionSheet::add(const RunRecord& run) {
   if (!run.done || rows_.size() >= most || !has_file(run, "collisions.csv")) return;
   StoredTable table = open_table(run, "collisions.csv");
-  std::vector<std::size_t> from;
+  vector<size_t> from;
   for (const ColumnText& text : collision_columns())
     from.push_back(table.find(text.name).value_or(table.columns().size()));
   ids_.push_back(run.run.id);
-  std::size_t taken = 0;
+  size_t taken = 0;
   while (const auto* cells = table.next()) {
     if (taken++ == share_) {
       full_ = true;
       return;
     }
-    Row& row = rows_.emplace_back(Row{static_cast<std::uint32_t>(ids_.size() - 1), {}});
-    for (const std::size_t k : from) row.cells.emplace_back(k < cells->size() ? (*cells)[k] : "");
+    Row& row = rows_.emplace_back(Row{static_cast<uint32_t>(ids_.size() - 1), {}});
+    for (const size_t k : from) row.cells.emplace_back(k < cells->size() ? (*cells)[k] : "");
   }
 }
 
 void CollisionSheet::finish() {
-  std::vector<NumberLook> looks(collision_columns().size());
+  vector<NumberLook> looks(collision_columns().size());
   for (const Row& row : rows_)
-    for (std::size_t k = 0; k < looks.size(); ++k) looks[k].add(cell_of(row.cells[k]).number);
+    for (size_t k = 0; k < looks.size(); ++k) looks[k].add(cell_of(row.cells[k]).number);
   sheet_.set_head_row(0);
   sheet_.head(0, 0, "run");
-  std::size_t column = 1;
+  size_t column = 1;
   for (const ColumnText& text : collision_columns()) sheet_.head(0, column++, label_of(text.name));
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (size_t i = 0; i < rows_.size(); ++i) {
     sheet_.text(1 + i, 0, ids_[rows_[i].run]);
-    for (std::size_t k = 0; k < looks.size(); ++k)
+    for (size_t k = 0; k < looks.size(); ++k)
       sheet_.cell(1 + i, 1 + k, cell_of(rows_[i].cells[k]), CellStyle::plain, &looks[k]);
   }
   if (rows_.empty()) sheet_.text(1, 0, "No run has collisions in a collisions.csv.", CellStyle::note);
   sheet_.fit_table();
   sheet_.freeze(1, 1);
-  worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(rows_.size(), 1)),
+  worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<size_t>(rows_.size(), 1)),
                        static_cast<lxw_col_t>(collision_columns().size()));
   sheet_.print_table(0);
 }

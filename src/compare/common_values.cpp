@@ -7,15 +7,16 @@
 #include "files/stored_file.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
 namespace {
 
 /// Returns the text up to the next separator and removes it from `rest`.
-std::string_view take(std::string_view& rest, char separator) {
-  const std::size_t end = std::min(rest.find(separator), rest.size());
-  const std::string_view part = rest.substr(0, end);
+string_view take(string_view& rest, char separator) {
+  const size_t end = std::min(rest.find(separator), rest.size());
+  const string_view part = rest.substr(0, end);
   rest.remove_prefix(std::min(end + 1, rest.size()));
   return part;
 }
@@ -36,37 +37,37 @@ void CommonValues::add(const RunRecord& run) {
 }
 
 // A resolved scene has a line for each thing and a comma between its values. Ten thousand scenes need not be parsed.
-void CommonValues::compare(std::string_view other) {
-  if (std::count(text_.begin(), text_.end(), '\n') != std::count(other.begin(), other.end(), '\n')) {
+void CommonValues::compare(string_view other) {
+  if (std::ranges::count(text_, '\n') != std::ranges::count(other, '\n')) {
     same_.assign(text_.size(), false);
     return;
   }
-  const auto differ = [&](std::string_view part) {
+  const auto differ = [&](string_view part) {
     const auto from = same_.begin() + (part.data() - text_.data());
-    std::fill(from, from + static_cast<std::ptrdiff_t>(part.size()), false);
+    std::fill(from, from + static_cast<ptrdiff_t>(part.size()), false);
   };
-  for (std::string_view rest = text_; !rest.empty();) {
-    std::string_view line = take(rest, '\n'), other_line = take(other, '\n');
+  for (string_view rest = text_; !rest.empty();) {
+    string_view line = take(rest, '\n'), other_line = take(other, '\n');
     if (line == other_line) continue;
-    if (std::count(line.begin(), line.end(), ',') != std::count(other_line.begin(), other_line.end(), ',')) {
+    if (std::ranges::count(line, ',') != std::ranges::count(other_line, ',')) {
       differ(line);
       continue;
     }
     while (!line.empty()) {
-      const std::string_view value = take(line, ',');
+      const string_view value = take(line, ',');
       if (value != take(other_line, ',')) differ(value);
     }
   }
 }
 
-std::vector<SceneValue> CommonValues::values() const {
-  std::vector<SceneValue> common;
+vector<SceneValue> CommonValues::values() const {
+  vector<SceneValue> common;
   if (text_.empty()) return common;
   for (SceneValue& value : scene_values(folder_ + "/scene.yaml", text_)) {
     // A text or a list may contain commas, and differ after them.
-    const std::size_t length = value.text.find(',') == std::string::npos ? 1 : value.text.size();
-    const auto from = same_.begin() + static_cast<std::ptrdiff_t>(std::min(value.offset, same_.size()));
-    const auto until = from + std::min(static_cast<std::ptrdiff_t>(length), same_.end() - from);
+    const size_t length = value.text.find(',') == string::npos ? 1 : value.text.size();
+    const auto from = same_.begin() + static_cast<ptrdiff_t>(std::min(value.offset, same_.size()));
+    const auto until = from + std::min(static_cast<ptrdiff_t>(length), same_.end() - from);
     if (std::find(from, until, false) == until) common.push_back(std::move(value));
   }
   return common;

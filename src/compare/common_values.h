@@ -1,11 +1,9 @@
 #pragma once
 // The values that the scenes of many runs have in common, found with one scene in memory.
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "compare/compared_run.h"
 #include "scene/scene_values.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,13 +12,13 @@ class CommonValues {
   /// Reads the run's scene.yaml.
   void add(const RunRecord& run);
   /// The values common to all scenes so far. None if their texts differ in more than values.
-  std::vector<SceneValue> values() const;
+  vector<SceneValue> values() const;
 
  private:
-  void compare(std::string_view other);
+  void compare(string_view other);
 
-  std::string folder_, text_;  // of the first run
-  std::vector<bool> same_;     // by byte of text_
+  string folder_, text_;  // of the first run
+  vector<bool> same_;     // by byte of text_
 };
 
 }  // namespace carom

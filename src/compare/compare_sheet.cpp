@@ -5,56 +5,56 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr double column_width = 13;  // characters: 96 pixels
-constexpr std::size_t columns_of_chart = 7, rows_of_chart = 20, charts_across = 2;
-constexpr std::uint32_t chart_width = 650, chart_height = 385;  // pixels
+constexpr size_t columns_of_chart = 7, rows_of_chart = 20, charts_across = 2;
+constexpr uint32_t chart_width = 650, chart_height = 385;  // pixels
 /// Error bars of a chart. Each is a series of its own.
-constexpr std::size_t most_bars = 120;
-constexpr std::size_t most_marked = 200;  // points of a line with markers
-constexpr std::size_t most_differences = 12;
+constexpr size_t most_bars = 120;
+constexpr size_t most_marked = 200;  // points of a line with markers
+constexpr size_t most_differences = 12;
 
 // Distinct for people with colour vision deficiency, too (Okabe and Ito 2008).
-constexpr std::array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
-                                               0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
+constexpr array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
+                                          0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
 
-lxw_color_t color_of(std::size_t number) {
+lxw_color_t color_of(size_t number) {
   return colors[number % colors.size()];
 }
 
 struct CellRange {
   const char* sheet;
-  std::size_t first_row, column, last_row;
+  size_t first_row, column, last_row;
 };
 
-lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const std::string& name) {
+lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const string& name) {
   lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
-  const auto row = [](std::size_t n) { return static_cast<lxw_row_t>(n); };
-  const auto column = [](std::size_t n) { return static_cast<lxw_col_t>(n); };
+  const auto row = [](size_t n) { return static_cast<lxw_row_t>(n); };
+  const auto column = [](size_t n) { return static_cast<lxw_col_t>(n); };
   chart_series_set_categories(series, x.sheet, row(x.first_row), column(x.column), row(x.last_row), column(x.column));
   chart_series_set_values(series, y.sheet, row(y.first_row), column(y.column), row(y.last_row), column(y.column));
   if (!name.empty()) chart_series_set_name(series, name.c_str());
   return series;
 }
 
-void set_line(lxw_chart_series* series, std::size_t number, bool drawn) {
+void set_line(lxw_chart_series* series, size_t number, bool drawn) {
   lxw_chart_line line{};
   line.color = color_of(number);
-  line.dash_type =
-      static_cast<std::uint8_t>(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
+  line.dash_type = static_cast<uint8_t>(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
   line.width = 1.75F;
   line.none = drawn ? LXW_FALSE : LXW_TRUE;
   chart_series_set_line(series, &line);
 }
 
-void set_marker(lxw_chart_series* series, std::size_t number, bool drawn) {
+void set_marker(lxw_chart_series* series, size_t number, bool drawn) {
   chart_series_set_marker_type(series, drawn ? LXW_CHART_MARKER_CIRCLE : LXW_CHART_MARKER_NONE);
   if (!drawn) return;
   lxw_chart_fill fill{};
@@ -66,7 +66,7 @@ void set_marker(lxw_chart_series* series, std::size_t number, bool drawn) {
   chart_series_set_marker_line(series, &edge);
 }
 
-void set_texts(lxw_chart* chart, const std::string& title, const std::string& x, const std::string& y, bool legend) {
+void set_texts(lxw_chart* chart, const string& title, const string& x, const string& y, bool legend) {
   lxw_chart_font large{}, small{};
   large.size = 12;
   large.bold = LXW_TRUE;
@@ -90,8 +90,7 @@ void set_texts(lxw_chart* chart, const std::string& title, const std::string& x,
 
 /// Draws a standard deviation up and down from one point.
 /// It is a series of its own, because the error bars of one series all have the same length.
-void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, std::size_t row, double length,
-             std::size_t number) {
+void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, size_t row, double length, size_t number) {
   lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
   set_line(point, number, false);
   set_marker(point, number, false);
@@ -124,7 +123,7 @@ void set_ends(lxw_chart_axis* axis, double low, double high) {
 std::pair<double, double> ends_of(const ChartData& data) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const ChartLine& line : data.lines)
-    for (std::size_t row = 0; row < line.y.size(); ++row) {
+    for (size_t row = 0; row < line.y.size(); ++row) {
       if (!std::isfinite(line.y[row])) continue;
       const double sd = line.spread.empty() || !(line.spread[row] > 0) ? 0 : line.spread[row];
       low = std::min(low, line.y[row] - sd);
@@ -133,17 +132,16 @@ std::pair<double, double> ends_of(const ChartData& data) {
   return {low, high};
 }
 
-std::size_t bars_of(const ChartData& data) {
-  std::size_t bars = 0;
+size_t bars_of(const ChartData& data) {
+  size_t bars = 0;
   for (const ChartLine& line : data.lines)
-    bars += static_cast<std::size_t>(
-        std::count_if(line.spread.begin(), line.spread.end(), [](double sd) { return sd > 0; }));
+    bars += static_cast<size_t>(std::ranges::count_if(line.spread, [](double sd) { return sd > 0; }));
   return bars;
 }
 
 }  // namespace
 
-void CompareSheet::place(lxw_chart* chart, std::size_t number) {
+void CompareSheet::place(lxw_chart* chart, size_t number) {
   lxw_chart_options options{};
   // In units of the library's size, 480 x 288 pixels.
   options.x_scale = chart_width / 480.0;
@@ -153,14 +151,14 @@ void CompareSheet::place(lxw_chart* chart, std::size_t number) {
                              static_cast<lxw_col_t>(number % charts_across * columns_of_chart), chart, &options);
 }
 
-void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t first_row) {
-  const std::size_t last_row = first_row + data.x.size() - 1;
-  const std::size_t bars = bars_of(data);
+void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) {
+  const size_t last_row = first_row + data.x.size() - 1;
+  const size_t bars = bars_of(data);
   const bool barred = data.numeric && bars > 0 && bars <= most_bars;
   // Texts along x are drawn as columns, in their order.
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
   const CellRange x{"Compare", first_row, 0, last_row};
-  for (std::size_t k = 0; k < data.lines.size(); ++k) {
+  for (size_t k = 0; k < data.lines.size(); ++k) {
     lxw_chart_series* series = add_series(chart, x, {"Compare", first_row, 1 + k, last_row}, data.lines[k].name);
     if (data.numeric) {
       set_line(series, k, data.joined && data.x.size() > 1);
@@ -171,15 +169,15 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
       chart_series_set_fill(series, &fill);
     }
   }
-  std::vector<std::int16_t> unnamed;
-  for (std::size_t k = 0; barred && k < data.lines.size(); ++k)
-    for (std::size_t row = 0; row < data.x.size(); ++row)
+  vector<int16_t> unnamed;
+  for (size_t k = 0; barred && k < data.lines.size(); ++k)
+    for (size_t row = 0; row < data.x.size(); ++row)
       if (const double sd = data.lines[k].spread[row]; sd > 0) {
-        unnamed.push_back(static_cast<std::int16_t>(data.lines.size() + unnamed.size()));
+        unnamed.push_back(static_cast<int16_t>(data.lines.size() + unnamed.size()));
         add_bar(chart, x, {"Compare", first_row, 1 + k, last_row}, first_row + row, sd, k);
       }
   unnamed.push_back(-1);
-  std::string title = data.title;
+  string title = data.title;
   if (barred) title += ", mean ± standard deviation";
   if (!data.note.empty()) title += fmt::format(" ({})", data.note);
   set_texts(chart, title, data.x_label, data.y_label, data.lines.size() > 1);
@@ -191,10 +189,10 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
   place(chart, number);
 }
 
-void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number, std::size_t scenarios) {
+void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t number, size_t scenarios) {
   lxw_chart* chart = book_.add_chart(LXW_CHART_SCATTER_STRAIGHT);
-  const std::string& name = series.front().name;
-  std::size_t drawn = 0;
+  const string& name = series.front().name;
+  size_t drawn = 0;
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
   for (const PlacedSeries& one : series) {
     if (one.name != name) continue;
@@ -210,44 +208,44 @@ void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::
   constexpr double noise = 1e-6;
   const double largest = std::max(std::abs(low), std::abs(high));
   if (high - low < noise * largest) set_ends(chart->y_axis, std::min(low, 0.0), std::max(high, 0.0));
-  std::string title = fmt::format("{} over time", label_of(name));
+  string title = fmt::format("{} over time", label_of(name));
   if (scenarios > drawn) title += fmt::format(" ({} of {})", drawn, scenarios);
   set_texts(chart, title, "time (s)", label_of(name), drawn > 1);
   place(chart, number);
 }
 
 /// The points of a chart, below those of the charts before it.
-void CompareSheet::write_data(const ChartData& chart, std::size_t first_row) {
+void CompareSheet::write_data(const ChartData& chart, size_t first_row) {
   sheet_.text(first_row, 0, chart.title, CellStyle::note);
   sheet_.set_head_row(first_row + 1);
   sheet_.head(first_row + 1, 0, chart.x_label, CellStyle::swept_header);
   NumberLook x_look, look;
   for (const Cell& x : chart.x) x_look.add(x.number);
-  for (std::size_t k = 0; k < chart.lines.size(); ++k) {
-    const std::string& name = chart.lines[k].name;
+  for (size_t k = 0; k < chart.lines.size(); ++k) {
+    const string& name = chart.lines[k].name;
     sheet_.head(first_row + 1, 1 + k, name.empty() ? chart.y_label : name);
     for (const double y : chart.lines[k].y) look.add(y);
   }
-  for (std::size_t row = 0; row < chart.x.size(); ++row) {
+  for (size_t row = 0; row < chart.x.size(); ++row) {
     sheet_.cell(first_row + 2 + row, 0, chart.x[row], CellStyle::swept, &x_look);
-    for (std::size_t k = 0; k < chart.lines.size(); ++k)
+    for (size_t k = 0; k < chart.lines.size(); ++k)
       sheet_.number(first_row + 2 + row, 1 + k, chart.lines[k].y[row], CellStyle::plain, &look);
   }
 }
 
 void CompareSheet::write_differences(const ComparisonPlan& plan, const DifferenceList& differences) {
-  constexpr std::size_t columns_of_path = 3;
+  constexpr size_t columns_of_path = 3;
   sheet_.text(charts_row_, 0, "What differs", CellStyle::header);
-  for (std::size_t k = 1; k < columns_of_path; ++k) sheet_.text(charts_row_, k, "", CellStyle::header);
-  for (std::size_t k = 0; k < differences.runs.size(); ++k)
+  for (size_t k = 1; k < columns_of_path; ++k) sheet_.text(charts_row_, k, "", CellStyle::header);
+  for (size_t k = 0; k < differences.runs.size(); ++k)
     sheet_.text(charts_row_, columns_of_path + k, differences.runs[k], CellStyle::header);
   ++charts_row_;
-  const std::size_t shown = std::min(differences.rows.size(), most_differences);
-  for (std::size_t i = 0; i < shown; ++i, ++charts_row_) {
+  const size_t shown = std::min(differences.rows.size(), most_differences);
+  for (size_t i = 0; i < shown; ++i, ++charts_row_) {
     const Difference& difference = differences.rows[i];
     sheet_.text(charts_row_, 0, label_of(plan.parameters[difference.parameter]));
-    for (std::size_t k = 0; k < difference.values.size(); ++k) {
-      const std::string& value = difference.values[k];
+    for (size_t k = 0; k < difference.values.size(); ++k) {
+      const string& value = difference.values[k];
       sheet_.cell(charts_row_, columns_of_path + k, value.empty() ? Cell{"-"} : cell_of(value));
     }
   }
@@ -258,12 +256,12 @@ void CompareSheet::write_differences(const ComparisonPlan& plan, const Differenc
 }
 
 /// Prints the charts alone, two rows of them on a page. The tables below them repeat what other sheets have.
-void CompareSheet::set_pages(std::size_t charts, std::size_t last_row) {
-  constexpr std::size_t rows_on_page = 46;
-  std::vector<std::size_t> breaks;
-  std::size_t page = 0;
-  for (std::size_t k = 0; k < (charts + charts_across - 1) / charts_across; ++k) {
-    const std::size_t row = charts_row_ + k * rows_of_chart;
+void CompareSheet::set_pages(size_t charts, size_t last_row) {
+  constexpr size_t rows_on_page = 46;
+  vector<size_t> breaks;
+  size_t page = 0;
+  for (size_t k = 0; k < (charts + charts_across - 1) / charts_across; ++k) {
+    const size_t row = charts_row_ + k * rows_of_chart;
     if (row + rows_of_chart <= page + rows_on_page) continue;
     breaks.push_back(row);
     page = row;
@@ -273,21 +271,20 @@ void CompareSheet::set_pages(std::size_t charts, std::size_t last_row) {
                        static_cast<lxw_col_t>(charts_across * columns_of_chart - 1));
 }
 
-void CompareSheet::write(const ComparisonPlan& plan, const std::string& line, const DifferenceList& differences,
-                         const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series,
-                         std::size_t scenarios) {
-  constexpr std::size_t columns = charts_across * columns_of_chart;
-  std::size_t widest = columns;
+void CompareSheet::write(const ComparisonPlan& plan, const string& line, const DifferenceList& differences,
+                         const vector<ChartData>& charts, const vector<PlacedSeries>& series, size_t scenarios) {
+  constexpr size_t columns = charts_across * columns_of_chart;
+  size_t widest = columns;
   for (const ChartData& chart : charts) widest = std::max(widest, chart.lines.size() + 1);
   worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(widest), column_width, nullptr);
   sheet_.text(0, 0, plan.title, CellStyle::title);
   sheet_.note(1, columns, line, columns * column_width);
   charts_row_ = 3;
   if (!differences.rows.empty()) write_differences(plan, differences);
-  const std::size_t all = charts.size() + (series.empty() ? 0 : 1);
-  const std::size_t end_of_charts = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart;
-  std::size_t row = end_of_charts + 1;
-  for (std::size_t k = 0; k < charts.size(); ++k) {
+  const size_t all = charts.size() + (series.empty() ? 0 : 1);
+  const size_t end_of_charts = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart;
+  size_t row = end_of_charts + 1;
+  for (size_t k = 0; k < charts.size(); ++k) {
     write_data(charts[k], row);
     if (!charts[k].x.empty()) draw(charts[k], k, row + 2);
     row += charts[k].x.size() + 3;

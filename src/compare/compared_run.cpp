@@ -17,22 +17,23 @@
 #include "run/stored_trajectory.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-[[noreturn]] void refuse_run(const std::string& folder, const std::string& text) {
+[[noreturn]] void refuse_run(const string& folder, const string& text) {
   throw ExportError(fmt::format("{} {}", folder, text));
 }
 
-std::vector<std::string> read_summary(const RunRecord& run) {
+vector<string> read_summary(const RunRecord& run) {
   StoredTable table = open_table(run, summary_name);
-  const std::vector<std::string_view>* row = table.next();
+  const vector<string_view>* row = table.next();
   if (row == nullptr) refuse_run(run.run.folder, "has an empty summary.csv: run it again with --force");
-  std::vector<std::string> cells;
+  vector<string> cells;
   for (const SummaryColumn& column : summary_columns()) {
     const auto at = table.find(column.name);
-    cells.emplace_back(at && *at < row->size() ? (*row)[*at] : std::string_view());
+    cells.emplace_back(at && *at < row->size() ? (*row)[*at] : string_view());
   }
   return cells;
 }
@@ -49,13 +50,13 @@ bool has_file(const RunRecord& run, const char* name) {
   return stored_size(run.folder.get(), name).has_value();
 }
 
-bool has_measures(const std::string& path, const std::vector<Measure>& measures) {
-  if (std::all_of(measures.begin(), measures.end(), [](const Measure& m) { return m.column != nullptr; })) return true;
+bool has_measures(const string& path, const vector<Measure>& measures) {
+  if (std::ranges::all_of(measures, [](const Measure& m) { return m.column != nullptr; })) return true;
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   return folder && StoredMeasures(folder.get(), path).have(measures);
 }
 
-RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures) {
+RunRecord read_run(ComparedRun run, const vector<Measure>& measures) {
   RunRecord record{std::move(run), false, Descriptor(), {}, {}, {}};
   record.folder = open_folder(AT_FDCWD, record.run.folder, true);
   if (!record.folder && !record.run.failed) refuse_run(record.run.folder, "cannot be opened: there is no such folder");
@@ -78,22 +79,22 @@ RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures) {
   return record;
 }
 
-MotionColumns motion_columns(const StoredTable& trajectory, const std::vector<std::string>& bodies) {
+MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>& bodies) {
   MotionColumns columns;
   if (const auto body = trajectory.find("body")) {
     columns.body = *body;
     return columns;
   }
   columns.wide = true;
-  for (const std::string& body : bodies)
+  for (const string& body : bodies)
     columns.first.push_back(trajectory.find(fmt::format("{}.{}", body, name_of(Quantity::x))).value_or(0));
   return columns;
 }
 
-Scene load_run_scene(const std::string& folder) {
+Scene load_run_scene(const string& folder) {
   LoadOptions options;
   options.budget.enforced = false;
-  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  options.mesh_points = [](const string& path) { return read_mesh_points(path); };
   return load_scene(folder + "/scene.yaml", options);
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 // The data of one run that a comparison reads from its folder.
-#include <string>
-#include <vector>
 
 #include "compare/comparison.h"
 #include "compare/end_of_trajectory.h"
 #include "files/output_file.h"
 #include "files/stored_table.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,19 +14,19 @@ struct RunRecord {
   ComparedRun run;
   /// False: it failed, and the members below are empty.
   bool done = false;
-  Descriptor folder;                 // the open run folder
-  std::vector<std::string> summary;  // cells, by summary_columns()
-  std::vector<double> measures;      // NaN: undefined, or a text
-  std::vector<std::string> texts;    // by measure; empty: it is no text
+  Descriptor folder;        // the open run folder
+  vector<string> summary;   // cells, by summary_columns()
+  vector<double> measures;  // NaN: undefined, or a text
+  vector<string> texts;     // by measure; empty: it is no text
 };
 
 /// Reads a run.
 /// Throws ExportError if the folder has neither a complete nor a failed run, or if a measure cannot be determined.
 /// The text names the remedy.
-RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures);
+RunRecord read_run(ComparedRun run, const vector<Measure>& measures);
 
 /// Whether all measures can be determined from the complete run in this folder.
-bool has_measures(const std::string& folder, const std::vector<Measure>& measures);
+bool has_measures(const string& folder, const vector<Measure>& measures);
 
 /// A table of the run. Throws ExportError if it is absent.
 StoredTable open_table(const RunRecord& run, const char* name);
@@ -37,15 +36,15 @@ bool has_file(const RunRecord& run, const char* name);
 /// The columns of trajectory.csv with the six numbers of a body's motion.
 struct MotionColumns {
   /// Long form: the column of the name. The numbers follow it.
-  std::size_t body = 0;
+  size_t body = 0;
   /// Wide form, by body: the first of the six. 0: absent.
-  std::vector<std::size_t> first;
+  vector<size_t> first;
   bool wide = false;
 };
 /// `bodies`: names as in trajectory.csv.
-MotionColumns motion_columns(const StoredTable& trajectory, const std::vector<std::string>& bodies);
+MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>& bodies);
 
 /// The scene in the run's folder. Throws SceneError.
-Scene load_run_scene(const std::string& folder);
+Scene load_run_scene(const string& folder);
 
 }  // namespace carom

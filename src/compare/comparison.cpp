@@ -22,6 +22,7 @@
 #include "compare/workbook.h"
 #include "files/manifest.h"
 #include "files/run_folder.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 
@@ -31,7 +32,7 @@ namespace {
 /// The default measures.
 constexpr const char* usual_measures[] = {"energy_lost_J", "collisions", "max_speed_m_per_s"};
 
-ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
+ComparisonPlan titled(ComparisonPlan plan, size_t count) {
   if (plan.title.empty()) plan.title = "Comparison of " + how_many(count, "run", "runs");
   return plan;
 }
@@ -46,7 +47,7 @@ struct Variation {
 
 class Comparison {
  public:
-  Comparison(const FilePlace& place, const ComparisonPlan& plan, std::size_t count, Variation variation)
+  Comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count, Variation variation)
       : place_(place),
         plan_(titled(plan, count)),
         count_(count),
@@ -58,7 +59,7 @@ class Comparison {
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
         pivot_(variation.two ? &book_.add("Pivot", true) : nullptr),
         series_sheet_(book_.add("Series", true)),
-        collisions_(plan.collisions ? std::make_unique<CollisionSheet>(book_.add("Collisions", true), count) : nullptr),
+        collisions_(plan.collisions ? make_unique<CollisionSheet>(book_.add("Collisions", true), count) : nullptr),
         parameters_(book_.add("Parameters"), plan_, unrelated_),
         about_(book_.add("About")),
         outcomes_(plan, measures_.size(), count),
@@ -66,7 +67,7 @@ class Comparison {
     summary_.write_heads();
   }
 
-  void add(std::size_t number, ComparedRun compared) {
+  void add(size_t number, ComparedRun compared) {
     if (compared.values.size() != plan_.parameters.size())
       throw std::logic_error("a run has as many values as there are parameters");
     compared.id = valid_utf8(compared.id);
@@ -81,26 +82,26 @@ class Comparison {
     parameters_.add(run.run);
   }
 
-  std::size_t doubtful() const { return doubtful_; }  // so far
+  size_t doubtful() const { return doubtful_; }  // so far
 
-  std::vector<std::unique_ptr<OutputFile>> finish() {
+  vector<unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
     summary_.finish();
-    std::vector<std::unique_ptr<OutputFile>> files;
+    vector<unique_ptr<OutputFile>> files;
     files.push_back(summary_.take_table());
     if (plan_.seed) {
-      files.push_back(std::make_unique<OutputFile>(place_, repeats_name));
+      files.push_back(make_unique<OutputFile>(place_, repeats_name));
       write_repeats(*files.back(), plan_, measures_, outcomes_);
       files.back()->complete();
       write_repeats(*repeats_, plan_, measures_, outcomes_);
     }
     write_pivot_sheet();
-    const std::vector<PlacedSeries> placed = write_series(series_sheet_, series_);
+    const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
     parameters_.finish(outcomes_, common_.values());
     write_charts(placed);
     write_about(about_, plan_, measures_, remarks());
-    files.push_back(std::make_unique<OutputFile>(place_, workbook_name));
+    files.push_back(make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
     files.back()->complete();
     return files;
@@ -116,16 +117,16 @@ class Comparison {
                  summary_.is_table() ? count_ : 0});
   }
 
-  void write_charts(const std::vector<PlacedSeries>& placed) {
-    std::vector<ChartData> charts;
+  void write_charts(const vector<PlacedSeries>& placed) {
+    vector<ChartData> charts;
     for (Chart& chart : chosen_charts(plan_, measures_, outcomes_)) {
       // Bars by run: no parameter orders runs of different scenes.
       if (unrelated_ && plan_.charts.empty()) chart = {"", chart.y, ""};
       charts.push_back(chart_data(chart, plan_, measures_, outcomes_));
     }
-    std::string varied;
+    string varied;
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
-    std::string text = how_many(count_, "run", "runs");
+    string text = how_many(count_, "run", "runs");
     if (failed_ > 0) text += fmt::format(", {} of them failed", failed_);
     if (doubtful_ > 0) text += fmt::format(", {} of them doubtful", doubtful_);
     if (unrelated_)
@@ -136,8 +137,8 @@ class Comparison {
     charts_.write(plan_, text, parameters_.differences(), charts, placed, series_.scenarios().all);
   }
 
-  std::vector<std::string> remarks() const {
-    std::vector<std::string> remarks;
+  vector<string> remarks() const {
+    vector<string> remarks;
     if (!summary_.is_table())
       remarks.push_back(fmt::format("Summary is a table for up to {} runs, and a range with filters for more.",
                                     SummarySheet::most_in_table));
@@ -161,16 +162,16 @@ class Comparison {
 
   FilePlace place_;
   ComparisonPlan plan_;
-  std::size_t count_, failed_ = 0, doubtful_ = 0;
-  const std::size_t status_ = static_cast<std::size_t>(find_summary_column("status") - summary_columns().data());
-  std::vector<Measure> measures_;
+  size_t count_, failed_ = 0, doubtful_ = 0;
+  const size_t status_ = static_cast<size_t>(find_summary_column("status") - summary_columns().data());
+  vector<Measure> measures_;
   Workbook book_;
   CompareSheet charts_;
   bool unrelated_;
   SummarySheet summary_;
   Worksheet *repeats_, *pivot_;
   Worksheet& series_sheet_;
-  std::unique_ptr<CollisionSheet> collisions_;
+  unique_ptr<CollisionSheet> collisions_;
   ParameterSheet parameters_;
   Worksheet& about_;
   Outcomes outcomes_;
@@ -179,22 +180,22 @@ class Comparison {
 };
 
 /// Reads the values of all runs, and no other file of them.
-Variation variation_of(const ComparisonPlan& plan, std::size_t count,
-                       const std::function<ComparedRun(std::size_t)>& run, const ComparisonWatch& watch) {
+Variation variation_of(const ComparisonPlan& plan, size_t count, const function<ComparedRun(size_t)>& run,
+                       const ComparisonWatch& watch) {
   Variation variation;
   Outcomes outcomes(plan, 0, count);
-  std::vector<std::size_t> points(count);
-  std::vector<bool> is_absent(plan.parameters.size());
-  for (std::size_t i = 0; i < count; ++i) {
+  vector<size_t> points(count);
+  vector<bool> is_absent(plan.parameters.size());
+  for (size_t i = 0; i < count; ++i) {
     watch.stop_check();
     const ComparedRun one = run(i);
     points[i] = outcomes.add(i, one, false, {});
     // A failed run may have no scene at all.
-    if (std::all_of(one.values.begin(), one.values.end(), [](const auto& value) { return value.empty(); })) continue;
-    for (std::size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
+    if (std::ranges::all_of(one.values, [](const auto& value) { return value.empty(); })) continue;
+    for (size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
   }
   outcomes.finish();
-  const auto absent = static_cast<std::size_t>(std::count(is_absent.begin(), is_absent.end(), true));
+  const auto absent = static_cast<size_t>(std::ranges::count(is_absent, true));
   variation.unrelated = 2 * absent > plan.parameters.size();
   variation.two = plan.parameters.size() > 1 && !variation.unrelated && pivot_parameters(plan, outcomes).has_value();
   variation.scenarios = chosen_scenarios(plan, outcomes, points, variation.unrelated);
@@ -203,30 +204,29 @@ Variation variation_of(const ComparisonPlan& plan, std::size_t count,
 
 }  // namespace
 
-std::vector<Measure> measures_of(const ComparisonPlan& plan) {
-  std::vector<Measure> measures;
-  const auto add = [&](std::string_view name) {
-    const bool known =
-        std::any_of(measures.begin(), measures.end(), [&](const Measure& measure) { return measure.name == name; });
+vector<Measure> measures_of(const ComparisonPlan& plan) {
+  vector<Measure> measures;
+  const auto add = [&](string_view name) {
+    const bool known = std::ranges::any_of(measures, [&](const Measure& measure) { return measure.name == name; });
     if (!known) measures.push_back(parse_measure(name, plan.own));
   };
-  for (const std::string& name : plan.measures) add(name);
+  for (const string& name : plan.measures) add(name);
   for (const Chart& chart : plan.charts) {
     add(chart.y);
     if (!find_parameter(plan, chart.x)) add(chart.x);
   }
-  for (const std::string& name : plan.own) add(name);
+  for (const string& name : plan.own) add(name);
   if (measures.empty())
     for (const char* name : usual_measures) add(name);
   return measures;
 }
 
 void check_charts(const ComparisonPlan& plan) {
-  std::vector<std::string_view> paths;
+  vector<string_view> paths;
   for (const Parameter& parameter : plan.parameters) paths.push_back(parameter.path);
-  const auto refuse = [&](const std::string& name, const char* what) {
-    const std::string near = nearest(name, paths);
-    std::string remedy;
+  const auto refuse = [&](const string& name, const char* what) {
+    const string near = nearest(name, paths);
+    string remedy;
     if (!near.empty()) remedy = fmt::format("; did you mean {}?", in_backticks(near));
     if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", joined(paths, ", "));
     throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
@@ -243,13 +243,12 @@ void check_charts(const ComparisonPlan& plan) {
   measures_of(plan);
 }
 
-std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan,
-                                                          std::size_t count,
-                                                          const std::function<ComparedRun(std::size_t)>& run,
-                                                          const ComparisonWatch& watch) {
+vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count,
+                                                const function<ComparedRun(size_t)>& run,
+                                                const ComparisonWatch& watch) {
   check_charts(plan);
   Comparison comparison(place, plan, count, variation_of(plan, count, run, watch));
-  for (std::size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     watch.stop_check();
     comparison.add(i, run(i));
     watch.done(i + 1);

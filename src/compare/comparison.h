@@ -2,66 +2,61 @@
 // Compares many runs: a table with a row for each run, and a workbook with charts.
 // All data is read from the runs' folders, one at a time.
 // Gathered parts of a sweep thus give the same bytes as an undivided sweep.
-#include <cstddef>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "files/output_file.h"
 #include "run/measure.h"
+#include "std.h"
 
 namespace carom {
 
 /// A value of the scene that differs between runs.
 struct Parameter {
-  std::string path;  // "balls.red.position.z"
-  std::string unit;  // "m"; empty: no unit, or text
+  string path;  // "balls.red.position.z"
+  string unit;  // "m"; empty: no unit, or text
 };
 
 /// One chart of the workbook.
 struct Chart {
-  std::string x;  // a parameter, or a measure
-  std::string y;  // a measure
+  string x;  // a parameter, or a measure
+  string y;  // a measure
   /// A parameter, with a line for each of its values. Empty: one line.
-  std::string by;
+  string by;
 };
 
 struct ComparisonPlan {
-  std::string title;
-  std::vector<Parameter> parameters;
-  std::vector<std::string> measures;  // names accepted by parse_measure
-  std::vector<Chart> charts;          // empty: default charts of what varies
+  string title;
+  vector<Parameter> parameters;
+  vector<string> measures;  // names accepted by parse_measure
+  vector<Chart> charts;     // empty: default charts of what varies
   /// The parameter that distinguishes repeats, if there are repeats.
-  std::optional<std::size_t> seed;
+  optional<size_t> seed;
   /// The names of the measures that the runs' scenes define. All of them are columns.
-  std::vector<std::string> own{};
+  vector<string> own{};
   /// Whether the workbook has a sheet with the first collisions of each run.
   bool collisions = false;
 };
 
 struct ComparedRun {
-  std::string id;
-  std::string folder;
-  std::vector<std::string> values;  // of the parameters, as text
+  string id;
+  string folder;
+  vector<string> values;  // of the parameters, as text
   /// Whether the run failed, whatever its folder holds.
   bool failed = false;
 };
 
 /// All measures of the plan and of its charts, each once. Throws MeasureError.
-std::vector<Measure> measures_of(const ComparisonPlan& plan);
+vector<Measure> measures_of(const ComparisonPlan& plan);
 
 /// Throws MeasureError if a chart names neither a parameter nor a measure.
 void check_charts(const ComparisonPlan& plan);
 
 struct ComparisonWatch {
   /// Called for each run. May throw.
-  std::function<void()> stop_check = [] {};
+  function<void()> stop_check = [] {};
   /// The number of runs read so far.
-  std::function<void(std::size_t)> done = [](std::size_t) {};
+  function<void(size_t)> done = [](size_t) {};
   /// The number of doubtful runs, at the end.
-  std::function<void(std::size_t)> doubtful = [](std::size_t) {};
+  function<void(size_t)> doubtful = [](size_t) {};
 };
 
 /// The names of the files of a comparison.
@@ -73,9 +68,8 @@ inline constexpr const char* workbook_name = "comparison.xlsx";
 /// `run` returns run 0 to count - 1 and may be called repeatedly.
 /// A folder without a complete run but with error.txt is a failed run.
 /// Throws MeasureError, and ExportError with a text that names what a folder lacks.
-std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan,
-                                                          std::size_t count,
-                                                          const std::function<ComparedRun(std::size_t)>& run,
-                                                          const ComparisonWatch& watch = {});
+vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count,
+                                                const function<ComparedRun(size_t)>& run,
+                                                const ComparisonWatch& watch = {});
 
 }  // namespace carom

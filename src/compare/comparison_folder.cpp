@@ -11,6 +11,7 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/stored_file.h"
+#include "std.h"
 #include "yaml/printable.h"
 #include "yaml/value_json.h"
 
@@ -21,9 +22,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* request_key = "comparison";
 
-bool is_comparison_file(const std::string& name) {
-  const std::array<std::string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool is_comparison_file(const string& name) {
+  const array<string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
+  return std::ranges::find(names, name) != names.end();
 }
 
 bool is_comparison(const Manifest& manifest) {
@@ -33,7 +34,7 @@ bool is_comparison(const Manifest& manifest) {
 
 }  // namespace
 
-std::string request_text(const ComparisonPlan& plan, const std::string& runs, bool video) {
+string request_text(const ComparisonPlan& plan, const string& runs, bool video) {
   Json charts = Json::array();
   for (const Chart& chart : plan.charts) charts.push_back({{"x", chart.x}, {"y", chart.y}, {"by", chart.by}});
   const Json request = {{request_key,
@@ -46,29 +47,29 @@ std::string request_text(const ComparisonPlan& plan, const std::string& runs, bo
   return text_of_json(request);
 }
 
-FolderChanges changes_of_comparison(const std::string& folder) {
+FolderChanges changes_of_comparison(const string& folder) {
   return find_changes(folder, is_comparison_file);
 }
 
-std::string comparison_obstacle(const FolderChanges& changes) {
+string comparison_obstacle(const FolderChanges& changes) {
   if (!changes.changed.empty()) return fmt::format("a comparison with a changed file, {}", printable(changes.changed));
   if (!changes.foreign.empty()) return fmt::format("{}, which no comparison wrote", printable(changes.foreign));
   return {};
 }
 
-FolderContent inspect_comparison_folder(const std::string& path, const std::string& request, FolderChanges& changes) {
+FolderContent inspect_comparison_folder(const string& path, const string& request, FolderChanges& changes) {
   const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
   if (found.names.empty()) return found.content;
   if (!found.has(manifest_name)) {
     // A comparison that was killed during writing, or while its files were renamed.
-    const bool ours = std::all_of(found.names.begin(), found.names.end(),
-                                  [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
+    const bool ours = std::ranges::all_of(
+        found.names, [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
     return ours ? FolderContent::incomplete : FolderContent::other_run;
   }
   const auto manifest = read_manifest(folder.get(), manifest_name);
   if (!manifest || !is_comparison(*manifest)) return FolderContent::other_run;
-  const bool whole = std::all_of(manifest->files.begin(), manifest->files.end(), [&](const FileRecord& file) {
+  const bool whole = std::ranges::all_of(manifest->files, [&](const FileRecord& file) {
     const auto stored = read_record(folder.get(), file.name);
     return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
   });
@@ -77,10 +78,9 @@ FolderContent inspect_comparison_folder(const std::string& path, const std::stri
   return comparison_obstacle(changes).empty() ? FolderContent::incomplete : FolderContent::touched;
 }
 
-void ComparisonFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film,
-                               const std::string& request) {
-  std::vector<PartFile*> all;
-  std::vector<FileRecord> records;
+void ComparisonFolder::publish(const vector<unique_ptr<OutputFile>>& files, SideBySide* film, const string& request) {
+  vector<PartFile*> all;
+  vector<FileRecord> records;
   for (const auto& file : files) {
     all.push_back(file.get());
     records.push_back(file->record());

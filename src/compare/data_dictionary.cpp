@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::array<ColumnText, 15> collision_texts = {
+constexpr array<ColumnText, 15> collision_texts = {
     {{"time_s", "time of the collision"},
      {"kind", "body-body, body-fixed, rest (end of the bounces), merge (two become one) or string (it goes taut)"},
      {"a", "the body; the first of two"},
@@ -26,7 +26,7 @@ constexpr std::array<ColumnText, 15> collision_texts = {
      {"impulse_N_s", "impulse along the normal"},
      {"energy_lost_J", "energy lost in this collision; below 0: gained"}}};
 
-constexpr std::array<ColumnText, 3> series_texts = {
+constexpr array<ColumnText, 3> series_texts = {
     {{"time_s", "instant of the columns to its right, up to the next time_s"},
      {"kinetic_J", "kinetic energy of all bodies"},
      {"total_J", "kinetic and potential energy of all bodies"}}};
@@ -47,10 +47,10 @@ constexpr SheetText sheets[] = {
     {"Parameters", "what varies, and the values that all runs share"},
     {"About", "this sheet"}};
 
-std::string meaning_of(const Measure& measure) {
+string meaning_of(const Measure& measure) {
   switch (measure.form) {
     case MeasureForm::column:
-      return std::string(measure.column->meaning);
+      return string(measure.column->meaning);
     case MeasureForm::at_end:
       return fmt::format("{} of {} at the run's end", meaning_of(measure.quantity), measure.body);
     case MeasureForm::own:
@@ -76,18 +76,18 @@ std::string meaning_of(const Measure& measure) {
 
 }  // namespace
 
-std::span<const ColumnText> collision_columns() {
+span<const ColumnText> collision_columns() {
   return collision_texts;
 }
 
-void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
-                 const std::vector<std::string>& remarks) {
-  std::size_t row = 0;
+void write_about(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
+                 const vector<string>& remarks) {
+  size_t row = 0;
   const auto section = [&](const char* title) {
     ++row;
     sheet.text(row++, 0, title, CellStyle::title);
   };
-  const auto column = [&](const char* where, std::string_view name, std::string_view unit, std::string_view meaning) {
+  const auto column = [&](const char* where, string_view name, string_view unit, string_view meaning) {
     sheet.text(row, 0, where);
     sheet.text(row, 1, name);
     sheet.text(row, 2, unit);
@@ -106,10 +106,10 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
   }
   if (!remarks.empty()) {
     section("Left out");
-    for (const std::string& remark : remarks) sheet.text(row++, 0, remark, CellStyle::note);
+    for (const string& remark : remarks) sheet.text(row++, 0, remark, CellStyle::note);
   }
   section("Columns");
-  for (std::size_t k = 0; const char* head : {"sheet", "column", "unit", "meaning"})
+  for (size_t k = 0; const char* head : {"sheet", "column", "unit", "meaning"})
     sheet.text(row, k++, head, CellStyle::header);
   ++row;
   for (const SummaryColumn& text : summary_columns()) column("Summary", text.name, unit_of(text.name), text.meaning);

@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -38,7 +40,7 @@ void NumberLook::add(double number) {
   negative_ = negative_ || number < 0;
   if (number == 0) return;
   const int decade = static_cast<int>(std::floor(std::log10(std::abs(number))));
-  has_[static_cast<std::size_t>(std::clamp(decade - least_decade, 0, decades - 1))] = true;
+  has_[static_cast<size_t>(std::clamp(decade - least_decade, 0, decades - 1))] = true;
   decimals_ = std::max(decimals_, decimals_of(number));
 }
 
@@ -48,7 +50,7 @@ NumberLook::Form NumberLook::form() const {
   const auto index = static_cast<int>(has_.rend() - last) - 1;
   int low = index;
   for (int k = std::max(0, index - noise); k < low; ++k)
-    if (has_[static_cast<std::size_t>(k)]) low = k;
+    if (has_[static_cast<size_t>(k)]) low = k;
   const int top = index + least_decade;
   low += least_decade;
   Form form{false, std::max(shown - 1 - top, shown_of_least - 1 - low), std::max(top + 1, 1)};
@@ -59,20 +61,20 @@ NumberLook::Form NumberLook::form() const {
   return form;
 }
 
-std::string NumberLook::format() const {
+string NumberLook::format() const {
   if (!any_) return "General";
   const Form form = this->form();
-  const std::string decimals = form.decimals > 0 ? "." + std::string(static_cast<std::size_t>(form.decimals), '0') : "";
+  const string decimals = form.decimals > 0 ? "." + string(static_cast<size_t>(form.decimals), '0') : "";
   if (form.power) return "0" + decimals + "E+00";
   return (form.digits > 4 ? "#,##0" : "0") + decimals;
 }
 
-std::size_t NumberLook::width() const {
+size_t NumberLook::width() const {
   if (!any_) return 0;
   const Form form = this->form();
   const int before = form.power ? 1 : form.digits + (form.digits > 4 ? (form.digits - 1) / 3 : 0);
   const int after = form.decimals > 0 ? form.decimals + 1 : 0;
-  return static_cast<std::size_t>(before + after + (form.power ? 5 : 0) + (negative_ ? 1 : 0));
+  return static_cast<size_t>(before + after + (form.power ? 5 : 0) + (negative_ ? 1 : 0));
 }
 
 }  // namespace carom

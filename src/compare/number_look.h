@@ -1,8 +1,7 @@
 #pragma once
 // How the numbers of a column are shown: about five digits, the same decimals in all rows. Cells keep every digit.
-#include <array>
-#include <cstddef>
-#include <string>
+
+#include "std.h"
 
 namespace carom {
 
@@ -12,9 +11,9 @@ class NumberLook {
   void add(double number);
 
   /// The number format of a spreadsheet: "0.000", "#,##0", "0.0000E+00". "General": there are no numbers.
-  std::string format() const;
+  string format() const;
   /// The characters that the longest number takes.
-  std::size_t width() const;
+  size_t width() const;
 
  private:
   struct Form {
@@ -25,8 +24,8 @@ class NumberLook {
   Form form() const;
 
   static constexpr int least_decade = -330, decades = 640;
-  std::array<bool, decades> has_{};  // by power of ten: whether there is such a number
-  int decimals_ = 0;                 // that any number has
+  array<bool, decades> has_{};  // by power of ten: whether there is such a number
+  int decimals_ = 0;            // that any number has
   bool any_ = false, negative_ = false;
 };
 

@@ -12,6 +12,7 @@
 #include "compare/charts.h"
 #include "compare/number_look.h"
 #include "files/csv.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -25,9 +26,9 @@ constexpr SpreadColumn spread_columns[] = {{"mean", [](const Spread& s) { return
                                            {"min", [](const Spread& s) { return s.min(); }},
                                            {"max", [](const Spread& s) { return s.max(); }}};
 
-std::vector<std::string> repeats_header(const ComparisonPlan& plan, const std::vector<Measure>& measures) {
-  std::vector<std::string> header;
-  for (std::size_t p = 0; p < plan.parameters.size(); ++p)
+vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures) {
+  vector<string> header;
+  for (size_t p = 0; p < plan.parameters.size(); ++p)
     if (p != plan.seed) header.push_back(plan.parameters[p].path);
   header.emplace_back("n");
   for (const Measure& measure : measures)
@@ -51,14 +52,14 @@ double Spread::sd() const {
   return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Outcomes::Outcomes(const ComparisonPlan& plan, std::size_t measures, std::size_t runs)
+Outcomes::Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs)
     : seed_(plan.seed),
       measures_(measures),
-      stride_(plan.seed ? 1 : 1 + (std::max<std::size_t>(runs, 1) - 1) / most_points),
+      stride_(plan.seed ? 1 : 1 + (std::max<size_t>(runs, 1) - 1) / most_points),
       varied_(plan.parameters.size()),
       numbers_(plan.parameters.size()) {
-  const std::size_t points = seed_ ? 0 : (runs + stride_ - 1) / stride_;
-  for (std::size_t p = 0; p < varied_.size(); ++p) {
+  const size_t points = seed_ ? 0 : (runs + stride_ - 1) / stride_;
+  for (size_t p = 0; p < varied_.size(); ++p) {
     varied_[p].parameter = p;
     varied_[p].of_point.reserve(points);
   }
@@ -67,20 +68,20 @@ Outcomes::Outcomes(const ComparisonPlan& plan, std::size_t measures, std::size_t
   values_.reserve(points * measures_);
 }
 
-std::size_t Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures) {
+size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vector<double>& measures) {
   if (number % stride_ != 0) return no_point;
-  std::vector<std::uint32_t> key;
-  for (std::size_t p = 0; p < varied_.size(); ++p) {
+  vector<uint32_t> key;
+  for (size_t p = 0; p < varied_.size(); ++p) {
     if (p == seed_) continue;
-    const std::string& text = run.values.at(p);
-    const auto [found, fresh] = numbers_[p].emplace(text, static_cast<std::uint32_t>(varied_[p].values.size()));
+    const string& text = run.values.at(p);
+    const auto [found, fresh] = numbers_[p].emplace(text, static_cast<uint32_t>(varied_[p].values.size()));
     if (fresh) {
       varied_[p].values.push_back(cell_of(text));
       varied_[p].numeric = varied_[p].numeric && varied_[p].values.back().is_number();
     }
     key.push_back(found->second);
   }
-  std::size_t point = points();
+  size_t point = points();
   if (seed_) point = scenarios_.emplace(key, point).first->second;
   if (point == points()) {
     runs_.push_back(0);
@@ -90,12 +91,12 @@ std::size_t Outcomes::add(std::size_t number, const ComparedRun& run, bool done,
       spreads_.resize(spreads_.size() + measures_);
     else
       values_.resize(values_.size() + measures_, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t p = 0, k = 0; p < varied_.size(); ++p)
+    for (size_t p = 0, k = 0; p < varied_.size(); ++p)
       if (p != seed_) varied_[p].of_point.push_back(key[k++]);
   }
   if (!done) return point;
   ++runs_[point];
-  for (std::size_t k = 0; k < measures_; ++k) {
+  for (size_t k = 0; k < measures_; ++k) {
     if (seed_)
       spreads_[point * measures_ + k].add(measures[k]);
     else
@@ -104,12 +105,12 @@ std::size_t Outcomes::add(std::size_t number, const ComparedRun& run, bool done,
   return point;
 }
 
-std::string_view Outcomes::id(std::size_t point) const {
-  const std::size_t begin = point == 0 ? 0 : id_ends_[point - 1];
-  return std::string_view(ids_).substr(begin, id_ends_[point] - begin);
+string_view Outcomes::id(size_t point) const {
+  const size_t begin = point == 0 ? 0 : id_ends_[point - 1];
+  return string_view(ids_).substr(begin, id_ends_[point] - begin);
 }
 
-Spread Outcomes::spread(std::size_t point, std::size_t measure) const {
+Spread Outcomes::spread(size_t point, size_t measure) const {
   if (seed_) return spreads_[point * measures_ + measure];
   Spread spread;
   spread.add(values_[point * measures_ + measure]);
@@ -121,92 +122,91 @@ void Outcomes::finish() {
   numbers_.clear();
   for (Varied& varied : varied_) {
     if (!varied.numeric) continue;
-    std::vector<std::uint32_t> order(varied.values.size()), place(order.size());
+    vector<uint32_t> order(varied.values.size()), place(order.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return varied.values[a].number < varied.values[b].number; });
-    std::vector<Cell> sorted;
-    for (std::uint32_t k = 0; k < order.size(); ++k) {
+    std::ranges::stable_sort(order, [&](auto a, auto b) { return varied.values[a].number < varied.values[b].number; });
+    vector<Cell> sorted;
+    for (uint32_t k = 0; k < order.size(); ++k) {
       place[order[k]] = k;
       sorted.push_back(std::move(varied.values[order[k]]));
     }
     varied.values = std::move(sorted);
-    for (std::uint32_t& value : varied.of_point) value = place[value];
+    for (uint32_t& value : varied.of_point) value = place[value];
   }
 }
 
 bool Outcomes::follows(const Varied& a, const Varied& b) const {
-  constexpr std::uint32_t unknown = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> of(a.values.size(), unknown);
-  for (std::size_t i = 0; i < a.of_point.size(); ++i) {
-    std::uint32_t& known = of[a.of_point[i]];
+  constexpr uint32_t unknown = std::numeric_limits<uint32_t>::max();
+  vector<uint32_t> of(a.values.size(), unknown);
+  for (size_t i = 0; i < a.of_point.size(); ++i) {
+    uint32_t& known = of[a.of_point[i]];
     if (known != unknown && known != b.of_point[i]) return false;
     known = b.of_point[i];
   }
   return true;
 }
 
-std::vector<std::size_t> Outcomes::independent() const {
-  std::vector<std::size_t> chosen;
-  for (std::size_t p = 0; p < varied_.size(); ++p) {
+vector<size_t> Outcomes::independent() const {
+  vector<size_t> chosen;
+  for (size_t p = 0; p < varied_.size(); ++p) {
     if (varied_[p].values.size() < 2) continue;
-    const bool new_one = std::none_of(chosen.begin(), chosen.end(),
-                                      [&](std::size_t other) { return follows(varied_[other], varied_[p]); });
+    const bool new_one =
+        std::ranges::none_of(chosen, [&](size_t other) { return follows(varied_[other], varied_[p]); });
     if (new_one) chosen.push_back(p);
   }
   return chosen;
 }
 
-void write_repeats(OutputFile& file, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
   CsvRow row(file);
-  for (const std::string& name : repeats_header(plan, measures)) row.text(name);
+  for (const string& name : repeats_header(plan, measures)) row.text(name);
   row.end();
-  for (std::size_t i = 0; i < outcomes.points(); ++i) {
+  for (size_t i = 0; i < outcomes.points(); ++i) {
     for (const Varied& varied : outcomes.varied()) {
       if (varied.parameter == plan.seed) continue;
       const Cell& cell = varied.values[varied.of_point[i]];
       cell.is_number() ? row.number(cell.number) : row.text(cell.text);
     }
     row.count(outcomes.runs(i));
-    for (std::size_t k = 0; k < measures.size(); ++k)
+    for (size_t k = 0; k < measures.size(); ++k)
       for (const SpreadColumn& column : spread_columns) row.number(column.value(outcomes.spread(i, k)));
     row.end();
   }
 }
 
-void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
-  std::vector<std::string> header;
-  for (std::size_t p = 0; p < plan.parameters.size(); ++p)
+  vector<string> header;
+  for (size_t p = 0; p < plan.parameters.size(); ++p)
     if (p != plan.seed) header.push_back(label_of(plan.parameters[p]));
   header.emplace_back("n");
   for (const Measure& measure : measures)
     for (const SpreadColumn& of : spread_columns)
       header.push_back(fmt::format("{}, {}", label_of(measure.name), of.name));
-  const std::size_t parameters = plan.parameters.size() - 1;
+  const size_t parameters = plan.parameters.size() - 1;
   sheet.set_head_row(0);
-  for (std::size_t column = 0; column < header.size(); ++column)
+  for (size_t column = 0; column < header.size(); ++column)
     sheet.head(0, column, header[column], column < parameters ? CellStyle::swept_header : CellStyle::header);
-  std::vector<NumberLook> looks(header.size());
-  const auto for_cells = [&](std::size_t i, const auto& use) {
-    std::size_t column = 0;
+  vector<NumberLook> looks(header.size());
+  const auto for_cells = [&](size_t i, const auto& use) {
+    size_t column = 0;
     for (const Varied& varied : outcomes.varied())
       if (varied.parameter != plan.seed) use(column++, varied.values[varied.of_point[i]]);
     use(column++, Cell{{}, static_cast<double>(outcomes.runs(i))});
-    for (std::size_t k = 0; k < measures.size(); ++k)
+    for (size_t k = 0; k < measures.size(); ++k)
       for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(outcomes.spread(i, k))});
   };
-  for (std::size_t i = 0; i < outcomes.points(); ++i)
-    for_cells(i, [&](std::size_t column, const Cell& cell) { looks[column].add(cell.number); });
-  std::size_t row = 1;
-  for (std::size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row)
-    for_cells(i, [&](std::size_t column, const Cell& cell) {
+  for (size_t i = 0; i < outcomes.points(); ++i)
+    for_cells(i, [&](size_t column, const Cell& cell) { looks[column].add(cell.number); });
+  size_t row = 1;
+  for (size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row)
+    for_cells(i, [&](size_t column, const Cell& cell) {
       sheet.cell(row, column, cell, column < parameters ? CellStyle::swept : CellStyle::plain, &looks[column]);
     });
   sheet.fit_table();
   sheet.freeze(1, parameters);
-  worksheet_autofilter(sheet.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(row - 1, 1)),
+  worksheet_autofilter(sheet.get(), 0, 0, static_cast<lxw_row_t>(std::max<size_t>(row - 1, 1)),
                        static_cast<lxw_col_t>(header.size() - 1));
   sheet.print_table(0);
 }

@@ -1,15 +1,11 @@
 #pragma once
 // The results by what was varied: a point for each run, or for each scenario of repeated runs.
-#include <cstdint>
 #include <limits>
 #include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "compare/comparison.h"
 #include "compare/workbook.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,7 +13,7 @@ namespace carom {
 class Spread {
  public:
   void add(double value);  // ignores NaN and infinity
-  std::size_t count() const { return count_; }
+  size_t count() const { return count_; }
   // Undefined (NaN) for too few values: none for the mean, one for sd.
   double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
   /// With n - 1 in the denominator.
@@ -26,16 +22,16 @@ class Spread {
   double max() const { return count_ > 0 ? max_ : std::numeric_limits<double>::quiet_NaN(); }
 
  private:
-  std::size_t count_ = 0;
+  size_t count_ = 0;
   double mean_ = 0, squares_ = 0, min_ = 0, max_ = 0;
 };
 
 /// The distinct values of a parameter, and the value of each point.
 struct Varied {
-  std::size_t parameter = 0;  // its index in the plan
+  size_t parameter = 0;  // its index in the plan
   /// Sorted by size if all are numbers, else in order of appearance.
-  std::vector<Cell> values;
-  std::vector<std::uint32_t> of_point;
+  vector<Cell> values;
+  vector<uint32_t> of_point;
   bool numeric = true;
 };
 
@@ -43,49 +39,49 @@ struct Varied {
 class Outcomes {
  public:
   /// The maximum number of points. Of more runs without repeats, evenly spaced ones are kept.
-  static constexpr std::size_t most_points = 100'000;
+  static constexpr size_t most_points = 100'000;
 
-  Outcomes(const ComparisonPlan& plan, std::size_t measures, std::size_t runs);
-  static constexpr std::size_t no_point = static_cast<std::size_t>(-1);
+  Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs);
+  static constexpr size_t no_point = static_cast<size_t>(-1);
   /// Returns the point of the run, or no_point if it is left out.
-  std::size_t add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures);
+  size_t add(size_t number, const ComparedRun& run, bool done, const vector<double>& measures);
   /// To be called after the last add().
   void finish();
 
-  std::size_t points() const { return runs_.size(); }
+  size_t points() const { return runs_.size(); }
   /// The id of a point's run, or of its first run.
-  std::string_view id(std::size_t point) const;
+  string_view id(size_t point) const;
   /// The number of its complete runs.
-  std::size_t runs(std::size_t point) const { return runs_[point]; }
-  Spread spread(std::size_t point, std::size_t measure) const;
+  size_t runs(size_t point) const { return runs_[point]; }
+  Spread spread(size_t point, size_t measure) const;
   /// By the plan's parameters. The seed of repeats has no values.
-  const std::vector<Varied>& varied() const { return varied_; }
-  std::size_t every() const { return stride_; }  // 1: each run counts
+  const vector<Varied>& varied() const { return varied_; }
+  size_t every() const { return stride_; }  // 1: each run counts
 
   /// The indices of parameters that vary, without those that follow from an earlier one.
-  std::vector<std::size_t> independent() const;
+  vector<size_t> independent() const;
 
  private:
   bool follows(const Varied& a, const Varied& b) const;
 
-  std::optional<std::size_t> seed_;
-  std::size_t measures_, stride_;
-  std::vector<Varied> varied_;
-  std::vector<std::map<std::string, std::uint32_t>> numbers_;  // indices of values, by parameter
-  std::map<std::vector<std::uint32_t>, std::size_t> scenarios_;
-  std::vector<std::uint32_t> runs_;  // by point, as the members below
-  std::string ids_;                  // concatenated
-  std::vector<std::size_t> id_ends_;
+  optional<size_t> seed_;
+  size_t measures_, stride_;
+  vector<Varied> varied_;
+  vector<std::map<string, uint32_t>> numbers_;  // indices of values, by parameter
+  std::map<vector<uint32_t>, size_t> scenarios_;
+  vector<uint32_t> runs_;  // by point, as the members below
+  string ids_;             // concatenated
+  vector<size_t> id_ends_;
   /// Of measures. Empty for repeats.
-  std::vector<double> values_;
-  std::vector<Spread> spreads_;  // of repeats
+  vector<double> values_;
+  vector<Spread> spreads_;  // of repeats
 };
 
 /// repeats.csv: a row for each scenario, with its parameters, n, and the mean, sd, min and max of each measure.
-void write_repeats(OutputFile& file, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes);
 /// The same as a sheet.
-void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes);
 
 }  // namespace carom

@@ -8,19 +8,20 @@
 
 #include "compare/charts.h"
 #include "scene/path_field.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-void write_head(Worksheet& sheet, std::size_t row, const std::vector<std::string>& names) {
-  for (std::size_t k = 0; k < names.size(); ++k) sheet.text(row, k, names[k], CellStyle::header);
+void write_head(Worksheet& sheet, size_t row, const vector<string>& names) {
+  for (size_t k = 0; k < names.size(); ++k) sheet.text(row, k, names[k], CellStyle::header);
 }
 
 }  // namespace
 
 ParameterSheet::ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan, bool unrelated)
     : sheet_(sheet), plan_(plan), unrelated_(unrelated) {
-  for (std::size_t p = 0; unrelated && p < plan.parameters.size(); ++p) differences_.rows.push_back({p, {}});
+  for (size_t p = 0; unrelated && p < plan.parameters.size(); ++p) differences_.rows.push_back({p, {}});
 }
 
 void ParameterSheet::add(const ComparedRun& run) {
@@ -29,7 +30,7 @@ void ParameterSheet::add(const ComparedRun& run) {
   for (Difference& row : differences_.rows) row.values.push_back(run.values[row.parameter]);
 }
 
-std::size_t ParameterSheet::write_ranges(const Outcomes& outcomes, std::size_t row) {
+size_t ParameterSheet::write_ranges(const Outcomes& outcomes, size_t row) {
   sheet_.text(row++, 0, "What varies", CellStyle::title);
   write_head(sheet_, row++, {"parameter", "unit", "values", "from", "to"});
   for (const Varied& varied : outcomes.varied()) {
@@ -47,36 +48,35 @@ std::size_t ParameterSheet::write_ranges(const Outcomes& outcomes, std::size_t r
   return row;
 }
 
-std::size_t ParameterSheet::write_differences(std::size_t row) {
+size_t ParameterSheet::write_differences(size_t row) {
   // Values of the motion that all scenes have, then those that some lack, then cameras and colours.
   const auto rank = [&](const Difference& difference) {
-    const bool lacks =
-        std::any_of(difference.values.begin(), difference.values.end(), [](auto& v) { return v.empty(); });
+    const bool lacks = std::ranges::any_of(difference.values, [](auto& v) { return v.empty(); });
     return (is_drawn(plan_.parameters[difference.parameter].path) ? 2 : 0) + (lacks ? 1 : 0);
   };
-  std::stable_sort(differences_.rows.begin(), differences_.rows.end(),
-                   [&](const Difference& a, const Difference& b) { return rank(a) < rank(b); });
+  std::ranges::stable_sort(differences_.rows,
+                           [&](const Difference& a, const Difference& b) { return rank(a) < rank(b); });
   sheet_.text(row++, 0, "What differs", CellStyle::title);
   if (differences_.all_runs > differences_.runs.size())
     sheet_.text(
         row++, 0,
         fmt::format("The first {} runs; summary.csv has all {}.", differences_.runs.size(), differences_.all_runs),
         CellStyle::note);
-  std::vector<std::string> heads = {"value of the scene", "unit"};
+  vector<string> heads = {"value of the scene", "unit"};
   heads.insert(heads.end(), differences_.runs.begin(), differences_.runs.end());
   write_head(sheet_, row++, heads);
   for (const Difference& difference : differences_.rows) {
     if (row >= most_rows) break;
     sheet_.text(row, 0, plan_.parameters[difference.parameter].path, CellStyle::swept);
     sheet_.text(row, 1, plan_.parameters[difference.parameter].unit);
-    for (std::size_t k = 0; k < difference.values.size(); ++k) sheet_.cell(row, 2 + k, cell_of(difference.values[k]));
+    for (size_t k = 0; k < difference.values.size(); ++k) sheet_.cell(row, 2 + k, cell_of(difference.values[k]));
     ++row;
   }
   return row;
 }
 
-void ParameterSheet::finish(const Outcomes& outcomes, const std::vector<SceneValue>& common) {
-  std::size_t row = 0;
+void ParameterSheet::finish(const Outcomes& outcomes, const vector<SceneValue>& common) {
+  size_t row = 0;
   if (!plan_.parameters.empty()) row = (unrelated_ ? write_differences(row) : write_ranges(outcomes, row)) + 1;
   sheet_.text(row++, 0, "Values that all runs share", CellStyle::title);
   write_head(sheet_, row++, {"value of the scene", "unit", "value"});

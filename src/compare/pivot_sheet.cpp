@@ -9,25 +9,26 @@
 
 #include "compare/charts.h"
 #include "compare/scenarios.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t most_blocks = 6, most_labels = 250, most_formulas = 2500;
+constexpr size_t most_blocks = 6, most_labels = 250, most_formulas = 2500;
 
 /// The mean over the points with both values, by row, then column. A point counts as often as it has runs.
 struct Mean {
   double sum = 0;
-  std::size_t count = 0;
+  size_t count = 0;
 };
 
-std::string range_of(std::size_t column, const SummaryPlace& summary) {
+string range_of(size_t column, const SummaryPlace& summary) {
   char name[LXW_MAX_COL_NAME_LENGTH];
   lxw_col_to_name(name, static_cast<lxw_col_t>(column), LXW_TRUE);
   return fmt::format("Summary!{0}${1}:{0}${2}", name, summary.first_row + 1, summary.first_row + summary.rows);
 }
 
-std::string cell_name(std::size_t row, std::size_t column, bool row_fixed) {
+string cell_name(size_t row, size_t column, bool row_fixed) {
   char name[LXW_MAX_COL_NAME_LENGTH];
   lxw_col_to_name(name, static_cast<lxw_col_t>(column), row_fixed ? LXW_FALSE : LXW_TRUE);
   return fmt::format("{}{}{}", name, row_fixed ? "$" : "", row + 1);
@@ -35,10 +36,10 @@ std::string cell_name(std::size_t row, std::size_t column, bool row_fixed) {
 
 /// Whether a formula's criterion takes the value literally: no wildcard, no comparison.
 bool is_literal(const Cell& cell) {
-  return cell.is_number() || (!cell.text.empty() && cell.text.find_first_of("<>=*?~'") == std::string::npos);
+  return cell.is_number() || (!cell.text.empty() && cell.text.find_first_of("<>=*?~'") == string::npos);
 }
 
-void add_scale(Worksheet& sheet, std::size_t row, std::size_t rows, std::size_t columns) {
+void add_scale(Worksheet& sheet, size_t row, size_t rows, size_t columns) {
   lxw_conditional_format scale{};
   scale.type = LXW_CONDITIONAL_2_COLOR_SCALE;
   scale.min_color = 0xFFFFFF;
@@ -49,48 +50,45 @@ void add_scale(Worksheet& sheet, std::size_t row, std::size_t rows, std::size_t 
 
 }  // namespace
 
-std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const ComparisonPlan& plan,
-                                                                    const Outcomes& outcomes) {
-  const auto varies = [&](std::optional<std::size_t> p) {
+optional<std::pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan, const Outcomes& outcomes) {
+  const auto varies = [&](optional<size_t> p) {
     return p && p != plan.seed && outcomes.varied()[*p].values.size() > 1;
   };
   for (const Chart& chart : plan.charts) {
     const auto x = find_parameter(plan, chart.x), by = find_parameter(plan, chart.by);
     if (varies(x) && varies(by) && x != by) return std::pair(*x, *by);
   }
-  const std::vector<std::size_t> independent = outcomes.independent();
-  if (independent.size() < 2) return std::nullopt;
+  const vector<size_t> independent = outcomes.independent();
+  if (independent.size() < 2) return nullopt;
   return std::pair(independent[0], independent[1]);
 }
 
-void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
-                 const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
-                 const SummaryPlace& summary) {
+void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
+                 const Outcomes& outcomes, std::pair<size_t, size_t> parameters, const SummaryPlace& summary) {
   const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
-  const std::size_t height = std::min(down.values.size(), most_labels);
-  const std::size_t width = std::min(across.values.size(), most_labels);
-  const std::size_t blocks = std::min(measures.size(), most_blocks);
-  const bool literal = std::all_of(down.values.begin(), down.values.end(), is_literal) &&
-                       std::all_of(across.values.begin(), across.values.end(), is_literal);
+  const size_t height = std::min(down.values.size(), most_labels);
+  const size_t width = std::min(across.values.size(), most_labels);
+  const size_t blocks = std::min(measures.size(), most_blocks);
+  const bool literal = std::ranges::all_of(down.values, is_literal) && std::ranges::all_of(across.values, is_literal);
   const bool formulas = summary.rows > 0 && literal && blocks * height * width <= most_formulas;
-  const std::vector<std::string> names =
+  const vector<string> names =
       short_names({plan.parameters[parameters.first].path, plan.parameters[parameters.second].path});
   NumberLook down_look, across_look;
   for (const Cell& value : down.values) down_look.add(value.number);
   for (const Cell& value : across.values) across_look.add(value.number);
   sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
   sheet.note(
-      1, std::max<std::size_t>(width + 1, 2),
+      1, std::max<size_t>(width + 1, 2),
       fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
                   label_of(plan.parameters[parameters.second]), formulas ? "; formulas over the sheet Summary" : "",
                   height < down.values.size() || width < across.values.size()
                       ? fmt::format("; only the first {} values of each", most_labels)
                       : ""),
-      10 * static_cast<double>(std::max<std::size_t>(width + 1, 2)));
-  std::size_t row = 3;
-  for (std::size_t block = 0; block < blocks; ++block) {
-    std::vector<Mean> means(height * width);
-    for (std::size_t i = 0; i < outcomes.points(); ++i) {
+      10 * static_cast<double>(std::max<size_t>(width + 1, 2)));
+  size_t row = 3;
+  for (size_t block = 0; block < blocks; ++block) {
+    vector<Mean> means(height * width);
+    for (size_t i = 0; i < outcomes.points(); ++i) {
       if (down.of_point[i] >= height || across.of_point[i] >= width) continue;
       const Spread spread = outcomes.spread(i, block);
       if (spread.count() == 0) continue;
@@ -102,13 +100,12 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
     for (const Mean& mean : means)
       if (mean.count > 0) look.add(mean.sum / static_cast<double>(mean.count));
     sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
-    const std::size_t head = row++;
+    const size_t head = row++;
     sheet.text(head, 0, fmt::format("{} \\ {}", names[0], names[1]), CellStyle::header);
-    for (std::size_t k = 0; k < width; ++k)
-      sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header, &across_look);
-    for (std::size_t i = 0; i < height; ++i, ++row) {
+    for (size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header, &across_look);
+    for (size_t i = 0; i < height; ++i, ++row) {
       sheet.cell(row, 0, down.values[i], CellStyle::swept, &down_look);
-      for (std::size_t k = 0; k < width; ++k) {
+      for (size_t k = 0; k < width; ++k) {
         const Mean& mean = means[i * width + k];
         if (mean.count == 0) continue;
         const double value = mean.sum / static_cast<double>(mean.count);

@@ -3,21 +3,21 @@
 #include <utility>
 
 #include "compare/outcomes.h"
+#include "std.h"
 
 namespace carom {
 
 /// The two parameters of the table: those of the first chart that has two, else the first two that vary independently.
 /// None: fewer than two vary.
-std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const ComparisonPlan& plan,
-                                                                    const Outcomes& outcomes);
+optional<std::pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan, const Outcomes& outcomes);
 
 /// The place of the data on the sheet Summary.
 struct SummaryPlace {
-  std::vector<std::size_t> parameters, measures;  // columns, by parameter and by measure
-  std::size_t first_row, rows;                    // from 0; no rows: no formulas
+  vector<size_t> parameters, measures;  // columns, by parameter and by measure
+  size_t first_row, rows;               // from 0; no rows: no formulas
 };
 
-void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
-                 const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters, const SummaryPlace& summary);
+void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
+                 const Outcomes& outcomes, std::pair<size_t, size_t> parameters, const SummaryPlace& summary);
 
 }  // namespace carom

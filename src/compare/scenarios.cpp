@@ -8,36 +8,35 @@
 #include <limits>
 
 #include "compare/charts.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Points spread over the values of these parameters, ascending.
-std::vector<std::size_t> spread_points(const Outcomes& outcomes, const std::vector<std::size_t>& parameters,
-                                       std::size_t count) {
-  const std::size_t all = outcomes.points();
-  std::vector<std::size_t> chosen;
+vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& parameters, size_t count) {
+  const size_t all = outcomes.points();
+  vector<size_t> chosen;
   if (all <= count || parameters.size() < 2) {
     // By the value of the parameter, or as they come.
-    std::vector<std::size_t> order(all);
-    for (std::size_t i = 0; i < all; ++i) order[i] = i;
+    vector<size_t> order(all);
+    for (size_t i = 0; i < all; ++i) order[i] = i;
     if (!parameters.empty()) {
       const Varied& varied = outcomes.varied()[parameters.front()];
-      std::stable_sort(order.begin(), order.end(),
-                       [&](std::size_t a, std::size_t b) { return varied.of_point[a] < varied.of_point[b]; });
+      std::ranges::stable_sort(order, [&](size_t a, size_t b) { return varied.of_point[a] < varied.of_point[b]; });
     }
-    for (std::size_t k = 0; k < std::min(all, count); ++k)
+    for (size_t k = 0; k < std::min(all, count); ++k)
       chosen.push_back(order[all <= count ? k : k * (all - 1) / (count - 1)]);
     return chosen;
   }
-  std::vector<double> nearest(all, std::numeric_limits<double>::infinity());  // squared distance to those chosen
-  std::size_t next = 0;
+  vector<double> nearest(all, std::numeric_limits<double>::infinity());  // squared distance to those chosen
+  size_t next = 0;
   while (chosen.size() < count && nearest[next] > 0) {
     chosen.push_back(next);
-    const std::size_t last = next;
-    for (std::size_t i = 0; i < all; ++i) {
+    const size_t last = next;
+    for (size_t i = 0; i < all; ++i) {
       double distance = 0;
-      for (const std::size_t p : parameters) {
+      for (const size_t p : parameters) {
         const Varied& varied = outcomes.varied()[p];
         const double width = static_cast<double>(varied.values.size()) - 1;
         const double way =
@@ -48,31 +47,30 @@ std::vector<std::size_t> spread_points(const Outcomes& outcomes, const std::vect
       if (nearest[i] > nearest[next] || i == 0) next = i;
     }
   }
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 
 /// A number with at most five digits, or the text.
-std::string shown_value(const Cell& cell) {
+string shown_value(const Cell& cell) {
   return cell.is_number() ? fmt::format("{:.5g}", cell.number == 0 ? 0.0 : cell.number) : cell.text;
 }
 
 }  // namespace
 
-std::vector<std::string> short_names(const std::vector<std::string>& paths) {
-  const auto tail = [](const std::string& path, std::size_t words) {
-    std::size_t at = path.size();
-    for (std::size_t k = 0; k < words && at != std::string::npos; ++k) at = at == 0 ? at : path.rfind('.', at - 1);
-    return at == std::string::npos ? path : path.substr(at + 1);
+vector<string> short_names(const vector<string>& paths) {
+  const auto tail = [](const string& path, size_t words) {
+    size_t at = path.size();
+    for (size_t k = 0; k < words && at != string::npos; ++k) at = at == 0 ? at : path.rfind('.', at - 1);
+    return at == string::npos ? path : path.substr(at + 1);
   };
-  std::vector<std::string> names;
-  for (const std::string& path : paths) {
+  vector<string> names;
+  for (const string& path : paths) {
     // A coordinate alone says too little.
-    std::size_t words = tail(path, 1).size() == 1 && !path.starts_with("let.") ? 2 : 1;
+    size_t words = tail(path, 1).size() == 1 && !path.starts_with("let.") ? 2 : 1;
     const auto is_taken = [&] {
-      return std::any_of(paths.begin(), paths.end(), [&](const std::string& other) {
-        return other != path && tail(other, words) == tail(path, words);
-      });
+      return std::ranges::any_of(
+          paths, [&](const string& other) { return other != path && tail(other, words) == tail(path, words); });
     };
     while (tail(path, words) != path && is_taken()) ++words;
     names.push_back(tail(path, words));
@@ -81,28 +79,28 @@ std::vector<std::string> short_names(const std::vector<std::string>& paths) {
 }
 
 ChosenScenarios chosen_scenarios(const ComparisonPlan& plan, const Outcomes& outcomes,
-                                 const std::vector<std::size_t>& point_of_run, bool unrelated) {
-  const std::vector<std::size_t> parameters = unrelated ? std::vector<std::size_t>() : outcomes.independent();
-  const std::vector<std::size_t> points = spread_points(outcomes, parameters, ChosenScenarios::most);
-  std::vector<std::string> paths;
-  for (const std::size_t p : parameters) paths.push_back(plan.parameters[p].path);
-  const std::vector<std::string> names = short_names(paths);
+                                 const vector<size_t>& point_of_run, bool unrelated) {
+  const vector<size_t> parameters = unrelated ? vector<size_t>() : outcomes.independent();
+  const vector<size_t> points = spread_points(outcomes, parameters, ChosenScenarios::most);
+  vector<string> paths;
+  for (const size_t p : parameters) paths.push_back(plan.parameters[p].path);
+  const vector<string> names = short_names(paths);
   ChosenScenarios chosen;
   chosen.all = outcomes.points();
-  std::vector<std::uint32_t> number(outcomes.points(), ChosenScenarios::none);
-  for (const std::size_t point : points) {
-    number[point] = static_cast<std::uint32_t>(chosen.names.size());
-    std::string name;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
+  vector<uint32_t> number(outcomes.points(), ChosenScenarios::none);
+  for (const size_t point : points) {
+    number[point] = static_cast<uint32_t>(chosen.names.size());
+    string name;
+    for (size_t k = 0; k < parameters.size(); ++k) {
       const Varied& varied = outcomes.varied()[parameters[k]];
       const Cell& value = varied.values[varied.of_point[point]];
-      const std::string& unit = plan.parameters[parameters[k]].unit;
+      const string& unit = plan.parameters[parameters[k]].unit;
       name +=
           fmt::format("{}{} = {}{}{}", k == 0 ? "" : ", ", names[k], shown_value(value), unit.empty() ? "" : " ", unit);
     }
-    chosen.names.push_back(name.empty() ? std::string(outcomes.id(point)) : name);
+    chosen.names.push_back(name.empty() ? string(outcomes.id(point)) : name);
   }
-  for (const std::size_t point : point_of_run)
+  for (const size_t point : point_of_run)
     chosen.of_run.push_back(point == Outcomes::no_point ? ChosenScenarios::none : number[point]);
   return chosen;
 }

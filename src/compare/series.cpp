@@ -11,13 +11,14 @@
 
 #include "files/stored_file.h"
 #include "run/stored_trajectory.h"
+#include "std.h"
 #include "yaml/letters.h"
 
 namespace carom {
 namespace {
 
 /// Bytes. A longer file is not read for a chart of 2,000 points.
-constexpr std::uint64_t longest_file = 64 << 20;
+constexpr uint64_t longest_file = 64 << 20;
 
 bool is_short(const RunRecord& run, const char* name) {
   const auto size = stored_size(run.folder.get(), name);
@@ -27,7 +28,7 @@ bool is_short(const RunRecord& run, const char* name) {
 SeriesGroup read_energy(const RunRecord& run) {
   SeriesGroup group;
   StoredTable table = open_table(run, "energy.csv");
-  std::vector<std::size_t> from;
+  vector<size_t> from;
   for (const char* name : {"kinetic_J", "total_J"}) {
     const auto column = table.find(name);
     if (!column) continue;
@@ -36,23 +37,23 @@ SeriesGroup read_energy(const RunRecord& run) {
   }
   while (const auto* cells = table.next()) {
     group.times.push_back(number_in((*cells)[0]).value_or(0));
-    for (std::size_t k = 0; k < from.size(); ++k)
+    for (size_t k = 0; k < from.size(); ++k)
       group.columns[k].values.push_back(from[k] < cells->size() ? number_in((*cells)[from[k]]).value_or(std::nan(""))
                                                                 : std::nan(""));
   }
   return group;
 }
 
-SeriesGroup read_bodies(const RunRecord& run, const std::vector<Measure>& measures) {
+SeriesGroup read_bodies(const RunRecord& run, const vector<Measure>& measures) {
   SeriesGroup group;
   StoredTable table = open_table(run, "trajectory.csv");
-  std::vector<std::string> bodies;
+  vector<string> bodies;
   for (const Measure& measure : measures) {
     bodies.push_back(measure.body);
     group.columns.push_back({0, measure.name, {}});
   }
   const MotionColumns columns = motion_columns(table, bodies);
-  std::string time;
+  string time;
   Vec3 position, velocity;
   while (const auto* cells = table.next()) {
     if (columns.wide || (*cells)[0] != time) {
@@ -60,9 +61,9 @@ SeriesGroup read_bodies(const RunRecord& run, const std::vector<Measure>& measur
       group.times.push_back(number_in(time).value_or(0));
       for (SeriesColumn& column : group.columns) column.values.push_back(std::numeric_limits<double>::quiet_NaN());
     }
-    for (std::size_t k = 0; k < measures.size(); ++k) {
+    for (size_t k = 0; k < measures.size(); ++k) {
       if (!columns.wide && (cells->size() <= columns.body || (*cells)[columns.body] != measures[k].body)) continue;
-      const std::size_t first = columns.wide ? columns.first[k] : columns.body + 1;
+      const size_t first = columns.wide ? columns.first[k] : columns.body + 1;
       if (first > 0 && read_motion(*cells, first, position, velocity))
         group.columns[k].values.back() = quantity_of(measures[k].quantity, position, velocity, 1);
     }
@@ -71,12 +72,12 @@ SeriesGroup read_bodies(const RunRecord& run, const std::vector<Measure>& measur
 }
 
 /// Keeps at most `most` evenly spaced rows, including the first and the last.
-void thin(SeriesGroup& group, std::size_t most) {
-  const std::size_t rows = group.times.size();
+void thin(SeriesGroup& group, size_t most) {
+  const size_t rows = group.times.size();
   if (rows <= most) return;
-  const auto chosen = [&](const std::vector<double>& all) {
-    std::vector<double> some(most);
-    for (std::size_t i = 0; i < most; ++i) some[i] = all[i * (rows - 1) / (most - 1)];
+  const auto chosen = [&](const vector<double>& all) {
+    vector<double> some(most);
+    for (size_t i = 0; i < most; ++i) some[i] = all[i * (rows - 1) / (most - 1)];
     return some;
   };
   group.times = chosen(group.times);
@@ -85,7 +86,7 @@ void thin(SeriesGroup& group, std::size_t most) {
 
 }  // namespace
 
-SeriesGatherer::SeriesGatherer(ChosenScenarios scenarios, const std::vector<Measure>& measures)
+SeriesGatherer::SeriesGatherer(ChosenScenarios scenarios, const vector<Measure>& measures)
     : scenarios_(std::move(scenarios)) {
   // A trajectory has no masses, and so no kinetic energies.
   for (const Measure& measure : measures)
@@ -93,8 +94,8 @@ SeriesGatherer::SeriesGatherer(ChosenScenarios scenarios, const std::vector<Meas
       bodies_.push_back(measure);
 }
 
-void SeriesGatherer::add(std::size_t number, const RunRecord& run) {
-  const std::uint32_t scenario = scenarios_.of_run[number];
+void SeriesGatherer::add(size_t number, const RunRecord& run) {
+  const uint32_t scenario = scenarios_.of_run[number];
   if (!run.done || scenario == ChosenScenarios::none) return;
   const bool energy = has_file(run, "energy.csv"), trajectory = has_file(run, "trajectory.csv");
   if (!energy && trajectory && bodies_.empty()) follow_first(run);
@@ -109,7 +110,7 @@ void SeriesGatherer::add(std::size_t number, const RunRecord& run) {
 
 /// Without measures of bodies and without energies, follows the speeds of the first few bodies.
 void SeriesGatherer::follow_first(const RunRecord& run) {
-  constexpr std::size_t few = 3;
+  constexpr size_t few = 3;
   for (const EndMotion& motion : end_of_trajectory(run.folder.get())) {
     if (bodies_.size() == few) break;
     Measure& measure = bodies_.emplace_back();
@@ -120,13 +121,13 @@ void SeriesGatherer::follow_first(const RunRecord& run) {
   }
 }
 
-void SeriesGatherer::take(std::uint32_t scenario, SeriesGroup part) {
+void SeriesGatherer::take(uint32_t scenario, SeriesGroup part) {
   thin(part, most_points);
   if (part.times.empty()) return;
   for (SeriesColumn& column : part.columns) column.scenario = scenario;
   // A repeat joins the mean of those before it.
   for (SeriesGroup& group : groups_) {
-    const auto same = std::find_if(group.columns.begin(), group.columns.end(), [&](const SeriesColumn& column) {
+    const auto same = std::ranges::find_if(group.columns, [&](const SeriesColumn& column) {
       return column.scenario == scenario && column.name == part.columns.front().name;
     });
     if (same == group.columns.end()) continue;
@@ -134,15 +135,15 @@ void SeriesGatherer::take(std::uint32_t scenario, SeriesGroup part) {
       ++left_out_;
       return;
     }
-    for (std::size_t k = 0; k < part.columns.size(); ++k) {
-      SeriesColumn& mean = *(same + static_cast<std::ptrdiff_t>(k));
+    for (size_t k = 0; k < part.columns.size(); ++k) {
+      SeriesColumn& mean = *(same + static_cast<ptrdiff_t>(k));
       ++mean.runs;
-      for (std::size_t i = 0; i < mean.values.size(); ++i)
+      for (size_t i = 0; i < mean.values.size(); ++i)
         mean.values[i] += (part.columns[k].values[i] - mean.values[i]) / static_cast<double>(mean.runs);
     }
     return;
   }
-  auto group = std::find_if(groups_.begin(), groups_.end(), [&](const auto& g) { return g.times == part.times; });
+  auto group = std::ranges::find_if(groups_, [&](const auto& g) { return g.times == part.times; });
   if (group == groups_.end()) {
     groups_.push_back({part.times, {}});
     group = groups_.end() - 1;
@@ -150,25 +151,25 @@ void SeriesGatherer::take(std::uint32_t scenario, SeriesGroup part) {
   std::move(part.columns.begin(), part.columns.end(), std::back_inserter(group->columns));
 }
 
-std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series) {
-  std::vector<PlacedSeries> placed;
-  std::size_t rows = 0, column = 0;
-  std::vector<NumberLook> looks;
-  const auto look_at = [&](const std::vector<double>& values) {
+vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series) {
+  vector<PlacedSeries> placed;
+  size_t rows = 0, column = 0;
+  vector<NumberLook> looks;
+  const auto look_at = [&](const vector<double>& values) {
     looks.emplace_back();
     for (const double value : values) looks.back().add(value);
   };
   constexpr double least = 16;  // characters
-  std::size_t longest = 0;
-  for (const std::string& name : series.scenarios().names) longest = std::max(longest, letters_of(name));
-  sheet.set_head_row(0, std::min<std::size_t>(2 + longest / static_cast<std::size_t>(least), 5));
+  size_t longest = 0;
+  for (const string& name : series.scenarios().names) longest = std::max(longest, letters_of(name));
+  sheet.set_head_row(0, std::min<size_t>(2 + longest / static_cast<size_t>(least), 5));
   for (const SeriesGroup& group : series.groups()) {
     rows = std::max(rows, group.times.size());
     sheet.head(0, column, "time (s)");
     look_at(group.times);
-    const std::size_t time_column = column++;
+    const size_t time_column = column++;
     for (const SeriesColumn& values : group.columns) {
-      const std::string& scenario = series.scenarios().names[values.scenario];
+      const string& scenario = series.scenarios().names[values.scenario];
       sheet.head(0, column, fmt::format("{}: {}", label_of(values.name), scenario));
       look_at(values.values);
       PlacedSeries& place =
@@ -183,12 +184,12 @@ std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& s
     sheet.text(0, 0, "No run has energy.csv or trajectory.csv.", CellStyle::note);
     return placed;
   }
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (size_t row = 0; row < rows; ++row) {
     column = 0;
     for (const SeriesGroup& group : series.groups()) {
       if (row < group.times.size()) {
         sheet.number(row + 1, column, group.times[row], CellStyle::plain, &looks[column]);
-        for (std::size_t k = 0; k < group.columns.size(); ++k)
+        for (size_t k = 0; k < group.columns.size(); ++k)
           sheet.number(row + 1, column + 1 + k, group.columns[k].values[row], CellStyle::plain, &looks[column + 1 + k]);
       }
       column += 1 + group.columns.size();

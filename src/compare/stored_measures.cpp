@@ -17,6 +17,7 @@
 #include "run/measure_scope.h"
 #include "run/summary_columns.h"
 #include "scene/formula.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -50,11 +51,10 @@ const Manifest* StoredMeasures::manifest() {
   return *manifest_ ? &**manifest_ : nullptr;
 }
 
-const Measured* StoredMeasures::measured(const std::string& name) {
+const Measured* StoredMeasures::measured(const string& name) {
   const Manifest* of = manifest();
   if (of == nullptr) return nullptr;
-  const auto found =
-      std::find_if(of->measures.begin(), of->measures.end(), [&](const Measured& one) { return one.name == name; });
+  const auto found = std::ranges::find_if(of->measures, [&](const Measured& one) { return one.name == name; });
   return found == of->measures.end() ? nullptr : &*found;
 }
 
@@ -67,25 +67,24 @@ const Scene& StoredMeasures::scene() {
   return *scene_;
 }
 
-const std::vector<EndMotion>& StoredMeasures::ends() {
+const vector<EndMotion>& StoredMeasures::ends() {
   if (!ends_) ends_ = end_of_trajectory(folder_);
   return *ends_;
 }
 
 bool StoredMeasures::has(const Measure& measure) {
   if (measure.form == MeasureForm::column || measured(measure.name) != nullptr) return true;
-  if (!std::all_of(measure.parts.begin(), measure.parts.end(), [this](const Measure& part) { return has(part); }))
-    return false;
+  if (!std::ranges::all_of(measure.parts, [this](const Measure& part) { return has(part); })) return false;
   if (measure.form == MeasureForm::expression || measure.form == MeasureForm::given) return true;
   const char* table = table_of(measure);
   return table != nullptr && has_file(table);
 }
 
-bool StoredMeasures::have(std::span<const Measure> measures) {
-  return std::all_of(measures.begin(), measures.end(), [this](const Measure& measure) { return has(measure); });
+bool StoredMeasures::have(span<const Measure> measures) {
+  return std::ranges::all_of(measures, [this](const Measure& measure) { return has(measure); });
 }
 
-Measured StoredMeasures::value(const Measure& measure, const std::vector<std::string>& summary) {
+Measured StoredMeasures::value(const Measure& measure, const vector<string>& summary) {
   if (measure.form != MeasureForm::column)
     if (const Measured* known = measured(measure.name)) return *known;
   Measured value{measure.name, number(measure, summary), {}};
@@ -93,9 +92,9 @@ Measured StoredMeasures::value(const Measure& measure, const std::vector<std::st
   return value;
 }
 
-double StoredMeasures::number(const Measure& measure, const std::vector<std::string>& summary) {
+double StoredMeasures::number(const Measure& measure, const vector<string>& summary) {
   if (measure.form == MeasureForm::column) {
-    const auto column = static_cast<std::size_t>(measure.column - summary_columns().data());
+    const auto column = static_cast<size_t>(measure.column - summary_columns().data());
     return number_in(summary[column]).value_or(undefined);
   }
   if (const Measured* known = measured(measure.name)) return known->value;
@@ -134,7 +133,7 @@ double StoredMeasures::number(const Measure& measure, const std::vector<std::str
   }
 }
 
-double StoredMeasures::quantity(const Measure& measure, std::size_t body) {
+double StoredMeasures::quantity(const Measure& measure, size_t body) {
   const EndMotion& motion = ends()[body];
   double mass = 1;
   if (measure.quantity == Quantity::kinetic) {
@@ -148,29 +147,29 @@ double StoredMeasures::quantity(const Measure& measure, std::size_t body) {
 double StoredMeasures::at_end(const Measure& measure) {
   const auto found =
       std::find_if(ends().begin(), ends().end(), [&](const EndMotion& m) { return m.body == measure.body; });
-  return found == ends().end() ? undefined : quantity(measure, static_cast<std::size_t>(found - ends().begin()));
+  return found == ends().end() ? undefined : quantity(measure, static_cast<size_t>(found - ends().begin()));
 }
 
-double StoredMeasures::counted(const Measure& measure, const std::vector<std::string>& summary) {
+double StoredMeasures::counted(const Measure& measure, const vector<string>& summary) {
   const double limit = evaluated(measure, summary);
   double count = 0;
-  for (std::size_t i = 0; i < ends().size(); ++i)
+  for (size_t i = 0; i < ends().size(); ++i)
     if (measure.body.empty() || is_named(ends()[i].body, measure.body))
       count += compares(quantity(measure, i), measure.relation, limit) ? 1 : 0;
   return count;
 }
 
-double StoredMeasures::evaluated(const Measure& measure, const std::vector<std::string>& summary) {
-  std::vector<double> values;
+double StoredMeasures::evaluated(const Measure& measure, const vector<string>& summary) {
+  vector<double> values;
   for (const Measure& part : measure.parts) values.push_back(number(part, summary));
   return formula_value(measure, values);
 }
 
-std::string StoredMeasures::second_body(std::string_view string) {
-  const std::vector<std::string>& names = scene().roster.strings;
-  const auto found = std::find(names.begin(), names.end(), string);
+string StoredMeasures::second_body(string_view string) {
+  const vector<std::string>& names = scene().roster.strings;
+  const auto found = std::ranges::find(names, string);
   if (found == names.end()) return {};
-  const Entity other = scene().world.strings[static_cast<std::size_t>(found - names.begin())].other;
+  const Entity other = scene().world.strings[static_cast<size_t>(found - names.begin())].other;
   return other == no_entity ? std::string() : scene().roster.name(other);
 }
 
@@ -179,11 +178,11 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   const auto time = table.find("time_s"), kind = table.find("kind"), a = table.find("a"), b = table.find("b");
   Meetings found{0, undefined};
   if (!time || !kind || !a || !b) return found;
-  while (const std::vector<std::string_view>* row = table.next()) {
+  while (const vector<string_view>* row = table.next()) {
     if (row->size() <= std::max({*time, *kind, *a, *b}) || (*row)[*kind] == "rest") continue;
     // A string that goes taut pulls at both of its bodies.
-    const std::string other = (*row)[*kind] == "string" ? second_body((*row)[*b]) : std::string();
-    const auto has = [&](std::size_t name, bool first) {
+    const string other = (*row)[*kind] == "string" ? second_body((*row)[*b]) : string();
+    const auto has = [&](size_t name, bool first) {
       return is_named((*row)[first ? *a : *b], measure.things[name]) ||
              (first && is_named(other, measure.things[name]));
     };
@@ -200,13 +199,13 @@ StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
              what = table.find("what");
   Visits found{0, 0, undefined, {}};
   if (!time || !region || !body || !what) return found;
-  std::set<std::string> removing;
-  for (std::size_t r = 0; r < scene().world.regions.size(); ++r)
+  std::set<string> removing;
+  for (size_t r = 0; r < scene().world.regions.size(); ++r)
     if (scene().world.regions[r].removes) removing.insert(scene().roster.regions[r]);
-  std::set<std::pair<std::string, std::string>> inside;  // region, body
-  while (const std::vector<std::string_view>* row = table.next()) {
+  std::set<std::pair<string, string>> inside;  // region, body
+  while (const vector<string_view>* row = table.next()) {
     if (row->size() <= std::max({*time, *region, *body, *what})) continue;
-    const std::string in((*row)[*region]), who((*row)[*body]);
+    const string in((*row)[*region]), who((*row)[*body]);
     const bool enters = (*row)[*what] == "enter";
     if (enters && removing.contains(in)) std::erase_if(inside, [&](const auto& of) { return of.second == who; });
     if (!is_named(in, measure.things[0])) continue;

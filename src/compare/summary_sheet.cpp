@@ -16,12 +16,13 @@
 #include "files/stored_file.h"
 #include "files/stored_table.h"
 #include "run/summary_columns.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// The maximum length of a table's column names.
-constexpr std::size_t longest_name = 255;
+constexpr size_t longest_name = 255;
 
 CellStyle head_of(CellStyle style) {
   return style == CellStyle::swept ? CellStyle::swept_header : CellStyle::header;
@@ -29,17 +30,16 @@ CellStyle head_of(CellStyle style) {
 
 }  // namespace
 
-std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPlan& plan,
-                                                             const std::vector<Measure>& measures) {
-  std::vector<Column> columns;
-  for (std::size_t k = 0; k < summary_columns().size(); ++k) {
+vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPlan& plan, const vector<Measure>& measures) {
+  vector<Column> columns;
+  for (size_t k = 0; k < summary_columns().size(); ++k) {
     const SummaryColumn& summary = summary_columns()[k];
     columns.push_back(
-        {std::string(summary.name), label_of(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}});
+        {string(summary.name), label_of(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}});
   }
-  for (std::size_t k = 0; k < plan.parameters.size(); ++k)
+  for (size_t k = 0; k < plan.parameters.size(); ++k)
     columns.push_back({plan.parameters[k].path, label_of(plan.parameters[k]), CellStyle::swept, false, {}, k, {}});
-  for (std::size_t k = 0; k < measures.size(); ++k)
+  for (size_t k = 0; k < measures.size(); ++k)
     if (measures[k].column == nullptr)
       columns.push_back({measures[k].name, label_of(measures[k].name), CellStyle::plain, false, {}, {}, k});
   if (columns.size() > most_columns)
@@ -50,7 +50,7 @@ std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPla
 }
 
 SummarySheet::SummarySheet(const FilePlace& place, Workbook& book, const ComparisonPlan& plan,
-                           const std::vector<Measure>& measures, std::size_t count, bool unrelated)
+                           const vector<Measure>& measures, size_t count, bool unrelated)
     : count_(count),
       parameters_(plan.parameters.size()),
       unrelated_(unrelated),
@@ -58,7 +58,7 @@ SummarySheet::SummarySheet(const FilePlace& place, Workbook& book, const Compari
       measures_(measures),
       columns_(make_columns(plan, measures)),
       sheet_(book.add("Summary", !is_table(count))),
-      table_(std::make_unique<OutputFile>(place, summary_name)) {}
+      table_(make_unique<OutputFile>(place, summary_name)) {}
 
 void SummarySheet::write_heads() {
   CsvRow row(*table_);
@@ -66,7 +66,7 @@ void SummarySheet::write_heads() {
   row.end();
 }
 
-void SummarySheet::add(std::size_t number, const RunRecord& run) {
+void SummarySheet::add(size_t number, const RunRecord& run) {
   CsvRow row(*table_);
   for (Column& column : columns_) {
     Cell cell;
@@ -95,8 +95,8 @@ void SummarySheet::add(std::size_t number, const RunRecord& run) {
 /// out.
 void SummarySheet::choose_columns() {
   const auto add = [&](const auto& belongs) {
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      if (std::find(shown_.begin(), shown_.end(), k) == shown_.end() && belongs(columns_[k])) shown_.push_back(k);
+    for (size_t k = 0; k < columns_.size(); ++k)
+      if (std::ranges::find(shown_, k) == shown_.end() && belongs(columns_[k])) shown_.push_back(k);
   };
   add([](const Column& column) { return column.name == "run"; });
   if (!unrelated_) add([](const Column& column) { return column.parameter.has_value(); });
@@ -106,12 +106,11 @@ void SummarySheet::choose_columns() {
 }
 
 /// "title: Two balls; engine: exact". Empty: no column is folded.
-std::string SummarySheet::folded() const {
-  std::string text;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
+string SummarySheet::folded() const {
+  string text;
+  for (size_t k = 0; k < columns_.size(); ++k) {
     const Column& column = columns_[k];
-    if (column.parameter || column.first.empty() || std::find(shown_.begin(), shown_.end(), k) != shown_.end())
-      continue;
+    if (column.parameter || column.first.empty() || std::ranges::find(shown_, k) != shown_.end()) continue;
     const Cell cell = column.is_text ? Cell{column.first} : cell_of(column.first);
     text += fmt::format("{}{}: {}", text.empty() ? "The same in all runs: " : "; ", column.label,
                         cell.is_number() ? fmt::format("{:.5g}", cell.number) : cell.text);
@@ -120,18 +119,18 @@ std::string SummarySheet::folded() const {
 }
 
 void SummarySheet::write_sheet_heads() {
-  constexpr std::size_t columns_of_note = 8;
+  constexpr size_t columns_of_note = 8;
   constexpr double width_of_note = 100;  // characters
-  if (const std::string text = folded(); !text.empty()) {
+  if (const string text = folded(); !text.empty()) {
     sheet_.note(0, std::min(shown_.size(), columns_of_note), text, width_of_note);
     head_row_ = 1;
   }
   sheet_.set_head_row(head_row_);
   // The column names of a table must differ in more than the case of letters, and must not be long.
-  std::map<std::string, int> taken;
-  for (std::size_t k = 0; k < shown_.size(); ++k) {
+  std::map<string, int> taken;
+  for (size_t k = 0; k < shown_.size(); ++k) {
     const Column& column = columns_[shown_[k]];
-    std::string head = column.label.substr(0, longest_name - 8), lower = head;
+    string head = column.label.substr(0, longest_name - 8), lower = head;
     std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
     if (const int before = taken[lower]++; before > 0) head += fmt::format(" ({})", before + 1);
     heads_.push_back(head);
@@ -143,14 +142,14 @@ void SummarySheet::write_rows() {
   Descriptor file = open_stored(place_.folder, part_name(summary_name));
   if (!file) fail("read", place_, summary_name);
   StoredTable table(std::move(file));
-  std::size_t row = first_row();
+  size_t row = first_row();
   while (const auto* cells = table.next()) {
     if (row == most_rows) return;
-    for (std::size_t k = 0; k < shown_.size(); ++k) {
+    for (size_t k = 0; k < shown_.size(); ++k) {
       if (shown_[k] >= cells->size()) continue;
       const Column& column = columns_[shown_[k]];
-      const std::string_view text = (*cells)[shown_[k]];
-      sheet_.cell(row, k, column.is_text ? Cell{std::string(text)} : cell_of(text), column.style, &column.look);
+      const string_view text = (*cells)[shown_[k]];
+      sheet_.cell(row, k, column.is_text ? Cell{string(text)} : cell_of(text), column.style, &column.look);
     }
     ++row;
   }
@@ -161,7 +160,7 @@ void SummarySheet::finish() {
   choose_columns();
   write_sheet_heads();
   write_rows();
-  const std::size_t rows = std::min(count_, most_rows - first_row());
+  const size_t rows = std::min(count_, most_rows - first_row());
   const auto last_row = static_cast<lxw_row_t>(head_row_ + rows);
   const auto last_column = static_cast<lxw_col_t>(shown_.size() - 1);
   if (is_table() && rows > 0) {
@@ -177,13 +176,13 @@ void SummarySheet::finish() {
 
 /// Tints rows that are not `done`, in any order of sorting.
 void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
-  const auto status = std::find_if(shown_.begin(), shown_.end(), [&](auto k) { return columns_[k].name == "status"; });
+  const auto status = std::ranges::find_if(shown_, [&](auto k) { return columns_[k].name == "status"; });
   if (status == shown_.end()) return;
   char column[LXW_MAX_COL_NAME_LENGTH];
   lxw_col_to_name(column, static_cast<lxw_col_t>(status - shown_.begin()), 1);
   for (const auto& [text, style] :
        {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
-    std::string formula = fmt::format("={}{}=\"{}\"", column, first_row() + 1, text);
+    string formula = fmt::format("={}{}=\"{}\"", column, first_row() + 1, text);
     lxw_conditional_format rule{};
     rule.type = LXW_CONDITIONAL_TYPE_FORMULA;
     rule.value_string = formula.data();
@@ -194,9 +193,9 @@ void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
 }
 
 void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
-  std::vector<lxw_table_column> columns(shown_.size());
-  std::vector<lxw_table_column*> pointers;
-  for (std::size_t k = 0; k < shown_.size(); ++k) {
+  vector<lxw_table_column> columns(shown_.size());
+  vector<lxw_table_column*> pointers;
+  for (size_t k = 0; k < shown_.size(); ++k) {
     columns[k].header = const_cast<char*>(heads_[k].c_str());
     columns[k].header_format = sheet_.format(head_of(columns_[shown_[k]].style));
     pointers.push_back(&columns[k]);
@@ -210,27 +209,27 @@ void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
   worksheet_add_table(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column, &options);
 }
 
-std::unique_ptr<OutputFile> SummarySheet::take_table() {
+unique_ptr<OutputFile> SummarySheet::take_table() {
   return std::move(table_);
 }
 
-std::size_t SummarySheet::place_of(std::size_t column) const {
-  const auto found = std::find(shown_.begin(), shown_.end(), column);
-  return found == shown_.end() ? 0 : static_cast<std::size_t>(found - shown_.begin());
+size_t SummarySheet::place_of(size_t column) const {
+  const auto found = std::ranges::find(shown_, column);
+  return found == shown_.end() ? 0 : static_cast<size_t>(found - shown_.begin());
 }
 
-std::vector<std::size_t> SummarySheet::parameter_columns() const {
-  std::vector<std::size_t> places(parameters_);
-  for (std::size_t k = 0; k < columns_.size(); ++k)
+vector<size_t> SummarySheet::parameter_columns() const {
+  vector<size_t> places(parameters_);
+  for (size_t k = 0; k < columns_.size(); ++k)
     if (columns_[k].parameter) places[*columns_[k].parameter] = place_of(k);
   return places;
 }
 
-std::vector<std::size_t> SummarySheet::measure_columns() const {
-  std::vector<std::size_t> places(measures_.size());
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
+vector<size_t> SummarySheet::measure_columns() const {
+  vector<size_t> places(measures_.size());
+  for (size_t k = 0; k < columns_.size(); ++k) {
     if (columns_[k].measure) places[*columns_[k].measure] = place_of(k);
-    for (std::size_t m = 0; m < measures_.size(); ++m)
+    for (size_t m = 0; m < measures_.size(); ++m)
       if (columns_[k].summary && measures_[m].name == columns_[k].name) places[m] = place_of(k);
   }
   return places;

@@ -1,77 +1,73 @@
 #pragma once
 // summary.csv with a row for each run, and the sheet Summary of it: parameters, measures, then what else differs.
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "compare/compared_run.h"
 #include "compare/workbook.h"
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
 class SummarySheet {
  public:
   /// The maximum number of runs for which the sheet is a table. With more runs it is streamed, with filters.
-  static constexpr std::size_t most_in_table = 2000;
-  static bool is_table(std::size_t count) { return count <= most_in_table; }
+  static constexpr size_t most_in_table = 2000;
+  static bool is_table(size_t count) { return count <= most_in_table; }
 
   /// For `count` runs. Adds the sheet to `book` and opens summary.csv in `place`. `unrelated`: see Variation.
   /// Throws ExportError if there are more columns than a sheet can hold.
-  SummarySheet(const FilePlace& place, Workbook& book, const ComparisonPlan& plan, const std::vector<Measure>& measures,
-               std::size_t count, bool unrelated);
+  SummarySheet(const FilePlace& place, Workbook& book, const ComparisonPlan& plan, const vector<Measure>& measures,
+               size_t count, bool unrelated);
 
   /// Writes the first row of the table. To be called before the first run.
   void write_heads();
   /// Writes the row of run `number` to the table, from 0 on. Runs must come in order.
-  void add(std::size_t number, const RunRecord& run);
+  void add(size_t number, const RunRecord& run);
   /// Completes the table and writes the sheet from it. To be called after the last run.
   void finish();
   /// Passes the ownership of summary.csv, complete, to the caller.
-  std::unique_ptr<OutputFile> take_table();
+  unique_ptr<OutputFile> take_table();
 
   bool is_table() const { return is_table(count_); }
   // After finish():
   /// The columns of the sheet with the plan's parameters, in their order. A column that is left out counts as the
   /// first.
-  std::vector<std::size_t> parameter_columns() const;
+  vector<size_t> parameter_columns() const;
   /// The columns of the sheet with the measures, in their order.
-  std::vector<std::size_t> measure_columns() const;
+  vector<size_t> measure_columns() const;
   /// The first row of the sheet with a run, from 0.
-  std::size_t first_row() const { return head_row_ + 1; }
+  size_t first_row() const { return head_row_ + 1; }
 
  private:
   /// A column and the source of its cells: one of `summary`, `parameter`, `measure`.
   struct Column {
-    std::string name, label;
+    string name, label;
     CellStyle style = CellStyle::plain;
     bool is_text = false;
-    std::optional<std::size_t> summary, parameter, measure;
+    optional<size_t> summary, parameter, measure;
     NumberLook look{};
-    std::string first{};  // its first cell
+    string first{};  // its first cell
     bool is_constant = true;
   };
-  static std::vector<Column> make_columns(const ComparisonPlan& plan, const std::vector<Measure>& measures);
+  static vector<Column> make_columns(const ComparisonPlan& plan, const vector<Measure>& measures);
   void choose_columns();
-  std::string folded() const;
+  string folded() const;
   void write_sheet_heads();
   void write_rows();
   void mark_rows(lxw_row_t last_row, lxw_col_t last_column);
   void make_table(lxw_row_t last_row, lxw_col_t last_column);
-  std::size_t place_of(std::size_t column) const;
+  size_t place_of(size_t column) const;
 
-  const std::size_t count_, parameters_;  // how many
+  const size_t count_, parameters_;  // how many
   const bool unrelated_;
   const FilePlace place_;
-  const std::vector<Measure>& measures_;
-  std::vector<Column> columns_;     // of the table
-  std::vector<std::size_t> shown_;  // of the sheet: indices of columns_
-  std::vector<std::string> heads_;  // of the sheet
-  std::size_t head_row_ = 0;
+  const vector<Measure>& measures_;
+  vector<Column> columns_;  // of the table
+  vector<size_t> shown_;    // of the sheet: indices of columns_
+  vector<string> heads_;    // of the sheet
+  size_t head_row_ = 0;
   Worksheet& sheet_;
-  std::unique_ptr<OutputFile> table_;
+  unique_ptr<OutputFile> table_;
 };
 
 }  // namespace carom

@@ -14,15 +14,16 @@
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "files/stored_table.h"
+#include "std.h"
 #include "yaml/letters.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t longest_text = 32'767;  // characters of a cell
-constexpr std::size_t longest_foot = 80;      // characters of the title on printed pages
+constexpr size_t longest_text = 32'767;  // characters of a cell
+constexpr size_t longest_foot = 80;      // characters of the title on printed pages
 /// The number of digits that a spreadsheet shows by default.
-constexpr std::size_t general_width = 11;
+constexpr size_t general_width = 11;
 constexpr double line_height = 15;         // points
 constexpr double characters_across = 190;  // of a printed page, at about two thirds of the size on the screen
 constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
@@ -76,10 +77,10 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
 }
 
 /// The width of a text's longest word.
-std::size_t longest_word(std::string_view text) {
-  std::size_t most = 0;
+size_t longest_word(string_view text) {
+  size_t most = 0;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
+    const size_t end = std::min(text.find(' '), text.size());
     most = std::max(most, letters_of(text.substr(0, end)));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -95,21 +96,21 @@ void must(lxw_error error) {
 
 }  // namespace
 
-Cell cell_of(std::string_view text) {
-  Cell cell{std::string(text)};
+Cell cell_of(string_view text) {
+  Cell cell{string(text)};
   // A double has 53 bits. Longer whole numbers, such as seeds, stay text.
-  const bool whole = text.find_first_not_of("-0123456789") == std::string_view::npos;
-  constexpr std::size_t exact = 16;  // digits and sign
+  const bool whole = text.find_first_not_of("-0123456789") == string_view::npos;
+  constexpr size_t exact = 16;  // digits and sign
   if (const auto number = number_in(text); number && !(whole && text.size() > exact)) cell.number = *number;
   return cell;
 }
 
-std::string without_guard(std::string_view text) {
-  const bool guarded = text.size() > 1 && text[0] == '\'' && std::string_view("=+-@\t\r").find(text[1]) != text.npos;
-  return std::string(text.substr(guarded ? 1 : 0));
+string without_guard(string_view text) {
+  const bool guarded = text.size() > 1 && text[0] == '\'' && string_view("=+-@\t\r").find(text[1]) != text.npos;
+  return string(text.substr(guarded ? 1 : 0));
 }
 
-lxw_format* CellFormats::get(CellStyle style, const std::string& numbers) {
+lxw_format* CellFormats::get(CellStyle style, const string& numbers) {
   lxw_format*& format = made_[{style, numbers}];
   if (format != nullptr) return format;
   format = make_format(book_, style);
@@ -121,21 +122,21 @@ lxw_format* Worksheet::format(CellStyle style, const NumberLook* look) const {
   return formats_.get(style, look == nullptr ? "" : look->format());
 }
 
-void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle style) {
+void Worksheet::widen(size_t column, size_t characters, CellStyle style) {
   if (style == CellStyle::title || style == CellStyle::note) return;
   if (widths_.size() <= column) widths_.resize(column + 1);
   widths_[column] = std::max(widths_[column], characters);
 }
 
-void Worksheet::text(std::size_t row, std::size_t column, std::string_view text, CellStyle style) {
+void Worksheet::text(size_t row, size_t column, string_view text, CellStyle style) {
   if (text.empty() && style == CellStyle::plain) return;
-  const std::string shown = shortened(text, longest_text);
+  const string shown = shortened(text, longest_text);
   widen(column, letters_of(shown), style);
   must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
                               style == CellStyle::plain ? nullptr : format(style)));
 }
 
-void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle style, const NumberLook* look) {
+void Worksheet::number(size_t row, size_t column, double value, CellStyle style, const NumberLook* look) {
   lxw_format* const how = style == CellStyle::plain && look == nullptr ? nullptr : format(style, look);
   if (!std::isfinite(value)) {
     if (how != nullptr)
@@ -147,14 +148,14 @@ void Worksheet::number(std::size_t row, std::size_t column, double value, CellSt
                               value == 0 ? 0.0 : value, how));
 }
 
-void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle style, const NumberLook* look) {
+void Worksheet::cell(size_t row, size_t column, const Cell& cell, CellStyle style, const NumberLook* look) {
   if (cell.is_number())
     number(row, column, cell.number, style, look);
   else
     text(row, column, without_guard(cell.text), style);
 }
 
-void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, CellStyle style,
+void Worksheet::formula(size_t row, size_t column, const string& formula, double value, CellStyle style,
                         const NumberLook* look) {
   widen(column, look == nullptr ? general_width : look->width(), style);
   must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
@@ -162,20 +163,20 @@ void Worksheet::formula(std::size_t row, std::size_t column, const std::string& 
                                    value));
 }
 
-void Worksheet::head(std::size_t row, std::size_t column, std::string_view text, CellStyle style) {
+void Worksheet::head(size_t row, size_t column, string_view text, CellStyle style) {
   if (words_.size() <= column) words_.resize(column + 1);
   words_[column] = std::max(words_[column], longest_word(text));
-  const std::string shown = shortened(text, longest_text);
+  const string shown = shortened(text, longest_text);
   must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
                               format(style)));
 }
 
-void Worksheet::set_head_row(std::size_t row, std::size_t lines) {
+void Worksheet::set_head_row(size_t row, size_t lines) {
   worksheet_set_row(sheet_, static_cast<lxw_row_t>(row), (static_cast<double>(lines) + 0.25) * line_height, nullptr);
 }
 
-void Worksheet::note(std::size_t row, std::size_t columns, std::string_view text, double width) {
-  const std::string shown = shortened(text, longest_text);
+void Worksheet::note(size_t row, size_t columns, string_view text, double width) {
+  const string shown = shortened(text, longest_text);
   const double lines = std::ceil(1.1 * static_cast<double>(letters_of(shown)) / std::max(width, 1.0));
   worksheet_set_row(sheet_, static_cast<lxw_row_t>(row), std::clamp(lines, 1.0, 25.0) * line_height, nullptr);
   if (columns < 2)
@@ -185,7 +186,7 @@ void Worksheet::note(std::size_t row, std::size_t columns, std::string_view text
                                static_cast<lxw_col_t>(columns - 1), shown.c_str(), format(CellStyle::wrapped)));
 }
 
-void Worksheet::fit(std::size_t column, double least, double most, double more) {
+void Worksheet::fit(size_t column, double least, double most, double more) {
   const double needed = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
   const auto number = static_cast<lxw_col_t>(column);
   worksheet_set_column(sheet_, number, number, std::clamp(needed, least, most), nullptr);
@@ -194,16 +195,16 @@ void Worksheet::fit(std::size_t column, double least, double most, double more) 
 
 void Worksheet::fit_all(double least, double most, double more) {
   total_ = 0;
-  for (std::size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
+  for (size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
 }
 
 void Worksheet::fit_table(double least) {
   constexpr double most = 40, button = 3;
-  const std::size_t columns = std::max(widths_.size(), words_.size());
+  const size_t columns = std::max(widths_.size(), words_.size());
   widths_.resize(columns);
   words_.resize(columns);
   total_ = 0;
-  for (std::size_t column = 0; column < columns; ++column) {
+  for (size_t column = 0; column < columns; ++column) {
     const double needed = static_cast<double>(std::max(widths_[column] + 1, words_[column])) + button;
     const double width = std::clamp(needed, least, most);
     const auto number = static_cast<lxw_col_t>(column);
@@ -212,7 +213,7 @@ void Worksheet::fit_table(double least) {
   }
 }
 
-void Worksheet::freeze(std::size_t rows, std::size_t columns) {
+void Worksheet::freeze(size_t rows, size_t columns) {
   worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
 }
 
@@ -222,47 +223,47 @@ void Worksheet::set_paper() {
   constexpr double side = 0.5, end = 0.75;  // inches
   worksheet_set_margins(sheet_, side, side, end, end);
   // The name of the sheet, the title, the number of the page. An & has a meaning in this text.
-  std::string title;
-  for (const char c : shortened(formats_.title(), longest_foot)) title += c == '&' ? "&&" : std::string(1, c);
+  string title;
+  for (const char c : shortened(formats_.title(), longest_foot)) title += c == '&' ? "&&" : string(1, c);
   worksheet_set_footer(sheet_, fmt::format("&L&A&C{}&RPage &P of &N", title).c_str());
 }
 
 void Worksheet::print_wide() {
   set_paper();
   const double pages = std::ceil(total_ / characters_across);
-  worksheet_fit_to_pages(sheet_, static_cast<std::uint16_t>(std::clamp(pages, 1.0, 1000.0)), 0);
+  worksheet_fit_to_pages(sheet_, static_cast<uint16_t>(std::clamp(pages, 1.0, 1000.0)), 0);
 }
 
-void Worksheet::print_pages(const std::vector<std::size_t>& rows) {
+void Worksheet::print_pages(const vector<size_t>& rows) {
   set_paper();
   worksheet_fit_to_pages(sheet_, 1, 0);
-  std::vector<lxw_row_t> breaks(rows.begin(), rows.end());
+  vector<lxw_row_t> breaks(rows.begin(), rows.end());
   breaks.push_back(0);  // the end
   worksheet_set_h_pagebreaks(sheet_, breaks.data());
 }
 
-void Worksheet::print_table(std::size_t head_row) {
+void Worksheet::print_table(size_t head_row) {
   print_wide();
   worksheet_repeat_rows(sheet_, static_cast<lxw_row_t>(head_row), static_cast<lxw_row_t>(head_row));
   worksheet_repeat_columns(sheet_, 0, 0);
 }
 
-Workbook::Workbook(const FilePlace& place, std::string name, const std::string& title)
+Workbook::Workbook(const FilePlace& place, string name, const string& title)
     : place_(place), name_(std::move(name)), files_(place_, name_), scratch_(nameless_file(place_)) {
-  const std::string file = fmt::format("/proc/self/fd/{}", scratch_.get());
+  const string file = fmt::format("/proc/self/fd/{}", scratch_.get());
   lxw_workbook_options options{};
   options.use_zip64 = LXW_FALSE;
   book_ = workbook_new_opt(file.c_str(), &options);
   if (book_ == nullptr) fail("write", place_, name_, "libxlsxwriter has no memory");
 
-  const std::string subject = valid_utf8(title);
+  const string subject = valid_utf8(title);
   lxw_doc_properties properties{};
   properties.title = const_cast<char*>(subject.c_str());
   properties.comments = const_cast<char*>("carom " CAROM_VERSION);
   // 2000-01-01 and not the clock, so that the same runs give the same bytes.
   properties.created = 946'684'800;
   workbook_set_properties(book_, &properties);
-  formats_ = std::make_unique<CellFormats>(book_, subject);
+  formats_ = make_unique<CellFormats>(book_, subject);
 }
 
 Workbook::~Workbook() {
@@ -278,7 +279,7 @@ Worksheet& Workbook::add(const char* name, bool streamed) {
 }
 
 lxw_chart* Workbook::add_chart(lxw_chart_type type) {
-  return made(workbook_add_chart(book_, static_cast<std::uint8_t>(type)));
+  return made(workbook_add_chart(book_, static_cast<uint8_t>(type)));
 }
 
 void Workbook::write(OutputFile& file) {
@@ -294,14 +295,14 @@ void Workbook::write(OutputFile& file) {
     fail("write", place_, name_, std::strerror(system_error));
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
   files_.check_archive(scratch_.get());
-  std::vector<char> piece(std::size_t{256} * 1024);
+  vector<char> piece(size_t{256} * 1024);
   off_t at = 0;
   for (;;) {
     const ssize_t n = pread(scratch_.get(), piece.data(), piece.size(), at);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", place_, name_);
     if (n == 0) break;
-    file.write({piece.data(), static_cast<std::size_t>(n)});
+    file.write({piece.data(), static_cast<size_t>(n)});
     at += n;
   }
 }

@@ -3,33 +3,29 @@
 // Streamed sheets take no memory for their rows.
 #include <xlsxwriter.h>
 
-#include <cstdint>
 #include <limits>
 #include <list>
 #include <map>
-#include <memory>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "compare/number_look.h"
 #include "compare/workbook_files.h"
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
 /// A value in a table.
 struct Cell {
-  std::string text;
+  string text;
   double number = std::numeric_limits<double>::quiet_NaN();  // finite: the text is this number
   bool is_number() const { return number == number; }
 };
 
 /// A number if the text is one that a double represents, else text.
-Cell cell_of(std::string_view text);
+Cell cell_of(string_view text);
 /// Removes the apostrophe that protects text in CSV. A workbook never evaluates a cell that is written as text.
-std::string without_guard(std::string_view text);
+string without_guard(string_view text);
 
 /// The format of a cell.
 enum class CellStyle {
@@ -46,21 +42,21 @@ enum class CellStyle {
 };
 
 /// The limits of a sheet.
-inline constexpr std::size_t most_rows = 1'048'576, most_columns = 16'384;
+inline constexpr size_t most_rows = 1'048'576, most_columns = 16'384;
 
 /// The formats of a workbook, each made once.
 class CellFormats {
  public:
   /// `title`: of the workbook, for the foot of printed pages.
-  CellFormats(lxw_workbook* book, std::string title) : title_(std::move(title)), book_(book) {}
+  CellFormats(lxw_workbook* book, string title) : title_(std::move(title)), book_(book) {}
   /// `numbers`: a format of numbers; empty: that of the style.
-  lxw_format* get(CellStyle style, const std::string& numbers = {});
-  const std::string& title() const { return title_; }
+  lxw_format* get(CellStyle style, const string& numbers = {});
+  const string& title() const { return title_; }
 
  private:
-  std::string title_;
+  string title_;
   lxw_workbook* book_;
-  std::map<std::pair<CellStyle, std::string>, lxw_format*> made_;
+  std::map<std::pair<CellStyle, string>, lxw_format*> made_;
 };
 
 class Worksheet {
@@ -69,53 +65,53 @@ class Worksheet {
 
   /// Rows count from 0. On a streamed sheet they must come in order. Text is never a formula.
   /// Text longer than a cell is cut. A number that is not finite gives an empty cell.
-  void text(std::size_t row, std::size_t column, std::string_view text, CellStyle style = CellStyle::plain);
+  void text(size_t row, size_t column, string_view text, CellStyle style = CellStyle::plain);
   /// `look`: that of the column. Null: as the spreadsheet does.
-  void number(std::size_t row, std::size_t column, double value, CellStyle style = CellStyle::plain,
+  void number(size_t row, size_t column, double value, CellStyle style = CellStyle::plain,
               const NumberLook* look = nullptr);
-  void cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle style = CellStyle::plain,
+  void cell(size_t row, size_t column, const Cell& cell, CellStyle style = CellStyle::plain,
             const NumberLook* look = nullptr);
   /// `value`: the present result of the formula.
-  void formula(std::size_t row, std::size_t column, const std::string& formula, double value,
-               CellStyle style = CellStyle::plain, const NumberLook* look = nullptr);
+  void formula(size_t row, size_t column, const string& formula, double value, CellStyle style = CellStyle::plain,
+               const NumberLook* look = nullptr);
   /// The head of a column. Its text is broken between words.
-  void head(std::size_t row, std::size_t column, std::string_view text, CellStyle style = CellStyle::header);
+  void head(size_t row, size_t column, string_view text, CellStyle style = CellStyle::header);
   /// Sets the height of a row of heads. To be called before its first cell.
-  void set_head_row(std::size_t row, std::size_t lines = 3);
+  void set_head_row(size_t row, size_t lines = 3);
   /// A text over several columns, of together `width` characters, in as many lines as it needs.
-  void note(std::size_t row, std::size_t columns, std::string_view text, double width);
+  void note(size_t row, size_t columns, string_view text, double width);
 
   /// Sets a column's width to what its cells need, from `least` to `most` characters. Titles and notes do not count.
-  void fit(std::size_t column, double least = 9, double most = 60, double more = 0);
+  void fit(size_t column, double least = 9, double most = 60, double more = 0);
   void fit_all(double least = 9, double most = 60, double more = 0);
   /// The same for a table with heads and filters.
   void fit_table(double least = 8);
-  void freeze(std::size_t rows, std::size_t columns);
+  void freeze(size_t rows, size_t columns);
   /// Fits the width of the sheet to one page, or to as many as remain legible. To be called after fit() of its columns.
   void print_wide();
   /// Fits the width of the sheet to one page, with a page before each of these rows where the spreadsheet allows it.
-  void print_pages(const std::vector<std::size_t>& rows);
+  void print_pages(const vector<size_t>& rows);
   /// The same, with the row of heads and the first column on each page.
-  void print_table(std::size_t head_row);
+  void print_table(size_t head_row);
 
   lxw_worksheet* get() const { return sheet_; }
   lxw_format* format(CellStyle style, const NumberLook* look = nullptr) const;
 
  private:
-  void widen(std::size_t column, std::size_t characters, CellStyle style);
+  void widen(size_t column, size_t characters, CellStyle style);
   void set_paper();
 
   lxw_worksheet* sheet_;
   CellFormats& formats_;
-  std::vector<std::size_t> widths_;  // characters, by column
-  std::vector<std::size_t> words_;   // of the longest word in the head
-  double total_ = 0;                 // width of the table
+  vector<size_t> widths_;  // characters, by column
+  vector<size_t> words_;   // of the longest word in the head
+  double total_ = 0;       // width of the table
 };
 
 class Workbook {
  public:
   /// Temporary parts are unnamed files in the file system of `place`. Throws ExportError.
-  Workbook(const FilePlace& place, std::string name, const std::string& title);
+  Workbook(const FilePlace& place, string name, const string& title);
   ~Workbook();
   Workbook(const Workbook&) = delete;
   Workbook& operator=(const Workbook&) = delete;
@@ -130,12 +126,12 @@ class Workbook {
 
  private:
   FilePlace place_;
-  std::string name_;
+  string name_;
   WorkbookFiles files_;
   /// The file in which libxlsxwriter assembles it.
   Descriptor scratch_;
   lxw_workbook* book_ = nullptr;
-  std::unique_ptr<CellFormats> formats_;
+  unique_ptr<CellFormats> formats_;
   std::list<Worksheet> sheets_;
 };
 

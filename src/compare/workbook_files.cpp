@@ -13,10 +13,10 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
-#include <string_view>
 #include <tuple>
 
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -32,23 +32,23 @@ ssize_t failed() {
 
 // The callbacks of stdio.
 
-ssize_t read_file(void* cookie, char* to, std::size_t size) {
+ssize_t read_file(void* cookie, char* to, size_t size) {
   File& file = *static_cast<File*>(cookie);
   ssize_t n;
   do n = pread(file.descriptor.get(), to, size, static_cast<off_t>(file.at));
   while (n < 0 && errno == EINTR);
   if (n < 0) return failed();
-  const std::uint64_t expected = std::min<std::uint64_t>(size, file.size - std::min(file.at, file.size));
+  const uint64_t expected = std::min<uint64_t>(size, file.size - std::min(file.at, file.size));
   if (n == 0 && expected > 0) {
     // The file has become shorter.
     errno = EIO;
     return failed();
   }
-  file.at += static_cast<std::uint64_t>(n);
+  file.at += static_cast<uint64_t>(n);
   return n;
 }
 
-ssize_t write_file(void* cookie, const char* from, std::size_t size) {
+ssize_t write_file(void* cookie, const char* from, size_t size) {
   File& file = *static_cast<File*>(cookie);
   if (file.at != file.size) {
     // All writing is sequential.
@@ -56,17 +56,17 @@ ssize_t write_file(void* cookie, const char* from, std::size_t size) {
     failed();
     return 0;
   }
-  for (std::size_t done = 0; done < size;) {
+  for (size_t done = 0; done < size;) {
     const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       failed();
       return 0;
     }
-    done += static_cast<std::size_t>(n);
+    done += static_cast<size_t>(n);
   }
-  file.crc = static_cast<std::uint32_t>(
-      crc32(file.crc, reinterpret_cast<const unsigned char*>(from), static_cast<unsigned>(size)));
+  file.crc =
+      static_cast<uint32_t>(crc32(file.crc, reinterpret_cast<const unsigned char*>(from), static_cast<unsigned>(size)));
   file.at = file.size += size;
   return static_cast<ssize_t>(size);
 }
@@ -76,7 +76,7 @@ int seek_file(void* cookie, off64_t* offset, int whence) {
   const auto from = static_cast<off64_t>(whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.size : 0);
   if (from + *offset < 0) return -1;
   *offset += from;
-  file.at = static_cast<std::uint64_t>(*offset);
+  file.at = static_cast<uint64_t>(*offset);
   return 0;
 }
 
@@ -89,21 +89,21 @@ int close_file(void* cookie) {
 
 /// The properties of an archive's entry that are compared with what was written.
 struct Entry {
-  std::uint64_t size;
-  std::uint32_t crc;
+  uint64_t size;
+  uint32_t crc;
   friend bool operator<(const Entry& a, const Entry& b) { return std::tie(a.size, a.crc) < std::tie(b.size, b.crc); }
   friend bool operator==(const Entry& a, const Entry& b) = default;
 };
 
 /// All entries of an archive, each read to its end. `whole` becomes false if one cannot be read.
-std::vector<Entry> entries_of(const std::string& path, bool& whole) {
-  std::vector<Entry> entries;
+vector<Entry> entries_of(const string& path, bool& whole) {
+  vector<Entry> entries;
   const unzFile archive = unzOpen64(path.c_str());
   whole = archive != nullptr;
   if (!whole) return entries;
   unz_global_info64 all{};
   whole = unzGetGlobalInfo64(archive, &all) == UNZ_OK;
-  std::vector<char> piece(std::size_t{64} * 1024);
+  vector<char> piece(size_t{64} * 1024);
   int code = unzGoToFirstFile(archive);
   for (; whole && code == UNZ_OK; code = unzGoToNextFile(archive)) {
     unz_file_info64 info{};
@@ -115,7 +115,7 @@ std::vector<Entry> entries_of(const std::string& path, bool& whole) {
     }
     // Closing compares the bytes with the entry's checksum.
     whole = unzCloseCurrentFile(archive) == UNZ_OK && n == 0;
-    entries.push_back({info.uncompressed_size, static_cast<std::uint32_t>(info.crc)});
+    entries.push_back({info.uncompressed_size, static_cast<uint32_t>(info.crc)});
   }
   whole = whole && code == UNZ_END_OF_LIST_OF_FILE && entries.size() == all.number_entry;
   unzClose(archive);
@@ -124,18 +124,18 @@ std::vector<Entry> entries_of(const std::string& path, bool& whole) {
 
 /// Whether an archive's last record ends the file. minizip accepts an archive that is cut within that record.
 bool ends_whole(int archive) {
-  constexpr std::string_view signature = "PK\x05\x06";
+  constexpr string_view signature = "PK\x05\x06";
   // Bytes, without a comment.
   constexpr off_t record = 22;
   char begin[signature.size()] = {};
   const off_t size = lseek(archive, 0, SEEK_END);
   return size >= record && pread(archive, begin, sizeof begin, size - record) == static_cast<ssize_t>(sizeof begin) &&
-         std::string_view(begin, sizeof begin) == signature;
+         string_view(begin, sizeof begin) == signature;
 }
 
 }  // namespace
 
-WorkbookFiles::WorkbookFiles(const FilePlace& place, std::string name) : place_(place), name_(std::move(name)) {
+WorkbookFiles::WorkbookFiles(const FilePlace& place, string name) : place_(place), name_(std::move(name)) {
   current = this;
 }
 
@@ -156,9 +156,9 @@ void WorkbookFiles::check() const {
 
 void WorkbookFiles::check_archive(int archive) const {
   bool whole = true;
-  std::vector<Entry> found = entries_of(fmt::format("/proc/self/fd/{}", archive), whole);
-  std::vector<Entry> listed;
-  for (std::size_t i = rows_; i < files_.size(); ++i) listed.push_back({files_[i]->size, files_[i]->crc});
+  vector<Entry> found = entries_of(fmt::format("/proc/self/fd/{}", archive), whole);
+  vector<Entry> listed;
+  for (size_t i = rows_; i < files_.size(); ++i) listed.push_back({files_[i]->size, files_[i]->crc});
   std::sort(found.begin(), found.end());
   std::sort(listed.begin(), listed.end());
   if (!whole || !ends_whole(archive) || found != listed)
@@ -167,7 +167,7 @@ void WorkbookFiles::check_archive(int archive) const {
 
 FILE* WorkbookFiles::make() {
   try {
-    auto file = std::make_unique<File>();
+    auto file = make_unique<File>();
     file->descriptor = nameless_file(place_);
     file->stream = fopencookie(file.get(), "w+", {read_file, write_file, seek_file, close_file});
     if (file->stream == nullptr) throw std::bad_alloc();

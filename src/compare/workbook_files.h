@@ -3,12 +3,10 @@
 // The library keeps the rows of a sheet and the parts of a workbook in temporary files, and ignores their errors.
 // These files have no names, record every failure, and record a checksum of what was written to them.
 // The finished workbook is compared with these checksums.
-#include <cstdint>
 #include <cstdio>
-#include <memory>
-#include <vector>
 
 #include "files/part_file.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,7 +15,7 @@ class WorkbookFiles {
   /// While this object lives, the library's files are in the file system of `place`.
   /// `name`: the workbook's, for messages.
   /// Only one object may exist at a time.
-  WorkbookFiles(const FilePlace& place, std::string name);
+  WorkbookFiles(const FilePlace& place, string name);
   ~WorkbookFiles();
   WorkbookFiles(const WorkbookFiles&) = delete;
   WorkbookFiles& operator=(const WorkbookFiles&) = delete;
@@ -33,10 +31,10 @@ class WorkbookFiles {
   /// One temporary file.
   struct File {
     Descriptor descriptor;
-    FILE* stream = nullptr;          // while it is open
-    std::uint64_t at = 0, size = 0;  // bytes
+    FILE* stream = nullptr;     // while it is open
+    uint64_t at = 0, size = 0;  // bytes
     /// Checksum of all bytes, as in zip archives.
-    std::uint32_t crc = 0;
+    uint32_t crc = 0;
   };
   /// A new file, or null on failure. check() then reports the failure.
   FILE* make();
@@ -45,10 +43,10 @@ class WorkbookFiles {
 
  private:
   FilePlace place_;
-  std::string name_;
-  std::vector<std::unique_ptr<File>> files_;
+  string name_;
+  vector<unique_ptr<File>> files_;
   /// The number of files with rows, which come first.
-  std::size_t rows_ = 0;
+  size_t rows_ = 0;
   int error_ = 0;  // the first error
 };
 

@@ -3,6 +3,7 @@
 #include "files/csv.h"
 #include "physics/body_now.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,14 +15,14 @@ inline bool has_solids(const World& world) {
 }
 
 /// The maximum number of characters after the group's name in a member's name: a dot and the member's number.
-inline constexpr std::size_t member_size = 1 + number_size;
+inline constexpr size_t member_size = 1 + number_size;
 
 /// Writes a body's name and returns its end. Names are [A-Za-z_][A-Za-z0-9_-]* and need no quotes in a cell.
 inline char* put_member(char* to, const BodyRange& range, Entity body) {
   to = put_text(to, range.name);
   if (!range.group) return to;
   *to++ = '.';
-  return put_number(to, std::uint64_t{body - range.first});
+  return put_number(to, uint64_t{body - range.first});
 }
 
 }  // namespace carom

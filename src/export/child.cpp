@@ -18,12 +18,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -33,19 +33,19 @@ using Clock = std::chrono::steady_clock;
 /// A file in memory. A program can write any amount to it and never waits for a reader.
 Descriptor memory_file() {
   Descriptor file(memfd_create("carom", MFD_CLOEXEC));
-  if (!file) throw ExportError(std::string("cannot start a program: ") + std::strerror(errno));
+  if (!file) throw ExportError(string("cannot start a program: ") + std::strerror(errno));
   return file;
 }
 
-std::string text_of(int file) {
-  std::string text(1 << 20, '\0');
-  std::size_t size = 0;
+string text_of(int file) {
+  string text(1 << 20, '\0');
+  size_t size = 0;
   while (size < text.size()) {
     const ssize_t n = pread(file, text.data() + size, text.size() - size, static_cast<off_t>(size));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", {-1, "the output of a program"}, "");
     if (n == 0) break;
-    size += static_cast<std::size_t>(n);
+    size += static_cast<size_t>(n);
   }
   text.resize(size);
   return text;
@@ -53,8 +53,8 @@ std::string text_of(int file) {
 
 constexpr auto glance = std::chrono::milliseconds(50);  // between two calls of stop_check()
 
-std::function<void()>& stop_check() {
-  static std::function<void()> function = [] {};
+function<void()>& stop_check() {
+  static function<void()> function = [] {};
   return function;
 }
 
@@ -63,15 +63,15 @@ constexpr int ignored[] = {SIGPIPE, SIGXFSZ};
 
 }  // namespace
 
-void check_while_waiting(std::function<void()> function) {
+void check_while_waiting(function<void()> function) {
   stop_check() = std::move(function);
 }
 
-std::optional<std::string> find_program(const std::string& name) {
+optional<string> find_program(const string& name) {
   const char* path = std::getenv("PATH");
-  std::string_view rest = path ? path : "";
+  string_view rest = path ? path : "";
   while (!rest.empty()) {
-    const std::string_view folder = rest.substr(0, rest.find(':'));
+    const string_view folder = rest.substr(0, rest.find(':'));
     rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
     if (folder.empty()) continue;
     std::error_code error;
@@ -79,16 +79,15 @@ std::optional<std::string> find_program(const std::string& name) {
     struct stat info {};
     if (error) continue;
     if (stat(file.c_str(), &info) != 0) {
-      if (!is_absent(errno) && errno != EACCES) fail("look for", {-1, std::string(folder)}, name);
+      if (!is_absent(errno) && errno != EACCES) fail("look for", {-1, string(folder)}, name);
     } else if (S_ISREG(info.st_mode) && access(file.c_str(), X_OK) == 0) {
       return file.string();
     }
   }
-  return std::nullopt;
+  return nullopt;
 }
 
-Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
-    : output_(memory_file()), errors_(memory_file()) {
+Child::Child(const vector<string>& arguments, int folder, bool fed) : output_(memory_file()), errors_(memory_file()) {
   // A socket and not a pipe, because sending to it can avoid SIGPIPE without a signal handler.
   Descriptor theirs;
   if (fed) {
@@ -119,9 +118,9 @@ Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
   posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
-  std::vector<char*> list;
+  vector<char*> list;
   list.reserve(arguments.size() + 1);
-  for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
+  for (const string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
   list.push_back(nullptr);
   const int error = posix_spawn(&id_, arguments[0].c_str(), &actions, &attributes, list.data(), environ);
   posix_spawnattr_destroy(&attributes);
@@ -136,7 +135,7 @@ Child::~Child() {
   kill();
 }
 
-Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::milliseconds patience) {
+Child::Sent Child::send(const void* bytes, size_t size, std::chrono::milliseconds patience) {
   const char* from = static_cast<const char*>(bytes);
   auto limit = Clock::now() + patience;
   while (size > 0) {
@@ -144,7 +143,7 @@ Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::millis
     const ssize_t n = ::send(input_.get(), from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n >= 0) {
       from += n;
-      size -= static_cast<std::size_t>(n);
+      size -= static_cast<size_t>(n);
       limit = Clock::now() + patience;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       pollfd request{input_.get(), POLLOUT, 0};
@@ -179,7 +178,7 @@ bool Child::has_ended() {
   return exit_code_.has_value();
 }
 
-std::optional<int> Child::wait(std::chrono::milliseconds patience) {
+optional<int> Child::wait(std::chrono::milliseconds patience) {
   const auto limit = Clock::now() + patience;
   std::chrono::microseconds pause(200);
   while (!has_ended() && !abandoned_ && Clock::now() < limit) {
@@ -199,10 +198,10 @@ void Child::kill() {
   exit_code_ = 128 + SIGKILL;
 }
 
-std::string Child::output() const {
+string Child::output() const {
   return text_of(output_.get());
 }
-std::string Child::errors() const {
+string Child::errors() const {
   return text_of(errors_.get());
 }
 

@@ -4,29 +4,25 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstddef>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
 /// Sets a function that is called 20 times a second while waiting for any child process, on the thread that waits.
 /// It may throw, and the function that waits passes the exception on.
 /// It is set once, at the program's start. By default nothing is called.
-void check_while_waiting(std::function<void()> stop_check);
+void check_while_waiting(function<void()> stop_check);
 
 /// The absolute path of a program on PATH, or none. Throws ExportError if the search fails.
-std::optional<std::string> find_program(const std::string& name);
+optional<string> find_program(const string& name);
 
 class Child {
  public:
   /// Starts the program arguments[0] (a path) in the folder `folder` (a descriptor). Throws ExportError.
   /// It inherits only its standard streams: an input that send() feeds or an empty one, and outputs that are captured.
-  Child(const std::vector<std::string>& arguments, int folder, bool fed);
+  Child(const vector<string>& arguments, int folder, bool fed);
   /// Kills the program if it is still running.
   ~Child();
   Child(const Child&) = delete;
@@ -38,25 +34,25 @@ class Child {
   /// - closed: the program closed its input, in most cases because it ended.
   /// - stuck: it took nothing for `patience`.
   /// - abandoned: abandon() was called.
-  Sent send(const void* bytes, std::size_t size, std::chrono::milliseconds patience);
+  Sent send(const void* bytes, size_t size, std::chrono::milliseconds patience);
   void end_input();
 
   /// Waits for the program's end and returns its exit code, or 128 + the number of the signal that ended it.
   /// None: still running, or abandoned. Throws what the function of check_while_waiting throws.
-  std::optional<int> wait(std::chrono::milliseconds patience);
+  optional<int> wait(std::chrono::milliseconds patience);
   void kill();
   /// Ends send() and wait(), which may run on another thread, within 50 ms.
   void abandon() { abandoned_ = true; }
 
   // The first megabyte of each output stream. Both throw ExportError.
-  std::string output() const;  // the standard output so far
-  std::string errors() const;  // the standard error so far
+  string output() const;  // the standard output so far
+  string errors() const;  // the standard error so far
 
  private:
   bool has_ended();
 
   pid_t id_ = -1;
-  std::optional<int> exit_code_;
+  optional<int> exit_code_;
   std::atomic<bool> abandoned_ = false;
   Descriptor input_, output_, errors_;
 };

@@ -7,22 +7,23 @@
 
 #include "export/chart.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
-const std::array<CollisionsChart::Row, 4> CollisionsChart::rows = {
+const array<CollisionsChart::Row, 4> CollisionsChart::rows = {
     {{CollisionKind::body_body, "body-body", chart_color::blue},
      {CollisionKind::body_fixed, "body-fixed", chart_color::orange},
      {CollisionKind::merge, "merge", chart_color::purple},
-     {CollisionKind::string, "string", chart_color::sky}}};
+     {CollisionKind::taut, "string", chart_color::sky}}};
 
 void CollisionsChart::add(double time, CollisionKind kind) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].kind == kind) ++counts_[k][static_cast<std::size_t>(interval_of(time, 0, end_of(scene_), intervals))];
+  for (size_t k = 0; k < rows.size(); ++k)
+    if (rows[k].kind == kind) ++counts_[k][static_cast<size_t>(interval_of(time, 0, end_of(scene_), intervals))];
 }
 
-std::uint64_t CollisionsChart::total() const {
-  std::uint64_t sum = 0;
+uint64_t CollisionsChart::total() const {
+  uint64_t sum = 0;
   for (const Counts& counts : counts_) sum = std::accumulate(counts.begin(), counts.end(), sum);
   return sum;
 }
@@ -35,17 +36,17 @@ int CollisionsChart::joined() const {
 }
 
 Histogram CollisionsChart::histogram(CollisionKind kind) const {
-  const auto join = static_cast<std::size_t>(joined());
+  const auto join = static_cast<size_t>(joined());
   Histogram bars{end_of(scene_) * static_cast<double>(join) / intervals, {}};
   bars.counts.resize(intervals / join);
-  for (std::size_t k = 0; k < rows.size(); ++k)
+  for (size_t k = 0; k < rows.size(); ++k)
     if (rows[k].kind == kind)
-      for (std::size_t i = 0; i < intervals; ++i) bars.counts[i / join] += counts_[k][i];
+      for (size_t i = 0; i < intervals; ++i) bars.counts[i / join] += counts_[k][i];
   return bars;
 }
 
 Plot CollisionsChart::plot() const {
-  const std::uint64_t all = total();
+  const uint64_t all = total();
   Plot plot = chart_over_time(
       scene_, all == 1 ? "Rate of collisions: 1 in all" : fmt::format("Rate of collisions: {} in all", all));
   plot.y_label = "collision rate";
@@ -53,13 +54,13 @@ Plot CollisionsChart::plot() const {
   plot.from_zero = true;
   // A run without duration has no rate.
   if (!(end_of(scene_) > 0)) return plot;
-  std::vector<double> lower(intervals / static_cast<std::size_t>(joined()), 0);
+  vector<double> lower(intervals / static_cast<size_t>(joined()), 0);
   for (const Row& row : rows) {
     const Histogram bars = histogram(row.kind);
     if (bars.total() == 0) continue;
-    std::vector<double> upper = lower;
-    for (std::size_t i = 0; i < upper.size(); ++i) upper[i] += static_cast<double>(bars.counts[i]) / bars.width;
-    plot.series.push_back({std::string(row.name), row.style, stairs(bars.width, lower, upper), PlotForm::band, 0.2});
+    vector<double> upper = lower;
+    for (size_t i = 0; i < upper.size(); ++i) upper[i] += static_cast<double>(bars.counts[i]) / bars.width;
+    plot.series.push_back({string(row.name), row.style, stairs(bars.width, lower, upper), PlotForm::band, 0.2});
     lower = std::move(upper);
   }
   return plot;

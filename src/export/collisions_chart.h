@@ -1,11 +1,9 @@
 #pragma once
 // The chart of collisions per second over time, by kind.
-#include <array>
-#include <cstdint>
-#include <string_view>
 
 #include "export/histogram.h"
 #include "physics/collision.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,19 +22,19 @@ class CollisionsChart {
 
  private:
   /// Collisions are counted in so many intervals, and joined afterwards, when their number is known.
-  static constexpr std::size_t intervals = 120;
-  using Counts = std::array<std::uint64_t, intervals>;
+  static constexpr size_t intervals = 120;
+  using Counts = array<uint64_t, intervals>;
   struct Row {
     CollisionKind kind;
-    std::string_view name;
-    std::size_t style;
+    string_view name;
+    size_t style;
   };
-  static const std::array<Row, 4> rows;
-  std::uint64_t total() const;
+  static const array<Row, 4> rows;
+  uint64_t total() const;
   int joined() const;
 
   const Scene& scene_;
-  std::array<Counts, 4> counts_{};  // by row
+  array<Counts, 4> counts_{};  // by row
 };
 
 }  // namespace carom

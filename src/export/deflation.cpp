@@ -9,22 +9,23 @@
 #include <algorithm>
 
 #include "numerics/processor.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Those that are left to ISA-L's function for few bytes.
-constexpr std::size_t first = 16;
+constexpr size_t first = 16;
 
 }  // namespace
 
-std::size_t Deflation::most(std::size_t size) {
+size_t Deflation::most(size_t size) {
   // Bytes that do not shrink are stored, in blocks of up to 65535 with 5 more each. The first ones have their own.
-  constexpr std::size_t block = 65535, block_head = 5, head_and_checksum = 6, block_of_first = 2 * first;
+  constexpr size_t block = 65535, block_head = 5, head_and_checksum = 6, block_of_first = 2 * first;
   return size + block_head * (size / block + 1) + block_of_first + head_and_checksum;
 }
 
-std::size_t Deflation::pack(std::span<const std::uint8_t> bytes, std::uint8_t* to, std::size_t room, Format format) {
+size_t Deflation::pack(span<const uint8_t> bytes, uint8_t* to, size_t room, Format format) {
   work_.resize(ISAL_DEF_LVL1_DEFAULT);
   isal_zstream stream;
   isal_deflate_init(&stream);
@@ -32,20 +33,20 @@ std::size_t Deflation::pack(std::span<const std::uint8_t> bytes, std::uint8_t* t
   stream.hist_bits = 0;
   stream.level = 1;
   stream.level_buf = work_.data();
-  stream.level_buf_size = static_cast<std::uint32_t>(work_.size());
+  stream.level_buf_size = static_cast<uint32_t>(work_.size());
   stream.gzip_flag = format == Format::zlib ? IGZIP_ZLIB : IGZIP_DEFLATE;
-  stream.next_in = const_cast<std::uint8_t*>(bytes.data());
+  stream.next_in = const_cast<uint8_t*>(bytes.data());
   stream.next_out = to;
-  stream.avail_out = static_cast<std::uint32_t>(room);
+  stream.avail_out = static_cast<uint32_t>(room);
 
   // First the first bytes.
-  const std::size_t few = std::min(first, bytes.size());
-  stream.avail_in = static_cast<std::uint32_t>(few);
+  const size_t few = std::min(first, bytes.size());
+  stream.avail_in = static_cast<uint32_t>(few);
   stream.flush = SYNC_FLUSH;
   bool packed = isal_deflate(&stream) == COMP_OK;
 
   // Then the others.
-  stream.avail_in += static_cast<std::uint32_t>(bytes.size() - few);
+  stream.avail_in += static_cast<uint32_t>(bytes.size() - few);
   stream.flush = NO_FLUSH;
   stream.end_of_stream = 1;
   packed = packed && isal_deflate(&stream) == COMP_OK && stream.internal_state.state == ZSTATE_END;

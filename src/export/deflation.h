@@ -1,9 +1,7 @@
 #pragma once
 // Compression by deflate (RFC 1951).
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -14,13 +12,13 @@ class Deflation {
   enum class Format { plain, zlib };  // RFC 1951, RFC 1950
 
   /// The most bytes that so many become.
-  static std::size_t most(std::size_t size);
+  static size_t most(size_t size);
   /// Writes the compressed bytes to `to`, which has `room` bytes, and gives their number. 0: they have no room. The
   /// result may depend on `room`.
-  std::size_t pack(std::span<const std::uint8_t> bytes, std::uint8_t* to, std::size_t room, Format format);
+  size_t pack(span<const uint8_t> bytes, uint8_t* to, size_t room, Format format);
 
  private:
-  std::vector<std::uint8_t> work_;
+  vector<uint8_t> work_;
 };
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #pragma once
 // The chart of a run's energy over time.
 #include "export/chart.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,7 +16,7 @@ class EnergyChart {
 
  private:
   const Scene& scene_;
-  std::uint64_t instants_ = 0;
+  uint64_t instants_ = 0;
   ThinnedLine kinetic_, potential_, total_;
 };
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "export/film.h"
@@ -25,23 +24,24 @@
 #include "files/series_folders.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Of frames. A picture of 1280 x 720 takes each 1 to 3 ms, less than its drawing, and each holds several in memory.
-constexpr std::size_t most_encoders = 8;
+constexpr size_t most_encoders = 8;
 
 /// The film's name is given by the scene and must not be another file's.
 void check_film_name(const Scene& scene) {
   const Output& output = scene.output;
   if (!output.video) return;
-  const std::string& name = output.video->file;
+  const string& name = output.video->file;
   if (is_reserved(name)) throw ExportError("cannot make the film " + name + ": another output has that name");
   if (!is_plain_name(name)) throw ExportError("cannot make the film " + name + ": that is no plain file name");
 }
 
-void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records) {
+void append(vector<FileRecord>& to, const vector<FileRecord>& records) {
   to.insert(to.end(), records.begin(), records.end());
 }
 
@@ -49,11 +49,11 @@ void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records)
 
 struct Exports::Impl {
   // Refuse what can be refused here, before the folder is changed.
-  Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
-       const Manifest* renewed, std::function<std::string()> request)
+  Impl(const Scene& the_scene, const string& path, Durability durability, ModelMakers the_makers,
+       const Manifest* renewed, function<string()> request)
       : scene(the_scene), makers(std::move(the_makers)), tables(end_of(the_scene)), plan(plan_pictures(the_scene)) {
     check_film_name(scene);
-    const std::vector<MeshCopy> meshes = read_meshes(scene);
+    const vector<MeshCopy> meshes = read_meshes(scene);
     if (scene.output.video) tools = find_film_tools();
     if (renewed != nullptr) kept = kept_files(*renewed);
     if (draws_plots()) find_gnuplot();
@@ -66,7 +66,7 @@ struct Exports::Impl {
     open_writers(tables, false);
   }
 
-  void find_interrupted(std::function<std::string()> request) {
+  void find_interrupted(function<string()> request) {
     checkpoint.emplace(folder->place(), std::move(request));
     interrupted = checkpoint->read();
     is_kept = interrupted.has_value();
@@ -75,11 +75,11 @@ struct Exports::Impl {
 
   /// Opens the writers that wait for the whole motion, or all others.
   void open_writers(OutputPart& part, bool waiting) {
-    const std::span<const OutputKind> kinds = output_kinds();
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const span<const OutputKind> kinds = output_kinds();
+    for (size_t i = 0; i < kinds.size(); ++i) {
       const WriterKind* writer = writer_to_open(kinds[i]);
       if (writer == nullptr || writer->waits_for_motion(scene) != waiting) continue;
-      std::vector<Ticks> ticks;
+      vector<Ticks> ticks;
       if (kinds[i].is_sampled()) ticks.push_back(Ticks::every(kinds[i].every(scene.output), end_of(scene)));
       if (writer->ticks != nullptr)
         for (const Ticks& some : writer->ticks(scene)) ticks.push_back(some);
@@ -105,13 +105,13 @@ struct Exports::Impl {
     if (output.frames) frames.emplace(*folder, std::min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(scene).size);
-    for (std::size_t i = 0; i < plan.streams.size(); ++i)
+    for (size_t i = 0; i < plan.streams.size(); ++i)
       plan.streams[i].timeline_stream = drawings->timeline().add(plan.ticks[i]);
   }
 
   /// The files of a former run that are not drawn and are still requested.
-  std::vector<FileRecord> kept_files(const Manifest& run) const {
-    std::vector<FileRecord> files;
+  vector<FileRecord> kept_files(const Manifest& run) const {
+    vector<FileRecord> files;
     for (const FileRecord& file : run.files) {
       const OutputKind* kind = output_of(file.name);
       if (kind != nullptr && !is_picture(file.name) && kind->asked(scene.output)) files.push_back(file);
@@ -119,7 +119,7 @@ struct Exports::Impl {
     return files;
   }
   bool keeps(const OutputKind& kind) const {
-    return std::any_of(kept.begin(), kept.end(), [&](const FileRecord& file) { return output_of(file.name) == &kind; });
+    return std::ranges::any_of(kept, [&](const FileRecord& file) { return output_of(file.name) == &kind; });
   }
   bool draws_plots() const {
     return scene.output.plots &&
@@ -128,13 +128,13 @@ struct Exports::Impl {
   }
 
   /// The writers of both parts, in the order of the kinds of outputs.
-  std::vector<Writer*> writers() const {
-    std::vector<const OutputPart::OpenWriter*> open;
+  vector<Writer*> writers() const {
+    vector<const OutputPart::OpenWriter*> open;
     for (const OutputPart::OpenWriter& writer : tables.writers()) open.push_back(&writer);
     if (drawings)
       for (const OutputPart::OpenWriter& writer : drawings->writers()) open.push_back(&writer);
     std::ranges::sort(open, {}, [](const auto* writer) { return writer->kind; });
-    std::vector<Writer*> writers;
+    vector<Writer*> writers;
     for (const OutputPart::OpenWriter* writer : open) writers.push_back(writer->writer.get());
     return writers;
   }
@@ -142,28 +142,28 @@ struct Exports::Impl {
   const Scene& scene;
   const ModelMakers makers;
   // Files of the former run that stay.
-  std::vector<FileRecord> kept;
+  vector<FileRecord> kept;
   // Files in the folder from the start.
-  std::vector<FileRecord> first_records;
+  vector<FileRecord> first_records;
   // Declared before all that writes into it, so that it is destroyed last and can clean up.
-  std::optional<OpenFolder> folder;
-  std::optional<CheckpointFile> checkpoint;
-  std::optional<Checkpoint> interrupted;
+  optional<OpenFolder> folder;
+  optional<CheckpointFile> checkpoint;
+  optional<Checkpoint> interrupted;
   bool is_kept = false;
   bool replaces_interrupted = false;
   OutputPart tables;
-  std::optional<OutputPart> drawings;
+  optional<OutputPart> drawings;
   PictureStreams plan;
-  std::optional<FilmTools> tools;
-  std::atomic<std::uint64_t> pictures = 0;
-  std::optional<FrameFiles> frames;
-  std::optional<Film> film;
-  std::optional<Sheet> sheet;
+  optional<FilmTools> tools;
+  std::atomic<uint64_t> pictures = 0;
+  optional<FrameFiles> frames;
+  optional<Film> film;
+  optional<Sheet> sheet;
 };
 
-Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers,
-                 const Manifest* renewed, std::function<std::string()> request)
-    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed, std::move(request))) {}
+Exports::Exports(const Scene& scene, const string& folder, Durability durability, ModelMakers makers,
+                 const Manifest* renewed, function<string()> request)
+    : impl_(make_unique<Impl>(scene, folder, durability, std::move(makers), renewed, std::move(request))) {}
 
 Exports::~Exports() = default;
 
@@ -229,11 +229,11 @@ void Exports::end_drawings_at(double time) {
       throw ExportError(fmt::format("cannot make pictures: the run ends at {} s, before the first of them", time));
 }
 
-const std::vector<PictureStream>& Exports::pictures() const {
+const vector<PictureStream>& Exports::pictures() const {
   return impl_->plan.streams;
 }
 
-void Exports::picture(std::size_t stream, const Image& image, bool again) {
+void Exports::picture(size_t stream, const Image& image, bool again) {
   const auto number = impl_->drawings->timeline().due(impl_->plan.streams.at(stream).timeline_stream);
   if (!number) return;
   const PictureUse& use = impl_->plan.uses[stream];
@@ -243,12 +243,12 @@ void Exports::picture(std::size_t stream, const Image& image, bool again) {
   impl_->pictures += use.frames || use.film;
 }
 
-std::uint64_t Exports::frames() const {
+uint64_t Exports::frames() const {
   return impl_->pictures;
 }
 
-std::vector<LeftOut> Exports::left_out() const {
-  std::vector<LeftOut> left_out;
+vector<LeftOut> Exports::left_out() const {
+  vector<LeftOut> left_out;
   for (const Writer* writer : impl_->writers())
     for (LeftOut& file : writer->left_out()) left_out.push_back(std::move(file));
   return left_out;
@@ -258,17 +258,17 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   if (impl_->frames) impl_->frames->finish();
   const FilePlace& place = impl_->folder->place();
   // In the order of the files of a run that keeps none.
-  std::vector<FileRecord> records = impl_->first_records;
-  std::vector<OutputFile*> files;
+  vector<FileRecord> records = impl_->first_records;
+  vector<OutputFile*> files;
 
   // Write all bytes of all files, including the manifest, under temporary names.
   OutputFile summary_file(place, "summary.csv");
   write_summary(summary_file, summary);
   files.push_back(&summary_file);
-  const std::vector<Writer*> writers = impl_->writers();
+  const vector<Writer*> writers = impl_->writers();
   for (Writer* writer : writers)
     for (OutputFile* file : writer->files()) files.push_back(file);
-  std::optional<OutputFile> sheet_file;
+  optional<OutputFile> sheet_file;
   if (impl_->sheet) {
     sheet_file.emplace(place, "sheet.png");
     sheet_file->write(encode_png(impl_->sheet->image()));
@@ -289,7 +289,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();
 
-  std::vector<PartFile*> parts(files.begin(), files.end());
+  vector<PartFile*> parts(files.begin(), files.end());
   if (impl_->film) parts.push_back(&impl_->film->file());
   impl_->folder->publish(std::move(parts), manifest);
 }

@@ -2,11 +2,6 @@
 // Writes the files that a scene requests. Tables, buffers and pictures exist only for what it requests.
 // They are made in two ways through the motion: tables and whatever needs no more than the present, and drawings.
 #include <atomic>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "export/output_part.h"
 #include "export/picture_streams.h"
@@ -16,6 +11,7 @@
 #include "files/summary.h"
 #include "render/image.h"
 #include "render/model.h"
+#include "std.h"
 
 namespace carom {
 
@@ -34,8 +30,8 @@ class Exports {
   /// `request`: gives what tells runs apart, from what does not change. An interrupted run of the same request then
   /// goes on: see goes_on(). Unset: it begins anew. Throws ArchiveError if what that run has left is damaged, and
   /// removes its checkpoint then.
-  Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
-          ModelMakers makers = {}, const Manifest* renewed = nullptr, std::function<std::string()> request = {});
+  Exports(const Scene& scene, const string& folder, Durability durability = Durability::synced, ModelMakers makers = {},
+          const Manifest* renewed = nullptr, function<string()> request = {});
   /// Without finish(), incomplete files are removed. Complete frames stay.
   ~Exports();
   Exports(const Exports&) = delete;
@@ -66,18 +62,18 @@ class Exports {
   /// Opens these. If the run ends before its duration and that is known, scene.ends_at has it by now.
   void begin_drawings();
   OutputPart& drawings();
-  const std::vector<PictureStream>& pictures() const;
+  const vector<PictureStream>& pictures() const;
   /// Ends the timeline of the drawings at `time` (s), before the duration (timeline.h). Throws ExportError if pictures
   /// then have none.
   void end_drawings_at(double time);
   /// Copies the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
   /// Other threads encode and write it. An error of theirs is thrown by a later call, or by finish().
-  void picture(std::size_t stream, const Image& image, bool again = false);
+  void picture(size_t stream, const Image& image, bool again = false);
   /// The pictures taken so far for frames and video. Those of the sheet do not count. Any thread may ask.
-  std::uint64_t frames() const;
+  uint64_t frames() const;
 
   /// The files that were given up, after all parts have ended.
-  std::vector<LeftOut> left_out() const;
+  vector<LeftOut> left_out() const;
   /// Completes every file, then renames all of them. summary.csv is included, and manifest.json is last.
   /// Throws ExportError.
   /// scene.yaml is in the folder from the start,
@@ -86,7 +82,7 @@ class Exports {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  unique_ptr<Impl> impl_;
 };
 
 }  // namespace carom

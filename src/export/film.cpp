@@ -3,6 +3,7 @@
 
 #include "export/yuv.h"
 #include "scene/film_format.h"
+#include "std.h"
 
 namespace carom {
 
@@ -29,7 +30,7 @@ void Film::add(const Image& image) {
 
 void Film::complete() {
   pictures_.finish();
-  for (std::size_t run = 1; run < encoding_.runs.size(); ++run) {
+  for (size_t run = 1; run < encoding_.runs.size(); ++run) {
     file_.end_run();
     file_.start(encoding_.runs[run], false);
   }

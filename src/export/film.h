@@ -1,12 +1,11 @@
 #pragma once
 // animation.mp4, or a film as GIF or WebP. Pictures go to ffmpeg as they are drawn, without files of their own.
-#include <cstdint>
-#include <vector>
 
 #include "export/film_file.h"
 #include "files/conveyor.h"
 #include "render/image.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,7 +19,7 @@ class Film {
   /// Copies the picture. Waits while 4 pictures are on their way.
   /// Throws ExportError, as all functions of this class do, also the error of an earlier picture.
   void add(const Image& image);
-  std::uint64_t frames() const { return frames_; }
+  uint64_t frames() const { return frames_; }
 
   /// Waits for ffmpeg and verifies the number of frames in the film.
   void complete();
@@ -28,12 +27,12 @@ class Film {
   const FileRecord& record() const { return file_.record(); }  // valid after complete()
 
  private:
-  using RawPicture = std::vector<std::uint8_t>;
+  using RawPicture = vector<uint8_t>;
 
   VideoOutput video_;
   FilmEncoding encoding_;  // known with the first picture
   FilmFile file_;
-  std::uint64_t frames_ = 0;
+  uint64_t frames_ = 0;
   Conveyor<RawPicture> pictures_;  // last, because its thread uses file_
 };
 

@@ -13,17 +13,18 @@
 
 #include "export/yuv.h"
 #include "scene/film_format.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr int largest_crf = 51;
 
-void add(FfmpegRun& run, std::initializer_list<std::string_view> arguments) {
-  for (const std::string_view argument : arguments) run.emplace_back(argument);
+void add(FfmpegRun& run, std::initializer_list<string_view> arguments) {
+  for (const string_view argument : arguments) run.emplace_back(argument);
 }
 
-FfmpegRun raw_input(const VideoOutput& video, std::string_view pixels, int width, int height) {
+FfmpegRun raw_input(const VideoOutput& video, string_view pixels, int width, int height) {
   FfmpegRun run;
   add(run, {"-f", "rawvideo", "-pixel_format", pixels, "-video_size", fmt::format("{}x{}", width, height), "-framerate",
             fmt::format("{}", video.fps), "-i", "pipe:0"});
@@ -38,7 +39,7 @@ void add_reproducible(FfmpegRun& run) {
 FilmEncoding mp4(const VideoOutput& video, const Image& picture) {
   const Size size = yuv_size(picture);
   FfmpegRun run = raw_input(video, "yuv420p", size.width, size.height);
-  for (std::string& argument : h264_output(video.crf)) run.push_back(std::move(argument));
+  for (string& argument : h264_output(video.crf)) run.push_back(std::move(argument));
   return {{std::move(run)}, h264_file};
 }
 
@@ -90,7 +91,7 @@ FfmpegRun h264_output(int crf) {
       {"-c:v", "libx264", "-preset", "veryfast", "-crf", std::to_string(crf), "-pix_fmt", "yuv420p", "-threads", "4"});
   add(run, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv",
             "-chroma_sample_location", "center"});
-  add(run, {"-movflags", "+faststart", "-f", "mp4", std::string("file:") + h264_file});
+  add(run, {"-movflags", "+faststart", "-f", "mp4", string("file:") + h264_file});
   return run;
 }
 

@@ -1,21 +1,20 @@
 #pragma once
 // The options of ffmpeg for each format of films.
-#include <string>
-#include <vector>
 
 #include "render/image.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
 /// A run of ffmpeg in the film's temporary folder: all arguments after its own name.
-using FfmpegRun = std::vector<std::string>;
+using FfmpegRun = vector<string>;
 
 /// The runs that make a film from raw pictures, and the name of its file in the temporary folder.
 /// The first run reads the pictures from its input: yuv420p (yuv.h) for .mp4, else the pixels as they are.
 struct FilmEncoding {
-  std::vector<FfmpegRun> runs;
-  std::string file;
+  vector<FfmpegRun> runs;
+  string file;
 };
 
 /// `picture`: one of the film's.

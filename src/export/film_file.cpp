@@ -16,14 +16,15 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/film_format.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// The last lines of a program's error output, on one line.
-std::string complaint(const std::string& text) {
-  const std::size_t most = 600;
-  std::string tail = text.size() > most ? "..." + text.substr(text.size() - most) : text;
+string complaint(const string& text) {
+  const size_t most = 600;
+  string tail = text.size() > most ? "..." + text.substr(text.size() - most) : text;
   while (!tail.empty() && tail.back() == '\n') tail.pop_back();
   for (char& c : tail) c = c == '\n' ? ';' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   return tail.empty() ? "no message" : tail;
@@ -31,8 +32,7 @@ std::string complaint(const std::string& text) {
 
 /// The properties of a film's only stream as printed by ffprobe, separated by commas, in ffprobe's own order.
 /// ffprobe counts the pictures, because a GIF does not store their number.
-std::string probed(const FilmTools& tools, int folder, const std::string& name, const std::string& entries,
-                   std::string& error) {
+string probed(const FilmTools& tools, int folder, const string& name, const string& entries, string& error) {
   Child probe({tools.ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets", "-show_entries",
                "stream=" + entries, "-of", "csv=p=0", "file:" + name},
               folder, false);
@@ -42,16 +42,16 @@ std::string probed(const FilmTools& tools, int folder, const std::string& name, 
 }
 
 /// Removes a whole number and the separator after it from the front of `text`, and returns the number.
-std::uint64_t take_number(std::string_view& text) {
-  std::uint64_t value = 0;
+uint64_t take_number(string_view& text) {
+  uint64_t value = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value).ptr;
-  text.remove_prefix(std::min(text.size(), static_cast<std::size_t>(end - text.data()) + 1));
+  text.remove_prefix(std::min(text.size(), static_cast<size_t>(end - text.data()) + 1));
   return value;
 }
 
-std::uint64_t counted_frames(const FilmTools& tools, int folder, const std::string& name, std::string& error) {
-  const std::string counted = probed(tools, folder, name, "nb_read_packets", error);
-  std::string_view text = counted;
+uint64_t counted_frames(const FilmTools& tools, int folder, const string& name, string& error) {
+  const string counted = probed(tools, folder, name, "nb_read_packets", error);
+  string_view text = counted;
   return take_number(text);
 }
 
@@ -61,13 +61,13 @@ FilmTools find_film_tools() {
   const auto ffmpeg = find_program("ffmpeg"), ffprobe = find_program("ffprobe");
   if (!ffmpeg || !ffprobe) {
     throw ExportError(
-        std::string("a video needs ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
+        string("a video needs ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
         ", which is not on the PATH\n  install it (on Debian: apt install ffmpeg), or leave the video out");
   }
   return {*ffmpeg, *ffprobe};
 }
 
-FilmFile::FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience)
+FilmFile::FilmFile(const FilePlace& place, const string& name, FilmTools tools, const FilmPatience& patience)
     : PartFile(place, name), tools_(std::move(tools)), patience_(patience) {}
 
 FilmFile::~FilmFile() {
@@ -75,16 +75,16 @@ FilmFile::~FilmFile() {
   if (workshop_) try_to_remove(place_.folder, workshop_name());
 }
 
-std::string FilmFile::workshop_name() const {
+string FilmFile::workshop_name() const {
   return part_name(record_.name + ".work");
 }
 
-void FilmFile::fail_with(const std::string& reason) const {
+void FilmFile::fail_with(const string& reason) const {
   fail("make the film", place_, record_.name, reason);
 }
 
 FilePlace FilmFile::workshop() {
-  const std::string folder = workshop_name();
+  const string folder = workshop_name();
   if (!workshop_) {
     // ffmpeg opens its file by name, more than once, and survives a run that is killed.
     // A folder of its own contains no link. Once the next run has removed that folder, ffmpeg cannot write anywhere.
@@ -100,10 +100,10 @@ void FilmFile::start(const FfmpegRun& run, bool fed) {
   FfmpegRun arguments = {tools_.ffmpeg, "-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
   arguments.insert(arguments.end(), run.begin(), run.end());
   const FilePlace place = workshop();
-  ffmpeg_ = std::make_unique<Child>(arguments, place.folder, fed);
+  ffmpeg_ = make_unique<Child>(arguments, place.folder, fed);
 }
 
-void FilmFile::send(const void* bytes, std::size_t size) {
+void FilmFile::send(const void* bytes, size_t size) {
   switch (ffmpeg_->send(bytes, size, patience_.each)) {
     case Child::Sent::all:
     case Child::Sent::abandoned:
@@ -125,7 +125,7 @@ void FilmFile::abandon() {
 void FilmFile::end_run() {
   if (!ffmpeg_) fail_with("it has no pictures");
   ffmpeg_->end_input();
-  const std::optional<int> code = ffmpeg_->wait(patience_.end);
+  const optional<int> code = ffmpeg_->wait(patience_.end);
   if (!code) {
     ffmpeg_->kill();
     fail_with("ffmpeg did not end within " + std::to_string(patience_.end.count() / 1000) + " s and was stopped");
@@ -133,12 +133,11 @@ void FilmFile::end_run() {
   if (*code != 0) fail_with("ffmpeg failed with code " + std::to_string(*code) + ": " + complaint(ffmpeg_->errors()));
 }
 
-void FilmFile::complete(const std::string& made, std::uint64_t frames, double fps) {
+void FilmFile::complete(const string& made, uint64_t frames, double fps) {
   end_run();
-  std::string error;
-  const std::uint64_t found = film_format(made) == FilmFormat::webp
-                                  ? webp_frames(workshop(), made, fps).value_or(frames)
-                                  : counted_frames(tools_, workshop_.get(), made, error);
+  string error;
+  const uint64_t found = film_format(made) == FilmFormat::webp ? webp_frames(workshop(), made, fps).value_or(frames)
+                                                               : counted_frames(tools_, workshop_.get(), made, error);
   if (!error.empty()) fail_with(error);
   if (found != frames) fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");
 
@@ -150,11 +149,11 @@ void FilmFile::complete(const std::string& made, std::uint64_t frames, double fp
   remove_entry(place_, workshop_name());
 }
 
-FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name) {
-  std::string error;
-  const std::string output = probed(tools, place.folder, name, "width,height,r_frame_rate,nb_read_packets", error);
+FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const string& name) {
+  string error;
+  const string output = probed(tools, place.folder, name, "width,height,r_frame_rate,nb_read_packets", error);
   if (!error.empty()) fail("read the film", place, name, error);
-  std::string_view text = output;
+  string_view text = output;
   FilmFacts facts;
   facts.width = static_cast<int>(take_number(text));
   facts.height = static_cast<int>(take_number(text));

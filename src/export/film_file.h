@@ -1,19 +1,17 @@
 #pragma once
 // A film that ffmpeg writes in a temporary folder beside the film's place until it is complete.
 #include <chrono>
-#include <cstdint>
-#include <memory>
-#include <string>
 
 #include "export/child.h"
 #include "export/film_encoding.h"
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
 /// The programs that make and inspect a film.
 struct FilmTools {
-  std::string ffmpeg, ffprobe;  // absolute paths
+  string ffmpeg, ffprobe;  // absolute paths
 };
 
 /// Finds them on PATH. Throws ExportError with a text that names the remedy.
@@ -28,7 +26,7 @@ struct FilmPatience {
 class FilmFile : public PartFile {
  public:
   /// Throws ExportError, as all functions of this class do.
-  FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience);
+  FilmFile(const FilePlace& place, const string& name, FilmTools tools, const FilmPatience& patience);
   /// Stops ffmpeg and removes its folder.
   ~FilmFile();
 
@@ -38,7 +36,7 @@ class FilmFile : public PartFile {
   void start(const FfmpegRun& run, bool fed);
   bool started() const { return ffmpeg_ != nullptr; }
   /// May be called on another thread than the rest.
-  void send(const void* bytes, std::size_t size);
+  void send(const void* bytes, size_t size);
   /// Ends a send() on another thread.
   void abandon();
   /// Waits for the end of the present run.
@@ -47,26 +45,26 @@ class FilmFile : public PartFile {
   /// Ends the present run and verifies the number of frames, because ffmpeg may succeed with half of them.
   /// `made`: the film's name in the temporary folder. `fps`: its pictures a second.
   /// The film then has its temporary name, and publish() renames it.
-  void complete(const std::string& made, std::uint64_t frames, double fps);
+  void complete(const string& made, uint64_t frames, double fps);
 
-  [[noreturn]] void fail_with(const std::string& reason) const;
+  [[noreturn]] void fail_with(const string& reason) const;
 
  private:
-  std::string workshop_name() const;
+  string workshop_name() const;
 
   FilmTools tools_;
   FilmPatience patience_;
   Descriptor workshop_;
-  std::unique_ptr<Child> ffmpeg_;
+  unique_ptr<Child> ffmpeg_;
 };
 
 /// The properties of a stored film.
 struct FilmFacts {
-  int width = 0, height = 0;        // pixels
-  std::uint64_t rate = 0, per = 1;  // frame rate in 1/s: rate / per
-  std::uint64_t frames = 0;
+  int width = 0, height = 0;   // pixels
+  uint64_t rate = 0, per = 1;  // frame rate in 1/s: rate / per
+  uint64_t frames = 0;
 };
 /// Reads the properties with ffprobe. Throws ExportError.
-FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name);
+FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const string& name);
 
 }  // namespace carom

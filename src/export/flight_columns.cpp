@@ -10,68 +10,69 @@
 #include <algorithm>
 #include <cstring>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
 struct ColumnSizes {
-  std::uint32_t bytes[column_count][2];  // of each column, and packed
-  std::uint64_t bits;
+  uint32_t bytes[column_count][2];  // of each column, and packed
+  uint64_t bits;
 };
 
 /// The bits of a finite number, and zero for others, of which processors and programs have several.
-std::uint64_t bits_of_prediction(double predicted) {
-  const auto bits = std::bit_cast<std::uint64_t>(predicted);
-  constexpr std::uint64_t exponent = std::uint64_t{0x7ff} << 52;
+uint64_t bits_of_prediction(double predicted) {
+  const auto bits = std::bit_cast<uint64_t>(predicted);
+  constexpr uint64_t exponent = uint64_t{0x7ff} << 52;
   return (bits & exponent) == exponent ? 0 : bits;
 }
 
-constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+constexpr uint64_t sign = uint64_t{1} << 63;
 
 }  // namespace
 
 /// Appends these bytes to `to`, packed if that makes them fewer. Returns how many packed ones there are; 0: none.
-std::uint32_t ColumnWriter::append(std::span<const std::uint8_t> bytes, std::vector<char>& to) {
-  const std::size_t begin = to.size();
+uint32_t ColumnWriter::append(span<const uint8_t> bytes, vector<char>& to) {
+  const size_t begin = to.size();
   to.resize(begin + bytes.size());
   if (bytes.empty()) return 0;
 
-  auto* const place = reinterpret_cast<std::uint8_t*>(to.data() + begin);
-  const std::size_t packed = deflation_.pack(bytes, place, bytes.size(), Deflation::Format::plain);
+  auto* const place = reinterpret_cast<uint8_t*>(to.data() + begin);
+  const size_t packed = deflation_.pack(bytes, place, bytes.size(), Deflation::Format::plain);
   if (packed > 0 && packed < bytes.size()) {
     to.resize(begin + packed);
-    return static_cast<std::uint32_t>(packed);
+    return static_cast<uint32_t>(packed);
   }
-  std::copy(bytes.begin(), bytes.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
+  std::ranges::copy(bytes, to.begin() + static_cast<ptrdiff_t>(begin));
   return 0;
 }
 
 /// Seven bits a byte, the lowest first. The highest bit of a byte: there are more.
-void ColumnWriter::number(Column column, std::uint64_t value) {
-  for (; value > 127; value >>= 7) byte(column, static_cast<std::uint8_t>(value | 128));
-  byte(column, static_cast<std::uint8_t>(value));
+void ColumnWriter::number(Column column, uint64_t value) {
+  for (; value > 127; value >>= 7) byte(column, static_cast<uint8_t>(value | 128));
+  byte(column, static_cast<uint8_t>(value));
 }
 
 void ColumnWriter::difference(Column column, double predicted, double actual) {
-  const std::uint64_t p = bits_of_prediction(predicted), a = std::bit_cast<std::uint64_t>(actual);
+  const uint64_t p = bits_of_prediction(predicted), a = std::bit_cast<uint64_t>(actual);
   if (a == p) return byte(column, 0);
   if (a == 0) return byte(column, DifferenceCode::zero);
 
   // Positive and negative ones alternate: 0, -1, 1, -2, ...
-  const auto difference = static_cast<std::int64_t>((a & ~sign) - (p & ~sign));
-  const std::uint64_t folded =
-      static_cast<std::uint64_t>(difference) << 1 ^ static_cast<std::uint64_t>(difference >> 63);
+  const auto difference = static_cast<int64_t>((a & ~sign) - (p & ~sign));
+  const uint64_t folded = static_cast<uint64_t>(difference) << 1 ^ static_cast<uint64_t>(difference >> 63);
   const auto length = static_cast<unsigned>(std::bit_width(folded));
   if (length > 63) {
     byte(column, DifferenceCode::all);
     bits(a & 0xffffffff, 32);
     return bits(a >> 32, 32);
   }
-  byte(column, static_cast<std::uint8_t>(length + ((a ^ p) & sign ? DifferenceCode::turned : 0)));
-  if (length > 1) bits(folded & ~(std::uint64_t{1} << (length - 1)), length - 1);
+  byte(column, static_cast<uint8_t>(length + ((a ^ p) & sign ? DifferenceCode::turned : 0)));
+  if (length > 1) bits(folded & ~(uint64_t{1} << (length - 1)), length - 1);
 }
 
 /// `count`: up to 63.
-inline void ColumnWriter::bits(std::uint64_t value, unsigned count) {
+inline void ColumnWriter::bits(uint64_t value, unsigned count) {
   word_ |= value << used_;
   used_ += count;
   if (used_ < 64) return;
@@ -80,21 +81,21 @@ inline void ColumnWriter::bits(std::uint64_t value, unsigned count) {
   word_ = used_ > 0 ? value >> (count - used_) : 0;
 }
 
-std::size_t ColumnWriter::size() const {
-  std::size_t sum = 8 * words_.size();
+size_t ColumnWriter::size() const {
+  size_t sum = 8 * words_.size();
   for (const auto& column : columns_) sum += column.size();
   return sum;
 }
 
-void ColumnWriter::pack(std::vector<char>& to) {
+void ColumnWriter::pack(vector<char>& to) {
   ColumnSizes sizes{};
   sizes.bits = 64 * words_.size() + used_;
   if (used_ > 0) words_.push_back(word_);
 
-  const std::size_t begin = to.size();
+  const size_t begin = to.size();
   to.resize(begin + sizeof sizes);
-  for (std::size_t k = 0; k < column_count; ++k) {
-    sizes.bytes[k][0] = static_cast<std::uint32_t>(columns_[k].size());
+  for (size_t k = 0; k < column_count; ++k) {
+    sizes.bytes[k][0] = static_cast<uint32_t>(columns_[k].size());
     sizes.bytes[k][1] = append(columns_[k], to);
     columns_[k].clear();
   }
@@ -107,15 +108,15 @@ void ColumnWriter::pack(std::vector<char>& to) {
   used_ = 0;
 }
 
-bool ColumnReader::unpack(std::span<const char> packed) {
+bool ColumnReader::unpack(span<const char> packed) {
   damaged_ = false;
   ColumnSizes sizes;
   if (packed.size() < sizeof sizes) return false;
   std::memcpy(&sizes, packed.data(), sizeof sizes);
   packed = packed.subspan(sizeof sizes);
 
-  for (std::size_t k = 0; k < column_count; ++k) {
-    const std::size_t size = sizes.bytes[k][0], stored = sizes.bytes[k][1] > 0 ? sizes.bytes[k][1] : size;
+  for (size_t k = 0; k < column_count; ++k) {
+    const size_t size = sizes.bytes[k][0], stored = sizes.bytes[k][1] > 0 ? sizes.bytes[k][1] : size;
     if (size > largest_column || stored > packed.size()) return false;
     Rest& column = columns_[k];
     column.bytes.resize(size);
@@ -125,10 +126,10 @@ bool ColumnReader::unpack(std::span<const char> packed) {
     } else {
       inflate_state stream;
       isal_inflate_init(&stream);
-      stream.next_in = reinterpret_cast<std::uint8_t*>(const_cast<char*>(packed.data()));
-      stream.avail_in = static_cast<std::uint32_t>(stored);
+      stream.next_in = reinterpret_cast<uint8_t*>(const_cast<char*>(packed.data()));
+      stream.avail_in = static_cast<uint32_t>(stored);
       stream.next_out = column.bytes.data();
-      stream.avail_out = static_cast<std::uint32_t>(size);
+      stream.avail_out = static_cast<uint32_t>(size);
       const bool whole = isal_inflate_stateless(&stream) == ISAL_DECOMP_OK && stream.avail_out == 0;
       if (!whole) return false;
     }
@@ -148,18 +149,18 @@ bool ColumnReader::at_end() const {
          std::ranges::all_of(columns_, [](const Rest& column) { return column.at == column.bytes.size(); });
 }
 
-std::uint8_t ColumnReader::byte(Column column) {
-  Rest& rest = columns_[static_cast<std::size_t>(column)];
+uint8_t ColumnReader::byte(Column column) {
+  Rest& rest = columns_[static_cast<size_t>(column)];
   if (rest.at < rest.bytes.size()) return rest.bytes[rest.at++];
   damaged_ = true;
   return 0;
 }
 
-std::uint64_t ColumnReader::number(Column column) {
-  std::uint64_t value = 0;
+uint64_t ColumnReader::number(Column column) {
+  uint64_t value = 0;
   for (unsigned shift = 0; shift < 64; shift += 7) {
-    const std::uint8_t next = byte(column);
-    value |= std::uint64_t{next & 127u} << shift;
+    const uint8_t next = byte(column);
+    value |= uint64_t{next & 127u} << shift;
     if (next < 128) return value;
   }
   damaged_ = true;
@@ -167,12 +168,12 @@ std::uint64_t ColumnReader::number(Column column) {
 }
 
 double ColumnReader::difference(Column column, double predicted) {
-  const std::uint64_t p = bits_of_prediction(predicted);
+  const uint64_t p = bits_of_prediction(predicted);
   unsigned length = byte(column);
   if (length == 0) return std::bit_cast<double>(p);
   if (length == DifferenceCode::zero) return 0;
   if (length == DifferenceCode::all) {
-    const std::uint64_t low = bits(32);
+    const uint64_t low = bits(32);
     return std::bit_cast<double>(low | bits(32) << 32);
   }
   if (length > DifferenceCode::all) {
@@ -180,28 +181,28 @@ double ColumnReader::difference(Column column, double predicted) {
     return 0;
   }
 
-  const std::uint64_t other_sign = length >= DifferenceCode::turned ? sign : 0;
+  const uint64_t other_sign = length >= DifferenceCode::turned ? sign : 0;
   length %= DifferenceCode::turned;
-  std::uint64_t folded = 0;
-  if (length > 0) folded = length > 1 ? bits(length - 1) | std::uint64_t{1} << (length - 1) : 1;
-  const std::uint64_t difference = folded >> 1 ^ (0 - (folded & 1));
+  uint64_t folded = 0;
+  if (length > 0) folded = length > 1 ? bits(length - 1) | uint64_t{1} << (length - 1) : 1;
+  const uint64_t difference = folded >> 1 ^ (0 - (folded & 1));
   return std::bit_cast<double>((((p & ~sign) + difference) & ~sign) | ((p & sign) ^ other_sign));
 }
 
 /// `count`: up to 63.
-std::uint64_t ColumnReader::bits(unsigned count) {
+uint64_t ColumnReader::bits(unsigned count) {
   if (bit_end_ - bit_ < count) {
     damaged_ = true;
     return 0;
   }
-  const std::size_t byte = bit_ / 8;
+  const size_t byte = bit_ / 8;
   const unsigned shift = bit_ % 8;
-  std::uint64_t value;
+  uint64_t value;
   std::memcpy(&value, &bits_[byte], sizeof value);
   value >>= shift;
-  if (shift > 0) value |= std::uint64_t{bits_[byte + 8]} << (64 - shift);
+  if (shift > 0) value |= uint64_t{bits_[byte + 8]} << (64 - shift);
   bit_ += count;
-  return value & ((std::uint64_t{1} << count) - 1);
+  return value & ((uint64_t{1} << count) - 1);
 }
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "files/run_folder.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,11 +21,11 @@ using namespace flights_format;
 namespace {
 
 /// Bytes of a block before it is packed. Smaller blocks have more bytes in all, larger ones hardly fewer.
-constexpr std::size_t block_size = std::size_t{256} * 1024;
+constexpr size_t block_size = size_t{256} * 1024;
 
 /// From one key to the next are so many times the bytes of a key. The first one is expected to have so many for a body.
-constexpr std::uint64_t key_share = 64;
-constexpr std::uint64_t key_bytes_of_body = 64;
+constexpr uint64_t key_share = 64;
+constexpr uint64_t key_bytes_of_body = 64;
 
 /// Writes values into a buffer in place.
 class InPlace {
@@ -53,7 +54,7 @@ double flight_bytes(double of_events, double of_crowd) {
   return event_bytes * of_events + crowd_bytes * of_crowd;
 }
 
-FlightsFile::FlightsFile(const Scene& scene, std::uint64_t most)
+FlightsFile::FlightsFile(const Scene& scene, uint64_t most)
     : has_collisions_(drawings_show_collisions(scene)),
       world_(scene.world),
       most_(most),
@@ -61,7 +62,7 @@ FlightsFile::FlightsFile(const Scene& scene, std::uint64_t most)
       codec_(scene.world),
       next_key_(key_share * key_bytes_of_body * scene.world.body_count()) {}
 
-FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most) : FlightsFile(scene, most) {
+FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, uint64_t most) : FlightsFile(scene, most) {
   file_.emplace(place, flights_name);
   begin(scene);
 }
@@ -82,13 +83,13 @@ void FlightsFile::begin(const Scene& scene) {
   file_->written(writer.end());
 }
 
-void FlightsFile::record(std::span<const Collision> collisions) {
+void FlightsFile::record(span<const Collision> collisions) {
   if (has_collisions_) collisions_.insert(collisions_.end(), collisions.begin(), collisions.end());
 }
 
 /// The pieces of the last instant are held until one of another is known, so that neither the order nor the bytes
 /// depend on where an advance ends. The first pieces of all bodies come before whatever happens at time 0.
-void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
+void FlightsFile::record_paths(span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
     if (!group_.empty() && piece.from != group_.back().from) end_group(&piece);
     group_.push_back(piece);
@@ -99,7 +100,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
 /// Writes the pieces of an instant, and before them the collisions until then.
 void FlightsFile::end_group(const PathPiece* next) {
   while (!group_.empty() && !collisions_.empty()) {
-    const std::optional<CollisionMark> mark = mark_until(collisions_.front(), group_.front().from);
+    const optional<CollisionMark> mark = mark_until(collisions_.front(), group_.front().from);
     if (!mark) break;
     put(*mark);
     collisions_.pop_front();
@@ -109,7 +110,7 @@ void FlightsFile::end_group(const PathPiece* next) {
 
 /// Writes the pieces of an instant, before the piece `next`.
 void FlightsFile::put_group(const PathPiece* next) {
-  for (std::size_t k = 0; k < group_.size(); ++k) put(group_[k], k + 1 < group_.size() ? &group_[k + 1] : next);
+  for (size_t k = 0; k < group_.size(); ++k) put(group_[k], k + 1 < group_.size() ? &group_[k + 1] : next);
   group_.clear();
 }
 
@@ -137,16 +138,16 @@ void FlightsFile::count() {
 }
 
 /// Writes a block, or leaves the file out if it becomes too large.
-void FlightsFile::end_block(std::uint32_t kind, ColumnWriter& columns, std::uint32_t entries, double time) {
+void FlightsFile::end_block(uint32_t kind, ColumnWriter& columns, uint32_t entries, double time) {
   packed_.resize(block_head);
   columns.pack(packed_);
   InPlace writer(packed_.data());
   writer.put(kind);
   writer.put(entries);
-  writer.put(static_cast<std::uint32_t>(packed_.size() - block_head));
-  writer.put(std::uint32_t{0});
+  writer.put(static_cast<uint32_t>(packed_.size() - block_head));
+  writer.put(uint32_t{0});
   writer.put(time);
-  const std::uint32_t checksum = checksum_of(packed_);
+  const uint32_t checksum = checksum_of(packed_);
   std::memcpy(packed_.data() + checksum_place, &checksum, sizeof checksum);
 
   bytes_ += packed_.size();
@@ -156,22 +157,22 @@ void FlightsFile::end_block(std::uint32_t kind, ColumnWriter& columns, std::uint
 
 /// Writes the present piece of every body.
 void FlightsFile::put_key() {
-  const std::uint64_t begin = bytes_;
+  const uint64_t begin = bytes_;
   keys_.push_back({codec_.from(), begin - tail_size - key_size * keys_.size(), entries_});
   bytes_ += key_size;
 
   // In order of time, as all entries.
-  std::vector<const PathPiece*> pieces;
+  vector<const PathPiece*> pieces;
   for (const PathPiece& piece : codec_.present())
     if (piece.body != no_entity) pieces.push_back(&piece);
   std::ranges::stable_sort(pieces, {}, [](const PathPiece* piece) { return piece->from; });
 
   PathCodec codec(world_);
   ColumnWriter columns;
-  std::uint32_t kind = of_key;
-  std::uint32_t entries = 0;
+  uint32_t kind = of_key;
+  uint32_t entries = 0;
   double time = 0;  // s
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
+  for (size_t k = 0; k < pieces.size(); ++k) {
     codec.write(columns, *pieces[k], nullptr, world_);
     ++entries;
     if (columns.size() < block_size && k + 1 < pieces.size()) continue;
@@ -199,7 +200,7 @@ void FlightsFile::end(const Tally& tally) {
   if (has_end) {
     const RunEnd end = tally.end.value_or(RunEnd{std::numeric_limits<double>::quiet_NaN()});
     writer.put(end.time);
-    writer.put(static_cast<std::uint32_t>(end.reason));
+    writer.put(static_cast<uint32_t>(end.reason));
     writer.put(end.region);
     writer.put(tally.removed.bodies);
     writer.put(tally.removed.energy);
@@ -208,12 +209,11 @@ void FlightsFile::end(const Tally& tally) {
   }
 
   writer.put(last_entry);
-  writer.put(std::uint32_t{has_end});
-  writer.put(std::uint64_t{keys_.size()});
+  writer.put(uint32_t{has_end});
+  writer.put(uint64_t{keys_.size()});
   writer.put(entries_);
-  for (const std::uint64_t* count : counts_of(tally)) writer.put(*count);
-  for (const Entity entity : {tally.shared.body, tally.shared.one, tally.shared.other})
-    writer.put(std::uint64_t{entity});
+  for (const uint64_t* count : counts_of(tally)) writer.put(*count);
+  for (const Entity entity : {tally.shared.body, tally.shared.one, tally.shared.other}) writer.put(uint64_t{entity});
   for (const double* value : values_of(tally)) writer.put(*value);
   file_->written(writer.end());
 }
@@ -222,13 +222,13 @@ Descriptor FlightsFile::reopened() {
   return file_->reopened();
 }
 
-std::vector<LeftOut> FlightsFile::left_out() const {
+vector<LeftOut> FlightsFile::left_out() const {
   if (file_ && bytes_ <= most_) return {};
   return {{flights_name, fmt::format("larger than {:.3g} GB", 1e-9 * static_cast<double>(most_))}};
 }
 
-std::vector<OutputFile*> FlightsFile::files() {
-  return file_ && bytes_ <= most_ ? std::vector{&*file_} : std::vector<OutputFile*>();
+vector<OutputFile*> FlightsFile::files() {
+  return file_ && bytes_ <= most_ ? vector{&*file_} : vector<OutputFile*>();
 }
 
 }  // namespace carom

@@ -41,17 +41,12 @@
 // bytes come before the tail:
 //   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region, u64 removed bodies,
 //   f64 their energy (J), and x, y, z of their momentum (kg m/s), f64 0
-#include <cstdint>
 #include <deque>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "export/path_codec.h"
 #include "export/writer.h"
 #include "physics/recorded.h"
+#include "std.h"
 
 namespace carom {
 
@@ -61,22 +56,22 @@ struct World;
 inline constexpr const char* flights_name = "flights.bin";
 
 /// Bytes. A run with more keeps no flights.
-inline constexpr std::uint64_t largest_flights = 1'000'000'000;
+inline constexpr uint64_t largest_flights = 1'000'000'000;
 
 /// An estimate of the bytes of pieces that events begin, and of those of a crowd's steps.
 double flight_bytes(double of_events, double of_crowd);
 
 /// A place at which a reader may begin.
 struct FlightsKey {
-  double time = 0;            // s
-  std::uint64_t place = 0;    // in the file
-  std::uint64_t entries = 0;  // before it
+  double time = 0;       // s
+  uint64_t place = 0;    // in the file
+  uint64_t entries = 0;  // before it
 };
 
 class FlightsFile final : public Writer {
  public:
   /// `scene` must outlive this object. Throws ExportError, as all functions of this class do.
-  FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most = largest_flights);
+  FlightsFile(const FilePlace& place, const Scene& scene, uint64_t most = largest_flights);
   /// The same in a file without a name, which ends with this object.
   struct Nameless {};
   static constexpr Nameless nameless{};
@@ -85,11 +80,11 @@ class FlightsFile final : public Writer {
   void keep_whole() { keeps_whole_ = true; }
   /// The whole file, to be read. Call it after end().
   Descriptor reopened();
-  void record(std::span<const Collision> collisions) override;
-  void record_paths(std::span<const PathPiece> pieces) override;
+  void record(span<const Collision> collisions) override;
+  void record_paths(span<const PathPiece> pieces) override;
   void end(const Tally& tally) override;
-  std::vector<LeftOut> left_out() const override;
-  std::vector<OutputFile*> files() override;
+  vector<LeftOut> left_out() const override;
+  vector<OutputFile*> files() override;
   void keep(StateWriter& archive) override { keep_all(archive); }
   void keep(StateReader& archive) override { keep_all(archive); }
 
@@ -99,14 +94,14 @@ class FlightsFile final : public Writer {
   bool has_collisions() const { return has_collisions_; }
 
  private:
-  FlightsFile(const Scene& scene, std::uint64_t most);
+  FlightsFile(const Scene& scene, uint64_t most);
   void begin(const Scene& scene);
   void end_group(const PathPiece* next);
   void put_group(const PathPiece* next);
   void put(const PathPiece& piece, const PathPiece* next);
   void put(const CollisionMark& collision);
   void count();
-  void end_block(std::uint32_t kind, ColumnWriter& columns, std::uint32_t entries, double time);
+  void end_block(uint32_t kind, ColumnWriter& columns, uint32_t entries, double time);
   void put_key();
   void keep_all(auto& archive) {
     bool there = is_there();
@@ -116,33 +111,33 @@ class FlightsFile final : public Writer {
     archive(bytes_, entries_, group_, collisions_, codec_, columns_, in_block_, block_time_, keys_, next_key_);
   }
 
-  std::optional<OutputFile> file_;
+  optional<OutputFile> file_;
   const bool has_collisions_;
   bool keeps_whole_ = false;
   const World& world_;
-  std::uint64_t most_;   // bytes
-  std::uint64_t bytes_;  // so far, with those of the end
-  std::uint64_t entries_ = 0;
+  uint64_t most_;   // bytes
+  uint64_t bytes_;  // so far, with those of the end
+  uint64_t entries_ = 0;
   // Not yet written: the last pieces, which hold from one instant, and collisions.
-  std::vector<PathPiece> group_;
+  vector<PathPiece> group_;
   std::deque<Collision> collisions_;
   PathCodec codec_;
   // The present block: its columns, its entries, and when it begins (s).
   ColumnWriter columns_;
-  std::uint32_t in_block_ = 0;
+  uint32_t in_block_ = 0;
   double block_time_ = 0;
-  std::vector<char> packed_;
-  std::vector<FlightsKey> keys_;
-  std::uint64_t next_key_;  // the number of bytes from which on a key is due
+  vector<char> packed_;
+  vector<FlightsKey> keys_;
+  uint64_t next_key_;  // the number of bytes from which on a key is due
 };
 
 /// Reads such a file, in blocks.
 class FlightsReader {
  public:
   /// `scene`: the scene of the run. Throws ExportError if the file is another scene's, incomplete or unreadable.
-  FlightsReader(int folder, const std::string& path, const Scene& scene);
+  FlightsReader(int folder, const string& path, const Scene& scene);
   /// The same of an open file, or of no file.
-  FlightsReader(Descriptor file, const std::string& path, const Scene& scene);
+  FlightsReader(Descriptor file, const string& path, const Scene& scene);
   /// Reads the next piece or collision. False: the end. Throws ExportError.
   bool next(Recorded& recorded);
   /// The next parts read are the present piece of each body at `time` (s), in order of `from`, and then all that come
@@ -152,12 +147,12 @@ class FlightsReader {
   const Tally& tally() const { return tally_; }  // at the end of the run
 
  private:
-  [[noreturn]] void refuse(const std::string& reason) const;
-  void load(std::uint64_t place, std::size_t size);
-  void take_header(std::uint64_t size, const Scene& scene);
-  void take_tail(std::uint64_t size, const Scene& scene);
-  void take_end(std::uint64_t place, const Scene& scene);
-  void take_keys(std::uint64_t count);
+  [[noreturn]] void refuse(const string& reason) const;
+  void load(uint64_t place, size_t size);
+  void take_header(uint64_t size, const Scene& scene);
+  void take_tail(uint64_t size, const Scene& scene);
+  void take_end(uint64_t place, const Scene& scene);
+  void take_keys(uint64_t count);
   struct Block;
   Block take_block(bool keys);
   void read_key();
@@ -168,21 +163,21 @@ class FlightsReader {
   template <typename T>
   T take();
 
-  std::string path_;  // of the folder, for messages
+  string path_;  // of the folder, for messages
   Descriptor file_;
-  std::vector<char> buffer_;
-  std::size_t at_ = 0;  // the start of what is not yet read of the buffer
+  vector<char> buffer_;
+  size_t at_ = 0;  // the start of what is not yet read of the buffer
   // Places in the file: of the next block, and behind the last one.
-  std::uint64_t place_ = 0;
-  std::uint64_t end_ = 0;
-  std::uint64_t entries_ = 0;
-  std::uint64_t left_ = 0;      // entries not yet read
-  std::uint32_t in_block_ = 0;  // and those of the present block
+  uint64_t place_ = 0;
+  uint64_t end_ = 0;
+  uint64_t entries_ = 0;
+  uint64_t left_ = 0;      // entries not yet read
+  uint32_t in_block_ = 0;  // and those of the present block
   bool has_collisions_ = false;
   ColumnReader columns_;
   PathCodec codec_;
-  std::vector<FlightsKey> keys_;
-  std::vector<Recorded> held_;  // to be read first, from the last one on
+  vector<FlightsKey> keys_;
+  vector<Recorded> held_;  // to be read first, from the last one on
   Tally tally_;
 };
 

@@ -2,53 +2,50 @@
 // The frame of flights.bin (flights_file.h): its sizes, and what both of its sides have in common.
 #include <isa-l/crc.h>
 
-#include <array>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string_view>
+
+#include "std.h"
 
 namespace carom::flights_format {
 
 static_assert(std::endian::native == std::endian::little);
 
-inline constexpr std::string_view magic = "caromfly";
-inline constexpr std::uint32_t version = 7;
-inline constexpr std::uint32_t byte_order = 0x01020304;
-inline constexpr std::uint32_t last_entry = 0xffffffff;
-inline constexpr std::uint64_t collisions_bit = std::uint64_t{1} << 63;
+inline constexpr string_view magic = "caromfly";
+inline constexpr uint32_t version = 7;
+inline constexpr uint32_t byte_order = 0x01020304;
+inline constexpr uint32_t last_entry = 0xffffffff;
+inline constexpr uint64_t collisions_bit = uint64_t{1} << 63;
 
 // Bytes.
-inline constexpr std::size_t header_size = 32;
-inline constexpr std::size_t block_head = 24;
-inline constexpr std::size_t checksum_place = 12;  // in the head of a block
-inline constexpr std::size_t key_size = 24;
-inline constexpr std::size_t end_size = 8 * 8;
-inline constexpr std::size_t tail_size = 8 + 26 * 8;
+inline constexpr size_t header_size = 32;
+inline constexpr size_t block_head = 24;
+inline constexpr size_t checksum_place = 12;  // in the head of a block
+inline constexpr size_t key_size = 24;
+inline constexpr size_t end_size = 8 * 8;
+inline constexpr size_t tail_size = 8 + 26 * 8;
 
-enum BlockKind : std::uint32_t { of_entries = 0, of_key = 1, more_of_key = 2 };
+enum BlockKind : uint32_t { of_entries = 0, of_key = 1, more_of_key = 2 };
 
 /// Of a block with its head, which has zero in the checksum's place.
-inline std::uint32_t checksum_of(std::span<const char> block) {
-  return crc32_gzip_refl(0, reinterpret_cast<const std::uint8_t*>(block.data()), block.size());
+inline uint32_t checksum_of(span<const char> block) {
+  return crc32_gzip_refl(0, reinterpret_cast<const uint8_t*>(block.data()), block.size());
 }
 
 /// The counts of the tail, in its order.
 template <typename Sums>
 auto counts_of(Sums& tally) {
-  return std::array{&tally.body_body,          &tally.body_fixed,      &tally.merges,
-                    &tally.tautened,           &tally.collapses,       &tally.resting,
-                    &tally.taken_up.impacts,   &tally.shared.instants, &tally.shared.ties,
-                    &tally.shared.without_room};
+  return array{&tally.body_body,          &tally.body_fixed,      &tally.merges,
+               &tally.tautened,           &tally.collapses,       &tally.resting,
+               &tally.taken_up.impacts,   &tally.shared.instants, &tally.shared.ties,
+               &tally.shared.without_room};
 }
 
 /// The values of the tail, in its order.
 template <typename Sums>
 auto values_of(Sums& tally) {
-  return std::array{&tally.first_collision, &tally.last_collision, &tally.energy_lost,     &tally.work,
-                    &tally.max_overlap,     &tally.fastest.speed,  &tally.stepped_contact, &tally.taken_up.fastest,
-                    &tally.taken_up.energy, &tally.shared.first,   &tally.shared.absorbed};
+  return array{&tally.first_collision, &tally.last_collision, &tally.energy_lost,     &tally.work,
+               &tally.max_overlap,     &tally.fastest.speed,  &tally.stepped_contact, &tally.taken_up.fastest,
+               &tally.taken_up.energy, &tally.shared.first,   &tally.shared.absorbed};
 }
 
 }  // namespace carom::flights_format

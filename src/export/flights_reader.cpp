@@ -15,6 +15,7 @@
 #include "files/stored_file.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,56 +24,55 @@ using namespace flights_format;
 namespace {
 
 /// What a reader takes of a damaged file at most.
-constexpr std::size_t largest_block = std::size_t{1} << 20;
+constexpr size_t largest_block = size_t{1} << 20;
 
 }  // namespace
 
-FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& scene)
+FlightsReader::FlightsReader(int folder, const string& path, const Scene& scene)
     : FlightsReader(open_stored(folder, flights_name), path, scene) {}
 
-FlightsReader::FlightsReader(Descriptor file, const std::string& path, const Scene& scene)
+FlightsReader::FlightsReader(Descriptor file, const string& path, const Scene& scene)
     : path_(path), file_(std::move(file)), codec_(scene.world) {
   struct stat info {};
   if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is not a file");
-  const auto size = static_cast<std::uint64_t>(info.st_size);
+  const auto size = static_cast<uint64_t>(info.st_size);
   take_header(size, scene);
   take_tail(size, scene);
   place_ = header_size;
   left_ = entries_;
 }
 
-void FlightsReader::take_header(std::uint64_t size, const Scene& scene) {
+void FlightsReader::take_header(uint64_t size, const Scene& scene) {
   if (size < header_size) refuse("it is truncated");
   load(0, header_size);
-  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
+  if (string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
   at_ = magic.size();
-  if (take<std::uint32_t>() != version)
-    refuse(fmt::format("another version of carom wrote it\n  {}", run_again(path_)));
-  if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
+  if (take<uint32_t>() != version) refuse(fmt::format("another version of carom wrote it\n  {}", run_again(path_)));
+  if (take<uint32_t>() != byte_order) refuse("it is damaged");
   if (size < header_size + tail_size) refuse("it is truncated");
-  const auto bodies = take<std::uint64_t>();
+  const auto bodies = take<uint64_t>();
   has_collisions_ = (bodies & collisions_bit) != 0;
   if ((bodies & ~collisions_bit) != scene.world.body_count() || take<double>() != scene.simulate.duration)
     refuse("it belongs to another scene");
 }
 
 /// Reads the tail, and what comes before it behind the blocks.
-void FlightsReader::take_tail(std::uint64_t size, const Scene& scene) {
+void FlightsReader::take_tail(uint64_t size, const Scene& scene) {
   load(size - tail_size, tail_size);
-  if (take<std::uint32_t>() != last_entry) refuse("it is truncated");
-  const auto has_end = take<std::uint32_t>();
+  if (take<uint32_t>() != last_entry) refuse("it is truncated");
+  const auto has_end = take<uint32_t>();
   if (has_end > 1) refuse("it is truncated");
-  const auto keys = take<std::uint64_t>();
-  entries_ = take<std::uint64_t>();
-  for (std::uint64_t* count : counts_of(tally_)) *count = take<std::uint64_t>();
+  const auto keys = take<uint64_t>();
+  entries_ = take<uint64_t>();
+  for (uint64_t* count : counts_of(tally_)) *count = take<uint64_t>();
   for (Entity* entity : {&tally_.shared.body, &tally_.shared.one, &tally_.shared.other}) {
-    const auto number = take<std::uint64_t>();
+    const auto number = take<uint64_t>();
     if (tally_.shared.instants > 0 && number >= scene.world.entity_count()) refuse("it is damaged");
     *entity = static_cast<Entity>(number);
   }
   for (double* value : values_of(tally_)) *value = take<double>();
 
-  std::uint64_t left = size - header_size - tail_size;
+  uint64_t left = size - header_size - tail_size;
   if (has_end == 1) {
     if (left < end_size) refuse("it is truncated");
     left -= end_size;
@@ -84,29 +84,29 @@ void FlightsReader::take_tail(std::uint64_t size, const Scene& scene) {
 }
 
 /// Reads what has ended the run, at `place` in the file, and what it has lost.
-void FlightsReader::take_end(std::uint64_t place, const Scene& scene) {
+void FlightsReader::take_end(uint64_t place, const Scene& scene) {
   load(place, end_size);
   const auto time = take<double>();
-  const auto reason = take<std::uint32_t>(), region = take<std::uint32_t>();
-  tally_.removed.bodies = take<std::uint64_t>();
+  const auto reason = take<uint32_t>(), region = take<uint32_t>();
+  tally_.removed.bodies = take<uint64_t>();
   tally_.removed.energy = take<double>();
   for (int k = 0; k < 3; ++k) tally_.removed.momentum[k] = take<double>();
   if (std::isnan(time)) return;
   const auto by = static_cast<EndReason>(reason);
-  if (!(time >= 0 && time <= scene.simulate.duration) || reason > static_cast<std::uint32_t>(EndReason::region) ||
+  if (!(time >= 0 && time <= scene.simulate.duration) || reason > static_cast<uint32_t>(EndReason::region) ||
       (by == EndReason::region && region >= scene.world.regions.size()))
     refuse("it is damaged");
   tally_.end = RunEnd{time, by, region};
 }
 
-void FlightsReader::take_keys(std::uint64_t count) {
+void FlightsReader::take_keys(uint64_t count) {
   FlightsKey last{0, header_size, 0};
-  for (std::uint64_t k = 0; k < count; ++k) {
+  for (uint64_t k = 0; k < count; ++k) {
     load(end_ + k * key_size, key_size);
     FlightsKey key;
     key.time = take<double>();
-    key.place = take<std::uint64_t>();
-    key.entries = take<std::uint64_t>();
+    key.place = take<uint64_t>();
+    key.entries = take<uint64_t>();
     if (!(key.time >= last.time) || key.place < last.place || key.place >= end_ || key.entries < last.entries ||
         key.entries > entries_)
       refuse("it is damaged");
@@ -115,7 +115,7 @@ void FlightsReader::take_keys(std::uint64_t count) {
 }
 
 struct FlightsReader::Block {
-  std::uint32_t kind = 0, entries = 0;
+  uint32_t kind = 0, entries = 0;
   double time = 0;  // s
 };
 
@@ -124,10 +124,10 @@ FlightsReader::Block FlightsReader::take_block(bool keys) {
   if (end_ - place_ < block_head) refuse("it is damaged");
   load(place_, block_head);
   Block block;
-  block.kind = take<std::uint32_t>();
-  block.entries = take<std::uint32_t>();
-  const std::size_t bytes = take<std::uint32_t>();
-  const auto checksum = take<std::uint32_t>();
+  block.kind = take<uint32_t>();
+  block.entries = take<uint32_t>();
+  const size_t bytes = take<uint32_t>();
+  const auto checksum = take<uint32_t>();
   block.time = take<double>();
   if (block.kind > more_of_key || bytes > largest_block || bytes > end_ - place_ - block_head ||
       !std::isfinite(block.time))
@@ -136,7 +136,7 @@ FlightsReader::Block FlightsReader::take_block(bool keys) {
   if (keys == (block.kind != of_entries)) {
     load(place_, block_head + bytes);
     std::memset(buffer_.data() + checksum_place, 0, sizeof checksum);
-    if (checksum_of(buffer_) != checksum || !columns_.unpack(std::span(buffer_).subspan(block_head)))
+    if (checksum_of(buffer_) != checksum || !columns_.unpack(span(buffer_).subspan(block_head)))
       refuse("it is damaged");
   }
   place_ += block_head + bytes;
@@ -181,7 +181,7 @@ void FlightsReader::read_entry(Recorded& recorded) {
 }
 
 void FlightsReader::check(const CollisionMark& collision) const {
-  const bool known = collision.kind <= CollisionKind::string;
+  const bool known = collision.kind <= CollisionKind::taut;
   if (!known || !has_collisions_ || !std::isfinite(collision.time)) refuse("it is damaged");
 }
 
@@ -215,7 +215,7 @@ void FlightsReader::seek(double time) {
   }
 
   // The next entry is known only when it is read.
-  std::vector<PathPiece> present = codec_.present();
+  vector<PathPiece> present = codec_.present();
   Recorded recorded;
   bool more = read(recorded);
   for (; more && recorded.from() <= time; more = read(recorded))
@@ -230,9 +230,9 @@ void FlightsReader::seek(double time) {
 
 /// Reads the present pieces of all bodies.
 void FlightsReader::read_key() {
-  std::uint32_t kind = of_key;
+  uint32_t kind = of_key;
   double last = 0;  // s
-  for (std::uint64_t begin = place_; begin < end_; begin = place_) {
+  for (uint64_t begin = place_; begin < end_; begin = place_) {
     const Block block = take_block(true);
     if (block.kind != kind) {
       place_ = begin;
@@ -241,7 +241,7 @@ void FlightsReader::read_key() {
     if (block.time < last) refuse("it is damaged");
     codec_.begin_block(block.time);
     Recorded recorded;
-    for (std::uint32_t k = 0; k < block.entries; ++k) read_entry(recorded);
+    for (uint32_t k = 0; k < block.entries; ++k) read_entry(recorded);
     if (!columns_.at_end()) refuse("it is damaged");
     last = codec_.from();
     kind = more_of_key;
@@ -249,15 +249,15 @@ void FlightsReader::read_key() {
   if (kind == of_key) refuse("it is damaged");
 }
 
-void FlightsReader::load(std::uint64_t place, std::size_t size) {
+void FlightsReader::load(uint64_t place, size_t size) {
   buffer_.resize(size);
   at_ = 0;
-  for (std::size_t have = 0; have < size;) {
+  for (size_t have = 0; have < size;) {
     const ssize_t n = pread(file_.get(), buffer_.data() + have, size - have, static_cast<off_t>(place + have));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", {-1, path_}, flights_name);
     if (n == 0) refuse("it is truncated");
-    have += static_cast<std::size_t>(n);
+    have += static_cast<size_t>(n);
   }
 }
 
@@ -269,7 +269,7 @@ T FlightsReader::take() {
   return value;
 }
 
-void FlightsReader::refuse(const std::string& reason) const {
+void FlightsReader::refuse(const string& reason) const {
   fail("use", {-1, path_}, flights_name, reason);
 }
 

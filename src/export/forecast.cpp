@@ -13,6 +13,7 @@
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -54,8 +55,8 @@ constexpr double plots_s = 0.35;
 // For a byte of a table.
 constexpr double table_byte_s = 1e-8;
 
-std::uint64_t whole(double x) {
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(nearest_whole(x), 0));
+uint64_t whole(double x) {
+  return static_cast<uint64_t>(std::max<int64_t>(nearest_whole(x), 0));
 }
 
 double pixels(Size size) {
@@ -98,7 +99,7 @@ Forecast forecast(const Scene& scene) {
   }
   double seconds = 0.005 + bytes * table_byte_s + (output.plots ? plots_s : 0);
   const PictureStreams plan = plan_pictures(scene);
-  for (std::size_t i = 0; i < plan.streams.size(); ++i) {
+  for (size_t i = 0; i < plan.streams.size(); ++i) {
     const auto count = static_cast<double>(plan.ticks[i].count());
     const double area = pixels(plan.streams[i].size);
     frames += count;

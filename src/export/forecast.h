@@ -1,6 +1,7 @@
 #pragma once
 // Predicts what a run of a scene will write.
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom {
 
@@ -8,7 +9,7 @@ struct Scene;
 
 /// The numbers of trajectory rows and pictures, a rough estimate of the bytes, and of the time for writing and drawing.
 struct Forecast {
-  std::uint64_t rows = 0, frames = 0, bytes = 0;
+  uint64_t rows = 0, frames = 0, bytes = 0;
   double seconds = 0;
 };
 Forecast forecast(const Scene& scene);

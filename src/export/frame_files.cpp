@@ -3,10 +3,11 @@
 #include <exception>
 
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 
-FrameFiles::FrameFiles(OpenFolder& folder, std::size_t threads)
+FrameFiles::FrameFiles(OpenFolder& folder, size_t threads)
     : series_(folder, frame_files),
       frames_([this](Frame& frame) { series_.put(frame.number, frame.png.encode()); }, 0, threads > 1 ? threads : 0) {}
 
@@ -18,7 +19,7 @@ FrameFiles::~FrameFiles() {
   }
 }
 
-void FrameFiles::put(std::int64_t number, const Image& image, bool again) {
+void FrameFiles::put(int64_t number, const Image& image, bool again) {
   if (again && last_ != nullptr) {
     frames_.finish();
     series_.put(number, last_->file());

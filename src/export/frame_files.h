@@ -1,12 +1,10 @@
 #pragma once
 // The numbered pictures of frames/, encoded and written by several threads.
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "export/png.h"
 #include "files/conveyor.h"
 #include "files/series.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,21 +13,21 @@ class FrameFiles {
   /// `threads`: 1 is the caller's own thread. More encode the pictures while the caller draws the next ones.
   /// The files and their bytes do not depend on it. `folder` must outlive this object.
   /// Throws ExportError, as all functions of this class do.
-  FrameFiles(OpenFolder& folder, std::size_t threads);
+  FrameFiles(OpenFolder& folder, size_t threads);
   /// Writes the pictures that are on their way, as far as possible.
   ~FrameFiles();
 
   /// `again`: the picture equals the one before. Waits while as many pictures as there are threads, and three more, are
   /// on their way. Throws the error of an earlier picture, too.
-  void put(std::int64_t number, const Image& image, bool again);
+  void put(int64_t number, const Image& image, bool again);
   /// Waits until all pictures are written.
   void finish() { frames_.finish(); }
   /// The files written, by number; after finish().
-  std::vector<FileRecord> records() const { return series_.records(); }
+  vector<FileRecord> records() const { return series_.records(); }
 
  private:
   struct Frame {
-    std::int64_t number = 0;
+    int64_t number = 0;
     PngEncoder png;
   };
 

@@ -5,12 +5,13 @@
 #include "export/bodies.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
-void GltfWriter::add(double time, const State& state, std::span<const ContactForce>) {
+void GltfWriter::add(double time, const State& state, span<const ContactForce>) {
   const World& world = scene_.world;
-  const std::size_t key = motion_.times.size();
+  const size_t key = motion_.times.size();
   motion_.times.push_back(time);
   motion_.cameras.push_back(makers_.camera(state));
   for (Entity body = 0; body < world.body_count(); ++body) {
@@ -22,16 +23,16 @@ void GltfWriter::add(double time, const State& state, std::span<const ContactFor
   if (volumes_.empty())
     for (Entity body = 0; body < world.body_count(); ++body) volumes_.emplace_back(world.volume_of(body));
   for (Entity body = 0; body < world.body_count(); ++body) {
-    std::optional<Volume> now;
+    optional<Volume> now;
     if (!is_gone(state, body)) now = volume_now(world, state, body);
-    std::optional<Volume>& before = volumes_[body];
+    optional<Volume>& before = volumes_[body];
     if (now.has_value() == before.has_value() && (!now || now->half == before->half)) continue;
     motion_.changes.push_back({key, body, now});
     before = now;
   }
 }
 
-std::vector<OutputFile*> GltfWriter::files() {
+vector<OutputFile*> GltfWriter::files() {
   file_.write(makers_.glb(scene_, motion_));
   return {&file_};
 }

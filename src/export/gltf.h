@@ -1,8 +1,8 @@
 #pragma once
 // animation.glb. The keyframes are collected here, and src/render/ makes a file of them at the end.
-#include <vector>
 
 #include "export/writer.h"
+#include "std.h"
 
 namespace carom {
 
@@ -12,8 +12,8 @@ class GltfWriter : public Writer {
  public:
   GltfWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers)
       : scene_(scene), makers_(makers), file_(folder.place(), "animation.glb") {}
-  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
-  std::vector<OutputFile*> files() override;
+  void add(double time, const State& state, span<const ContactForce> contacts) override;
+  vector<OutputFile*> files() override;
   void keep(StateWriter& archive) override { keep_all(archive); }
   void keep(StateReader& archive) override { keep_all(archive); }
   static double bytes(const Scene& scene, double instants);
@@ -26,7 +26,7 @@ class GltfWriter : public Writer {
   OutputFile file_;
   KeyedMotion motion_;
   /// At the previous keyframe, once one has changed.
-  std::vector<std::optional<Volume>> volumes_;
+  vector<optional<Volume>> volumes_;
 };
 
 }  // namespace carom

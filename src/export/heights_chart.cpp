@@ -9,11 +9,12 @@
 
 #include "export/bodies.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 HeightsChart::HeightsChart(const Scene& scene) : scene_(scene) {
-  const std::size_t bodies = scene.world.body_count();
+  const size_t bodies = scene.world.body_count();
   if (bodies <= most_lines) lines_.assign(bodies, ThinnedLine(0, end_of(scene)));
 }
 
@@ -26,16 +27,16 @@ bool HeightsChart::wants(double time) const {
 
 void HeightsChart::add(double time, const State& state) {
   if (!wants(time)) return;
-  std::vector<double> heights;
+  vector<double> heights;
   for (Entity body = 0; body < state.position.size(); ++body)
     heights.push_back(is_gone(state, body) ? std::numeric_limits<double>::quiet_NaN() : state.position[body].y());
   add(time, heights);
 }
 
-void HeightsChart::add(double time, std::span<const double> heights) {
+void HeightsChart::add(double time, span<const double> heights) {
   if (!wants(time)) return;
   ++instants_;
-  for (std::size_t body = 0; body < lines_.size(); ++body)
+  for (size_t body = 0; body < lines_.size(); ++body)
     if (std::isfinite(heights[body])) lines_[body].add(time, heights[body]);
   if (!lines_.empty()) return;
   heights_.clear();
@@ -51,7 +52,7 @@ void HeightsChart::add(double time, std::span<const double> heights) {
 }
 
 Plot HeightsChart::plot() const {
-  const std::size_t bodies = scene_.world.body_count();
+  const size_t bodies = scene_.world.body_count();
   Plot plot = chart_over_time(
       scene_, bodies == 1 ? "Height of the body's centre" : fmt::format("Heights of the centres of {} bodies", bodies));
   plot.y_label = "height y";
@@ -61,7 +62,7 @@ Plot HeightsChart::plot() const {
 }
 
 void HeightsChart::add_lines(Plot& plot) const {
-  for (std::size_t body = 0; body < lines_.size(); ++body)
+  for (size_t body = 0; body < lines_.size(); ++body)
     plot.series.push_back(chart_line(scene_.roster.name(static_cast<Entity>(body)), body, lines_[body], instants_));
 }
 

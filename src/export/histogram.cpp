@@ -4,20 +4,22 @@
 #include <cmath>
 #include <numeric>
 
+#include "std.h"
+
 namespace carom {
 
-std::uint64_t Histogram::total() const {
-  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+uint64_t Histogram::total() const {
+  return std::accumulate(counts.begin(), counts.end(), uint64_t{0});
 }
 
-int intervals_for(std::uint64_t values) {
+int intervals_for(uint64_t values) {
   return static_cast<int>(std::ceil(2 * std::cbrt(static_cast<double>(values))));
 }
 
-std::vector<PlotPoint> stairs(double width, const std::vector<double>& lower, const std::vector<double>& upper) {
-  std::vector<PlotPoint> points;
-  for (std::size_t i = 0; i < upper.size(); ++i)
-    for (const std::size_t edge : {i, i + 1})
+vector<PlotPoint> stairs(double width, const vector<double>& lower, const vector<double>& upper) {
+  vector<PlotPoint> points;
+  for (size_t i = 0; i < upper.size(); ++i)
+    for (const size_t edge : {i, i + 1})
       points.push_back({static_cast<double>(edge) * width, upper[i], "", lower[i], upper[i]});
   return points;
 }

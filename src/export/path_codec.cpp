@@ -21,11 +21,12 @@
 
 #include "physics/restitution.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-enum EntryShape : std::uint8_t {
+enum EntryShape : uint8_t {
   time_mask = 3,
   other_traits = 4,
   other_place = 8,
@@ -37,14 +38,14 @@ enum EntryShape : std::uint8_t {
 };
 
 /// How the start of a piece follows.
-enum StartWay : std::uint8_t {
+enum StartWay : uint8_t {
   of_entry_before,  // the same
   end_of_piece,     // where the step ends that the body's present piece is
   since_piece,      // the present piece's start and a number of seconds
   plain
 };
 
-enum PieceTrait : std::uint32_t {
+enum PieceTrait : uint32_t {
   is_kicked = 1,
   is_curve = 2,
   is_parabola = 4,
@@ -58,15 +59,15 @@ enum PieceTrait : std::uint32_t {
   all_traits = 1023
 };
 
-std::uint32_t traits_of(const PathPiece& piece) {
+uint32_t traits_of(const PathPiece& piece) {
   return (piece.kicked ? is_kicked : 0u) | (piece.curve ? is_curve : 0u) |
          (piece.curve && piece.curve->is_parabola ? is_parabola : 0u) | (piece.part_of != no_entity ? is_part : 0u) |
          (piece.joint ? is_joint : 0u) | (piece.removed ? is_removed : 0u) | (piece.fade != 0 ? is_fading : 0u) |
-         static_cast<std::uint32_t>(piece.law) * first_law;
+         static_cast<uint32_t>(piece.law) * first_law;
 }
 
 bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
 }
 bool same_bits(const Vec3& a, const Vec3& b) {
   return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
@@ -135,20 +136,20 @@ bool find_base(double usual, double v, double time, double kick, double& base) {
   return gives_kick(std::nextafter(near, v)) || gives_kick(std::nextafter(near, 2 * near - v)) || gives_kick(near);
 }
 
-std::uint64_t fold(std::int64_t x) {
-  return static_cast<std::uint64_t>(x) << 1 ^ static_cast<std::uint64_t>(x >> 63);
+uint64_t fold(int64_t x) {
+  return static_cast<uint64_t>(x) << 1 ^ static_cast<uint64_t>(x >> 63);
 }
-std::int64_t unfold(std::uint64_t x) {
-  return static_cast<std::int64_t>(x >> 1 ^ (0 - (x & 1)));
+int64_t unfold(uint64_t x) {
+  return static_cast<int64_t>(x >> 1 ^ (0 - (x & 1)));
 }
 
 /// What is read may be any number.
-std::int64_t sum(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+int64_t sum(int64_t a, int64_t b) {
+  return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
 }
 
-std::int64_t number_of(Entity e) {
-  return static_cast<std::int64_t>(e);
+int64_t number_of(Entity e) {
+  return static_cast<int64_t>(e);
 }
 
 }  // namespace
@@ -167,11 +168,11 @@ Vec3 PredictedImpact::other_after() const {
 template <typename Columns>
 struct PathCodec::Side {
   Columns& columns;
-  std::uint8_t shape = 0;
+  uint8_t shape = 0;
   bool damaged = false;
 
   /// Whether a bit of the shape is set. The writer sets it if `yes`.
-  bool flag(std::uint8_t bit, bool yes) {
+  bool flag(uint8_t bit, bool yes) {
     if constexpr (Columns::writes) {
       if (yes) shape |= bit;
       return yes;
@@ -194,24 +195,24 @@ struct PathCodec::Side {
   }
   /// The same, with no more than a bit of the shape if it is as predicted.
   template <typename Value>
-  void value(std::uint8_t bit, Column column, const Value& predicted, Value& actual) {
+  void value(uint8_t bit, Column column, const Value& predicted, Value& actual) {
     if (flag(bit, Columns::writes && !same_bits(predicted, actual)))
       value(column, predicted, actual);
     else
       actual = predicted;
   }
   /// A whole number that is most often near `predicted`.
-  void number(Column column, std::int64_t predicted, std::int64_t& actual) {
+  void number(Column column, int64_t predicted, int64_t& actual) {
     if constexpr (Columns::writes)
       columns.number(column, fold(actual - predicted));
     else
       actual = sum(predicted, unfold(columns.number(column)));
   }
   /// A body. What is read must be one.
-  void entity(Column column, Entity predicted, Entity& actual, std::size_t bodies) {
-    std::int64_t number_read = number_of(actual);
+  void entity(Column column, Entity predicted, Entity& actual, size_t bodies) {
+    int64_t number_read = number_of(actual);
     number(column, number_of(predicted), number_read);
-    if (number_read < 0 || number_read >= static_cast<std::int64_t>(bodies)) {
+    if (number_read < 0 || number_read >= static_cast<int64_t>(bodies)) {
       damaged = true;
       number_read = 0;
     }
@@ -251,7 +252,7 @@ void PathCodec::write(ColumnWriter& to, const PathPiece& piece, const PathPiece*
 
 void PathCodec::write(ColumnWriter& to, const CollisionMark& collision) {
   to.number(Column::body, 0);
-  to.byte(Column::shape, static_cast<std::uint8_t>(collision.kind));
+  to.byte(Column::shape, static_cast<uint8_t>(collision.kind));
   to.number(Column::other, fold(number_of(collision.a) - number_of(collision_.a)));
   to.number(Column::other, fold(number_of(collision.b) - number_of(collision_.b)));
   to.difference(Column::time, collision_.time, collision.time);
@@ -260,7 +261,7 @@ void PathCodec::write(ColumnWriter& to, const CollisionMark& collision) {
 
 bool PathCodec::read(ColumnReader& from, Recorded& recorded) {
   Side<ColumnReader> side{from};
-  const std::uint64_t which = from.number(Column::body);
+  const uint64_t which = from.number(Column::body);
   side.shape = from.byte(Column::shape);
   if (which == 0) {
     recorded.kind = Recorded::Kind::collision;
@@ -274,8 +275,8 @@ bool PathCodec::read(ColumnReader& from, Recorded& recorded) {
   }
 
   recorded.kind = Recorded::Kind::piece;
-  const std::int64_t body = sum(number_of(body_ + 1), unfold(which - 1));
-  if (body < 0 || body >= static_cast<std::int64_t>(present_.size())) return false;
+  const int64_t body = sum(number_of(body_ + 1), unfold(which - 1));
+  if (body < 0 || body >= static_cast<int64_t>(present_.size())) return false;
   recorded.piece = {};
   recorded.piece.body = static_cast<Entity>(body);
   PredictedImpact impact;
@@ -290,8 +291,8 @@ void PathCodec::code(Side<Columns>& side, PathPiece& piece, PredictedImpact& imp
   if (before.body == no_entity) code_size(side, piece.body);
 
   // What kind of piece it is.
-  const std::int64_t usual = traits_of(before);
-  std::int64_t traits = usual;
+  const int64_t usual = traits_of(before);
+  int64_t traits = usual;
   if constexpr (Columns::writes) traits = traits_of(piece) | (same_bits(piece.from, usual_from(piece)) ? 0u : is_late);
   if (side.flag(other_traits, traits != usual)) side.number(Column::other, usual, traits);
   if (traits < 0 || traits > all_traits) side.damaged = true;
@@ -352,7 +353,7 @@ void PathCodec::code_time(Side<Columns>& side, PathPiece& piece, Entity other) c
   if (other != no_entity && since.value() < present_[other].start.value()) since = present_[other].start;
 
   double dt = 0;
-  std::uint8_t way = side.shape & time_mask;
+  uint8_t way = side.shape & time_mask;
   if constexpr (Columns::writes) {
     if (!same_bits(piece.start, start_)) {
       dt = seconds(since, piece.start);
@@ -466,7 +467,7 @@ void PathCodec::code_kick(Side<Columns>& side, PathPiece& piece) const {
 
 /// What few pieces have.
 template <typename Columns>
-void PathCodec::code_rest(Side<Columns>& side, PathPiece& piece, std::int64_t traits) {
+void PathCodec::code_rest(Side<Columns>& side, PathPiece& piece, int64_t traits) {
   const PathPiece& before = present_[piece.body];
   if (traits & is_fading) side.value(Column::other, before.fade, piece.fade);
   if (piece.law == PathLaw::frame) side.value(Column::other, before.rounding, piece.rounding);
@@ -487,7 +488,7 @@ void PathCodec::code_curve(Side<Columns>& side, PathPiece& piece, PolynomialPath
   const double ratio = before ? length / before->length : 0;
   double power = ratio * ratio;
 
-  for (std::size_t k = 0; k < PolynomialPath::terms; ++k) {
+  for (size_t k = 0; k < PolynomialPath::terms; ++k) {
     Vec3 term = Vec3::Zero();
     if (k == 0) term = length * piece.v;
     if (k == 1)

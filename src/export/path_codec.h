@@ -3,10 +3,10 @@
 //
 // All predictions are + - * / and square roots of doubles, in the order of path_codec.cpp: both sides must have the
 // same bits. Another program that reads the file computes them, too.
-#include <vector>
 
 #include "export/flight_columns.h"
 #include "physics/recorded.h"
+#include "std.h"
 
 namespace carom {
 
@@ -46,7 +46,7 @@ class PathCodec {
   bool read(ColumnReader& from, Recorded& recorded);
 
   /// The present pieces, by body; of no body: there was none yet.
-  const std::vector<PathPiece>& present() const { return present_; }
+  const vector<PathPiece>& present() const { return present_; }
   double from() const { return from_; }  // s, of the piece before
 
   void keep(auto& archive) {
@@ -71,7 +71,7 @@ class PathCodec {
   template <typename Columns>
   void code_kick(Side<Columns>& side, PathPiece& piece) const;
   template <typename Columns>
-  void code_rest(Side<Columns>& side, PathPiece& piece, std::int64_t traits);
+  void code_rest(Side<Columns>& side, PathPiece& piece, int64_t traits);
   template <typename Columns>
   void code_curve(Side<Columns>& side, PathPiece& piece, PolynomialPath& curve) const;
   template <typename Columns>
@@ -83,10 +83,10 @@ class PathCodec {
   void predict_impact(const PathPiece& piece, PredictedImpact& impact) const;
   PredictedImpact impact_between(const PathPiece& piece, const PathPiece* next, const World& world) const;
 
-  std::size_t entities_;  // bodies and all that they meet
-  std::vector<PathPiece> present_;
-  std::vector<double> mass_;    // kg, by body
-  std::vector<double> radius_;  // m, by body
+  size_t entities_;  // bodies and all that they meet
+  vector<PathPiece> present_;
+  vector<double> mass_;    // kg, by body
+  vector<double> radius_;  // m, by body
   // Of the entries before, in the same block.
   Entity body_ = no_entity;
   double from_ = 0;           // s

@@ -8,11 +8,12 @@
 #include "files/run_folder.h"
 #include "scene/film_format.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-double end_of(const std::optional<double>& until, double duration) {
+double end_of(const optional<double>& until, double duration) {
   return std::min(until.value_or(duration), duration);
 }
 
@@ -25,7 +26,7 @@ Ticks ticks_of(const VideoOutput& video, double duration) {
 }
 
 Ticks ticks_of(const SheetOutput& sheet, double duration) {
-  return Ticks::even(std::int64_t{sheet.columns} * sheet.rows, sheet.from, end_of(sheet.until, duration));
+  return Ticks::even(int64_t{sheet.columns} * sheet.rows, sheet.from, end_of(sheet.until, duration));
 }
 
 void add(PictureStreams& plan, Size size, const PictureOutput& model, double speed, const Ticks& ticks,
@@ -70,10 +71,10 @@ PictureStream still_stream(const Scene& scene, double time) {
   return {model.size, model.samples, 0, speed / model.fps, speed, Ticks::even(1, time, time).decimals()};
 }
 
-std::vector<Ticks> shown_instants(const Scene& scene) {
+vector<Ticks> shown_instants(const Scene& scene) {
   const Output& output = scene.requested.pictures() ? scene.requested : scene.output;
   const double duration = end_of(scene);
-  std::vector<Ticks> instants;
+  vector<Ticks> instants;
   if (output.frames) instants.push_back(ticks_of(*output.frames, duration));
   if (output.video) instants.push_back(ticks_of(*output.video, duration));
   if (output.sheet) instants.push_back(ticks_of(*output.sheet, duration));
@@ -88,7 +89,7 @@ PictureStreams plan_pictures(const Scene& scene) {
   if (const auto& frames = output.frames) {
     const Ticks ticks = ticks_of(*frames, duration);
     if (ticks.count() < 1)
-      throw ExportError(std::string("cannot make frames: no picture falls between `from` and `until`; ") +
+      throw ExportError(string("cannot make frames: no picture falls between `from` and `until`; ") +
                         "a frame is at a whole multiple of 1/fps");
     add(plan, frames->size, *frames, 1, ticks, {true, false, false});
   }

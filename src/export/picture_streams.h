@@ -1,9 +1,9 @@
 #pragma once
 // Plans which pictures are drawn at which times, and their uses.
-#include <vector>
 
 #include "export/timeline.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,9 +26,9 @@ struct PictureUse {
 
 struct PictureStreams {
   /// timeline_stream is the index into `ticks` until a Timeline assigns its own.
-  std::vector<PictureStream> streams;
-  std::vector<PictureUse> uses;  // by stream
-  std::vector<Ticks> ticks;      // by stream
+  vector<PictureStream> streams;
+  vector<PictureUse> uses;  // by stream
+  vector<Ticks> ticks;      // by stream
 };
 
 /// One stream for frames and film if they agree in size, quality and instants, so that each picture is drawn once.
@@ -40,7 +40,7 @@ PictureStream still_stream(const Scene& scene, double time);
 
 /// The instants of all pictures that the scene requests, whichever of them --only leaves. If it requests none, those of
 /// the pictures that --only adds, else the keyframes of gltf.
-std::vector<Ticks> shown_instants(const Scene& scene);
+vector<Ticks> shown_instants(const Scene& scene);
 
 /// The shape and quality of the sheet's pictures: those of the requested frames, else of the film, else the defaults of
 /// frames. Whether --only leaves them does not matter.

@@ -5,12 +5,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <memory>
-#include <string_view>
 
 #include "export/child.h"
 #include "export/plot_script.h"
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 
@@ -18,21 +17,21 @@ namespace {
 
 constexpr auto patience = std::chrono::minutes(1);
 /// Of a picture, as much as Child::output() keeps.
-constexpr std::size_t most_bytes = (1 << 20) - 1;
+constexpr size_t most_bytes = (1 << 20) - 1;
 /// The size of the PNG by that of the SVG.
 constexpr int enlarged = 2;
 constexpr const char* plot_font = "font 'DejaVu Sans,13'";
 
 /// Whether a PNG or an SVG has its end.
-bool is_whole_picture(std::string_view bytes) {
-  const std::size_t end = bytes.find_last_not_of('\n');
+bool is_whole_picture(string_view bytes) {
+  const size_t end = bytes.find_last_not_of('\n');
   return bytes.ends_with("IEND\xAE\x42\x60\x82") || bytes.substr(0, end + 1).ends_with("</svg>");
 }
 
 /// gnuplot at work on a script.
 class PlotDrawing {
  public:
-  PlotDrawing(const std::string& gnuplot, const std::string& script)
+  PlotDrawing(const string& gnuplot, const string& script)
       : folder_(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
         child_({gnuplot, "--default-settings"}, folder_.get(), true),
         sent_(child_.send(script.data(), script.size(), patience) == Child::Sent::all) {
@@ -40,13 +39,13 @@ class PlotDrawing {
   }
 
   /// Waits for the picture, its standard output.
-  std::string picture() {
+  string picture() {
     const auto code = child_.wait(patience);
     if (code != 0)
       throw ExportError("cannot draw the plot: gnuplot " +
                         (code ? fmt::format("failed with code {}: {}", *code, child_.errors())
-                              : std::string("did not end within a minute and was stopped")));
-    std::string bytes = child_.output();
+                              : string("did not end within a minute and was stopped")));
+    string bytes = child_.output();
     // The exit code and the output come first. A program that reads nothing may end before or after the sending.
     if (bytes.empty()) throw ExportError("cannot draw the plot: gnuplot wrote nothing: " + child_.errors());
     if (!sent_) throw ExportError("cannot draw the plot: gnuplot did not read all of it: " + child_.errors());
@@ -63,18 +62,18 @@ class PlotDrawing {
 };
 
 /// gnuplot's letters of a size are 4/3 as large in a PNG as in an SVG.
-std::string terminal_of_png() {
+string terminal_of_png() {
   return fmt::format("pngcairo size {},{} fontscale {} linewidth {} {}", enlarged * plot_width, enlarged * plot_height,
                      0.75 * enlarged, enlarged, plot_font);
 }
 
-std::string terminal_of_svg() {
+string terminal_of_svg() {
   return fmt::format("svg size {},{} dynamic {} background 'white'", plot_width, plot_height, plot_font);
 }
 
 }  // namespace
 
-std::string find_gnuplot() {
+string find_gnuplot() {
   const auto gnuplot = find_program("gnuplot");
   if (!gnuplot)
     throw ExportError(
@@ -82,20 +81,19 @@ std::string find_gnuplot() {
   return *gnuplot;
 }
 
-std::vector<PlotPictures> draw_plots(std::span<const Plot> plots, const std::string& gnuplot) {
-  std::vector<std::unique_ptr<PlotDrawing>> drawings;
+vector<PlotPictures> draw_plots(span<const Plot> plots, const string& gnuplot) {
+  vector<unique_ptr<PlotDrawing>> drawings;
   for (const Plot& plot : plots) {
-    const std::string script = plot_script(plot);
-    for (const std::string& terminal : {terminal_of_png(), terminal_of_svg()})
-      drawings.push_back(std::make_unique<PlotDrawing>(gnuplot, fmt::format("set terminal {}\n{}", terminal, script)));
+    const string script = plot_script(plot);
+    for (const string& terminal : {terminal_of_png(), terminal_of_svg()})
+      drawings.push_back(make_unique<PlotDrawing>(gnuplot, fmt::format("set terminal {}\n{}", terminal, script)));
   }
-  std::vector<PlotPictures> pictures(plots.size());
-  for (std::size_t i = 0; i < plots.size(); ++i)
-    pictures[i] = {drawings[2 * i]->picture(), drawings[2 * i + 1]->picture()};
+  vector<PlotPictures> pictures(plots.size());
+  for (size_t i = 0; i < plots.size(); ++i) pictures[i] = {drawings[2 * i]->picture(), drawings[2 * i + 1]->picture()};
   return pictures;
 }
 
-PlotPictures draw_plot(const Plot& plot, const std::string& gnuplot) {
+PlotPictures draw_plot(const Plot& plot, const string& gnuplot) {
   return draw_plots({&plot, 1}, gnuplot).front();
 }
 

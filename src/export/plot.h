@@ -1,18 +1,16 @@
 #pragma once
 // Plots, drawn by gnuplot from a script that fixes every colour, font and range.
 // The same plot gives the same bytes.
-#include <cstddef>
 #include <limits>
-#include <span>
-#include <string>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 struct PlotPoint {
   double x, y;
   /// Beside the point. Empty: none.
-  std::string label{};
+  string label{};
   // The ends of a bar through the point, or of a band. NaN: no bar.
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 
@@ -20,7 +18,7 @@ struct PlotPoint {
 };
 
 /// The number of colours, each with a mark.
-inline constexpr std::size_t plot_styles = 8;
+inline constexpr size_t plot_styles = 8;
 
 enum class PlotForm {
   marks,  // joined by a line
@@ -30,11 +28,11 @@ enum class PlotForm {
 };
 
 struct PlotSeries {
-  std::string name;  // in the legend; empty: not there
+  string name;  // in the legend; empty: not there
   /// Index of its colour and mark, below plot_styles.
-  std::size_t style;
+  size_t style;
   /// In this order.
-  std::vector<PlotPoint> points;
+  vector<PlotPoint> points;
   PlotForm form = PlotForm::marks;
   /// The share of white in its colour.
   double tint = 0;
@@ -42,23 +40,23 @@ struct PlotSeries {
 
 /// A height to compare with.
 struct PlotLevel {
-  std::string name;  // in the legend
+  string name;  // in the legend
   double y;
 };
 
 enum class PlotScale { logarithmic, linear };
 
 struct Plot {
-  std::string title;
+  string title;
   /// Smaller, below the title. Empty: none.
-  std::string subtitle;
-  std::string x_label, y_label;
+  string subtitle;
+  string x_label, y_label;
   /// The units of linear axes, for their labels. A power of ten stands before the unit where numbers are large or
   /// small.
-  std::string x_unit{}, y_unit{};
+  string x_unit{}, y_unit{};
   /// In the order of drawing, a later one above.
-  std::vector<PlotSeries> series;
-  std::vector<PlotLevel> levels{};
+  vector<PlotSeries> series;
+  vector<PlotLevel> levels{};
   /// Smaller values, such as zero, which has no logarithm, are drawn at this height.
   double floor = 0;
   PlotScale scale = PlotScale::logarithmic;  // of both axes
@@ -76,15 +74,15 @@ struct Plot {
 inline constexpr int plot_width = 800, plot_height = 500;
 
 /// The absolute path of gnuplot. Throws ExportError with a text that names the remedy.
-std::string find_gnuplot();
+string find_gnuplot();
 
 /// The complete files.
 struct PlotPictures {
-  std::string png, svg;
+  string png, svg;
 };
 
 /// The pictures of each plot. Throws ExportError.
-std::vector<PlotPictures> draw_plots(std::span<const Plot> plots, const std::string& gnuplot);
-PlotPictures draw_plot(const Plot& plot, const std::string& gnuplot);
+vector<PlotPictures> draw_plots(span<const Plot> plots, const string& gnuplot);
+PlotPictures draw_plot(const Plot& plot, const string& gnuplot);
 
 }  // namespace carom

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
+#include "std.h"
 #include "yaml/letters.h"
 
 namespace carom {
@@ -32,17 +32,17 @@ struct ValueRange {
 };
 
 /// The text of count * 10^power.
-std::string decimal_text(std::int64_t count, int power) {
+string decimal_text(int64_t count, int power) {
   if (count == 0) return "0";
-  if (power >= 0) return fmt::format("{}", count * static_cast<std::int64_t>(std::pow(10, power)));
-  const std::string digits = fmt::format("{:0{}}", std::abs(count), 1 - power);
-  const std::size_t point = digits.size() - static_cast<std::size_t>(-power);
+  if (power >= 0) return fmt::format("{}", count * static_cast<int64_t>(std::pow(10, power)));
+  const string digits = fmt::format("{:0{}}", std::abs(count), 1 - power);
+  const size_t point = digits.size() - static_cast<size_t>(-power);
   return (count < 0 ? "-" : "") + digits.substr(0, point) + "." + digits.substr(point);
 }
 
-std::string superscript(int exponent) {
+string superscript(int exponent) {
   constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text;
+  string text;
   for (const char c : fmt::format("{}", exponent)) text += c == '-' ? "⁻" : digits[c - '0'];
   return text;
 }
@@ -73,26 +73,26 @@ double PlotAxis::part(double value) const {
   return logarithmic ? std::log10(value / from) / std::log10(to / from) : (value - from) / (to - from);
 }
 
-std::string PlotAxis::commands(char axis) const {
+string PlotAxis::commands(char axis) const {
   if (logarithmic)
     return fmt::format(
         "set logscale {0}\nset {0}range [{1:.17g}:{2:.17g}]\nset format {0} '10^{{%T}}'\nset m{0}tics 10\n", axis, from,
         to);
-  std::string list;
+  string list;
   for (const PlotTick& tick : ticks)
     list += fmt::format("{}'{}' {:.17g}", list.empty() ? "" : ", ", tick.text, tick.at);
   return fmt::format("set {0}range [{1:.17g}:{2:.17g}]\nset {0}tics ({3})\n", axis, from, to, list);
 }
 
-std::string PlotAxis::label(const std::string& what, const std::string& unit) const {
-  const std::string power = exponent == 0 ? "" : "10" + superscript(exponent);
+string PlotAxis::label(const string& what, const string& unit) const {
+  const string power = exponent == 0 ? "" : "10" + superscript(exponent);
   if (power.empty() && unit.empty()) return what;
   return fmt::format("{} ({}{}{})", what, power, power.empty() || unit.empty() ? "" : " ", unit);
 }
 
-std::size_t PlotAxis::tick_letters() const {
+size_t PlotAxis::tick_letters() const {
   if (logarithmic) return 4;
-  std::size_t most = 0;
+  size_t most = 0;
   for (const PlotTick& tick : ticks) most = std::max(most, letters_of(tick.text));
   return most;
 }
@@ -122,7 +122,7 @@ PlotAxis linear_axis(double low, double high, int most_ticks, double least_step)
   axis.exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
   const RoundStep step = round_step(std::max((high - low) / most_ticks, least_step));
   const double slack = (high - low) * 1e-9;
-  for (auto count = static_cast<std::int64_t>(std::ceil((low - slack) / step.value()));; ++count) {
+  for (auto count = static_cast<int64_t>(std::ceil((low - slack) / step.value()));; ++count) {
     const double at = static_cast<double>(count) * step.value();
     if (!(at <= high + slack)) break;
     axis.ticks.push_back({at, decimal_text(count * step.digit, step.power - axis.exponent)});

@@ -1,22 +1,21 @@
 #pragma once
 // The range, the ticks and the label of an axis of a plot. gnuplot chooses none of these, so that they are the same in
 // all its versions.
-#include <string>
-#include <vector>
 
 #include "export/plot.h"
+#include "std.h"
 
 namespace carom {
 
 struct PlotTick {
   double at;
-  std::string text;
+  string text;
 };
 
 struct PlotAxis {
   double from = 0, to = 1;  // below `to`
   /// Empty: one at each power of ten, by gnuplot.
-  std::vector<PlotTick> ticks{};
+  vector<PlotTick> ticks{};
   /// The ticks' texts are of values divided by 10^exponent.
   int exponent = 0;
   bool logarithmic = false;
@@ -24,11 +23,11 @@ struct PlotAxis {
   /// The share of the axis below a value.
   double part(double value) const;
   /// The commands of gnuplot for the axis 'x' or 'y'.
-  std::string commands(char axis) const;
+  string commands(char axis) const;
   /// The letters of the longest tick.
-  std::size_t tick_letters() const;
+  size_t tick_letters() const;
   /// "height (10⁻⁶ m)". `unit`: empty for an axis whose label has it already.
-  std::string label(const std::string& what, const std::string& unit) const;
+  string label(const string& what, const string& unit) const;
 };
 
 /// Whole powers of ten with some margin around positive values.

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "export/plot_axis.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/letters.h"
 
@@ -22,29 +22,29 @@ constexpr double shortest_bar = 1.2;
 
 /// Colours that are distinct for every kind of colour vision (Okabe & Ito 2008), and gnuplot's numbers of marks.
 struct PlotStyle {
-  std::array<int, 3> color;  // red, green, blue
+  array<int, 3> color;  // red, green, blue
   int mark;
 };
-constexpr std::array<PlotStyle, plot_styles> styles = {{{{0xD5, 0x5E, 0x00}, 13},
-                                                        {{0xE6, 0x9F, 0x00}, 7},
-                                                        {{0x00, 0x9E, 0x73}, 5},
-                                                        {{0x00, 0x72, 0xB2}, 9},
-                                                        {{0xCC, 0x79, 0xA7}, 11},
-                                                        {{0x56, 0xB4, 0xE9}, 15},
-                                                        {{0x00, 0x00, 0x00}, 6},
-                                                        {{0x8C, 0x8C, 0x00}, 4}}};
+constexpr array<PlotStyle, plot_styles> styles = {{{{0xD5, 0x5E, 0x00}, 13},
+                                                   {{0xE6, 0x9F, 0x00}, 7},
+                                                   {{0x00, 0x9E, 0x73}, 5},
+                                                   {{0x00, 0x72, 0xB2}, 9},
+                                                   {{0xCC, 0x79, 0xA7}, 11},
+                                                   {{0x56, 0xB4, 0xE9}, 15},
+                                                   {{0x00, 0x00, 0x00}, 6},
+                                                   {{0x8C, 0x8C, 0x00}, 4}}};
 
 /// "'#D55E00'"
-std::string color_of(const PlotSeries& series) {
-  std::string text = "'#";
+string color_of(const PlotSeries& series) {
+  string text = "'#";
   for (const int part : styles.at(series.style).color)
     text += fmt::format("{:02X}", static_cast<int>(std::lround(part + (255 - part) * series.tint)));
   return text + "'";
 }
 
 /// Text in single quotes, which gnuplot takes literally.
-std::string quoted_text(const std::string& text) {
-  std::string quoted = "'";
+string quoted_text(const string& text) {
+  string quoted = "'";
   for (const char c : text) {
     if (c == '\'') quoted += '\'';
     quoted += static_cast<unsigned char>(c) < ' ' || c == 127 ? ' ' : c;
@@ -52,7 +52,7 @@ std::string quoted_text(const std::string& text) {
   return quoted + "'";
 }
 
-std::string title_of(const PlotSeries& series) {
+string title_of(const PlotSeries& series) {
   return series.name.empty() ? "notitle" : "title " + quoted_text(series.name);
 }
 
@@ -66,7 +66,7 @@ struct PlotFrame {
 PlotFrame frame_of(const Plot& plot, const PlotAxes& axes) {
   // In pixels of the SVG. A letter of 13 points is 8 wide on average.
   constexpr double letter = 8, label = 20, gap = 26, sample = 62;
-  std::size_t names = 0;
+  size_t names = 0;
   for (const PlotSeries& series : plot.series) names = std::max(names, letters_of(series.name));
   for (const PlotLevel& level : plot.levels) names = std::max(names, letters_of(level.name));
   constexpr double width = plot_width;
@@ -84,14 +84,14 @@ class PlotLabels {
     const auto covers = [&](const auto& p) {
       return std::abs(p.first - across) < 0.1 && std::abs(p.second - up) < 0.03;
     };
-    if (std::any_of(taken_.begin(), taken_.end(), covers)) return false;
+    if (std::ranges::any_of(taken_, covers)) return false;
     taken_.emplace_back(across, up);
     return true;
   }
 
  private:
   const PlotAxes& axes_;
-  std::vector<std::pair<double, double>> taken_;
+  vector<std::pair<double, double>> taken_;
 };
 
 /// Appends blocks of data, and the layers that draw them.
@@ -102,33 +102,32 @@ class PlotLayers {
       layers_.push_back(
           fmt::format("{:.17g} with lines linetype 1 linecolor '#808080' linewidth 1.5 dashtype 2 title {}",
                       plot.height(level.y), quoted_text(level.name)));
-    for (std::size_t s = 0; s < plot.series.size(); ++s)
+    for (size_t s = 0; s < plot.series.size(); ++s)
       if (!plot.series[s].points.empty()) add(s, plot.series[s]);
     if (layers_.empty()) layers_.push_back("NaN notitle");
   }
 
-  std::string text() const { return data_ + fmt::format("plot {}\n", joined(layers_, ", \\\n  ")); }
+  string text() const { return data_ + fmt::format("plot {}\n", joined(layers_, ", \\\n  ")); }
 
  private:
-  void add(std::size_t s, const PlotSeries& series) {
+  void add(size_t s, const PlotSeries& series) {
     if (series.form == PlotForm::band) return add_band(s, series);
-    std::string points;
+    string points;
     for (const PlotPoint& point : series.points)
       points += fmt::format("{:.17g} {:.17g}\n", point.x, plot_.height(point.y));
     put("series", s, points);
     if (series.form == PlotForm::marks) add_bars(s, series);
-    const std::string form =
-        series.form == PlotForm::marks
-            ? fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize 1.3",
-                          color_of(series), styles.at(series.style).mark)
-            : fmt::format("lines linetype 1 linecolor {} linewidth 2 dashtype {}", color_of(series),
-                          series.form == PlotForm::dashes ? "(8,8)" : "solid");
+    const string form = series.form == PlotForm::marks
+                            ? fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize 1.3",
+                                          color_of(series), styles.at(series.style).mark)
+                            : fmt::format("lines linetype 1 linecolor {} linewidth 2 dashtype {}", color_of(series),
+                                          series.form == PlotForm::dashes ? "(8,8)" : "solid");
     layers_.push_back(fmt::format("$series{} using 1:2 with {} {}", s, form, title_of(series)));
     if (series.form == PlotForm::marks) add_labels(s, series);
   }
 
-  void add_band(std::size_t s, const PlotSeries& series) {
-    std::string points;
+  void add_band(size_t s, const PlotSeries& series) {
+    string points;
     for (const PlotPoint& point : series.points)
       points += fmt::format("{:.17g} {:.17g} {:.17g}\n", point.x, plot_.height(point.low), plot_.height(point.high));
     put("series", s, points);
@@ -137,8 +136,8 @@ class PlotLayers {
                     color_of(series), title_of(series)));
   }
 
-  void add_bars(std::size_t s, const PlotSeries& series) {
-    std::string bars;
+  void add_bars(size_t s, const PlotSeries& series) {
+    string bars;
     for (const PlotPoint& point : series.points)
       // A bar that the mark would cover is left out.
       if (point.high > shortest_bar * plot_.height(point.low))
@@ -151,8 +150,8 @@ class PlotLayers {
                     s, color_of(series)));
   }
 
-  void add_labels(std::size_t s, const PlotSeries& series) {
-    std::string labels;
+  void add_labels(size_t s, const PlotSeries& series) {
+    string labels;
     for (const PlotPoint& point : series.points)
       if (!point.label.empty() && labels_.fits(point.x, plot_.height(point.y)))
         labels += fmt::format("{:.17g} {:.17g} \"{}\"\n", point.x, plot_.height(point.y), point.label);
@@ -163,20 +162,20 @@ class PlotLayers {
                     s, color_of(series)));
   }
 
-  void put(const char* name, std::size_t s, const std::string& lines) {
+  void put(const char* name, size_t s, const string& lines) {
     data_ += fmt::format("${}{} << END\n{}END\n", name, s, lines);
   }
 
   const Plot& plot_;
   const PlotAxes& axes_;
   PlotLabels labels_;
-  std::string data_;
-  std::vector<std::string> layers_;
+  string data_;
+  vector<string> layers_;
 };
 
 }  // namespace
 
-std::string plot_script(const Plot& plot) {
+string plot_script(const Plot& plot) {
   const PlotAxes axes = axes_of(plot);
   const PlotFrame frame = frame_of(plot, axes);
   return fmt::format(

@@ -1,12 +1,12 @@
 #pragma once
 // The script from which gnuplot draws a plot.
-#include <string>
 
 #include "export/plot.h"
+#include "std.h"
 
 namespace carom {
 
 /// gnuplot's `set terminal` must precede it.
-std::string plot_script(const Plot& plot);
+string plot_script(const Plot& plot);
 
 }  // namespace carom

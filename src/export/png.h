@@ -1,12 +1,9 @@
 #pragma once
 // Pictures as PNG.
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "export/deflation.h"
 #include "render/image.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,23 +14,23 @@ class PngEncoder {
   /// Copies a picture, so that encode() may follow on another thread. Throws ExportError.
   void take(const Image& image);
   /// Encodes the picture taken. The text of the file is valid until the next call.
-  const std::string& encode();
+  const string& encode();
   /// The file of the last encode().
-  const std::string& file() const { return file_; }
+  const string& file() const { return file_; }
 
  private:
   /// Makes a zlib stream (RFC 1950) of the rows, and gives its size.
-  std::size_t compress();
+  size_t compress();
 
   int width_ = 0, height_ = 0, channels_ = 0;
-  std::vector<std::uint8_t> rows_;  // filtered
+  vector<uint8_t> rows_;  // filtered
   Deflation deflation_;
-  std::unique_ptr<std::uint8_t[]> room_;  // for the largest stream of so many rows
-  std::size_t room_size_ = 0;             // bytes
-  std::string file_;
+  unique_ptr<uint8_t[]> room_;  // for the largest stream of so many rows
+  size_t room_size_ = 0;        // bytes
+  string file_;
 };
 
 /// A single picture. Throws ExportError.
-std::string encode_png(const Image& image);
+string encode_png(const Image& image);
 
 }  // namespace carom

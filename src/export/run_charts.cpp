@@ -3,18 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <utility>
 
 #include "physics/energy.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-Ticks ticks_of(const std::optional<double>& every, double duration) {
+Ticks ticks_of(const optional<double>& every, double duration) {
   return every ? Ticks::every(*every, duration) : Ticks::even(plot_instants, 0, duration);
 }
 
@@ -51,19 +51,18 @@ void RunCharts::sample(double time, const State& state) {
   heights.add(time, state);
 }
 
-std::span<const RunChart> run_charts() {
+span<const RunChart> run_charts() {
   return all_charts;
 }
 
-std::vector<ChartFile> draw_charts(std::span<const std::string_view> names, const RunCharts& charts,
-                                   const std::string& gnuplot) {
-  std::vector<Plot> plots;
-  for (const std::string_view name : names)
+vector<ChartFile> draw_charts(span<const string_view> names, const RunCharts& charts, const string& gnuplot) {
+  vector<Plot> plots;
+  for (const string_view name : names)
     for (const RunChart& chart : all_charts)
       if (chart.name == name) plots.push_back(chart.plot(charts));
-  std::vector<PlotPictures> pictures = draw_plots(plots, gnuplot);
-  std::vector<ChartFile> files;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
+  vector<PlotPictures> pictures = draw_plots(plots, gnuplot);
+  vector<ChartFile> files;
+  for (size_t i = 0; i < pictures.size(); ++i) {
     files.push_back({fmt::format("{}.svg", names[i]), std::move(pictures[i].svg)});
     files.push_back({fmt::format("{}.png", names[i]), std::move(pictures[i].png)});
   }

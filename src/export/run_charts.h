@@ -1,16 +1,13 @@
 #pragma once
 // The charts of a run, gathered from its states and collisions, or from its tables. Memory depends on the number of
 // bodies, not on that of instants.
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "export/collisions_chart.h"
 #include "export/energy_chart.h"
 #include "export/heights_chart.h"
 #include "export/speeds_chart.h"
 #include "export/timeline.h"
+#include "std.h"
 
 namespace carom {
 
@@ -41,26 +38,25 @@ struct RunCharts {
 
  private:
   const Scene& scene_;
-  std::int64_t next_energy_, next_heights_;
+  int64_t next_energy_, next_heights_;
 };
 
-inline constexpr std::int64_t plot_instants = 501;
+inline constexpr int64_t plot_instants = 501;
 
 /// One chart as a row of a table.
 struct RunChart {
-  std::string_view name;  // of its files: plots/<name>.svg and plots/<name>.png
+  string_view name;  // of its files: plots/<name>.svg and plots/<name>.png
   Plot (*plot)(const RunCharts& charts);
 };
 
 /// In the order of plot_files.names (scene/output_kinds.h).
-std::span<const RunChart> run_charts();
+span<const RunChart> run_charts();
 
 /// A file of plots/.
 struct ChartFile {
-  std::string name, bytes;
+  string name, bytes;
 };
 /// Draws the named charts, each as two files. Throws ExportError.
-std::vector<ChartFile> draw_charts(std::span<const std::string_view> names, const RunCharts& charts,
-                                   const std::string& gnuplot);
+vector<ChartFile> draw_charts(span<const string_view> names, const RunCharts& charts, const string& gnuplot);
 
 }  // namespace carom

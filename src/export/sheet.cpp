@@ -2,27 +2,27 @@
 #include "export/sheet.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "files/run_folder.h"
 #include "scene/sheet_layout.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::uint8_t paper = 24;  // grey, sRGB
+constexpr uint8_t paper = 24;  // grey, sRGB
 
 }  // namespace
 
 Sheet::Sheet(const SheetOutput& sheet, Size shape) : columns_(sheet.columns), rows_(sheet.rows) {
   if (columns_ < 1 || rows_ < 1) throw ExportError("cannot make a contact sheet without pictures");
-  if (const std::optional<SheetProblem> problem = problem_of(sheet, shape))
+  if (const optional<SheetProblem> problem = problem_of(sheet, shape))
     throw ExportError("cannot make sheet.png: " + problem->message + "\n  " + problem->remedy);
   const SheetLayout layout = layout_of(sheet, shape);
   picture_ = {static_cast<int>(layout.width), static_cast<int>(layout.height)};
   whole_ = {static_cast<int>(layout.total_width), static_cast<int>(layout.total_height)};
   // What the division left over goes to both sides.
-  const auto margin = [](std::int64_t total, std::int64_t count, std::int64_t side) {
+  const auto margin = [](int64_t total, int64_t count, int64_t side) {
     return static_cast<int>((total - count * side - (count - 1) * sheet_gap) / 2);
   };
   margin_ = {margin(layout.total_width, columns_, layout.width), margin(layout.total_height, rows_, layout.height)};
@@ -33,10 +33,10 @@ void Sheet::prepare(int channels) {
   image_.width = whole_.width;
   image_.height = whole_.height;
   image_.channels = channels;
-  image_.pixels.assign(static_cast<std::size_t>(whole_.height) * image_.row_size(), channels == 4 ? 0 : paper);
+  image_.pixels.assign(static_cast<size_t>(whole_.height) * image_.row_size(), channels == 4 ? 0 : paper);
 }
 
-void Sheet::put(std::int64_t number, const Image& picture) {
+void Sheet::put(int64_t number, const Image& picture) {
   if (number < 0 || number >= count() || picture.width != picture_.width || picture.height != picture_.height ||
       (!image_.pixels.empty() && picture.channels != image_.channels))
     throw ExportError("cannot put a picture into the contact sheet: it is of another size or number");
@@ -44,8 +44,7 @@ void Sheet::put(std::int64_t number, const Image& picture) {
   const int left = margin_.width + static_cast<int>(number % columns_) * (picture_.width + sheet_gap);
   const int top = margin_.height + static_cast<int>(number / columns_) * (picture_.height + sheet_gap);
   for (int y = 0; y < picture.height; ++y) {
-    const auto at =
-        static_cast<std::size_t>(top + y) * image_.row_size() + static_cast<std::size_t>(left * image_.channels);
+    const auto at = static_cast<size_t>(top + y) * image_.row_size() + static_cast<size_t>(left * image_.channels);
     std::copy_n(picture.row(y), picture.row_size(), image_.pixels.data() + at);
   }
 }

@@ -1,9 +1,9 @@
 #pragma once
 // sheet.png: a contact sheet of pictures at evenly spaced instants of the run.
-#include <cstdint>
 
 #include "render/image.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,9 +15,9 @@ class Sheet {
   Sheet(const SheetOutput& sheet, Size shape);
 
   Size picture_size() const { return picture_; }
-  std::int64_t count() const { return std::int64_t{columns_} * rows_; }
+  int64_t count() const { return int64_t{columns_} * rows_; }
   /// Copies picture `number` to its place. Numbers run row by row, from the left.
-  void put(std::int64_t number, const Image& picture);
+  void put(int64_t number, const Image& picture);
   const Image& image();
 
  private:

@@ -15,12 +15,13 @@
 #include "files/stored_file.h"
 #include "numerics/whole.h"
 #include "scene/film_format.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr const char* font_file = "font.ttf";  // of the labels, in the temporary folder
-constexpr std::uint64_t most_font_bytes = 50'000'000;
+constexpr uint64_t most_font_bytes = 50'000'000;
 constexpr int widest = 3840, highest = 2160;  // pixels, of the whole film
 constexpr int crf = 18;
 
@@ -38,24 +39,24 @@ int even(double pixels) {
   return std::max(2, 2 * static_cast<int>(pixels / 2));
 }
 
-std::size_t most_lines(const std::vector<FilmTile>& tiles) {
-  std::size_t lines = 1;
+size_t most_lines(const vector<FilmTile>& tiles) {
+  size_t lines = 1;
   for (const FilmTile& tile : tiles) lines = std::max(lines, tile.labels.size());
   return lines;
 }
 
 /// The largest size at which the longest line fits. A letter of this font is about 0.6 of its size wide.
-int letter_of(const std::vector<FilmTile>& tiles, int width, int height) {
-  std::size_t longest = 1;
+int letter_of(const vector<FilmTile>& tiles, int width, int height) {
+  size_t longest = 1;
   for (const FilmTile& tile : tiles)
-    for (const std::string& line : tile.labels) longest = std::max(longest, line.size());
+    for (const string& line : tile.labels) longest = std::max(longest, line.size());
   const double by_width = (width - 16) / (0.62 * static_cast<double>(longest));
   return std::max(least_label, static_cast<int>(std::min(by_width, height * label_height)));
 }
 
-Grid grid_of(const std::vector<FilmTile>& tiles, const std::vector<FilmFacts>& films) {
+Grid grid_of(const vector<FilmTile>& tiles, const vector<FilmFacts>& films) {
   int columns = 1;
-  while (static_cast<std::size_t>(columns * columns) < films.size()) ++columns;
+  while (static_cast<size_t>(columns * columns) < films.size()) ++columns;
   const int rows = (static_cast<int>(films.size()) + columns - 1) / columns;
   int width = 0, height = 0;
   for (const FilmFacts& film : films) {
@@ -83,27 +84,27 @@ double rate_of(const FilmFacts& film) {
 
 /// The number of frames before a tile's first one, and of the tile, at the frame rate of the whole film.
 struct Span {
-  std::uint64_t before, frames;
+  uint64_t before, frames;
 };
 
 Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& fastest, double start) {
   const double rate = rate_of(fastest);
   const double frames = static_cast<double>(film.frames) * rate / rate_of(film);
-  return {static_cast<std::uint64_t>(std::max<std::int64_t>(0, nearest_whole((tile.from - start) / tile.speed * rate))),
-          static_cast<std::uint64_t>(std::max<std::int64_t>(1, nearest_whole(frames)))};
+  return {static_cast<uint64_t>(std::max<int64_t>(0, nearest_whole((tile.from - start) / tile.speed * rate))),
+          static_cast<uint64_t>(std::max<int64_t>(1, nearest_whole(frames)))};
 }
 
-void write_label(const FilePlace& place, const std::string& name, const FilmTile& tile) {
+void write_label(const FilePlace& place, const string& name, const FilmTile& tile) {
   OutputFile file(place, name);
-  for (std::size_t k = 0; k < tile.labels.size(); ++k) file.write((k > 0 ? "\n" : "") + tile.labels[k]);
+  for (size_t k = 0; k < tile.labels.size(); ++k) file.write((k > 0 ? "\n" : "") + tile.labels[k]);
   file.publish();
 }
 
 /// False: it cannot be read.
-bool copy_font(const std::string& font, const FilePlace& place) {
+bool copy_font(const string& font, const FilePlace& place) {
   const std::filesystem::path path(canonical(font));
   const Descriptor folder = open_folder(AT_FDCWD, path.parent_path().string(), true);
-  const auto bytes = folder ? read_text(folder.get(), path.filename().string(), most_font_bytes) : std::nullopt;
+  const auto bytes = folder ? read_text(folder.get(), path.filename().string(), most_font_bytes) : nullopt;
   if (!bytes) return false;
   OutputFile file(place, font_file);
   file.write(*bytes);
@@ -113,8 +114,7 @@ bool copy_font(const std::string& font, const FilePlace& place) {
 
 }  // namespace
 
-SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles,
-                       const std::string& font)
+SideBySide::SideBySide(const FilePlace& place, const string& name, vector<FilmTile> tiles, const string& font)
     : tools_(find_film_tools()), file_(place, name, tools_, {}), tiles_(std::move(tiles)), font_(font) {
   if (tiles_.size() < 2 || tiles_.size() > most_tiles)
     file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name {}", most_tiles, tiles_.size(),
@@ -129,22 +129,22 @@ SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vec
 void SideBySide::complete() {
   const Grid grid = grid_of(tiles_, facts_);
   const FilmFacts& fastest =
-      *std::max_element(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) { return is_faster(b, a); });
+      *std::ranges::max_element(facts_, [](const auto& a, const auto& b) { return is_faster(b, a); });
   double start = tiles_.front().from;
   for (const FilmTile& tile : tiles_) start = std::min(start, tile.from);
   if (!copy_font(font_, file_.workshop())) file_.fail_with("the font of its labels cannot be read: " + font_);
 
-  std::vector<std::string> input;
-  std::string graph, stacked, layout;
-  std::uint64_t frames = 0;
-  std::vector<Span> spans;
-  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+  vector<string> input;
+  string graph, stacked, layout;
+  uint64_t frames = 0;
+  vector<Span> spans;
+  for (size_t k = 0; k < tiles_.size(); ++k) {
     spans.push_back(span_of(tiles_[k], facts_[k], fastest, start));
     frames = std::max(frames, spans.back().before + spans.back().frames);
   }
-  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+  for (size_t k = 0; k < tiles_.size(); ++k) {
     const FilmFacts& film = facts_[k];
-    const std::string label = fmt::format("label_{}.txt", k);
+    const string label = fmt::format("label_{}.txt", k);
     write_label(file_.workshop(), label, tiles_[k]);
     input.insert(input.end(),
                  {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
@@ -172,7 +172,7 @@ void SideBySide::complete() {
   graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
   FfmpegRun run = std::move(input);
   run.insert(run.end(), {"-filter_complex", graph});
-  for (std::string& argument : h264_output(crf)) run.push_back(std::move(argument));
+  for (string& argument : h264_output(crf)) run.push_back(std::move(argument));
   file_.start(run, false);
   file_.complete(h264_file, frames, rate_of(fastest));
 }

@@ -1,22 +1,20 @@
 #pragma once
 // The films of several runs in one film, side by side and synchronised, each with its name.
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "export/film_file.h"
+#include "std.h"
 
 namespace carom {
 
 struct FilmTile {
-  std::string folder, file;         // the film
-  double from = 0;                  // s, the simulated time of its first frame
-  std::vector<std::string> labels;  // lines
-  double speed = 1;                 // seconds of motion a second of film; the same of all tiles
+  string folder, file;    // the film
+  double from = 0;        // s, the simulated time of its first frame
+  vector<string> labels;  // lines
+  double speed = 1;       // seconds of motion a second of film; the same of all tiles
 };
 
 /// The maximum number of films in one.
-inline constexpr std::size_t most_tiles = 16;
+inline constexpr size_t most_tiles = 16;
 
 /// H.264 as for every film. The same films give the same bytes. Time is simulated time.
 /// A film that begins later shows its first frame until then, and one that ends earlier keeps its last.
@@ -27,7 +25,7 @@ class SideBySide {
  public:
   /// Reads the properties of the films. `font`: the file of the labels' typeface.
   /// Throws ExportError, as all functions of this class do. Its text names what is missing and the remedy.
-  SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles, const std::string& font);
+  SideBySide(const FilePlace& place, const string& name, vector<FilmTile> tiles, const string& font);
 
   /// Makes the film.
   void complete();
@@ -37,9 +35,9 @@ class SideBySide {
  private:
   FilmTools tools_;
   FilmFile file_;
-  std::vector<FilmTile> tiles_;
-  std::vector<FilmFacts> facts_;  // by tile
-  std::string font_;
+  vector<FilmTile> tiles_;
+  vector<FilmFacts> facts_;  // by tile
+  string font_;
 };
 
 }  // namespace carom

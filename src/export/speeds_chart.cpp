@@ -10,6 +10,7 @@
 #include "export/chart.h"
 #include "export/plot_axis.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,13 +37,13 @@ void SpeedsChart::add(const State& end) {
 
 Histogram SpeedsChart::histogram() const {
   Histogram bars;
-  const double fastest = speeds_.empty() ? 0 : *std::max_element(speeds_.begin(), speeds_.end());
+  const double fastest = speeds_.empty() ? 0 : *std::ranges::max_element(speeds_);
   // A round width, from 0.7 to 1.8 times the one sought.
   if (fastest > 0)
     bars.width = round_step(fastest / std::min(intervals_for(speeds_.size()), most_bars) / std::sqrt(2)).value();
-  bars.counts.resize(static_cast<std::size_t>(fastest / bars.width) + 1);
+  bars.counts.resize(static_cast<size_t>(fastest / bars.width) + 1);
   for (const double speed : speeds_)
-    ++bars.counts[std::min(static_cast<std::size_t>(speed / bars.width), bars.counts.size() - 1)];
+    ++bars.counts[std::min(static_cast<size_t>(speed / bars.width), bars.counts.size() - 1)];
   return bars;
 }
 
@@ -83,9 +84,9 @@ Plot SpeedsChart::plot() const {
   plot.y_label = fmt::format("bodies in {:.6g} m/s", bars.width);
   plot.x_from = 0;
   plot.from_zero = plot.counts = true;
-  const std::vector<double> counts(bars.counts.begin(), bars.counts.end());
-  plot.series.push_back({"bodies", chart_color::sky, stairs(bars.width, std::vector<double>(counts.size(), 0), counts),
-                         PlotForm::band, 0.2});
+  const vector<double> counts(bars.counts.begin(), bars.counts.end());
+  plot.series.push_back(
+      {"bodies", chart_color::sky, stairs(bars.width, vector<double>(counts.size(), 0), counts), PlotForm::band, 0.2});
   if (!has_maxwell()) return plot;
   plot.series.push_back(maxwell_curve(bars));
   plot.subtitle += "; the curve has the same kinetic energy";

@@ -1,11 +1,11 @@
 #pragma once
 // The chart of the bodies' speeds at the end of a run, beside Maxwell's distribution.
 #include <map>
-#include <vector>
 
 #include "export/histogram.h"
 #include "physics/maxwell.h"
 #include "physics/state.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,7 +14,7 @@ struct Scene;
 class SpeedsChart {
  public:
   /// Fewer bodies have no distribution to compare.
-  static constexpr std::size_t least_bodies = 30;
+  static constexpr size_t least_bodies = 30;
 
   explicit SpeedsChart(const Scene& scene) : scene_(scene) {}
   /// A body at the end of the run; kg, m/s.
@@ -36,8 +36,8 @@ class SpeedsChart {
   PlotSeries maxwell_curve(const Histogram& bars) const;
 
   const Scene& scene_;
-  std::vector<double> speeds_;            // m/s
-  std::map<double, std::size_t> masses_;  // kg, and the number of bodies
+  vector<double> speeds_;            // m/s
+  std::map<double, size_t> masses_;  // kg, and the number of bodies
   EnergyByDirection energy_;
 };
 

@@ -3,7 +3,6 @@
 #include "export/tables.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,21 +12,21 @@
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::array<std::string_view, 6> motion_columns = {"x_m",        "y_m",        "z_m",
-                                                            "vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
+constexpr array<string_view, 6> motion_columns = {"x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
 
 /// The maximum number of characters of six numbers, each after a comma.
-constexpr std::size_t motion_size = 6 * (number_size + 1);
+constexpr size_t motion_size = 6 * (number_size + 1);
 
 /// Rows of a block: enough to make passing it on negligible, and few enough to stay in cache.
-constexpr std::size_t block_rows = 4096;
+constexpr size_t block_rows = 4096;
 
 /// From the second block on, formatting happens on a thread.
-constexpr std::uint64_t blocks_alone = 1;
+constexpr uint64_t blocks_alone = 1;
 
 char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +47,7 @@ void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity en
     const BodyRange& range = roster.range_of(entity);
     file.written(put_member(file.room(range.name.size() + member_size), range, entity));
   } else if (entity != no_entity) {
-    const std::size_t after_bodies = entity - bodies;
+    const size_t after_bodies = entity - bodies;
     file.write(after_bodies < roster.fixed.size() ? roster.fixed[after_bodies].name
                                                   : roster.strings[after_bodies - roster.fixed.size()]);
   }
@@ -56,7 +55,7 @@ void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity en
 
 }  // namespace
 
-std::string_view name_of(CollisionKind kind) {
+string_view name_of(CollisionKind kind) {
   switch (kind) {
     case CollisionKind::body_body:
       return "body-body";
@@ -66,17 +65,17 @@ std::string_view name_of(CollisionKind kind) {
       return "rest";
     case CollisionKind::merge:
       return "merge";
-    case CollisionKind::string:
+    case CollisionKind::taut:
       return "string";
   }
   return "";
 }
 
-std::optional<CollisionKind> collision_kind_named(std::string_view name) {
+optional<CollisionKind> collision_kind_named(string_view name) {
   for (const CollisionKind kind : {CollisionKind::body_body, CollisionKind::body_fixed, CollisionKind::rest,
-                                   CollisionKind::merge, CollisionKind::string})
+                                   CollisionKind::merge, CollisionKind::taut})
     if (name_of(kind) == name) return kind;
-  return std::nullopt;
+  return nullopt;
 }
 
 TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
@@ -88,7 +87,7 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
   file_.write("time_s");
   for (const BodyRange& range : scene.roster.bodies) {
     for (Entity i = 0; i < range.count; ++i) {
-      for (const std::string_view column : motion_columns) {
+      for (const string_view column : motion_columns) {
         char* to = file_.room(range.name.size() + member_size + column.size() + 2);
         *to++ = ',';
         to = put_member(to, range, range.first + i);
@@ -100,7 +99,7 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
   file_.write("\n");
 }
 
-void TrajectoryTable::add(double time, const State& state, std::span<const ContactForce>) {
+void TrajectoryTable::add(double time, const State& state, span<const ContactForce>) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Entity bodies = scene_.world.body_count();
   Entity first = 0;
@@ -118,7 +117,7 @@ void TrajectoryTable::add(double time, const State& state, std::span<const Conta
   } while (first < bodies);
 }
 
-std::vector<OutputFile*> TrajectoryTable::files() {
+vector<OutputFile*> TrajectoryTable::files() {
   if (!blocks_.item().parts.empty()) blocks_.send();
   blocks_.finish();
   return {&file_};
@@ -141,7 +140,7 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   if (part.count == 0) return;
   // All bodies share the digits of the time, which are formatted once and copied.
   char time_text[number_size];
-  const std::string_view time_cell(time_text, static_cast<std::size_t>(put_number(time_text, part.time) - time_text));
+  const string_view time_cell(time_text, static_cast<size_t>(put_number(time_text, part.time) - time_text));
   const BodyRange* range = &scene_.roster.range_of(part.first);
   for (Entity body = part.first; body < part.first + part.count; ++body, ++motion) {
     while (body >= range->first + range->count) ++range;
@@ -171,29 +170,29 @@ CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)
     : roster_(scene.roster),
       bodies_(scene.world.body_count()),
       file_(place, "collisions.csv"),
-      blocks_([this](std::vector<Collision>& collisions) { write(collisions); }, blocks_alone) {
+      blocks_([this](vector<Collision>& collisions) { write(collisions); }, blocks_alone) {
   file_.write(
       "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,impulse_N_s,"
       "energy_lost_J\n");
 }
 
-void CollisionTable::record(std::span<const Collision> collisions) {
+void CollisionTable::record(span<const Collision> collisions) {
   while (!collisions.empty()) {
-    std::vector<Collision>& block = blocks_.item();
-    const std::size_t count = std::min(block_rows - block.size(), collisions.size());
-    block.insert(block.end(), collisions.begin(), collisions.begin() + static_cast<std::ptrdiff_t>(count));
+    vector<Collision>& block = blocks_.item();
+    const size_t count = std::min(block_rows - block.size(), collisions.size());
+    block.insert(block.end(), collisions.begin(), collisions.begin() + static_cast<ptrdiff_t>(count));
     collisions = collisions.subspan(count);
     if (block.size() == block_rows) blocks_.send();
   }
 }
 
-std::vector<OutputFile*> CollisionTable::files() {
+vector<OutputFile*> CollisionTable::files() {
   if (!blocks_.item().empty()) blocks_.send();
   blocks_.finish();
   return {&file_};
 }
 
-void CollisionTable::write(std::vector<Collision>& collisions) {
+void CollisionTable::write(vector<Collision>& collisions) {
   for (const Collision& collision : collisions) {
     file_.written(put_number(file_.room(number_size), collision.time));
     file_.write(",");
@@ -216,7 +215,7 @@ ContactTable::ContactTable(const FilePlace& place, const Scene& scene)
   file_.write("time_s,a,b,force_N\n");
 }
 
-void ContactTable::add(double time, const State&, std::span<const ContactForce> contacts) {
+void ContactTable::add(double time, const State&, span<const ContactForce> contacts) {
   for (const ContactForce& contact : contacts) {
     file_.written(put_number(file_.room(number_size), time));
     for (const Entity entity : {contact.a, contact.b}) write_name(file_, roster_, bodies_, entity);
@@ -231,7 +230,7 @@ RegionTable::RegionTable(const FilePlace& place, const Scene& scene)
   file_.write("time_s,region,body,what\n");
 }
 
-void RegionTable::record_crossings(std::span<const RegionCrossing> crossings) {
+void RegionTable::record_crossings(span<const RegionCrossing> crossings) {
   for (const RegionCrossing& crossing : crossings) {
     file_.written(put_number(file_.room(number_size), crossing.time));
     file_.write(",");
@@ -245,7 +244,7 @@ EnergyTable::EnergyTable(const FilePlace& place, const Scene& scene) : world_(sc
   file_.write("time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n");
 }
 
-void EnergyTable::add(double time, const State& state, std::span<const ContactForce>) {
+void EnergyTable::add(double time, const State& state, span<const ContactForce>) {
   const double kinetic = kinetic_energy(world_, state);
   const double potential = potential_energy(world_, state);
   const Vec3 p = momentum(world_, state);

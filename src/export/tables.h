@@ -1,15 +1,12 @@
 #pragma once
 // The CSV files of a run. Each is made only if the scene requests it.
 // Long tables format their numbers on a background thread.
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
 
 #include "export/writer.h"
 #include "files/conveyor.h"
 #include "files/csv.h"
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,9 +17,9 @@ struct World;
 struct Summary;
 
 /// As in the column `kind` of collisions.csv.
-std::string_view name_of(CollisionKind kind);
+string_view name_of(CollisionKind kind);
 /// None: no kind has this name.
-std::optional<CollisionKind> collision_kind_named(std::string_view name);
+optional<CollisionKind> collision_kind_named(string_view name);
 
 /// trajectory.csv. Long form: a row for each body and instant, by time then body.
 /// Wide form: a row for each instant, six columns for each body:
@@ -31,8 +28,8 @@ std::optional<CollisionKind> collision_kind_named(std::string_view name);
 class TrajectoryTable : public Writer {
  public:
   TrajectoryTable(const FilePlace& place, const Scene& scene);
-  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
-  std::vector<OutputFile*> files() override;
+  void add(double time, const State& state, span<const ContactForce> contacts) override;
+  vector<OutputFile*> files() override;
 
  private:
   struct Motion {
@@ -46,8 +43,8 @@ class TrajectoryTable : public Writer {
   };
   /// Numbers that wait to be formatted.
   struct Block {
-    std::vector<Part> parts;
-    std::vector<Motion> motions;
+    vector<Part> parts;
+    vector<Motion> motions;
   };
   void write(Block& block);
   void write_long(const Part& part, const Motion* motion);
@@ -63,17 +60,17 @@ class TrajectoryTable : public Writer {
 class CollisionTable : public Writer {
  public:
   CollisionTable(const FilePlace& place, const Scene& scene);
-  void record(std::span<const Collision> collisions) override;
-  std::vector<OutputFile*> files() override;
+  void record(span<const Collision> collisions) override;
+  vector<OutputFile*> files() override;
 
  private:
-  void write(std::vector<Collision>& collisions);
+  void write(vector<Collision>& collisions);
 
   const Roster& roster_;
   Entity bodies_;
   OutputFile file_;
   /// Last, because its thread writes into file_.
-  Conveyor<std::vector<Collision>> blocks_;
+  Conveyor<vector<Collision>> blocks_;
 };
 
 /// contacts.csv: a row for each instant and pair in lasting contact, by time, then a, then b.
@@ -81,8 +78,8 @@ class ContactTable : public Writer {
  public:
   ContactTable(const FilePlace& place, const Scene& scene);
   bool needs_contacts() const override { return true; }
-  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
-  std::vector<OutputFile*> files() override { return {&file_}; }
+  void add(double time, const State& state, span<const ContactForce> contacts) override;
+  vector<OutputFile*> files() override { return {&file_}; }
 
  private:
   const Roster& roster_;
@@ -94,8 +91,8 @@ class ContactTable : public Writer {
 class RegionTable : public Writer {
  public:
   RegionTable(const FilePlace& place, const Scene& scene);
-  void record_crossings(std::span<const RegionCrossing> crossings) override;
-  std::vector<OutputFile*> files() override { return {&file_}; }
+  void record_crossings(span<const RegionCrossing> crossings) override;
+  vector<OutputFile*> files() override { return {&file_}; }
 
  private:
   const Roster& roster_;
@@ -107,8 +104,8 @@ class RegionTable : public Writer {
 class EnergyTable : public Writer {
  public:
   EnergyTable(const FilePlace& place, const Scene& scene);
-  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
-  std::vector<OutputFile*> files() override { return {&file_}; }
+  void add(double time, const State& state, span<const ContactForce> contacts) override;
+  vector<OutputFile*> files() override { return {&file_}; }
 
  private:
   const World& world_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 
 int interval_of(double x, double from, double to, int count) {
@@ -25,13 +27,13 @@ void ThinnedLine::add(double x, double y) {
   open_.last = point;
 }
 
-std::vector<PlotPoint> ThinnedLine::points() const {
-  std::vector<PlotPoint> points = closed_;
+vector<PlotPoint> ThinnedLine::points() const {
+  vector<PlotPoint> points = closed_;
   if (now_ >= 0) put(points, open_);
   return points;
 }
 
-void ThinnedLine::put(std::vector<PlotPoint>& points, const Column& column) {
+void ThinnedLine::put(vector<PlotPoint>& points, const Column& column) {
   const bool falls = column.highest.x < column.lowest.x;
   for (const PlotPoint& point :
        {column.first, falls ? column.highest : column.lowest, falls ? column.lowest : column.highest, column.last})

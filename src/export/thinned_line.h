@@ -1,8 +1,8 @@
 #pragma once
 // A line of any number of points, thinned to those that determine its picture.
-#include <vector>
 
 #include "export/plot.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,7 +17,7 @@ class ThinnedLine {
   /// `x`: not below the previous one.
   void add(double x, double y);
   /// All points so far, by x.
-  std::vector<PlotPoint> points() const;
+  vector<PlotPoint> points() const;
 
   void keep(auto& archive) { archive(now_, open_, closed_); }
 
@@ -27,12 +27,12 @@ class ThinnedLine {
 
     void keep(auto& archive) { archive(first, lowest, highest, last); }
   };
-  static void put(std::vector<PlotPoint>& points, const Column& column);
+  static void put(vector<PlotPoint>& points, const Column& column);
 
   double from_, to_;
   int now_ = -1;  // the column of `open_`; -1: none
   Column open_{};
-  std::vector<PlotPoint> closed_;
+  vector<PlotPoint> closed_;
 };
 
 /// The interval, 0 to count - 1, of count equal ones from `from` to `to` that holds x. Those outside count in the

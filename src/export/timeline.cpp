@@ -8,19 +8,19 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string_view>
 
 #include "numerics/whole.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Beyond this number doubles do not represent every whole number, so no tick has a higher number.
-constexpr std::int64_t most_ticks = std::int64_t{1} << 53;
+constexpr int64_t most_ticks = int64_t{1} << 53;
 
 /// The whole number below `x`, limited to what can be counted.
-std::int64_t tick_number(double x) {
-  return std::clamp<std::int64_t>(whole_below(x), 0, most_ticks);
+int64_t tick_number(double x) {
+  return std::clamp<int64_t>(whole_below(x), 0, most_ticks);
 }
 
 struct Ratio {
@@ -30,10 +30,10 @@ struct Ratio {
 /// `value` as the short decimal m/10^k that an author wrote, if it is one.
 /// Both parts are exact doubles.
 /// Their quotient, and that of any multiple, is therefore the double nearest to the decimal.
-std::optional<Ratio> as_decimal(double value) {
+optional<Ratio> as_decimal(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr;
-  std::int64_t digits = 0;
+  int64_t digits = 0;
   int exponent = 0, places = 0, count = 0;
   bool after_point = false;
   const char* c = text;
@@ -50,11 +50,11 @@ std::optional<Ratio> as_decimal(double value) {
   exponent -= places;
   // At most 15 digits: more are the digits of a quotient like 1/30, not of a written number.
   // 10^22 is the largest exact power.
-  if (count > 15 || exponent > 0 || exponent < -22) return std::nullopt;
+  if (count > 15 || exponent > 0 || exponent < -22) return nullopt;
   double power = 1;
   for (int i = exponent; i < 0; ++i) power *= 10;
   const Ratio ratio{static_cast<double>(digits), power};
-  return ratio.numerator / ratio.denominator == value ? std::optional(ratio) : std::nullopt;
+  return ratio.numerator / ratio.denominator == value ? optional(ratio) : nullopt;
 }
 
 Ratio as_ratio(double interval) {
@@ -77,11 +77,11 @@ Ticks Ticks::every(double interval, double duration) {
   const double rounding = std::max(1e-9 * interval, 2 * std::numeric_limits<double>::epsilon() * duration);
   const double limit = duration - std::min(rounding, interval / 2);
   // The number of ticks below the limit, except for rounding.
-  std::int64_t below = tick_number(duration / interval);
+  int64_t below = tick_number(duration / interval);
   for (int i = 0; i < 3 && below > 0 && ticks.at(below - 1) >= limit; ++i) --below;
   for (int i = 0; i < 3 && below < most_ticks && ticks.at(below) < limit; ++i) ++below;
   // A start is never rounded away.
-  ticks.last_ = duration > 0 ? std::max<std::int64_t>(below, 1) : 0;
+  ticks.last_ = duration > 0 ? std::max<int64_t>(below, 1) : 0;
   ticks.end_ = duration;
   ticks.closes_ = true;
   return ticks;
@@ -93,7 +93,7 @@ Ticks Ticks::rate(double per_second, double from, double until) {
   Ticks ticks;
   ticks.denominator_ = per_second;
   // Compare with the quotient, not the product. i/fps is the time of a tick, and `from` and `until` refer to it.
-  std::int64_t first = tick_number(from * per_second);
+  int64_t first = tick_number(from * per_second);
   for (int i = 0; i < 3 && first > 0 && ticks.at(first - 1) >= from; ++i) --first;
   for (int i = 0; i < 3 && first < most_ticks && ticks.at(first) < from; ++i) ++first;
   ticks.first_ = first;
@@ -114,17 +114,17 @@ Ticks Ticks::film(double per_second, double speed, double from, double until) {
   return ticks;
 }
 
-std::int64_t Ticks::last_until(double until, double guess) const {
-  std::int64_t last = tick_number(guess);
+int64_t Ticks::last_until(double until, double guess) const {
+  int64_t last = tick_number(guess);
   for (int i = 0; i < 3 && last >= 0 && at(last) > until; ++i) --last;
   for (int i = 0; i < 3 && last >= 0 && last < most_ticks && at(last + 1) <= until; ++i) ++last;
   return last;
 }
 
-Ticks Ticks::even(std::int64_t count, double from, double until) {
+Ticks Ticks::even(int64_t count, double from, double until) {
   Ticks ticks;
   if (count <= 0) return ticks;
-  const auto steps = static_cast<double>(std::max<std::int64_t>(count - 1, 1));
+  const auto steps = static_cast<double>(std::max<int64_t>(count - 1, 1));
   ticks.last_ = count - 1;
   ticks.offset_ = from * steps;
   ticks.numerator_ = until - from;
@@ -133,7 +133,7 @@ Ticks Ticks::even(std::int64_t count, double from, double until) {
   return ticks;
 }
 
-double Ticks::at(std::int64_t i) const {
+double Ticks::at(int64_t i) const {
   // The products are exact for every run of practical length. The division then rounds once.
   return end_ && i == last_ ? *end_ : (offset_ + static_cast<double>(i) * numerator_) / denominator_;
 }
@@ -199,18 +199,18 @@ void Timeline::end_at(double time) {
   find_due();
 }
 
-std::optional<std::int64_t> Timeline::due(int stream) const {
-  const Stream& s = streams_.at(static_cast<std::size_t>(stream));
-  return s.due ? std::optional(s.next) : std::nullopt;
+optional<int64_t> Timeline::due(int stream) const {
+  const Stream& s = streams_.at(static_cast<size_t>(stream));
+  return s.due ? optional(s.next) : nullopt;
 }
 
 bool Timeline::is_empty(int stream) const {
-  return streams_.at(static_cast<std::size_t>(stream)).ticks.count() < 1;
+  return streams_.at(static_cast<size_t>(stream)).ticks.count() < 1;
 }
 
-std::optional<double> Timeline::next(int stream) const {
-  const Stream& s = streams_.at(static_cast<std::size_t>(stream));
-  return s.next <= s.ticks.last() ? std::optional(s.ticks.at(s.next)) : std::nullopt;
+optional<double> Timeline::next(int stream) const {
+  const Stream& s = streams_.at(static_cast<size_t>(stream));
+  return s.next <= s.ticks.last() ? optional(s.ticks.at(s.next)) : nullopt;
 }
 
 }  // namespace carom

@@ -1,8 +1,7 @@
 #pragma once
 // The times at which outputs are due. Each is computed from its number and never summed up, so that times do not drift.
-#include <cstdint>
-#include <optional>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -18,12 +17,12 @@ class Ticks {
   /// A `from` or a `speed` that is a short decimal, or one over a whole number, is meant as such: 0.4 is 4/10.
   static Ticks film(double per_second, double speed, double from, double until);
   /// `count` evenly spaced instants from `from` to `until` (s), ends included. A single one is at `until`.
-  static Ticks even(std::int64_t count, double from, double until);
+  static Ticks even(int64_t count, double from, double until);
 
-  std::int64_t first() const { return first_; }
-  std::int64_t last() const { return last_; }  // first() - 1: none
-  std::int64_t count() const { return last_ - first_ + 1; }
-  double at(std::int64_t i) const;  // s
+  int64_t first() const { return first_; }
+  int64_t last() const { return last_; }  // first() - 1: none
+  int64_t count() const { return last_ - first_ + 1; }
+  double at(int64_t i) const;  // s
   /// The decimals with which times of ticks are written: all of them, if these are at most 6. Else so many that
   /// rounding is at most a twentieth of the interval.
   int decimals() const;
@@ -34,13 +33,13 @@ class Ticks {
 
  private:
   /// The largest number whose time is at most `until`, near a guess of it. -1: none.
-  std::int64_t last_until(double until, double guess) const;
+  int64_t last_until(double until, double guess) const;
 
-  std::int64_t first_ = 0, last_ = -1;
+  int64_t first_ = 0, last_ = -1;
   /// Tick i is at (offset + i * numerator) / denominator.
   double offset_ = 0, numerator_ = 1, denominator_ = 1;
-  std::optional<double> end_;  // the last tick's own time
-  bool closes_ = false;        // that is the run's end
+  optional<double> end_;  // the last tick's own time
+  bool closes_ = false;   // that is the run's end
 };
 
 /// The instants of all outputs in order. The last instant is the duration, even if no output is due then.
@@ -55,10 +54,10 @@ class Timeline {
   void end_at(double time);
   double time() const { return time_; }  // s
   /// The tick's number if this stream is due.
-  std::optional<std::int64_t> due(int stream) const;
+  optional<int64_t> due(int stream) const;
   bool is_empty(int stream) const;  // it has no instant
   /// The time (s) of the stream's next tick, which may be due. None: none is left.
-  std::optional<double> next(int stream) const;
+  optional<double> next(int stream) const;
 
   /// Which ticks are done. Those that end_at() cuts off are not due any more when it is called.
   void keep(auto& archive) {
@@ -69,14 +68,14 @@ class Timeline {
  private:
   struct Stream {
     Ticks ticks;
-    std::int64_t next;
+    int64_t next;
     bool due;
   };
   void find_due();
 
   double duration_, time_ = 0;
   bool ended_ = false;
-  std::vector<Stream> streams_;
+  vector<Stream> streams_;
 };
 
 }  // namespace carom

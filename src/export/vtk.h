@@ -4,11 +4,10 @@
 // - trajectory.pvd: the time of each of these files.
 // - surfaces.vtp: everything that does not move.
 // The files are valid XML, keep every bit of every double, and have reproducible bytes.
-#include <string>
-#include <vector>
 
 #include "export/writer.h"
 #include "files/series.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,9 +16,9 @@ struct Scene;
 class VtkWriter : public Writer {
  public:
   VtkWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);
-  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
-  std::vector<OutputFile*> files() override;
-  std::vector<FileRecord> published() const override { return bodies_.records(); }
+  void add(double time, const State& state, span<const ContactForce> contacts) override;
+  vector<OutputFile*> files() override;
+  vector<FileRecord> published() const override { return bodies_.records(); }
   void keep(StateWriter& archive) override { keep_all(archive); }
   void keep(StateReader& archive) override { keep_all(archive); }
   static double bytes(const Scene& scene, double instants);
@@ -34,7 +33,7 @@ class VtkWriter : public Writer {
   const ModelMakers& makers_;
   bool solids_;
   Series bodies_;
-  std::int64_t instants_ = 0;
+  int64_t instants_ = 0;
   OutputFile collection_, surfaces_;
   /// Of the bodies at all instants so far.
   Extent extent_;

@@ -4,47 +4,45 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <string_view>
-
 #include "files/stored_file.h"
 #include "numerics/whole.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::uint64_t container_head = 12, chunk_head = 8, duration_at = 12;  // bytes
+constexpr uint64_t container_head = 12, chunk_head = 8, duration_at = 12;  // bytes
 
 /// The bytes at a place, fewer at the end of the file.
-template <std::size_t size>
-std::string_view bytes_at(int file, std::uint64_t place, std::array<char, size>& bytes) {
+template <size_t size>
+string_view bytes_at(int file, uint64_t place, array<char, size>& bytes) {
   const ssize_t got = pread(file, bytes.data(), size, static_cast<off_t>(place));
-  return {bytes.data(), static_cast<std::size_t>(got > 0 ? got : 0)};
+  return {bytes.data(), static_cast<size_t>(got > 0 ? got : 0)};
 }
 
 /// The least significant byte first.
-std::uint64_t number_in(std::string_view bytes) {
-  std::uint64_t number = 0;
-  for (std::size_t i = bytes.size(); i-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[i]);
+uint64_t number_in(string_view bytes) {
+  uint64_t number = 0;
+  for (size_t i = bytes.size(); i-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[i]);
   return number;
 }
 
 }  // namespace
 
-std::optional<std::uint64_t> webp_frames(const FilePlace& place, const std::string& name, double fps) {
+optional<uint64_t> webp_frames(const FilePlace& place, const string& name, double fps) {
   const Descriptor file = open_stored(place.folder, name);
-  const std::optional<std::uint64_t> size = stored_size(place.folder, name);
+  const optional<uint64_t> size = stored_size(place.folder, name);
   if (!file || !size) return 0;
-  std::array<char, chunk_head + 16> bytes;
-  if (const std::string_view head = bytes_at(file.get(), 0, bytes);
+  array<char, chunk_head + 16> bytes;
+  if (const string_view head = bytes_at(file.get(), 0, bytes);
       head.size() < container_head || !head.starts_with("RIFF") || head.substr(8, 4) != "WEBP")
     return 0;
-  std::uint64_t milliseconds = 0, animated = 0, still = 0;
-  for (std::uint64_t at = container_head; at < *size;) {
-    const std::string_view chunk = bytes_at(file.get(), at, bytes);
+  uint64_t milliseconds = 0, animated = 0, still = 0;
+  for (uint64_t at = container_head; at < *size;) {
+    const string_view chunk = bytes_at(file.get(), at, bytes);
     if (chunk.size() < chunk_head) return 0;
-    const std::string_view type = chunk.substr(0, 4);
-    const std::uint64_t length = number_in(chunk.substr(4, 4));
+    const string_view type = chunk.substr(0, 4);
+    const uint64_t length = number_in(chunk.substr(4, 4));
     if (length > *size - at - chunk_head) return 0;
     if (type == "ANMF" && chunk.size() == bytes.size()) {
       ++animated;
@@ -53,8 +51,8 @@ std::optional<std::uint64_t> webp_frames(const FilePlace& place, const std::stri
     if (type == "VP8 " || type == "VP8L") ++still;
     at += chunk_head + length + length % 2;
   }
-  if (animated == 0) return still == 1 ? std::nullopt : std::optional<std::uint64_t>(0);
-  return static_cast<std::uint64_t>(nearest_whole(static_cast<double>(milliseconds) * fps / 1000));
+  if (animated == 0) return still == 1 ? nullopt : optional<uint64_t>(0);
+  return static_cast<uint64_t>(nearest_whole(static_cast<double>(milliseconds) * fps / 1000));
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "export/xyz.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -37,8 +38,8 @@ constexpr double path_bytes = 30;
 constexpr double plots_bytes = 3e5;
 
 template <typename Table>
-std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
-  return std::make_unique<Table>(folder.place(), scene);
+unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
+  return make_unique<Table>(folder.place(), scene);
 }
 
 double trajectory_bytes(const Scene& scene, double instants) {
@@ -60,26 +61,26 @@ constexpr WriterKind all_kinds[] = {
     {"regions", open<RegionTable>,
      [](const Scene& scene, double) { return crossing_bytes * scene.world.body_count(); }},
     {"vtk",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
-       return std::make_unique<VtkWriter>(folder, scene, makers);
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
+       return make_unique<VtkWriter>(folder, scene, makers);
      },
      VtkWriter::bytes},
     {"xyz",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> std::unique_ptr<Writer> {
-       return std::make_unique<XyzWriter>(folder, scene);
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
+       return make_unique<XyzWriter>(folder, scene);
      },
      XyzWriter::bytes},
     {"gltf",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
-       return std::make_unique<GltfWriter>(folder, scene, makers);
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
+       return make_unique<GltfWriter>(folder, scene, makers);
      },
      GltfWriter::bytes, nullptr, frames_motion},
     // The number of pieces is unknown. Three for each body are assumed.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
     {"plots",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> std::unique_ptr<Writer> {
-       return std::make_unique<PlotsWriter>(folder, scene);
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
+       return make_unique<PlotsWriter>(folder, scene);
      },
      [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks, may_stop},
 };
@@ -105,11 +106,11 @@ void Writer::keep(StateReader& archive) {
   for (OutputFile* file : files()) keep_part(archive, *file);
 }
 
-std::span<const WriterKind> writer_kinds() {
+span<const WriterKind> writer_kinds() {
   return all_kinds;
 }
 
-const WriterKind* writer_named(std::string_view name) {
+const WriterKind* writer_named(string_view name) {
   for (const WriterKind& kind : all_kinds)
     if (kind.name == name) return &kind;
   return nullptr;

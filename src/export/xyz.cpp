@@ -4,27 +4,26 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "export/bodies.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t row_numbers = 16;  // maximum
+constexpr size_t row_numbers = 16;  // maximum
 
 /// The coordinate of a plane of the room. None: there is no room.
-std::optional<double> room_side(const Scene& scene, std::string_view name, int axis) {
-  for (std::size_t i = 0; i < scene.world.planes.size() && i < scene.roster.fixed.size(); ++i)
+optional<double> room_side(const Scene& scene, string_view name, int axis) {
+  for (size_t i = 0; i < scene.world.planes.size() && i < scene.roster.fixed.size(); ++i)
     if (scene.roster.fixed[i].name == name) return scene.world.planes[i].point[axis];
-  return std::nullopt;
+  return nullopt;
 }
 
 /// The cell is the room. Its walls are not periodic boundaries.
-std::string cell_text(const Scene& scene) {
-  std::string edges, corner;
+string cell_text(const Scene& scene) {
+  string edges, corner;
   for (int axis = 0; axis < 3; ++axis) {
     const char letter = "xyz"[axis];
     const auto low = room_side(scene, fmt::format("room.{}_min", letter), axis);
@@ -58,12 +57,12 @@ XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
         fmt::format(" {} {} {}", number_cell(range.color.r), number_cell(range.color.g), number_cell(range.color.b)));
 }
 
-void XyzWriter::add(double time, const State& state, std::span<const ContactForce>) {
+void XyzWriter::add(double time, const State& state, span<const ContactForce>) {
   const World& world = scene_.world;
-  std::size_t count = world.body_count();
+  size_t count = world.body_count();
   for (Entity body = 0; body < world.body_count(); ++body) count -= is_gone(state, body) ? 1 : 0;
   file_.write(fmt::format("{}\n{} Time={}\n", count, cell_, number_cell(time)));
-  for (std::size_t r = 0; r < scene_.roster.bodies.size(); ++r) {
+  for (size_t r = 0; r < scene_.roster.bodies.size(); ++r) {
     const BodyRange& range = scene_.roster.bodies[r];
     for (Entity body = range.first; body < range.first + range.count; ++body) {
       if (is_gone(state, body)) continue;
@@ -76,7 +75,7 @@ void XyzWriter::add(double time, const State& state, std::span<const ContactForc
         to = put_number(to, value);
       }
       to = put_text(to, colors_[r]);
-      for (const std::uint64_t value : {std::uint64_t{body}, std::uint64_t{r}}) {
+      for (const uint64_t value : {uint64_t{body}, uint64_t{r}}) {
         *to++ = ' ';
         to = put_number(to, value);
       }

@@ -1,10 +1,9 @@
 #pragma once
 // trajectory.xyz: extended XYZ, one frame after another, for OVITO and ASE.
 // It uses columns that both read, and numbers that read back to the same doubles.
-#include <string>
-#include <vector>
 
 #include "export/writer.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,17 +12,17 @@ struct Scene;
 class XyzWriter : public Writer {
  public:
   XyzWriter(OpenFolder& folder, const Scene& scene);
-  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
-  std::vector<OutputFile*> files() override { return {&file_}; }
+  void add(double time, const State& state, span<const ContactForce> contacts) override;
+  vector<OutputFile*> files() override { return {&file_}; }
   static double bytes(const Scene& scene, double instants);
 
  private:
   const Scene& scene_;
   bool solids_;
   /// Part of the comment line: the room, the columns.
-  std::string cell_;
+  string cell_;
   /// By range of bodies, each after a space.
-  std::vector<std::string> colors_;
+  vector<string> colors_;
   OutputFile file_;
 };
 

@@ -5,23 +5,24 @@
 #include "export/yuv.h"
 
 #include <algorithm>
-#include <cstddef>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr int bits = 40;
-constexpr std::int64_t one = std::int64_t{1} << bits;
+constexpr int64_t one = int64_t{1} << bits;
 /// More than the error of the sum of three products of at most 1020, and less than the distance of other values to 1/2.
-constexpr std::int64_t nudge = 4096;
+constexpr int64_t nudge = 4096;
 
 /// The nearest whole number; of a positive factor.
-constexpr std::int64_t fixed(double factor) {
-  return static_cast<std::int64_t>(factor * static_cast<double>(2 * one) + 1) / 2;
+constexpr int64_t fixed(double factor) {
+  return static_cast<int64_t>(factor * static_cast<double>(2 * one) + 1) / 2;
 }
 
 /// `level` + 1/2, for rounding.
-constexpr std::int64_t above(std::int64_t level) {
+constexpr int64_t above(int64_t level) {
   return level * one + one / 2 + nudge;
 }
 
@@ -29,41 +30,40 @@ constexpr std::int64_t above(std::int64_t level) {
 constexpr double red = 2126, green = 7152, blue = 722, whole = 10000;
 
 constexpr double luma = 219.0 / (255 * whole);
-constexpr std::int64_t y_red = fixed(luma * red), y_green = fixed(luma * green), y_blue = fixed(luma * blue);
+constexpr int64_t y_red = fixed(luma * red), y_green = fixed(luma * green), y_blue = fixed(luma * blue);
 
 // Of the sum of 4 pixels.
 constexpr double cb = 112.0 / (4 * 255 * (whole - blue)), cr = 112.0 / (4 * 255 * (whole - red));
-constexpr std::int64_t cb_red = fixed(cb * red), cb_green = fixed(cb * green), cb_blue = fixed(cb * (whole - blue));
-constexpr std::int64_t cr_red = fixed(cr * (whole - red)), cr_green = fixed(cr * green), cr_blue = fixed(cr * blue);
+constexpr int64_t cb_red = fixed(cb * red), cb_green = fixed(cb * green), cb_blue = fixed(cb * (whole - blue));
+constexpr int64_t cr_red = fixed(cr * (whole - red)), cr_green = fixed(cr * green), cr_blue = fixed(cr * blue);
 
 /// `rgb`: `width` pixels.
-void luma_row(const std::uint8_t* rgb, std::size_t width, std::uint8_t* y) {
-  for (std::size_t x = 0; x < width; ++x)
-    y[x] = static_cast<std::uint8_t>(
-        (rgb[3 * x] * y_red + rgb[3 * x + 1] * y_green + rgb[3 * x + 2] * y_blue + above(16)) >> bits);
+void luma_row(const uint8_t* rgb, size_t width, uint8_t* y) {
+  for (size_t x = 0; x < width; ++x)
+    y[x] = static_cast<uint8_t>((rgb[3 * x] * y_red + rgb[3 * x + 1] * y_green + rgb[3 * x + 2] * y_blue + above(16)) >>
+                                bits);
 }
 
 /// `upper`, `lower`: two rows of 2 * `width` pixels.
-void chroma_row(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t width, std::uint8_t* u,
-                std::uint8_t* v) {
-  for (std::size_t x = 0; x < width; ++x, upper += 6, lower += 6) {
-    const std::int64_t r = upper[0] + upper[3] + lower[0] + lower[3];
-    const std::int64_t g = upper[1] + upper[4] + lower[1] + lower[4];
-    const std::int64_t b = upper[2] + upper[5] + lower[2] + lower[5];
-    u[x] = static_cast<std::uint8_t>((b * cb_blue - r * cb_red - g * cb_green + above(128)) >> bits);
-    v[x] = static_cast<std::uint8_t>((r * cr_red - g * cr_green - b * cr_blue + above(128)) >> bits);
+void chroma_row(const uint8_t* upper, const uint8_t* lower, size_t width, uint8_t* u, uint8_t* v) {
+  for (size_t x = 0; x < width; ++x, upper += 6, lower += 6) {
+    const int64_t r = upper[0] + upper[3] + lower[0] + lower[3];
+    const int64_t g = upper[1] + upper[4] + lower[1] + lower[4];
+    const int64_t b = upper[2] + upper[5] + lower[2] + lower[5];
+    u[x] = static_cast<uint8_t>((b * cb_blue - r * cb_red - g * cb_green + above(128)) >> bits);
+    v[x] = static_cast<uint8_t>((r * cr_red - g * cr_green - b * cr_blue + above(128)) >> bits);
   }
 }
 
 /// Rows of pixels in RGB, of even width.
 class RgbRows {
  public:
-  RgbRows(const Image& image, std::size_t width) : image_(image), copy_(3 * width) {}
+  RgbRows(const Image& image, size_t width) : image_(image), copy_(3 * width) {}
 
   /// Valid until the next call.
-  const std::uint8_t* row(int number) {
-    const std::uint8_t* from = image_.row(std::min(number, image_.height - 1));
-    const auto width = static_cast<std::size_t>(image_.width);
+  const uint8_t* row(int number) {
+    const uint8_t* from = image_.row(std::min(number, image_.height - 1));
+    const auto width = static_cast<size_t>(image_.width);
     if (image_.channels == 3 && copy_.size() == 3 * width) return from;
     if (image_.channels == 3)
       std::copy_n(from, 3 * width, copy_.begin());
@@ -74,14 +74,14 @@ class RgbRows {
   }
 
  private:
-  void show_on_black(const std::uint8_t* rgba, std::size_t width) {
-    for (std::size_t x = 0; x < width; ++x)
-      for (std::size_t c = 0; c < 3; ++c)
-        copy_[3 * x + c] = static_cast<std::uint8_t>((rgba[4 * x + c] * rgba[4 * x + 3] + 127) / 255);
+  void show_on_black(const uint8_t* rgba, size_t width) {
+    for (size_t x = 0; x < width; ++x)
+      for (size_t c = 0; c < 3; ++c)
+        copy_[3 * x + c] = static_cast<uint8_t>((rgba[4 * x + c] * rgba[4 * x + 3] + 127) / 255);
   }
 
   const Image& image_;
-  std::vector<std::uint8_t> copy_;
+  vector<uint8_t> copy_;
 };
 
 }  // namespace
@@ -90,17 +90,17 @@ Size yuv_size(const Image& image) {
   return {image.width + image.width % 2, image.height + image.height % 2};
 }
 
-void to_yuv420p(const Image& image, std::vector<std::uint8_t>& planes) {
+void to_yuv420p(const Image& image, vector<uint8_t>& planes) {
   const Size size = yuv_size(image);
-  const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
+  const auto width = static_cast<size_t>(size.width), height = static_cast<size_t>(size.height);
   planes.resize(width * height * 3 / 2);
-  std::uint8_t* y = planes.data();
-  std::uint8_t* u = y + width * height;
-  std::uint8_t* v = u + width * height / 4;
+  uint8_t* y = planes.data();
+  uint8_t* u = y + width * height;
+  uint8_t* v = u + width * height / 4;
   RgbRows uppers(image, width), lowers(image, width);
   for (int number = 0; number < size.height; number += 2) {
-    const std::uint8_t* const upper = uppers.row(number);
-    const std::uint8_t* const lower = lowers.row(number + 1);
+    const uint8_t* const upper = uppers.row(number);
+    const uint8_t* const lower = lowers.row(number + 1);
     luma_row(upper, width, y);
     luma_row(lower, width, y + width);
     chroma_row(upper, lower, width / 2, u, v);

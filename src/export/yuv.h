@@ -1,10 +1,9 @@
 #pragma once
 // Pictures as the film's luma and chroma.
-#include <cstdint>
-#include <vector>
 
 #include "render/image.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,6 +19,6 @@ Size yuv_size(const Image& image);
 ///   Cr = 128 + 224/255 (R' - L) / (2 (1 - 0.2126)),   L = 0.2126 R' + 0.7152 G' + 0.0722 B'
 /// Each is rounded once, exactly, halves upwards. Chroma is that of the mean of its 2 x 2 pixels, and lies in their
 /// middle.
-void to_yuv420p(const Image& image, std::vector<std::uint8_t>& planes);
+void to_yuv420p(const Image& image, vector<uint8_t>& planes);
 
 }  // namespace carom

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <string_view>
 
 #include "files/folder_names.h"
 #include "files/hash.h"
@@ -17,13 +16,14 @@
 #include "files/stored_file.h"
 #include "physics/archive.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view magic = "caromckp";
-constexpr std::size_t hash_size = 64;
-constexpr std::size_t head_size = magic.size() + 2 * hash_size;
+constexpr string_view magic = "caromckp";
+constexpr size_t hash_size = 64;
+constexpr size_t head_size = magic.size() + 2 * hash_size;
 
 /// A temporary file's, so that the folder is incomplete and other starts remove it.
 constexpr const char* checkpoint_name = ".checkpoint.part";
@@ -31,15 +31,15 @@ constexpr const char* next_name = "checkpoint.next";
 
 /// A checkpoint, and the hash of its request and program.
 struct Stored {
-  std::string request;
+  string request;
   Checkpoint checkpoint;
 };
 
 /// Throws ArchiveError if it is damaged.
 Stored read_stored(const FilePlace& place) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 40;
-  const std::string text = read_text(place.folder, checkpoint_name, most).value_or("");
-  const std::string_view body = std::string_view(text).substr(std::min(head_size, text.size()));
+  constexpr uint64_t most = uint64_t{1} << 40;
+  const string text = read_text(place.folder, checkpoint_name, most).value_or("");
+  const string_view body = string_view(text).substr(std::min(head_size, text.size()));
   if (!text.starts_with(magic) || text.compare(head_size - hash_size, hash_size, sha256(body)) != 0)
     throw ArchiveError();
 
@@ -52,13 +52,13 @@ Stored read_stored(const FilePlace& place) {
 }
 
 /// The hash of the running program's file.
-const std::string& program_hash() {
-  static const std::string hash = [] {
+const string& program_hash() {
+  static const string hash = [] {
     const Descriptor file(open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
     if (!file) fail("read", {-1, ""}, "/proc/self/exe");
     Sha256 sum;
-    std::string buffer(std::size_t{1} << 16, '\0');
-    while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) sum.add({buffer.data(), n});
+    string buffer(size_t{1} << 16, '\0');
+    while (const size_t n = read_some(file.get(), buffer.data(), buffer.size())) sum.add({buffer.data(), n});
     return sum.hex();
   }();
   return hash;
@@ -66,15 +66,15 @@ const std::string& program_hash() {
 
 }  // namespace
 
-std::string CheckpointFile::hash() const {
+string CheckpointFile::hash() const {
   return sha256(program_hash() + request_());
 }
 
-std::optional<Checkpoint> CheckpointFile::read() {
-  if (!has_checkpoint(place_)) return std::nullopt;
+optional<Checkpoint> CheckpointFile::read() {
+  if (!has_checkpoint(place_)) return nullopt;
   try {
     Stored stored = read_stored(place_);
-    if (stored.request != hash()) return std::nullopt;
+    if (stored.request != hash()) return nullopt;
     return std::move(stored.checkpoint);
   } catch (const ArchiveError&) {
     remove();
@@ -85,7 +85,7 @@ std::optional<Checkpoint> CheckpointFile::read() {
 void CheckpointFile::write(Checkpoint checkpoint) {
   StateWriter archive;
   archive(checkpoint);
-  const std::string body = archive.take();
+  const string body = archive.take();
   OutputFile file(place_, next_name);
   file.write(magic);
   file.write(hash());
@@ -110,18 +110,18 @@ bool has_checkpoint(const FilePlace& place) {
   return fstatat(place.folder, checkpoint_name, &info, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(info.st_mode);
 }
 
-std::optional<Checkpoint> any_checkpoint(const FilePlace& place) {
-  if (!has_checkpoint(place)) return std::nullopt;
+optional<Checkpoint> any_checkpoint(const FilePlace& place) {
+  if (!has_checkpoint(place)) return nullopt;
   try {
     return read_stored(place).checkpoint;
   } catch (const ArchiveError&) {
-    return std::nullopt;
+    return nullopt;
   }
 }
 
-std::optional<Checkpoint> any_checkpoint(const std::string& folder) {
+optional<Checkpoint> any_checkpoint(const string& folder) {
   const Descriptor opened = open_folder(AT_FDCWD, folder.empty() ? "." : folder, true);
-  return opened ? any_checkpoint({opened.get(), folder}) : std::nullopt;
+  return opened ? any_checkpoint({opened.get(), folder}) : nullopt;
 }
 
 }  // namespace carom

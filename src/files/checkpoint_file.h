@@ -1,12 +1,10 @@
 #pragma once
 // What an interrupted run needs to go on: a file beside its temporary ones, which an ordinary start removes with them.
-#include <functional>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "files/part_file.h"
 #include "files/summary.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,7 +13,7 @@ struct Checkpoint {
   double time = 0;  // s, of the motion
   SceneOrigin origin{};
   // Bytes of physics/archive.h.
-  std::string outputs{}, simulator{};
+  string outputs{}, simulator{};
 
   void keep(auto& archive) { archive(time, origin, outputs, simulator); }
 };
@@ -24,30 +22,29 @@ struct Checkpoint {
 class CheckpointFile {
  public:
   /// `request`: gives what tells runs apart, when that is needed. `place` must outlive this object.
-  CheckpointFile(const FilePlace& place, std::function<std::string()> request)
-      : place_(place), request_(std::move(request)) {}
+  CheckpointFile(const FilePlace& place, function<string()> request) : place_(place), request_(std::move(request)) {}
 
   /// None: there is none, or that of another request. Throws ArchiveError, and removes it, if it is damaged.
   /// Throws ExportError, as all functions of this class do.
-  std::optional<Checkpoint> read();
+  optional<Checkpoint> read();
   /// Replaces it at once or not at all. All files of the run are on disk before that, so that it survives a power
   /// failure.
   void write(Checkpoint checkpoint);
   void remove();
 
  private:
-  std::string hash() const;
+  string hash() const;
 
   const FilePlace& place_;
-  const std::function<std::string()> request_;
+  const function<string()> request_;
 };
 
 /// Whether the folder has a checkpoint, of any request.
 bool has_checkpoint(const FilePlace& place);
 
 /// That checkpoint. None: there is none, or it is damaged. Throws ExportError.
-std::optional<Checkpoint> any_checkpoint(const FilePlace& place);
+optional<Checkpoint> any_checkpoint(const FilePlace& place);
 /// The same of the folder of this path.
-std::optional<Checkpoint> any_checkpoint(const std::string& folder);
+optional<Checkpoint> any_checkpoint(const string& folder);
 
 }  // namespace carom

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <condition_variable>
 #include <csignal>
-#include <cstdint>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -21,7 +20,7 @@ class Conveyor {
   /// `use` is called once for each item sent, and leaves the item ready to be filled again.
   /// The sender calls it for the first `alone` items, so that little work starts no thread.
   /// The threads call it for the others: one of them in order, several at the same time. Without any the sender does.
-  Conveyor(std::function<void(Item&)> use, std::uint64_t alone, std::size_t threads = 1)
+  Conveyor(function<void(Item&)> use, uint64_t alone, size_t threads = 1)
       : use_(std::move(use)),
         alone_(alone),
         most_threads_(threads),
@@ -40,7 +39,7 @@ class Conveyor {
   Conveyor& operator=(const Conveyor&) = delete;
 
   /// The number of items: one is being filled, each thread uses one, and the others even out the pace.
-  std::size_t items() const { return items_.size(); }
+  size_t items() const { return items_.size(); }
 
   /// The item to fill. It stays the same until it is sent.
   Item& item() { return items_[sent_ % items_.size()]; }
@@ -73,7 +72,7 @@ class Conveyor {
   bool started() const { return !threads_.empty(); }
 
  private:
-  static constexpr std::size_t spare = 3;  // items beside those in use
+  static constexpr size_t spare = 3;  // items beside those in use
 
   /// False if the system cannot start a thread. The sender then does the work.
   bool start() {
@@ -94,7 +93,7 @@ class Conveyor {
     for (;;) {
       changed_.wait(lock, [&] { return end_ || failure_ || taken_ < sent_; });
       if (end_ || failure_) return;
-      const std::uint64_t number = taken_++;
+      const uint64_t number = taken_++;
       ++in_use_;
       lock.unlock();
       std::exception_ptr failure;
@@ -115,20 +114,20 @@ class Conveyor {
     }
   }
 
-  std::function<void(Item&)> use_;
-  std::uint64_t alone_;
-  std::size_t most_threads_;
-  std::vector<Item> items_;
+  function<void(Item&)> use_;
+  uint64_t alone_;
+  size_t most_threads_;
+  vector<Item> items_;
   std::mutex mutex_;
   std::condition_variable changed_;
   // Changed under the mutex once a thread runs.
-  std::vector<bool> busy_;  // by item: sent and not yet used
-  std::uint64_t sent_ = 0, taken_ = 0;
-  std::size_t in_use_ = 0;
+  vector<bool> busy_;  // by item: sent and not yet used
+  uint64_t sent_ = 0, taken_ = 0;
+  size_t in_use_ = 0;
   std::exception_ptr failure_;
-  std::uint64_t failed_ = 0;  // the item of failure_
+  uint64_t failed_ = 0;  // the item of failure_
   bool end_ = false;
-  std::vector<std::thread> threads_;
+  vector<std::thread> threads_;
 };
 
 }  // namespace carom

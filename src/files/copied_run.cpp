@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <map>
-#include <optional>
 
 #include "files/folder_names.h"
 #include "files/manifest.h"
@@ -17,22 +15,23 @@
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Copies a file. Its size and hash must match the record.
 void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
-  const std::string& name = from.name;
+  const string& name = from.name;
   const Descriptor source = open_stored(from.folder, name);
   if (!source) fail("copy", to, name, "it is missing from the original run");
   OutputFile file(to, name);
-  std::array<char, 65536> buffer{};
+  array<char, 65536> buffer{};
   ssize_t n;
   while ((n = read(source.get(), buffer.data(), buffer.size())) != 0) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("copy", to, name);
-    file.write({buffer.data(), static_cast<std::size_t>(n)});
+    file.write({buffer.data(), static_cast<size_t>(n)});
   }
   file.complete();
   if (file.record().sha256 != record.sha256) fail("copy", to, name, "the original run has changed");
@@ -41,11 +40,10 @@ void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& reco
 
 }  // namespace
 
-void copy_run(const std::string& from, const std::string& to) {
+void copy_run(const string& from, const string& to) {
   const Descriptor source = open_folder(AT_FDCWD, from, true);
-  const std::optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : std::nullopt;
-  const std::optional<std::string> text =
-      manifest ? read_text(source.get(), manifest_name, largest_manifest) : std::nullopt;
+  const optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : nullopt;
+  const optional<string> text = manifest ? read_text(source.get(), manifest_name, largest_manifest) : nullopt;
   if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
   OpenFolder folder(to, Durability::deferred);
   remove_files_of_run(folder.place());
@@ -64,7 +62,7 @@ void copy_run(const std::string& from, const std::string& to) {
   folder.keep();
 }
 
-void remove_run(const std::string& path) {
+void remove_run(const string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, false);
   if (!folder) return;
   remove_files_of_run({folder.get(), path});

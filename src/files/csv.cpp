@@ -2,14 +2,16 @@
 // A spreadsheet would run such a text as a formula.
 #include "files/csv.h"
 
+#include "std.h"
+
 namespace carom {
 
-std::string text_cell(std::string_view text) {
-  std::string cell;
-  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos) cell += '\'';
+string text_cell(string_view text) {
+  string cell;
+  if (!text.empty() && string_view("=+-@\t\r").find(text.front()) != string_view::npos) cell += '\'';
   cell += text;
-  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
-  std::string quoted = "\"";
+  if (cell.find_first_of(",\"\r\n") == string::npos) return cell;
+  string quoted = "\"";
   for (const char c : cell) {
     if (c == '"') quoted += '"';
     quoted += c;
@@ -22,7 +24,7 @@ void CsvRow::separate() {
   first_ = false;
 }
 
-CsvRow& CsvRow::text(std::string_view text) {
+CsvRow& CsvRow::text(string_view text) {
   separate();
   file_.write(text_cell(text));
   return *this;
@@ -34,7 +36,7 @@ CsvRow& CsvRow::number(double value) {
   return *this;
 }
 
-CsvRow& CsvRow::count(std::uint64_t value) {
+CsvRow& CsvRow::count(uint64_t value) {
   separate();
   file_.written(put_number(file_.room(number_size), value));
   return *this;

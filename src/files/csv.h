@@ -4,48 +4,45 @@
 // Lines end in LF.
 #include <charconv>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
 
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
 /// The maximum number of characters in a number's cell: -1.7976931348623157e+308.
-inline constexpr std::size_t number_size = 24;
+inline constexpr size_t number_size = 24;
 
 /// Writes a number's cell and returns its end. Minus zero is written as 0, and a non-finite value as an empty cell.
 inline char* put_number(char* to, double value) {
   if (!std::isfinite(value)) return to;
   return std::to_chars(to, to + number_size, value == 0 ? 0.0 : value).ptr;
 }
-inline char* put_number(char* to, std::uint64_t value) {
+inline char* put_number(char* to, uint64_t value) {
   return std::to_chars(to, to + number_size, value).ptr;
 }
 
-inline char* put_text(char* to, std::string_view text) {
+inline char* put_text(char* to, string_view text) {
   return to + text.copy(to, text.size());
 }
 
 /// The cell of a number.
-inline std::string number_cell(double value) {
+inline string number_cell(double value) {
   char text[number_size];
   return {text, put_number(text, value)};
 }
 
 /// Any text as a cell, in quotes where needed.
 /// A text that a spreadsheet would take for a formula gets an apostrophe in front.
-std::string text_cell(std::string_view text);
+string text_cell(string_view text);
 
 /// One row at a time, cell by cell, for tables with few rows. The trajectory writes into its file's buffer directly.
 class CsvRow {
  public:
   explicit CsvRow(OutputFile& file) : file_(file) {}
-  CsvRow& text(std::string_view text);
+  CsvRow& text(string_view text);
   CsvRow& number(double value);
-  CsvRow& count(std::uint64_t value);
+  CsvRow& count(uint64_t value);
   void end();
 
  private:

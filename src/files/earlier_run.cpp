@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "files/checkpoint_file.h"
 #include "files/folder_names.h"
@@ -13,14 +11,15 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/series_folders.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// The first entry that no interrupted run leaves. Empty: there is none.
-std::string entry_of_no_run(const FoundFolder& found) {
-  const std::vector<std::string> series = series_folder_names();
-  const auto is_foreign = [&](const std::string& name) {
+string entry_of_no_run(const FoundFolder& found) {
+  const vector<string> series = series_folder_names();
+  const auto is_foreign = [&](const string& name) {
     return name != "scene.yaml" && !is_part_name(name) && std::ranges::find(series, name) == series.end();
   };
   const auto entry = std::ranges::find_if(found.names, is_foreign);
@@ -29,13 +28,13 @@ std::string entry_of_no_run(const FoundFolder& found) {
 
 }  // namespace
 
-std::string path_from(const std::string& folder, const std::string& scene_file) {
+string path_from(const string& folder, const string& scene_file) {
   // Of a relative path that does not exist the canonical form is relative.
   const std::filesystem::path file = canonical(absolute(scene_file));
   return valid_utf8(file.lexically_relative(canonical(absolute(folder))).string());
 }
 
-EarlierRun find_earlier_run(const std::string& path, const SceneOrigin& origin) {
+EarlierRun find_earlier_run(const string& path, const SceneOrigin& origin) {
   EarlierRun run;
   const FoundFolder found = find_folder(path);
   if (!found.folder || origin.path.empty()) return run;

@@ -9,15 +9,16 @@
 
 #include "files/open_folder.h"
 #include "files/stored_file.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
+constexpr uint64_t longest_reason = 1 << 20;  // bytes
 
 }  // namespace
 
-void store_failure(const std::string& path, const std::string& why) {
+void store_failure(const string& path, const string& why) {
   OpenFolder folder(path, Durability::deferred);
   remove_files_of_run(folder.place());
   OutputFile file(folder.place(), failure_file);
@@ -27,15 +28,15 @@ void store_failure(const std::string& path, const std::string& why) {
   folder.keep();
 }
 
-bool names_full_disk(const std::string& why) {
+bool names_full_disk(const string& why) {
   // The text, since a worker process or a program such as ffmpeg reports no more than that.
-  return why.find(std::strerror(ENOSPC)) != std::string::npos || why.find(std::strerror(EDQUOT)) != std::string::npos;
+  return why.find(std::strerror(ENOSPC)) != string::npos || why.find(std::strerror(EDQUOT)) != string::npos;
 }
 
-std::string stored_failure(const std::string& path) {
+string stored_failure(const string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   if (!folder) return "";
-  std::string text = read_text(folder.get(), failure_file, longest_reason).value_or("");
+  string text = read_text(folder.get(), failure_file, longest_reason).value_or("");
   while (text.ends_with('\n')) text.pop_back();
   return text;
 }

@@ -8,43 +8,44 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <optional>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view tail = ".part";
+constexpr string_view tail = ".part";
 
 /// None, with errno set: the folder cannot be read.
-std::optional<std::vector<std::string>> read_names(int folder) {
+optional<vector<string>> read_names(int folder) {
   // Open the folder again, because reading moves a position that descriptors made by dup() share.
   Descriptor copy(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   DIR* stream = copy ? fdopendir(copy.get()) : nullptr;
-  if (!stream) return std::nullopt;
+  if (!stream) return nullopt;
   copy.release();
-  std::vector<std::string> names;
+  vector<string> names;
   errno = 0;
   while (const dirent* entry = readdir(stream)) {
-    const std::string_view name = entry->d_name;
+    const string_view name = entry->d_name;
     if (name != "." && name != "..") names.emplace_back(name);
   }
   const int error = errno;
   closedir(stream);
   errno = error;
-  if (error != 0) return std::nullopt;
-  std::sort(names.begin(), names.end());
+  if (error != 0) return nullopt;
+  std::ranges::sort(names);
   return names;
 }
 
 }  // namespace
 
-std::vector<std::string> folder_names(int folder) {
+vector<string> folder_names(int folder) {
   auto names = read_names(folder);
   if (!names) fail("read", place_of(folder), "");
   return std::move(*names);
 }
 
-bool try_to_remove(int folder, const std::string& name) {
+bool try_to_remove(int folder, const string& name) {
   // A child process of a killed run may still create files in its folder. Therefore there is more than one attempt.
   for (int attempt = 0; attempt < 10; ++attempt) {
     if (unlinkat(folder, name.c_str(), 0) == 0 || is_absent(errno)) return true;
@@ -53,7 +54,7 @@ bool try_to_remove(int folder, const std::string& name) {
     if (!inner) return is_absent(errno);
     const auto names = read_names(inner.get());
     if (!names) return false;
-    for (const std::string& entry : *names)
+    for (const string& entry : *names)
       if (!try_to_remove(inner.get(), entry)) return false;
     if (unlinkat(folder, name.c_str(), AT_REMOVEDIR) == 0) return true;
     if (errno != ENOTEMPTY && errno != EEXIST) return is_absent(errno);
@@ -61,25 +62,25 @@ bool try_to_remove(int folder, const std::string& name) {
   return false;
 }
 
-void remove_entry(const FilePlace& place, const std::string& name) {
+void remove_entry(const FilePlace& place, const string& name) {
   if (!try_to_remove(place.folder, name)) fail("remove", place, name);
 }
 
-void remove_parts(const FilePlace& place, std::string_view spared) {
-  for (const std::string& name : folder_names(place.folder))
+void remove_parts(const FilePlace& place, string_view spared) {
+  for (const string& name : folder_names(place.folder))
     if (is_part_name(name) && name != spared) remove_entry(place, name);
 }
 
-void remove_file(const FilePlace& place, const std::string& name) {
+void remove_file(const FilePlace& place, const string& name) {
   if (unlinkat(place.folder, name.c_str(), 0) != 0 && !is_absent(errno)) fail("remove", place, name);
 }
 
-bool is_part_name(std::string_view name) {
+bool is_part_name(string_view name) {
   return name.size() > 1 + tail.size() && name.starts_with('.') && name.ends_with(tail);
 }
 
-std::string name_of_part(std::string_view part) {
-  return std::string(part.substr(1, part.size() - 1 - tail.size()));
+string name_of_part(string_view part) {
+  return string(part.substr(1, part.size() - 1 - tail.size()));
 }
 
 }  // namespace carom

@@ -1,32 +1,30 @@
 #pragma once
 // The entries of a folder.
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/part_file.h"
+#include "std.h"
 
 namespace carom {
 
 /// The names in an open folder, sorted, without . and .. Throws ExportError.
-std::vector<std::string> folder_names(int folder);
+vector<string> folder_names(int folder);
 
 /// Whether part_name() can produce this name. Such files are being written, or were when a run was killed.
-bool is_part_name(std::string_view name);
+bool is_part_name(string_view name);
 
 /// The final name of a temporary file.
-std::string name_of_part(std::string_view part);
+string name_of_part(string_view part);
 
 /// Removes an entry if it exists: a file, a link, or a folder that holds only files and links. Throws ExportError.
-void remove_entry(const FilePlace& place, const std::string& name);
+void remove_entry(const FilePlace& place, const string& name);
 
 /// The same without exceptions. Returns false, with errno set, if the entry still exists.
-bool try_to_remove(int folder, const std::string& name);
+bool try_to_remove(int folder, const string& name);
 
 /// Removes all temporary files in a folder except `spared`. Throws ExportError.
-void remove_parts(const FilePlace& place, std::string_view spared = {});
+void remove_parts(const FilePlace& place, string_view spared = {});
 
 /// Removes a file if it exists, and no other kind of entry. Throws ExportError.
-void remove_file(const FilePlace& place, const std::string& name);
+void remove_file(const FilePlace& place, const string& name);
 
 }  // namespace carom

@@ -2,23 +2,21 @@
 // SHA-256, with which a manifest records the content of each file.
 #include <nettle/sha2.h>
 
-#include <cstddef>
-#include <string>
-#include <string_view>
+#include "std.h"
 
 namespace carom {
 
 class Sha256 {
  public:
   Sha256() { sha256_init(&context_); }
-  void add(std::string_view bytes);
+  void add(string_view bytes);
   /// 64 lower-case hexadecimal digits of all bytes added. The hash then starts anew.
-  std::string hex();
+  string hex();
 
  private:
   sha256_ctx context_;
 };
 
-std::string sha256(std::string_view bytes);
+string sha256(string_view bytes);
 
 }  // namespace carom

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +16,7 @@
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -29,31 +29,31 @@ constexpr const char* tool = "carom";
 Json outputs_json(const Output& output) {
   Json json = Json::object();
   for (const OutputKind& kind : output_kinds())
-    if (kind.asked(output)) json[std::string(kind.name)] = kind.settings(output);
+    if (kind.asked(output)) json[string(kind.name)] = kind.settings(output);
   return json;
 }
 
 /// The text member `key`. Empty: absent.
-std::string text_member(const Json& json, const char* key) {
+string text_member(const Json& json, const char* key) {
   if (!json.is_object()) return {};
   const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+  return found != json.end() && found->is_string() ? found->get<string>() : string();
 }
 
 /// The whole-number member `key`. 0: absent.
-std::uint64_t whole_member(const Json& json, const char* key) {
+uint64_t whole_member(const Json& json, const char* key) {
   if (!json.is_object()) return 0;
   const auto found = json.find(key);
-  return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+  return found != json.end() && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
 }
 
 /// Whether brackets are nested deeper than in any manifest.
 /// Writing such a value as text recurses as deep and may exhaust the stack.
-bool is_too_deep(std::string_view text) {
+bool is_too_deep(string_view text) {
   constexpr int deepest = 64;
   int depth = 0;
   bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (quoted && c == '\\') ++i;
     if (c == '"') quoted = !quoted;
@@ -65,12 +65,12 @@ bool is_too_deep(std::string_view text) {
   return false;
 }
 
-std::optional<FileRecord> file_record(const Json& json) {
+optional<FileRecord> file_record(const Json& json) {
   FileRecord record{text_member(json, "name"), 0, text_member(json, "sha256")};
-  if (!is_run_file(record.name) || record.sha256.size() != 64) return std::nullopt;
+  if (!is_run_file(record.name) || record.sha256.size() != 64) return nullopt;
   const auto bytes = json.find("bytes");
-  if (bytes == json.end() || !bytes->is_number_unsigned()) return std::nullopt;
-  record.bytes = bytes->get<std::uint64_t>();
+  if (bytes == json.end() || !bytes->is_number_unsigned()) return nullopt;
+  record.bytes = bytes->get<uint64_t>();
   return record;
 }
 
@@ -78,11 +78,11 @@ SceneOrigin origin_in(const Json& scene) {
   SceneOrigin origin{text_member(scene, "path"), {}};
   if (!scene.is_object() || !scene.contains("settings") || !scene["settings"].is_array()) return origin;
   for (const Json& setting : scene["settings"])
-    if (setting.is_string()) origin.settings.push_back(setting.get<std::string>());
+    if (setting.is_string()) origin.settings.push_back(setting.get<string>());
   return origin;
 }
 
-Json files_json(const std::vector<FileRecord>& files) {
+Json files_json(const vector<FileRecord>& files) {
   Json list = Json::array();
   for (const FileRecord& file : files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
@@ -108,8 +108,8 @@ Json meshes_json(const Scene& scene) {
   return meshes;
 }
 
-std::string whole_text(const Json& of_scene, const std::string& outputs, const Json& meshes, const std::string& facts,
-                       const std::vector<FileRecord>& files) {
+string whole_text(const Json& of_scene, const string& outputs, const Json& meshes, const string& facts,
+                  const vector<FileRecord>& files) {
   Json json;
   json["tool"] = tool;
   json["version"] = CAROM_VERSION;
@@ -123,21 +123,20 @@ std::string whole_text(const Json& of_scene, const std::string& outputs, const J
 
 }  // namespace
 
-std::string outputs_text(const Output& output) {
+string outputs_text(const Output& output) {
   return text_of_json(outputs_json(output));
 }
 
-std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
-                          const std::vector<FileRecord>& files) {
+string manifest_text(const Scene& scene, const string& outputs, const string& facts, const vector<FileRecord>& files) {
   return whole_text(scene_json(scene, {}), outputs, meshes_json(scene), facts, files);
 }
 
-std::string manifest_text(const std::string& outputs, const std::string& facts, const std::vector<FileRecord>& files) {
+string manifest_text(const string& outputs, const string& facts, const vector<FileRecord>& files) {
   return whole_text(Json::object(), outputs, Json::object(), facts, files);
 }
 
-std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
-                          const std::vector<FileRecord>& files) {
+string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
+                     const vector<FileRecord>& files) {
   Json json;
   json["counts"] = {{"bodies", summary.bodies}, {"collisions", summary.collisions}, {"frames", summary.frames}};
   json["wall_times_s"] = {
@@ -155,7 +154,7 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
                     files);
 }
 
-std::string changed_manifest(const std::string& text, const Scene& scene, const std::vector<FileRecord>& files) {
+string changed_manifest(const string& text, const Scene& scene, const vector<FileRecord>& files) {
   const Output& output = scene.output;
   Json json = json_of_text(text);
   if (!json.is_object()) throw ExportError("the run's manifest.json cannot be read");
@@ -172,13 +171,13 @@ std::string changed_manifest(const std::string& text, const Scene& scene, const 
   return text_of_json(json, 2) + "\n";
 }
 
-std::optional<Manifest> read_manifest(int folder, const std::string& name) {
+optional<Manifest> read_manifest(int folder, const string& name) {
   const auto text = read_text(folder, name, largest_manifest);
-  if (!text || is_too_deep(*text)) return std::nullopt;
+  if (!text || is_too_deep(*text)) return nullopt;
   const Json json = json_of_text(*text);
-  if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
+  if (!json.is_object() || text_member(json, "tool") != tool) return nullopt;
   const auto outputs = json.find("outputs"), files = json.find("files");
-  if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
+  if (outputs == json.end() || files == json.end() || !files->is_array()) return nullopt;
   Manifest manifest{text_member(json, "version"),
                     text_member(json.value("scene", Json()), "sha256"),
                     text_of_json(*outputs),
@@ -189,47 +188,47 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   manifest.scene_file = text_member(json.value("scene", Json()), "file");
   if (const Json of_scene = json.value("scene", Json()); of_scene.is_object() && of_scene.contains("expressions"))
     for (const auto& [path, expression] : of_scene["expressions"].items())
-      if (expression.is_string()) manifest.expressions.emplace(path, expression.get<std::string>());
+      if (expression.is_string()) manifest.expressions.emplace(path, expression.get<string>());
   manifest.origin = origin_in(json.value("scene", Json()));
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
     for (const auto& [file, why] : left_out->items())
-      manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
+      manifest.left_out.push_back({file, why.is_string() ? why.get<string>() : ""});
   if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
     for (const auto& [measure, value] : measures->items())
       manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan(""),
-                                   value.is_string() ? value.get<std::string>() : std::string()});
+                                   value.is_string() ? value.get<string>() : string()});
   if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
     for (const Json& warning : *warnings)
       manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});
   if (const auto failed = json.find("failed"); failed != json.end() && failed->is_array())
     for (const Json& id : *failed)
-      if (id.is_string()) manifest.failed.push_back(id.get<std::string>());
+      if (id.is_string()) manifest.failed.push_back(id.get<string>());
   for (const Json& entry : *files) {
     auto record = file_record(entry);
-    if (!record) return std::nullopt;
+    if (!record) return nullopt;
     manifest.files.push_back(std::move(*record));
   }
   return manifest;
 }
 
-bool is_run_file(std::string_view name) {
+bool is_run_file(string_view name) {
   return series_of(name) != nullptr || is_plain_name(name);
 }
 
-std::vector<std::string> run_files(const Scene& scene, const Output& output) {
-  std::vector<std::string> names = {"scene.yaml", "summary.csv"};
+vector<string> run_files(const Scene& scene, const Output& output) {
+  vector<string> names = {"scene.yaml", "summary.csv"};
   for (const MeshFile& mesh : scene.meshes) {
     if (!mesh.copy.empty()) names.push_back(mesh.copy);
   }
-  for (std::string& name : output_files(output)) names.push_back(std::move(name));
+  for (string& name : output_files(output)) names.push_back(std::move(name));
   for (const OutputKind& kind : output_kinds())
-    for (const std::string_view name : parts_of(kind.series.names))
+    for (const string_view name : parts_of(kind.series.names))
       if (kind.asked(output)) names.push_back(fmt::format("{}/{}", kind.series.folder, name));
   return names;
 }
 
-std::string valid_utf8(const std::string& text) {
-  return json_of_text(text_of_json(text)).get<std::string>();
+string valid_utf8(const string& text) {
+  return json_of_text(text_of_json(text)).get<string>();
 }
 
 }  // namespace carom

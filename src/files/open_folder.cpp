@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <optional>
 #include <system_error>
-#include <vector>
 
 #include "files/checkpoint_file.h"
 #include "files/folder_names.h"
@@ -25,6 +23,7 @@
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -32,37 +31,37 @@ namespace {
 /// The name of a manifest while its files are removed, so that an interrupted removal can continue.
 constexpr const char* former_manifest = ".manifest.json.former";
 
-void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
+void add_files(vector<string>& names, const optional<Manifest>& manifest) {
   if (!manifest) return;
   for (const FileRecord& file : manifest->files) names.push_back(file.name);
 }
 
 /// Adds the files that an interrupted run of this scene may have left without a manifest that names them.
-void add_remains(std::vector<std::string>& names, int folder, const Scene& scene) {
-  for (std::string& name : run_files(scene, with_all(scene.output))) names.push_back(std::move(name));
+void add_remains(vector<string>& names, int folder, const Scene& scene) {
+  for (string& name : run_files(scene, with_all(scene.output))) names.push_back(std::move(name));
   names.insert(names.end(), bench_files.begin(), bench_files.end());
   SeriesFolders folders(folder);
-  for (const std::string& series : series_folder_names())
+  for (const string& series : series_folder_names())
     if (const int inner = folders.open(series); inner >= 0)
-      for (const std::string& name : folder_names(inner)) names.push_back(series + "/" + name);
+      for (const string& name : folder_names(inner)) names.push_back(series + "/" + name);
 }
 
 }  // namespace
 
-Descriptor open_folder(int parent, const std::string& name, bool follow) {
+Descriptor open_folder(int parent, const string& name, bool follow) {
   Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
   if (!folder && !is_absent(errno) && (follow || errno != ELOOP)) fail("open", place_of(parent), name);
   return folder;
 }
 
-Standing what_stands(const std::string& path) {
+Standing what_stands(const string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) == 0) return S_ISDIR(info.st_mode) ? Standing::folder : Standing::other;
   if (!is_absent(errno)) fail("look at", {AT_FDCWD, ""}, path);
   return Standing::nothing;
 }
 
-bool is_same_folder(const std::string& a, const std::string& b) {
+bool is_same_folder(const string& a, const string& b) {
   const Descriptor one = open_folder(AT_FDCWD, a, true), other = open_folder(AT_FDCWD, b, true);
   if (!one || !other) return false;
   struct stat first {
@@ -72,21 +71,21 @@ bool is_same_folder(const std::string& a, const std::string& b) {
   return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
-std::string canonical(const std::string& path) {
+string canonical(const string& path) {
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::weakly_canonical(path.empty() ? "." : path, error);
   if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
   return whole.string();
 }
 
-std::string absolute(const std::string& path) {
+string absolute(const string& path) {
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
   if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
   return whole.string();
 }
 
-std::string name_of_folder(const std::string& folder) {
+string name_of_folder(const string& folder) {
   const std::filesystem::path path = std::filesystem::path(absolute(folder)).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
@@ -103,7 +102,7 @@ bool lock_folder(const FilePlace& place, LockKind kind) {
 
 void remove_files_of_run(const FilePlace& place) {
   const int folder = place.folder;
-  std::vector<std::string> names;
+  vector<string> names;
   for (const char* manifest : {manifest_name, former_manifest, next_manifest})
     add_files(names, read_manifest(folder, manifest));
   if (names.empty() && stored_size(folder, "scene.yaml")) add_remains(names, folder, Scene());
@@ -117,7 +116,7 @@ void remove_files_of_run(const FilePlace& place) {
   remove_file(place, "scene.yaml");
 }
 
-OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {
+OpenFolder::OpenFolder(const string& path, Durability durability) : durability_(durability) {
   place_.path = path.empty() ? "." : path;
   while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();
   std::error_code error;
@@ -156,14 +155,14 @@ OpenFolder::~OpenFolder() {
   if (renews_) {
     first_files_.clear();
     // Nothing was committed, so the remaining temporary folders are removed.
-    for (const std::string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
+    for (const string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
     return;
   }
   if (has_checkpoint(place_) || committed_) return;
   if (!begun_.empty()) remove_own_parts();
   if (keep_) return;
   if (!begun_.empty()) {
-    for (const std::string& series : series_folder_names())
+    for (const string& series : series_folder_names())
       // Succeeds only if the folder is empty.
       unlinkat(place_.folder, series.c_str(), AT_REMOVEDIR);
   }
@@ -182,27 +181,27 @@ void OpenFolder::remove_own_parts() const {
 
 /// Refuses in advance what would make the renaming fail: a folder in a file's place, or a file in a series' place.
 void OpenFolder::refuse_folders(const Scene& scene) const {
-  for (const std::string& name : run_files(scene, scene.output)) refuse_folder(place_, name);
+  for (const string& name : run_files(scene, scene.output)) refuse_folder(place_, name);
   for (const OutputKind& kind : output_kinds()) {
     if (kind.series.folder.empty() || !kind.asked(scene.output)) continue;
-    const std::string series(kind.series.folder);
+    const string series(kind.series.folder);
     if (!open_folder(place_.folder, series, false) && errno != ENOENT)
       fail("open", place_, series, "it is not a folder, or a link; remove it");
   }
 }
 
 /// Writes one of the first files.
-void OpenFolder::put(const std::string& name, const std::string& bytes) {
+void OpenFolder::put(const string& name, const string& bytes) {
   OutputFile file(place_, name);
   file.write(bytes);
   file.publish();
   begun_.push_back(file.record());
 }
 
-std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+vector<FileRecord> OpenFolder::begin(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   const int folder = place_.folder;
-  std::vector<std::string> names;
+  vector<string> names;
   const auto manifest = read_manifest(folder, manifest_name);
   add_files(names, manifest);
   add_files(names, read_manifest(folder, former_manifest));
@@ -225,7 +224,7 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
   return begun_;
 }
 
-std::vector<FileRecord> OpenFolder::go_on(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+vector<FileRecord> OpenFolder::go_on(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   put("scene.yaml", scene.resolved);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
@@ -233,13 +232,13 @@ std::vector<FileRecord> OpenFolder::go_on(const Scene& scene, const std::vector<
   return begun_;
 }
 
-std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+vector<FileRecord> OpenFolder::renew(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   renews_ = true;
   remove_leavings(place_);
-  std::vector<FileRecord> records;
-  const auto put = [&](const std::string& name, const std::string& bytes) {
-    OutputFile& file = *first_files_.emplace_back(std::make_unique<OutputFile>(place_, name));
+  vector<FileRecord> records;
+  const auto put = [&](const string& name, const string& bytes) {
+    OutputFile& file = *first_files_.emplace_back(make_unique<OutputFile>(place_, name));
     file.write(bytes);
     file.complete();
     records.push_back(file.record());
@@ -250,7 +249,7 @@ std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<
 }
 
 FilePlace OpenFolder::series(const FileSeries& series) {
-  const std::string name = renews_ ? part_name(series.folder) : std::string(series.folder);
+  const string name = renews_ ? part_name(series.folder) : string(series.folder);
   const FilePlace place{-1, place_.path + "/" + name};
   if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
   Descriptor folder = open_folder(place_.folder, name, false);
@@ -259,7 +258,7 @@ FilePlace OpenFolder::series(const FileSeries& series) {
   return {series_.back().get(), place.path};
 }
 
-void OpenFolder::publish(std::vector<PartFile*> files, OutputFile& manifest) {
+void OpenFolder::publish(vector<PartFile*> files, OutputFile& manifest) {
   for (const auto& file : first_files_) files.push_back(file.get());
   try {
     carom::publish(place_, durability_, files, manifest);

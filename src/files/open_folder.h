@@ -1,14 +1,12 @@
 #pragma once
 // The folder of a run during writing: locked, cleared of a former run, and cleaned up when the run fails.
 #include <atomic>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "files/mesh_copies.h"
 #include "files/output_file.h"
 #include "files/run_folder.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,24 +15,24 @@ struct Scene;
 /// Opens a folder.
 /// Returns none, with errno set, if it is absent, no folder, or a link without `follow`.
 /// Throws ExportError on other errors.
-Descriptor open_folder(int parent, const std::string& name, bool follow);
+Descriptor open_folder(int parent, const string& name, bool follow);
 
 enum class Standing { nothing, folder, other };
 /// The kind of entry at a path. Throws ExportError if that cannot be determined.
-Standing what_stands(const std::string& path);
+Standing what_stands(const string& path);
 
 /// Whether two paths lead to the same existing folder. Throws ExportError if that cannot be determined.
-bool is_same_folder(const std::string& a, const std::string& b);
+bool is_same_folder(const string& a, const string& b);
 
 /// The path with links resolved as far as it exists. Throws ExportError if that cannot be determined.
-std::string canonical(const std::string& path);
+string canonical(const string& path);
 
 /// The absolute path. Throws ExportError if that cannot be determined.
-std::string absolute(const std::string& path);
+string absolute(const string& path);
 
 /// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".
 /// Throws ExportError if that cannot be determined.
-std::string name_of_folder(const std::string& folder);
+string name_of_folder(const string& folder);
 
 enum class LockKind { alone, shared };
 /// Locks a folder. Returns false if the lock is held elsewhere. Throws ExportError.
@@ -49,7 +47,7 @@ class OpenFolder {
  public:
   /// Makes the folder and its parents if needed, locks it against other runs, and finishes an interrupted publication.
   /// Throws ExportError, as all functions of this class do.
-  explicit OpenFolder(const std::string& path, Durability durability = Durability::synced);
+  explicit OpenFolder(const string& path, Durability durability = Durability::synced);
   /// Where a checkpoint stands (checkpoint_file.h), and after publish(), all stays. Else the run's temporary files are
   /// removed; and without keep() scene.yaml, meshes, and folders that this run made and that are then empty.
   ~OpenFolder();
@@ -60,17 +58,17 @@ class OpenFolder {
 
   /// Removes what a former run left, then writes this scene's scene.yaml and the copies of its meshes.
   /// The order ensures that inspect_folder is correct at every moment. Returns the records of all files written.
-  std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
+  vector<FileRecord> begin(const Scene& scene, const vector<MeshCopy>& meshes = {});
 
   /// Replaces begin() if the folder holds an interrupted run of this request (checkpoint_file.h). All of it stays.
   /// Returns the records of scene.yaml and of the copies of meshes.
-  std::vector<FileRecord> go_on(const Scene& scene, const std::vector<MeshCopy>& meshes);
+  vector<FileRecord> go_on(const Scene& scene, const vector<MeshCopy>& meshes);
 
   /// Replaces begin() if the folder holds a complete run of the same motion. All files stay unchanged until publish().
   /// publish() then puts the new scene.yaml and the files written meanwhile in place.
   /// They replace the files of that run that the new manifest does not name.
   /// Returns the records of scene.yaml and of the copies of meshes.
-  std::vector<FileRecord> renew(const Scene& scene, const std::vector<MeshCopy>& meshes);
+  vector<FileRecord> renew(const Scene& scene, const vector<MeshCopy>& meshes);
 
   /// Makes the folder of a series if needed, and opens it.
   FilePlace series(const FileSeries& series);
@@ -80,7 +78,7 @@ class OpenFolder {
 
   /// Renames complete files to their final names, then the manifest (publication.h).
   /// One sync for all files costs a fraction of one sync for each.
-  void publish(std::vector<PartFile*> files, OutputFile& manifest);
+  void publish(vector<PartFile*> files, OutputFile& manifest);
 
  private:
   void lock();
@@ -91,20 +89,20 @@ class OpenFolder {
     renews_ = false;
   }
   void refuse_folders(const Scene& scene) const;
-  void put(const std::string& name, const std::string& bytes);
+  void put(const string& name, const string& bytes);
   void remove_own_parts() const;
 
   Durability durability_;
   Descriptor folder_;
-  std::vector<Descriptor> series_;
+  vector<Descriptor> series_;
   FilePlace place_;
   bool made_ = false;
   std::atomic<bool> keep_ = false;
   bool committed_ = false;
-  std::vector<FileRecord> begun_;  // the files written by begin()
+  vector<FileRecord> begun_;  // the files written by begin()
   // After renew(), series are written in temporary folders until publish().
   bool renews_ = false;
-  std::vector<std::unique_ptr<OutputFile>> first_files_;
+  vector<unique_ptr<OutputFile>> first_files_;
 };
 
 }  // namespace carom

@@ -14,23 +14,24 @@
 #include "files/folder_names.h"
 #include "files/run_folder.h"
 #include "physics/archive.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Large enough to make system calls negligible, and small enough to stay in cache during hashing.
-constexpr std::size_t least_block = std::size_t{256} * 1024;
+constexpr size_t least_block = size_t{256} * 1024;
 
 /// The number of pieces after which a file starts a thread.
-constexpr std::uint64_t pieces_alone = 8;
+constexpr uint64_t pieces_alone = 8;
 
 /// The number of bytes after which the system is requested to begin writing to disk.
 /// The sync at the end then has little left to do.
-constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
+constexpr uint64_t early_size = uint64_t{32} * 1024 * 1024;
 
 }  // namespace
 
-OutputFile::OutputFile(const FilePlace& place, std::string name)
+OutputFile::OutputFile(const FilePlace& place, string name)
     : PartFile(place, std::move(name)),
       has_name_(true),
       pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
@@ -59,10 +60,10 @@ OutputFile::OutputFile(const FilePlace& place, Descriptor nameless)
       has_name_(false),
       pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {}
 
-void OutputFile::write(std::string_view bytes) {
+void OutputFile::write(string_view bytes) {
   while (used_ + bytes.size() > size_) {
     if (used_ == size_) make_room(1);
-    const std::size_t now = std::min(bytes.size(), size_ - used_);
+    const size_t now = std::min(bytes.size(), size_ - used_);
     std::memcpy(data_ + used_, bytes.data(), now);
     used_ += now;
     bytes.remove_prefix(now);
@@ -72,9 +73,9 @@ void OutputFile::write(std::string_view bytes) {
   used_ += bytes.size();
 }
 
-void OutputFile::make_room(std::size_t size) {
+void OutputFile::make_room(size_t size) {
   flush();
-  std::vector<char>& bytes = pieces_.item().bytes;
+  vector<char>& bytes = pieces_.item().bytes;
   if (bytes.size() < size) bytes.resize(std::max(size, least_block));
   data_ = bytes.data();
   size_ = bytes.size();
@@ -90,14 +91,14 @@ void OutputFile::flush() {
 
 void OutputFile::put(const Piece& piece) {
   if (has_name_) hash_.add({piece.bytes.data(), piece.used});
-  for (std::size_t done = 0; done < piece.used;) {
+  for (size_t done = 0; done < piece.used;) {
     const ssize_t n = ::write(file_.get(), piece.bytes.data() + done, piece.used - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail("write", place_, record_.name);
-    done += static_cast<std::size_t>(n);
+    done += static_cast<size_t>(n);
   }
   record_.bytes += piece.used;
-  if (const std::uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
+  if (const uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
     // If the file system does not support this, the sync at the end does all of it.
     sync_file_range(file_.get(), static_cast<off_t>(on_the_way_), static_cast<off_t>(more), SYNC_FILE_RANGE_WRITE);
     on_the_way_ = record_.bytes;
@@ -120,15 +121,15 @@ void OutputFile::go_on(const WrittenPart& part) {
   size_ = 0;
   pieces_.finish();
   hash_ = {};
-  std::vector<char> buffer(least_block);
+  vector<char> buffer(least_block);
   for (record_.bytes = 0; record_.bytes < part.bytes;) {
-    const std::size_t most = std::min<std::uint64_t>(buffer.size(), part.bytes - record_.bytes);
+    const size_t most = std::min<uint64_t>(buffer.size(), part.bytes - record_.bytes);
     const ssize_t n = pread(file_.get(), buffer.data(), most, static_cast<off_t>(record_.bytes));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", place_, record_.name);
     if (n == 0) throw ArchiveError();
-    hash_.add({buffer.data(), static_cast<std::size_t>(n)});
-    record_.bytes += static_cast<std::size_t>(n);
+    hash_.add({buffer.data(), static_cast<size_t>(n)});
+    record_.bytes += static_cast<size_t>(n);
   }
   if (Sha256(hash_).hex() != part.sha256) throw ArchiveError();
 

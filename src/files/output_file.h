@@ -1,21 +1,17 @@
 #pragma once
 // A file that appears complete or not at all: written under a temporary name, hashed on the way, then renamed.
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/conveyor.h"
 #include "files/hash.h"
 #include "files/part_file.h"
+#include "std.h"
 
 namespace carom {
 
 /// The part of a file that is written: what a run that goes on later needs to know of it.
 struct WrittenPart {
-  std::uint64_t bytes = 0;
-  std::string sha256;
+  uint64_t bytes = 0;
+  string sha256;
 
   void keep(auto& archive) { archive(bytes, sha256); }
 };
@@ -24,17 +20,17 @@ struct WrittenPart {
 class OutputFile : public PartFile {
  public:
   /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all functions of this class do.
-  OutputFile(const FilePlace& place, std::string name);
+  OutputFile(const FilePlace& place, string name);
   /// Writes to a file without a name (part_file.h), which is not published.
   OutputFile(const FilePlace& place, Descriptor nameless);
 
-  void write(std::string_view bytes);
+  void write(string_view bytes);
   /// Room to write `size` bytes in place. A call of written(end) then gives the end of the bytes written.
-  char* room(std::size_t size) {
+  char* room(size_t size) {
     if (used_ + size > size_) make_room(size);
     return data_ + used_;
   }
-  void written(const char* end) { used_ = static_cast<std::size_t>(end - data_); }
+  void written(const char* end) { used_ = static_cast<size_t>(end - data_); }
 
   /// Passes all bytes so far to the system. From here on the temporary file stays, even if the run fails.
   WrittenPart pause();
@@ -53,23 +49,23 @@ class OutputFile : public PartFile {
 
  private:
   struct Piece {
-    std::vector<char> bytes;
-    std::size_t used = 0;
+    vector<char> bytes;
+    size_t used = 0;
   };
   void open_part();
   void drain();
   void flush();
-  void make_room(std::size_t size);
+  void make_room(size_t size);
   void put(const Piece& piece);
 
   Descriptor file_;
   const bool has_name_;
   Sha256 hash_;
   /// Bytes that the system was requested to write to disk.
-  std::uint64_t on_the_way_ = 0;
+  uint64_t on_the_way_ = 0;
   // The piece being filled.
   char* data_ = nullptr;
-  std::size_t size_ = 0, used_ = 0;
+  size_t size_ = 0, used_ = 0;
   /// Last, because its thread uses the members above.
   Conveyor<Piece> pieces_;
 };

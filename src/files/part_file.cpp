@@ -8,13 +8,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "files/folder_names.h"
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -44,18 +44,18 @@ void Descriptor::reset() {
 
 FilePlace place_of(int descriptor) {
   if (descriptor == AT_FDCWD) return {descriptor, ""};
-  std::array<char, 4096> path{};
+  array<char, 4096> path{};
   const ssize_t size = readlink(fmt::format("/proc/self/fd/{}", descriptor).c_str(), path.data(), path.size());
-  return {descriptor, size > 0 ? std::string(path.data(), static_cast<std::size_t>(size)) : "a file"};
+  return {descriptor, size > 0 ? string(path.data(), static_cast<size_t>(size)) : "a file"};
 }
 
-bool is_plain_name(std::string_view name) {
+bool is_plain_name(string_view name) {
   if (name.empty() || name.size() > 200 || name.front() == '.') return false;
-  return std::none_of(name.begin(), name.end(),
-                      [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
+  return std::ranges::none_of(
+      name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
 }
 
-std::string part_name(std::string_view name) {
+string part_name(string_view name) {
   return fmt::format(".{}.part", name);
 }
 
@@ -63,13 +63,13 @@ bool is_absent(int error) {
   return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG;
 }
 
-void fail(const std::string& what, const FilePlace& place, std::string_view name, const std::string& reason) {
-  const std::string why = reason.empty() ? std::strerror(errno) : reason;
-  const std::string slash = name.empty() || place.path.empty() || place.path.ends_with('/') ? "" : "/";
-  throw ExportError("cannot " + what + " " + place.path + slash + std::string(name) + ": " + why);
+void fail(const string& what, const FilePlace& place, string_view name, const string& reason) {
+  const string why = reason.empty() ? std::strerror(errno) : reason;
+  const string slash = name.empty() || place.path.empty() || place.path.ends_with('/') ? "" : "/";
+  throw ExportError("cannot " + what + " " + place.path + slash + string(name) + ": " + why);
 }
 
-void refuse_folder(const FilePlace& place, const std::string& name) {
+void refuse_folder(const FilePlace& place, const string& name) {
   struct stat info {};
   if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
     if (!is_absent(errno)) fail("write", place, name);
@@ -78,7 +78,7 @@ void refuse_folder(const FilePlace& place, const std::string& name) {
   }
 }
 
-void give_name(int from, const std::string& part, const FilePlace& place, const std::string& name) {
+void give_name(int from, const string& part, const FilePlace& place, const string& name) {
   if (renameat(from, part.c_str(), place.folder, name.c_str()) == 0) return;
   fail("write", place, name, errno == EISDIR ? folder_there : "");
 }
@@ -87,9 +87,9 @@ Descriptor nameless_file(const FilePlace& place) {
   Descriptor file(openat(place.folder, ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (file) return file;
   if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT && errno != EINVAL)
-    fail("write", place, "", std::string("a temporary file: ") + std::strerror(errno));
+    fail("write", place, "", string("a temporary file: ") + std::strerror(errno));
   // On a file system without unnamed files, create a temporary file and remove its name.
-  const std::string part = part_name("temporary");
+  const string part = part_name("temporary");
   remove_entry(place, part);
   file = Descriptor(openat(place.folder, part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   if (!file) fail("write", place, part);
@@ -97,7 +97,7 @@ Descriptor nameless_file(const FilePlace& place) {
   return file;
 }
 
-PartFile::PartFile(const FilePlace& place, std::string name) : place_(place) {
+PartFile::PartFile(const FilePlace& place, string name) : place_(place) {
   if (!is_plain_name(name))
     fail("write", place, name, "a file name must not contain a slash or a control character, or start with a dot");
   record_.name = std::move(name);

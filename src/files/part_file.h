@@ -1,8 +1,7 @@
 #pragma once
 // A file under a temporary name until it is complete, and the basic types of this folder: place, record, error.
-#include <cstdint>
-#include <string>
-#include <string_view>
+
+#include "std.h"
 
 namespace carom {
 
@@ -26,7 +25,7 @@ class Descriptor {
 struct FilePlace {
   int folder = -1;
   /// For messages, as given by the user.
-  std::string path;
+  string path;
   /// Temporary files of an interrupted run stay, to be continued (OutputFile::go_on).
   bool goes_on = false;
 };
@@ -36,36 +35,35 @@ FilePlace place_of(int descriptor);
 
 /// A file's entry in a manifest.
 struct FileRecord {
-  std::string name;  // relative to the run's folder
-  std::uint64_t bytes = 0;
-  std::string sha256;
+  string name;  // relative to the run's folder
+  uint64_t bytes = 0;
+  string sha256;
 
   void keep(auto& archive) { archive(name, bytes, sha256); }
 };
 
 /// The entry of a requested file that the run gave up.
 struct LeftOut {
-  std::string name, why;
+  string name, why;
 };
 
 /// Whether `name` can only refer to an entry of the folder itself, and is not hidden.
-bool is_plain_name(std::string_view name);
+bool is_plain_name(string_view name);
 
 /// The temporary name of a file.
-std::string part_name(std::string_view name);
+string part_name(string_view name);
 
 /// Whether this errno means that the entry is absent. Any other one is a failure and reveals nothing about the entry.
 bool is_absent(int error);
 
 /// Throws ExportError: "cannot <what> <path>/<name>: <reason>". The reason is errno's unless it is given.
-[[noreturn]] void fail(const std::string& what, const FilePlace& place, std::string_view name,
-                       const std::string& reason = {});
+[[noreturn]] void fail(const string& what, const FilePlace& place, string_view name, const string& reason = {});
 
 /// Throws ExportError if a folder has this name where a file is expected.
-void refuse_folder(const FilePlace& place, const std::string& name);
+void refuse_folder(const FilePlace& place, const string& name);
 
 /// Renames a complete file, replacing an existing file. Throws ExportError.
-void give_name(int from, const std::string& part, const FilePlace& place, const std::string& name);
+void give_name(int from, const string& part, const FilePlace& place, const string& name);
 
 /// An unnamed file in the folder's file system, for reading and writing. Throws ExportError.
 Descriptor nameless_file(const FilePlace& place);
@@ -86,13 +84,13 @@ class PartFile {
  protected:
   /// Removes an abandoned temporary file, unless the run goes on. `name` must be plain and not a folder's. Throws
   /// ExportError.
-  PartFile(const FilePlace& place, std::string name);
+  PartFile(const FilePlace& place, string name);
   /// A file that has no name.
   explicit PartFile(const FilePlace& place) : place_(place), handed_over_(true) {}
   /// Removes the temporary file unless it was renamed or handed over.
   ~PartFile();
 
-  std::string part() const { return part_name(record_.name); }
+  string part() const { return part_name(record_.name); }
 
   FilePlace place_;
   FileRecord record_;

@@ -4,35 +4,36 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <string>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::size_t processes = 1;
-std::size_t threads = 0;  // 0: a share of the processors
+size_t processes = 1;
+size_t threads = 0;  // 0: a share of the processors
 
 }  // namespace
 
-std::size_t processors() {
+size_t processors() {
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
-  return static_cast<std::size_t>(std::max(CPU_COUNT(&set), 1));
+  return static_cast<size_t>(std::max(CPU_COUNT(&set), 1));
 }
 
-void share_processors(std::size_t jobs) {
-  processes = std::max<std::size_t>(jobs, 1);
+void share_processors(size_t jobs) {
+  processes = std::max<size_t>(jobs, 1);
   setenv("LP_NUM_THREADS", std::to_string(share_of_processors()).c_str(), 0);
 }
 
-void use_threads(std::size_t count) {
+void use_threads(size_t count) {
   threads = count;
   setenv("LP_NUM_THREADS", std::to_string(count).c_str(), 1);
 }
 
-std::size_t share_of_processors() {
+size_t share_of_processors() {
   if (threads > 0) return threads;
-  return std::max<std::size_t>(1, processors() / processes);
+  return std::max<size_t>(1, processors() / processes);
 }
 
 }  // namespace carom

@@ -16,6 +16,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/series_folders.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -32,27 +33,27 @@ void sync_names(const FilePlace& place, Durability durability) {
 }
 
 /// Moves the files of a series from their temporary folder to their final one.
-void name_series(const FilePlace& place, const std::string& part, const std::set<std::string>& names) {
-  const std::string series = name_of_part(part);
+void name_series(const FilePlace& place, const string& part, const std::set<string>& names) {
+  const string series = name_of_part(part);
   const FilePlace inner{-1, place.path + "/" + series};
   const Descriptor from = open_folder(place.folder, part, false);
   if (!from) return;
   if (mkdirat(place.folder, series.c_str(), 0777) != 0 && errno != EEXIST) fail("make", inner, "");
   const Descriptor to = open_folder(place.folder, series, false);
   if (!to) fail("open", inner, "", "it is not a folder, or a link; remove it");
-  for (const std::string& name : folder_names(from.get()))
+  for (const string& name : folder_names(from.get()))
     if (names.contains(series + "/" + name)) give_name(from.get(), name, {to.get(), inner.path}, name);
 }
 
 void name_parts(const FilePlace& place, const Manifest& next) {
-  std::set<std::string> names;
+  std::set<string> names;
   for (const FileRecord& file : next.files) names.insert(file.name);
-  const std::vector<std::string> series = series_folder_names();
-  for (const std::string& part : folder_names(place.folder)) {
+  const vector<string> series = series_folder_names();
+  for (const string& part : folder_names(place.folder)) {
     if (!is_part_name(part) || part == next_manifest) continue;
-    const std::string name = name_of_part(part);
+    const string name = name_of_part(part);
     if (names.contains(name)) give_name(place.folder, part, place, name);
-    if (std::find(series.begin(), series.end(), name) != series.end()) name_series(place, part, names);
+    if (std::ranges::find(series, name) != series.end()) name_series(place, part, names);
   }
 }
 
@@ -60,9 +61,9 @@ void name_parts(const FilePlace& place, const Manifest& next) {
 void remove_former(const FilePlace& place, const Manifest& next) {
   const auto former = read_manifest(place.folder, manifest_name);
   if (!former) return;
-  std::set<std::string_view> stays;
+  std::set<string_view> stays;
   for (const FileRecord& file : next.files) stays.insert(file.name);
-  std::vector<std::string> names;
+  vector<string> names;
   for (const FileRecord& file : former->files)
     if (!stays.contains(file.name)) names.push_back(file.name);
   remove_files(place, names);
@@ -70,20 +71,20 @@ void remove_former(const FilePlace& place, const Manifest& next) {
 
 }  // namespace
 
-void remove_files(const FilePlace& place, const std::vector<std::string>& names) {
+void remove_files(const FilePlace& place, const vector<string>& names) {
   SeriesFolders folders(place.folder);
-  for (const std::string& name : names) {
+  for (const string& name : names) {
     if (!is_run_file(name)) continue;
     const FileSpot spot = folders.spot(name);
     if (spot.folder >= 0) remove_file({spot.folder, place.path}, spot.name);
   }
 }
 
-void remove_leavings(const FilePlace& place, std::string_view spared) {
+void remove_leavings(const FilePlace& place, string_view spared) {
   remove_parts(place, spared);
   remove_file(place, failure_file);
   SeriesFolders folders(place.folder);
-  for (const std::string& series : series_folder_names()) {
+  for (const string& series : series_folder_names()) {
     const int inner = folders.open(series);
     if (inner < 0) continue;
     remove_parts({inner, place.path + "/" + series});
@@ -93,7 +94,7 @@ void remove_leavings(const FilePlace& place, std::string_view spared) {
   }
 }
 
-void publish(const FilePlace& place, Durability durability, const std::vector<PartFile*>& files, OutputFile& manifest) {
+void publish(const FilePlace& place, Durability durability, const vector<PartFile*>& files, OutputFile& manifest) {
   sync_all(place, durability);
   // This rename is the moment of decision.
   give_name(place.folder, part_name(manifest_name), place, next_manifest);
@@ -114,7 +115,7 @@ void finish_publication(const FilePlace& place, Durability durability) {
   sync_names(place, durability);
 }
 
-void settle_folder(const std::string& path) {
+void settle_folder(const string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
   if (!folder) return;
   struct stat info {};

@@ -11,7 +11,6 @@
 #include <set>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "files/folder_names.h"
 #include "files/manifest.h"
@@ -22,6 +21,7 @@
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -30,7 +30,7 @@ namespace {
 template <typename Check>
 bool all_files(int folder, const Manifest& manifest, const Check& check) {
   SeriesFolders folders(folder);
-  return std::all_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
+  return std::ranges::all_of(manifest.files, [&](const FileRecord& file) {
     const FileSpot spot = folders.spot(file.name);
     return spot.folder >= 0 && check(spot, file);
   });
@@ -45,29 +45,28 @@ bool has_hash(const FileSpot& spot, const FileRecord& file) {
   return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
 }
 
-bool names_all(const Manifest& manifest, const std::vector<std::string>& names) {
-  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+bool names_all(const Manifest& manifest, const vector<string>& names) {
+  return std::ranges::all_of(names, [&](const string& name) {
     const auto has_name = [&](const auto& file) { return file.name == name; };
-    return std::any_of(manifest.files.begin(), manifest.files.end(), has_name) ||
-           std::any_of(manifest.left_out.begin(), manifest.left_out.end(), has_name);
+    return std::ranges::any_of(manifest.files, has_name) || std::ranges::any_of(manifest.left_out, has_name);
   });
 }
 
 /// The first entry of a run's folder that neither the manifest nor a former run accounts for, and that `counts`.
-std::string foreign_entry(const FoundFolder& found, const Manifest& manifest,
-                          const std::function<bool(const std::string& name)>& counts) {
-  std::set<std::string> known = {manifest_name, failure_file};
+string foreign_entry(const FoundFolder& found, const Manifest& manifest,
+                     const function<bool(const string& name)>& counts) {
+  std::set<string> known = {manifest_name, failure_file};
   for (const FileRecord& file : manifest.files) known.insert(file.name);
-  const auto is_foreign = [&](const std::string& name) { return !known.contains(name) && counts(name); };
-  const std::vector<std::string> series = series_folder_names();
+  const auto is_foreign = [&](const string& name) { return !known.contains(name) && counts(name); };
+  const vector<string> series = series_folder_names();
   SeriesFolders folders(found.folder.get());
-  for (const std::string& name : found.names) {
+  for (const string& name : found.names) {
     if (is_part_name(name)) continue;
-    const int inner = std::find(series.begin(), series.end(), name) == series.end() ? -1 : folders.open(name);
+    const int inner = std::ranges::find(series, name) == series.end() ? -1 : folders.open(name);
     if (inner < 0 && is_foreign(name)) return name;
     if (inner < 0) continue;
-    for (const std::string& entry : folder_names(inner)) {
-      std::string path = name + "/";
+    for (const string& entry : folder_names(inner)) {
+      string path = name + "/";
       path += entry;
       if (!is_part_name(entry) && is_foreign(path)) return path;
     }
@@ -76,7 +75,7 @@ std::string foreign_entry(const FoundFolder& found, const Manifest& manifest,
 }
 
 FolderChanges changes_in(const FoundFolder& found, const Manifest& manifest,
-                         const std::function<bool(const std::string& name)>& counts) {
+                         const function<bool(const string& name)>& counts) {
   FolderChanges changes;
   // Of an interrupted publication the files are newer than the manifest.
   if (found.has(next_manifest)) return changes;
@@ -84,7 +83,7 @@ FolderChanges changes_in(const FoundFolder& found, const Manifest& manifest,
   SeriesFolders folders(found.folder.get());
   for (const FileRecord& file : manifest.files) {
     const FileSpot spot = folders.spot(file.name);
-    const auto size = spot.folder < 0 ? std::nullopt : stored_size(spot.folder, spot.name);
+    const auto size = spot.folder < 0 ? nullopt : stored_size(spot.folder, spot.name);
     if (!size && changes.missing.empty()) changes.missing = file.name;
     if (!size || (*size == file.bytes && has_hash(spot, file))) continue;
     changes.changed = file.name;
@@ -94,19 +93,18 @@ FolderChanges changes_in(const FoundFolder& found, const Manifest& manifest,
 }
 
 /// Compares sizes before hashes, so that a truncated file is found without reading gigabytes.
-bool is_whole(int folder, const Manifest& manifest, const std::string& outputs, const std::vector<std::string>& names) {
+bool is_whole(int folder, const Manifest& manifest, const string& outputs, const vector<string>& names) {
   return manifest.version == CAROM_VERSION && manifest.outputs == outputs && names_all(manifest, names) &&
          all_files(folder, manifest, has_size) && all_files(folder, manifest, has_hash);
 }
 
 /// Whether the folder has a file of a run by this program that a run with the scene's outputs would not replace.
-bool has_more(int folder, const Manifest& manifest, const Scene& scene, const std::vector<std::string>& names) {
+bool has_more(int folder, const Manifest& manifest, const Scene& scene, const vector<string>& names) {
   if (manifest.version != CAROM_VERSION) return false;
   SeriesFolders folders(folder);
-  return std::any_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
+  return std::ranges::any_of(manifest.files, [&](const FileRecord& file) {
     const OutputKind* kind = series_of(file.name);
-    const bool anew =
-        kind ? kind->asked(scene.output) : std::find(names.begin(), names.end(), file.name) != names.end();
+    const bool anew = kind ? kind->asked(scene.output) : std::ranges::find(names, file.name) != names.end();
     if (anew) return false;
     const FileSpot spot = folders.spot(file.name);
     return spot.folder >= 0 && stored_size(spot.folder, spot.name).has_value();
@@ -114,11 +112,11 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene, const st
 }
 
 /// The time of the last change to a file's content, name or owner (ctime). No program can set it back.
-std::optional<timespec> changed(const FileSpot& spot) {
+optional<timespec> changed(const FileSpot& spot) {
   struct stat info {};
   if (fstatat(spot.folder, spot.name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0) return info.st_ctim;
   if (!is_absent(errno)) fail("read", place_of(spot.folder), spot.name);
-  return std::nullopt;
+  return nullopt;
 }
 
 bool is_before(const timespec& a, const timespec& b) {
@@ -127,32 +125,32 @@ bool is_before(const timespec& a, const timespec& b) {
 
 }  // namespace
 
-bool is_whole_since(const std::string& path, const std::string& mark) {
+bool is_whole_since(const string& path, const string& mark) {
   const timespec marked = changed({AT_FDCWD, mark}).value_or(timespec{});
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
-  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
   if (!manifest || manifest->version != CAROM_VERSION) return false;
   if (!mark.empty()) {
-    const std::optional<timespec> made = changed({folder.get(), manifest_name});
+    const optional<timespec> made = changed({folder.get(), manifest_name});
     if (!made || !is_before(*made, marked)) return false;
   }
   const auto unchanged = [&](const FileSpot& spot, const FileRecord& file) {
-    const std::optional<timespec> when = changed(spot);
+    const optional<timespec> when = changed(spot);
     return when && has_size(spot, file) && (is_before(*when, marked) || has_hash(spot, file));
   };
   return all_files(folder.get(), *manifest, unchanged);
 }
 
-FolderChanges find_changes(const std::string& path, const std::function<bool(const std::string& name)>& counts) {
+FolderChanges find_changes(const string& path, const function<bool(const string& name)>& counts) {
   const FoundFolder found = find_folder(path);
-  auto manifest = found.has(manifest_name) ? read_manifest(found.folder.get(), manifest_name) : std::nullopt;
+  auto manifest = found.has(manifest_name) ? read_manifest(found.folder.get(), manifest_name) : nullopt;
   if (!manifest) return {};
-  if (!counts) return changes_in(found, *manifest, [](const std::string&) { return true; });
+  if (!counts) return changes_in(found, *manifest, [](const string&) { return true; });
   std::erase_if(manifest->files, [&](const FileRecord& file) { return !counts(file.name); });
   return changes_in(found, *manifest, counts);
 }
 
-std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared) {
+string wrong_file(int folder, const Manifest& manifest, const function<bool(string_view name)>& spared) {
   SeriesFolders folders(folder);
   for (const FileRecord& file : manifest.files) {
     if (spared(file.name)) continue;
@@ -162,35 +160,35 @@ std::string wrong_file(int folder, const Manifest& manifest, const std::function
   return {};
 }
 
-std::string run_again(const std::string& folder) {
+string run_again(const string& folder) {
   return "carom run " + folder + "/scene.yaml -o " + folder + " --force runs it again";
 }
 
-void sync_file_system(const std::string& path) {
+void sync_file_system(const string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   if (!folder || syncfs(folder.get()) != 0) fail("write", {-1, path}, "");
 }
 
-bool FoundFolder::has(const std::string& name) const {
+bool FoundFolder::has(const string& name) const {
   return std::binary_search(names.begin(), names.end(), name);
 }
 
-FoundFolder find_folder(const std::string& path) {
+FoundFolder find_folder(const string& path) {
   FoundFolder found{open_folder(AT_FDCWD, path.empty() ? "." : path, true), {}, FolderContent::nothing};
   if (!found.folder) {
     if (errno == ENOTDIR) found.content = FolderContent::other_run;
     return found;
   }
   found.names = folder_names(found.folder.get());
-  const auto is_leftover = [](const std::string& name) { return is_part_name(name) || name == failure_file; };
+  const auto is_leftover = [](const string& name) { return is_part_name(name) || name == failure_file; };
   if (!found.names.empty())
-    found.content = std::all_of(found.names.begin(), found.names.end(), is_leftover) ? FolderContent::incomplete
-                                                                                     : FolderContent::other_run;
+    found.content =
+        std::ranges::all_of(found.names, is_leftover) ? FolderContent::incomplete : FolderContent::other_run;
   return found;
 }
 
-FolderContent inspect_folder(const std::string& path, const Scene& scene, FolderChanges* changes) {
-  const std::vector<std::string> files = run_files(scene, scene.output);
+FolderContent inspect_folder(const string& path, const Scene& scene, FolderChanges* changes) {
+  const vector<string> files = run_files(scene, scene.output);
   const FolderContent content = inspect_folder(path, scene, outputs_text(scene.output), files, changes);
   const bool changed = content == FolderContent::incomplete || content == FolderContent::more;
   if (!changed || scene.output.plots) return content;
@@ -201,20 +199,20 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene, Folder
                                                                                               : content;
 }
 
-FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,
-                             const std::vector<std::string>& files, FolderChanges* changes) {
+FolderContent inspect_folder(const string& path, const Scene& scene, const string& outputs, const vector<string>& files,
+                             FolderChanges* changes) {
   const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
-  const std::string hash = sha256(scene.resolved);
+  const string hash = sha256(scene.resolved);
   if (found.has(manifest_name)) {
     const auto manifest = read_manifest(folder.get(), manifest_name);
     if (!manifest || manifest->scene_sha256 != hash || manifest->meshes != meshes_text(scene)) {
       return FolderContent::other_run;
     }
     if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
-    const auto is_written = [&](const std::string& name) {
+    const auto is_written = [&](const string& name) {
       const OutputKind* kind = series_of(name);
-      return kind ? kind->asked(scene.output) : std::find(files.begin(), files.end(), name) != files.end();
+      return kind ? kind->asked(scene.output) : std::ranges::find(files, name) != files.end();
     };
     FolderChanges its = changes_in(found, *manifest, is_written);
     if (!its.changed.empty() || !its.foreign.empty()) {

@@ -1,12 +1,9 @@
 #pragma once
 // The folder that a run writes: its present content, and whether files in it are complete.
-#include <functional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,10 +20,10 @@ struct ExportError : std::runtime_error {
 enum class Durability { synced, deferred };
 
 /// The command that makes the run in `folder` anew, as the second line of an error.
-std::string run_again(const std::string& folder);
+string run_again(const string& folder);
 
 /// Writes all pending data of the file system of `path` to disk. Throws ExportError.
-void sync_file_system(const std::string& path);
+void sync_file_system(const string& path);
 
 /// The file in the folder of a failed run of a sweep. It holds the reason as text.
 inline constexpr const char* failure_file = "error.txt";
@@ -51,41 +48,40 @@ enum class FolderContent {
 /// A file changed since the file `mark` was written must also have its hash.
 /// A run made since then is not complete, whatever its manifest holds.
 /// `mark`: a path. Empty: every hash is checked. A change within the same clock tick counts as a change.
-bool is_whole_since(const std::string& folder, const std::string& mark);
+bool is_whole_since(const string& folder, const string& mark);
 
 struct Manifest;
 
 /// How a folder differs from its manifest: the first of each sort. A folder whose publication was interrupted does not.
 struct FolderChanges {
-  std::string changed;  // a file with another size or hash
-  std::string missing;  // a file that is absent, or no file
-  std::string foreign;  // an entry that the run did not write
+  string changed;  // a file with another size or hash
+  string missing;  // a file that is absent, or no file
+  string foreign;  // an entry that the run did not write
   bool any() const { return !changed.empty() || !missing.empty() || !foreign.empty(); }
 };
 /// Reads every file of the manifest up to the first changed one. Changes nothing. Throws ExportError.
 /// `counts`: the names to look at. None: all.
-FolderChanges find_changes(const std::string& folder,
-                           const std::function<bool(const std::string& name)>& counts = nullptr);
+FolderChanges find_changes(const string& folder, const function<bool(const string& name)>& counts = nullptr);
 
 /// The first of the manifest's files that lacks its size or hash. Empty: none. `spared`: files that may.
-std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared);
+string wrong_file(int folder, const Manifest& manifest, const function<bool(string_view name)>& spared);
 
 /// A folder as found.
 struct FoundFolder {
-  Descriptor folder;               // none: absent, or no folder
-  std::vector<std::string> names;  // its entries, sorted
+  Descriptor folder;     // none: absent, or no folder
+  vector<string> names;  // its entries, sorted
   /// As far as names show: nothing, incomplete (only temporary files or a failure), or other_run.
   FolderContent content;
-  bool has(const std::string& name) const;
+  bool has(const string& name) const;
 };
 /// Throws ExportError if the folder exists and cannot be opened.
-FoundFolder find_folder(const std::string& folder);
+FoundFolder find_folder(const string& folder);
 
 /// The content of `folder`, from its manifest.json. Changes nothing. A run with charts besides is this_run too.
 /// `changes`: may be null; of a touched run what was changed.
-FolderContent inspect_folder(const std::string& folder, const Scene& scene, FolderChanges* changes = nullptr);
+FolderContent inspect_folder(const string& folder, const Scene& scene, FolderChanges* changes = nullptr);
 /// The same for a folder that is not a run's. `outputs`: as in its manifest. `files`: those it must have.
-FolderContent inspect_folder(const std::string& folder, const Scene& scene, const std::string& outputs,
-                             const std::vector<std::string>& files, FolderChanges* changes = nullptr);
+FolderContent inspect_folder(const string& folder, const Scene& scene, const string& outputs,
+                             const vector<string>& files, FolderChanges* changes = nullptr);
 
 }  // namespace carom

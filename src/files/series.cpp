@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 #include "files/stored_file.h"
+#include "std.h"
 
 namespace carom {
 
-std::string Series::put(const std::string& name, std::string_view bytes) {
-  return put(static_cast<std::int64_t>(records_.size()), name, bytes);
+string Series::put(const string& name, string_view bytes) {
+  return put(static_cast<int64_t>(records_.size()), name, bytes);
 }
 
-std::string Series::put(std::int64_t number, const std::string& file_name, std::string_view bytes) {
+string Series::put(int64_t number, const string& file_name, string_view bytes) {
   OutputFile file(place_, file_name);
   // In one piece, so that a large file starts no thread of its own.
   char* const to = file.room(bytes.size());
@@ -23,8 +23,8 @@ std::string Series::put(std::int64_t number, const std::string& file_name, std::
   file.publish();
   folder_.keep();
   FileRecord record = file.record();
-  record.name.insert(0, std::string(files_.folder) + "/");
-  const std::string name = record.name;
+  record.name.insert(0, string(files_.folder) + "/");
+  const string name = record.name;
   const std::lock_guard lock(mutex_);
   records_.insert_or_assign(number, std::move(record));
   return name;
@@ -34,14 +34,14 @@ std::string Series::put(std::int64_t number, const std::string& file_name, std::
 bool Series::has_all() const {
   return std::ranges::all_of(records_, [this](const auto& entry) {
     const FileRecord& record = entry.second;
-    const std::optional<FileRecord> stored = read_record(place_.folder, record.name.substr(files_.folder.size() + 1));
+    const optional<FileRecord> stored = read_record(place_.folder, record.name.substr(files_.folder.size() + 1));
     return stored && stored->bytes == record.bytes && stored->sha256 == record.sha256;
   });
 }
 
-std::vector<FileRecord> Series::records() const {
+vector<FileRecord> Series::records() const {
   const std::lock_guard lock(mutex_);
-  std::vector<FileRecord> records;
+  vector<FileRecord> records;
   for (const auto& [number, record] : records_) records.push_back(record);
   return records;
 }

@@ -1,14 +1,11 @@
 #pragma once
 // Files of one output in a folder of their own (frames/, vtk/, plots/). Each file is complete when its name appears.
-#include <cstdint>
 #include <map>
 #include <mutex>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/open_folder.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,11 +14,11 @@ class Series {
   /// Makes the folder. Both arguments must outlive this object. Throws ExportError, as all functions of this class do.
   Series(OpenFolder& folder, const FileSeries& files) : folder_(folder), files_(files), place_(folder.series(files)) {}
   /// Returns the file's name relative to the run's folder. May be called by several threads.
-  std::string put(std::int64_t number, std::string_view bytes) { return put(number, files_.name(number), bytes); }
+  string put(int64_t number, string_view bytes) { return put(number, files_.name(number), bytes); }
   /// `name`: one of the series' names. From one thread.
-  std::string put(const std::string& name, std::string_view bytes);
+  string put(const string& name, string_view bytes);
   /// In the order of the numbers, or of the calls; names relative to the run's folder.
-  std::vector<FileRecord> records() const;
+  vector<FileRecord> records() const;
 
   template <typename Archive>
   void keep(Archive& archive) {
@@ -32,13 +29,13 @@ class Series {
  private:
   bool has_all() const;
 
-  std::string put(std::int64_t number, const std::string& name, std::string_view bytes);
+  string put(int64_t number, const string& name, string_view bytes);
 
   OpenFolder& folder_;
   const FileSeries& files_;
   FilePlace place_;
   mutable std::mutex mutex_;
-  std::map<std::int64_t, FileRecord> records_;  // by number, changed under the mutex
+  std::map<int64_t, FileRecord> records_;  // by number, changed under the mutex
 };
 
 }  // namespace carom

@@ -5,43 +5,44 @@
 #include "files/open_folder.h"
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 
-const OutputKind* series_of(std::string_view name) {
-  const std::size_t slash = name.find('/');
-  if (slash == std::string_view::npos) return nullptr;
+const OutputKind* series_of(string_view name) {
+  const size_t slash = name.find('/');
+  if (slash == string_view::npos) return nullptr;
   for (const OutputKind& kind : output_kinds())
     if (kind.series.folder == name.substr(0, slash) && kind.series.has(name.substr(slash + 1))) return &kind;
   return nullptr;
 }
 
-const OutputKind* output_of(std::string_view name) {
+const OutputKind* output_of(string_view name) {
   if (const OutputKind* kind = series_of(name)) return kind;
   for (const OutputKind& kind : output_kinds())
     if (kind.has_file(name)) return &kind;
   return nullptr;
 }
 
-bool is_picture(std::string_view name) {
+bool is_picture(string_view name) {
   const OutputKind* kind = output_of(name);
   return kind != nullptr ? kind->draws : film_format(name).has_value();
 }
 
-FileSpot SeriesFolders::spot(std::string_view name) {
-  const std::size_t slash = name.find('/');
-  if (slash == std::string_view::npos) return {folder_, std::string(name)};
-  return {open(name.substr(0, slash)), std::string(name.substr(slash + 1))};
+FileSpot SeriesFolders::spot(string_view name) {
+  const size_t slash = name.find('/');
+  if (slash == string_view::npos) return {folder_, string(name)};
+  return {open(name.substr(0, slash)), string(name.substr(slash + 1))};
 }
 
-int SeriesFolders::open(std::string_view name) {
+int SeriesFolders::open(string_view name) {
   const auto found = opened_.find(name);
   if (found != opened_.end()) return found->second.get();
-  return opened_.emplace(name, open_folder(folder_, std::string(name), false)).first->second.get();
+  return opened_.emplace(name, open_folder(folder_, string(name), false)).first->second.get();
 }
 
-std::vector<std::string> series_folder_names() {
-  std::vector<std::string> names;
+vector<string> series_folder_names() {
+  vector<string> names;
   for (const OutputKind& kind : output_kinds())
     if (!kind.series.folder.empty()) names.emplace_back(kind.series.folder);
   return names;

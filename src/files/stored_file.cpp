@@ -6,12 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t read_size = std::size_t{64} * 1024;
+constexpr size_t read_size = size_t{64} * 1024;
 
 /// Whether this errno of openat() means that there is no regular file of this name. A link or a socket counts as none.
 bool is_no_file(int error) {
@@ -20,15 +21,15 @@ bool is_no_file(int error) {
 
 }  // namespace
 
-std::size_t read_some(int file, char* to, std::size_t size) {
+size_t read_some(int file, char* to, size_t size) {
   ssize_t n;
   do n = read(file, to, size);
   while (n < 0 && errno == EINTR);
   if (n < 0) fail("read", place_of(file), "");
-  return static_cast<std::size_t>(n);
+  return static_cast<size_t>(n);
 }
 
-Descriptor open_stored(int folder, const std::string& name) {
+Descriptor open_stored(int folder, const string& name) {
   // O_NONBLOCK keeps the opening of a named pipe from waiting for its writer.
   Descriptor file(openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!file && !is_no_file(errno)) fail("read", place_of(folder), name);
@@ -38,23 +39,23 @@ Descriptor open_stored(int folder, const std::string& name) {
   return file;
 }
 
-std::optional<std::uint64_t> stored_size(int folder, const std::string& name) {
+optional<uint64_t> stored_size(int folder, const string& name) {
   struct stat info {};
   if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
     if (!is_absent(errno)) fail("read", place_of(folder), name);
-    return std::nullopt;
+    return nullopt;
   }
-  if (!S_ISREG(info.st_mode)) return std::nullopt;
-  return static_cast<std::uint64_t>(info.st_size);
+  if (!S_ISREG(info.st_mode)) return nullopt;
+  return static_cast<uint64_t>(info.st_size);
 }
 
-std::optional<FileRecord> read_record(int folder, const std::string& name) {
+optional<FileRecord> read_record(int folder, const string& name) {
   const Descriptor file = open_stored(folder, name);
-  if (!file) return std::nullopt;
+  if (!file) return nullopt;
   FileRecord record{name, 0, {}};
   Sha256 hash;
-  std::vector<char> buffer(4 * read_size);
-  while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
+  vector<char> buffer(4 * read_size);
+  while (const size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
     hash.add({buffer.data(), n});
     record.bytes += n;
   }
@@ -62,14 +63,14 @@ std::optional<FileRecord> read_record(int folder, const std::string& name) {
   return record;
 }
 
-std::optional<std::string> read_text(int folder, const std::string& name, std::uint64_t most) {
+optional<string> read_text(int folder, const string& name, uint64_t most) {
   const Descriptor file = open_stored(folder, name);
-  if (!file) return std::nullopt;
-  std::string text;
-  std::vector<char> buffer(read_size);
-  while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
+  if (!file) return nullopt;
+  string text;
+  vector<char> buffer(read_size);
+  while (const size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
     text.append(buffer.data(), n);
-    if (text.size() > most) return std::nullopt;
+    if (text.size() > most) return nullopt;
   }
   return text;
 }

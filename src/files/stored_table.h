@@ -1,13 +1,8 @@
 #pragma once
 // Reads CSV tables as written by this program, row by row from the start or from the end.
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/output_file.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,32 +12,32 @@ class StoredTable {
   /// `file`: an open file. Its first row is read as the names of columns. An empty file has none.
   explicit StoredTable(Descriptor file);
 
-  const std::vector<std::string>& columns() const { return columns_; }
+  const vector<string>& columns() const { return columns_; }
   /// The index of a column, or none.
-  std::optional<std::size_t> find(std::string_view column) const;
+  optional<size_t> find(string_view column) const;
 
   /// The cells of the next row, valid until the next call. Null: the end. A row may have fewer cells than columns.
-  const std::vector<std::string_view>* next();
+  const vector<string_view>* next();
 
  private:
-  bool read_line(std::string_view& line);
+  bool read_line(string_view& line);
 
   Descriptor file_;
-  std::vector<std::string> columns_;
-  std::vector<std::string_view> cells_;
-  std::string buffer_, unquoted_;
-  std::size_t begin_ = 0;
+  vector<string> columns_;
+  vector<string_view> cells_;
+  string buffer_, unquoted_;
+  size_t begin_ = 0;
   bool ended_ = false;
 };
 
 /// Calls `take` for the lines of a file, from the last one to the second one, until it returns false.
 /// Works for tables without quotes, such as the trajectory. Only the end of a file of gigabytes is read.
-void lines_from_end(int file, const std::function<bool(std::string_view line)>& take);
+void lines_from_end(int file, const function<bool(string_view line)>& take);
 
 /// Splits a line into cells. `unquoted` holds the text of quoted cells and must outlive the cells.
-void split_cells(std::string_view line, std::vector<std::string_view>& cells, std::string& unquoted);
+void split_cells(string_view line, vector<string_view>& cells, string& unquoted);
 
 /// The number in a cell, if the whole cell is one.
-std::optional<double> number_in(std::string_view cell);
+optional<double> number_in(string_view cell);
 
 }  // namespace carom

@@ -1,19 +1,17 @@
 #pragma once
 // The results of a run: the row of summary.csv, and what manifest.json holds besides.
-#include <cstdint>
 #include <limits>
-#include <string>
-#include <vector>
 
 #include "files/part_file.h"
 #include "physics/tally.h"
+#include "std.h"
 
 namespace carom {
 
 /// The work of one force in a run.
 struct ForceWork {
-  std::string force;  // "gravity", "merging", or its path in the scene: "forces.0.drag"
-  double work = 0;    // J
+  string force;     // "gravity", "merging", or its path in the scene: "forces.0.drag"
+  double work = 0;  // J
 };
 
 /// The energy balance of a run, in J.
@@ -27,67 +25,67 @@ struct EnergyTotals {
   double residual = 0;
   /// A lower bound of the energy that changed its form: kinetic at both ends or in between, potential, lost, work.
   double turnover = 0;
-  std::vector<ForceWork> of_forces{};  // empty for a scene without forces
+  vector<ForceWork> of_forces{};  // empty for a scene without forces
 };
 
 /// The reason why a result may be wrong, and the remedy.
 struct Warning {
   /// One word, for programs: energy, step, tolerance, contact, rest, place, speed.
-  std::string code;
-  std::string text;
+  string code;
+  string text;
 };
 
 /// Counts for the report only, not columns.
 struct ContactCounts {
-  std::uint64_t merges = 0;
-  std::uint64_t tautened = 0;   // strings that went taut
-  std::uint64_t removed = 0;    // bodies
-  std::uint64_t collapses = 0;  // clusters that became lasting contacts
+  uint64_t merges = 0;
+  uint64_t tautened = 0;   // strings that went taut
+  uint64_t removed = 0;    // bodies
+  uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
   double made = 0;  // J, by errors of the steps of crowds
-  std::uint64_t crowd_steps = 0;
-  std::uint64_t unsolved_steps = 0;  // of crowds
+  uint64_t crowd_steps = 0;
+  uint64_t unsolved_steps = 0;  // of crowds
   SharedImpacts shared;
-  std::string first_shared{};  // "cue with up and low at 0.3 s"; empty: there was none
+  string first_shared{};  // "cue with up and low at 0.3 s"; empty: there was none
 };
 
 /// A measure of a run: a number, or a text.
 struct Measured {
-  std::string name;                                         // "balls.red.speed_m_per_s"
+  string name;                                              // "balls.red.speed_m_per_s"
   double value = std::numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
-  std::string text{};                                       // empty: a number, or undefined
+  string text{};                                            // empty: a number, or undefined
 };
 
 /// How long a run has lasted.
 struct RunLength {
   double duration = 0;  // s
   /// "duration", "rest", "collisions" or "region pocket".
-  std::string ended_by{};
+  string ended_by{};
 };
 
 /// The row of summary.csv.
 struct Summary : RunLength {
-  std::string run, title, engine, status;
-  std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
+  string run, title, engine, status;
+  uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
   double first_collision = 0, last_collision = 0;  // s; NaN: an empty cell
   EnergyTotals energy;
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
-  std::uint64_t resting = 0, frames = 0;
+  uint64_t resting = 0, frames = 0;
   /// In s, summed over bodies: the time in lasting contact in crowds.
   double stepped_contact = 0;
 
-  std::vector<Measured> measures;  // those that the scene defines, columns after all others
+  vector<Measured> measures;  // those that the scene defines, columns after all others
 
   ContactCounts contact;
-  std::vector<Warning> warnings;  // with any, the status is `doubtful`
+  vector<Warning> warnings;  // with any, the status is `doubtful`
 };
 
 /// The command that a run's scene comes from (earlier_run.h).
 struct SceneOrigin {
   /// The scene file's path from the run's folder. Empty: the run does not name its file.
-  std::string path;
-  std::vector<std::string> settings;  // path=value: --set and --seed, in their order
+  string path;
+  vector<string> settings;  // path=value: --set and --seed, in their order
 
   void keep(auto& archive) { archive(path, settings); }
   friend bool operator==(const SceneOrigin&, const SceneOrigin&) = default;
@@ -97,10 +95,10 @@ struct SceneOrigin {
 struct RunFacts {
   /// Wall times, of the thread that runs the scene.
   double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;
-  std::uint64_t peak_memory = 0;  // bytes
+  uint64_t peak_memory = 0;  // bytes
   SceneOrigin origin{};
-  std::vector<Measured> measures{};
-  std::vector<LeftOut> left_out{};
+  vector<Measured> measures{};
+  vector<LeftOut> left_out{};
 };
 
 }  // namespace carom

@@ -2,12 +2,11 @@
 // Two convex bodies that do not overlap are nearest where a corner of one faces the other, or where two edges cross.
 // The candidates are so few that all are tried. Ties give the middle of all closest points.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "geometry/pair.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,7 +25,7 @@ struct Segment {
 };
 
 /// Parameters in [0, 1] at which two segments are nearest. Ericson, Real-Time Collision Detection (2005), 5.1.9.
-std::array<double, 2> closest_parameters(const Segment& p, const Segment& q) {
+array<double, 2> closest_parameters(const Segment& p, const Segment& q) {
   const Vec3 r = p.from - q.from;
   const double a = p.along.squaredNorm(), e = q.along.squaredNorm(), b = p.along.dot(q.along);
   const double c = p.along.dot(r), f = q.along.dot(r), det = a * e - b * b;
@@ -60,9 +59,9 @@ double nearest_parameter(const Segment& p, const Volume& cylinder) {
 ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb) {
   // All positions are from a's centre.
   const Vec3 center = xb - xa, right = wall.half_width * wall.right, up = wall.half_height * wall.up;
-  std::vector<ClosestPoints> all;
-  std::array<Segment, 4> edges;
-  for (std::size_t k = 0; k < 4; ++k) {
+  vector<ClosestPoints> all;
+  array<Segment, 4> edges;
+  for (size_t k = 0; k < 4; ++k) {
     const double s = k % 2 == 0 ? 1 : -1, t = k / 2 == 0 ? 1 : -1;
     const Vec3 corner = center + s * right + t * up;
     all.push_back({clamped(a, corner), corner});

@@ -11,6 +11,7 @@
 #include "geometry/relative_way.h"
 #include "geometry/separation.h"
 #include "geometry/touch.h"
+#include "std.h"
 
 namespace carom {
 
@@ -28,7 +29,7 @@ class ConservativeAdvancement {
   ConservativeAdvancement(const Set& set, const RelativeMotion& motion, const Way& way, double far, double horizon)
       : set_(set), m_(motion), way_(way), far_(far), horizon_(horizon) {}
 
-  FeatureTime run(std::uint8_t left) {
+  FeatureTime run(uint8_t left) {
     left_ = left;
     if (left != no_feature && set_.sharp(left)) left_ = face_left(left, m_.d, m_.w, m_.a);
     if (left_ != no_feature) m_.d = set_.within(m_.d, left_);
@@ -85,7 +86,7 @@ class ConservativeAdvancement {
  private:
   static constexpr double rounding = 0x1p-53;
   /// The rounding of a speed along the normal. On a curved surface the normal turns with the positions' rounding.
-  double noise(std::uint8_t feature) const {
+  double noise(uint8_t feature) const {
     const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(m_.d, feature);
     return 16 * rounding * m_.speeds * (1 + turn);
   }
@@ -115,7 +116,7 @@ class ConservativeAdvancement {
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 beyond = p + ahead * s.normal;
       beyond[axis] += std::copysign(ahead, p[axis]);
-      const std::uint8_t edge = set_.nearest(beyond).feature;
+      const uint8_t edge = set_.nearest(beyond).feature;
       if (!set_.sharp(edge)) continue;
       const Separation other = set_.at(p, face_left(edge, p, v, way_.acceleration(t)));
       if (other.normal.dot(v) >= -noise(other.feature)) return other;
@@ -141,10 +142,10 @@ class ConservativeAdvancement {
   }
 
   /// Of the faces at a sharp edge, the one over which the point leaves.
-  std::uint8_t face_left(std::uint8_t edge, const Vec3& p, const Vec3& v, const Vec3& a) const {
-    std::uint8_t best = no_feature;
+  uint8_t face_left(uint8_t edge, const Vec3& p, const Vec3& v, const Vec3& a) const {
+    uint8_t best = no_feature;
     double best_speed = 0, best_acceleration = 0;
-    set_.for_each_face(edge, [&](std::uint8_t face) {
+    set_.for_each_face(edge, [&](uint8_t face) {
       const Vec3 n = set_.at(p, face).normal;
       const double speed = n.dot(v), acceleration = n.dot(a);
       const bool equal = std::abs(speed - best_speed) <= noise(face);
@@ -158,7 +159,7 @@ class ConservativeAdvancement {
   }
 
   /// The contact near time t, to the precision of the feature's own equation.
-  FeatureTime contact(double t, std::uint8_t feature) const {
+  FeatureTime contact(double t, uint8_t feature) const {
     if (set_.sharp(feature)) feature = set_.foremost_face(m_.d + displacement(t), feature);
     const bool is_left = feature == left_;
     const Separation start = set_.at(m_.d, feature);
@@ -208,7 +209,7 @@ class ConservativeAdvancement {
   RelativeMotion m_;
   Way way_;
   double far_, horizon_;
-  std::uint8_t left_ = no_feature;
+  uint8_t left_ = no_feature;
 };
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 
 #include "geometry/exact_path.h"
 #include "numerics/compensated.h"
+#include "std.h"
 
 namespace carom {
 
@@ -67,7 +68,7 @@ Polynomial lowered(Polynomial f, const RelativeMotion& m, double s) {
   constexpr double rounding = 0x1p-49;
   const double p = m.d.cwiseAbs().sum() + s, q = m.w.cwiseAbs().sum(), r = 0.5 * m.a.cwiseAbs().sum();
   const double bound[5] = {p * p, 2 * p * q, q * q + 2 * p * r, 2 * q * r, r * r};
-  for (int k = 0; k <= f.degree; ++k) f.c[static_cast<std::size_t>(k)] -= rounding * bound[k + 4 - f.degree];
+  for (int k = 0; k <= f.degree; ++k) f.c[static_cast<size_t>(k)] -= rounding * bound[k + 4 - f.degree];
   return f;
 }
 

@@ -2,10 +2,10 @@
 // Times of impact of moving spheres with each other, with planes, and with the faces, edges and corners of walls.
 // Times are in seconds from the instant at which the arguments hold. `never` (polynomial.h) means no contact.
 // An approach slower than the rounding of its velocities is none, so that noise does not strike touching bodies again.
-#include <cstdint>
 
 #include "numerics/polynomial.h"
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -33,7 +33,7 @@ double sphere_contact_time(const RelativeMotion& motion, double s, double horizo
 double taut_time(const RelativeMotion& motion, double s, double horizon);
 
 /// The side from which a distance approaches s.
-enum class Side : std::uint8_t { outside, inside };
+enum class Side : uint8_t { outside, inside };
 
 /// |d + w t + a t^2/2|^2 - s^2, m^2, or from inside its negative. With just_separated the constant term is zero.
 Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s, Side side = Side::outside);
@@ -71,17 +71,17 @@ double plane_contact_time(double gap, double speed, double acceleration, double 
 double plane_gap(const Vec3& x, const Vec3& point, const Vec3& normal, double radius);
 
 /// The parts of a wall: two faces, four edges, four corners.
-enum WallFeature : std::uint8_t {
+enum WallFeature : uint8_t {
   wall_front,  // on the normal's side
   wall_back,
   wall_edges,                    // right, left, top, bottom
   wall_corners = wall_edges + 4  // right top, left top, right bottom, left bottom
 };
-inline constexpr std::uint8_t no_feature = 255;
+inline constexpr uint8_t no_feature = 255;
 
 struct WallContact {
-  double time;           // s, or never
-  std::uint8_t feature;  // of the wall
+  double time;      // s, or never
+  uint8_t feature;  // of the wall
 };
 
 /// First contact of a sphere at x (m) with velocity v (m/s) and acceleration a (m/s^2) with a wall.
@@ -89,10 +89,10 @@ struct WallContact {
 /// The contact is the first entry into any of them, on its own stretch. `left`: the feature that the sphere has just
 /// bounced off, or no_feature.
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
-                              std::uint8_t left, double horizon);
+                              uint8_t left, double horizon);
 
 /// The same, from the wall's motion as seen from the sphere: d = wall.center - x.
-WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, std::uint8_t left,
+WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
                               double horizon);
 
 /// The wall's point nearest to x (m), with its centre at `center` (m), or where it is at time 0.

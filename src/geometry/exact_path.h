@@ -1,20 +1,20 @@
 #pragma once
 // The position on a path of degree two in double-double, exact for the given doubles to a part in 2^100. The time of a
 // grazing contact is then as exact as its data.
-#include <array>
 #include <cmath>
 
 #include "geometry/contact_time.h"
 #include "numerics/compensated.h"
+#include "std.h"
 
 namespace carom {
 
 /// d + w t + a t^2/2.
-inline std::array<DoubleDouble, 3> exact_position(const RelativeMotion& m, double t) {
+inline array<DoubleDouble, 3> exact_position(const RelativeMotion& m, double t) {
   const DoubleDouble half_square = two_product(0.5 * t, t);
-  std::array<DoubleDouble, 3> p;
+  array<DoubleDouble, 3> p;
   for (int k = 0; k < 3; ++k)
-    p[static_cast<std::size_t>(k)] =
+    p[static_cast<size_t>(k)] =
         DoubleDouble{m.d[k], 0} + (two_product(t, m.w[k]) + half_square * DoubleDouble{m.a[k], 0});
   return p;
 }

@@ -1,9 +1,9 @@
 #pragma once
 // The time at which a quantity under linear drag crosses zero downwards.
-#include <array>
 
 #include "numerics/polynomial.h"
 #include "physics/fading_path.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,7 +14,7 @@ struct FadingDistance {
     double fade;  // 1/s
   };
   double start, rate;  // m, m/s
-  std::array<Term, 2> terms;
+  array<Term, 2> terms;
 
   double operator()(double t) const;
   double slope(double t) const;  // m/s

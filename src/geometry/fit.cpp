@@ -5,22 +5,21 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-using Points = std::span<const Vec3>;
+using Points = span<const Vec3>;
 
 /// Up to four points and their weights in the centre of their smallest sphere.
 struct Basis {
-  std::array<Vec3, 4> points;
-  std::array<double, 4> weights{};
+  array<Vec3, 4> points;
+  array<double, 4> weights{};
   int count = 0;
   Vec3 center = Vec3::Zero();
   double square = 0;
@@ -141,7 +140,7 @@ Fit tightest(Shape shape, Points points) {
   if (!(across > 0))
     throw std::invalid_argument("the points have no extent along x and z: a cylinder around them has no radius");
   const double unit = std::ldexp(1.0, std::ilogb(across));
-  std::vector<Vec3> near;
+  vector<Vec3> near;
   if (shape != Shape::box) {
     near.reserve(points.size());
     // A cylinder's points are taken as seen from above.
@@ -153,7 +152,7 @@ Fit tightest(Shape shape, Points points) {
     const Vec3 center = sphere_center(near);
     fit.center += center * unit;
     // From the centre as rounded.
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (size_t i = 0; i < points.size(); ++i) {
       near[i] = (points[i] - fit.center) / unit;
       if (shape == Shape::cylinder) near[i].y() = 0;
     }
@@ -165,7 +164,7 @@ Fit tightest(Shape shape, Points points) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!box && axis != 1) continue;
       if (extent[axis] == 0)
-        throw std::invalid_argument(std::string("the points have no extent along ") + "xyz"[axis] + ": a " +
+        throw std::invalid_argument(string("the points have no extent along ") + "xyz"[axis] + ": a " +
                                     (box ? "box" : "cylinder") + " around them has no thickness");
       fit.volume.half[axis] = std::max(high[axis] - fit.center[axis], fit.center[axis] - low[axis]);
     }

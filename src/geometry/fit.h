@@ -1,8 +1,8 @@
 #pragma once
 // The tightest volume around a cloud of points. It gives the size of a body that has a mesh.
-#include <span>
 
 #include "physics/volume.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,6 +15,6 @@ struct Fit {
 /// the exact minimum, enlarged by rounding only (a few parts in 1e16). The cylinder's radius is that of the smallest
 /// circle around the points seen from above. Cost: a few passes over the points. Throws std::invalid_argument: no
 /// points, a point that is not finite, a volume without thickness.
-Fit tightest(Shape shape, std::span<const Vec3> points);
+Fit tightest(Shape shape, span<const Vec3> points);
 
 }  // namespace carom

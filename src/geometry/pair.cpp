@@ -4,6 +4,7 @@
 #include "geometry/pair.h"
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -78,7 +79,7 @@ PairPrism pair_prism(const World& world, Entity a, Entity b) {
 
 // The sphere lies in the direction -p from the wall's centre. Where a wall's edge has one cylinder, the prism has two
 // edges across the wall.
-std::uint8_t prism_feature(std::uint8_t feature, const Vec3& p) {
+uint8_t prism_feature(uint8_t feature, const Vec3& p) {
   const int across = p.z() < 0 ? -1 : 1;
   if (feature == wall_front) return PrismFeature{0, 0, -1}.code();
   if (feature == wall_back) return PrismFeature{0, 0, 1}.code();
@@ -90,13 +91,13 @@ std::uint8_t prism_feature(std::uint8_t feature, const Vec3& p) {
   return PrismFeature{corner % 2 == 0 ? -1 : 1, corner / 2 == 0 ? -1 : 1, across}.code();
 }
 
-std::uint8_t wall_feature(std::uint8_t code) {
+uint8_t wall_feature(uint8_t code) {
   const PrismFeature f = PrismFeature::of(code);
   // 0: on the side to which right or up points.
   const int right = f.x > 0, up = f.y > 0;
-  if (f.x != 0 && f.y != 0) return static_cast<std::uint8_t>(wall_corners + right + 2 * up);
-  if (f.x != 0) return static_cast<std::uint8_t>(wall_edges + right);
-  if (f.y != 0) return static_cast<std::uint8_t>(wall_edges + 2 + up);
+  if (f.x != 0 && f.y != 0) return static_cast<uint8_t>(wall_corners + right + 2 * up);
+  if (f.x != 0) return static_cast<uint8_t>(wall_edges + right);
+  if (f.y != 0) return static_cast<uint8_t>(wall_edges + 2 + up);
   return f.z < 0 ? wall_front : wall_back;
 }
 

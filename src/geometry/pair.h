@@ -4,10 +4,11 @@
 #include "geometry/slab_sum.h"
 #include "geometry/tilted_sum.h"
 #include "geometry/touch.h"
+#include "std.h"
 
 namespace carom {
 
-enum class PairKind : std::uint8_t {
+enum class PairKind : uint8_t {
   spheres,        // a ball
   half_space,     // anything and a plane
   sphere_wall,    // a rounded rectangle, with the features of contact_time.h
@@ -37,8 +38,8 @@ struct PairPrism {
 PairPrism pair_prism(const World& world, Entity a, Entity b);
 
 /// Features of a sphere and a wall, as those of the prism. `p`: x_b - x_a in the wall's frame.
-std::uint8_t prism_feature(std::uint8_t wall_feature, const Vec3& p);
-std::uint8_t wall_feature(std::uint8_t prism_feature);
+uint8_t prism_feature(uint8_t wall_feature, const Vec3& p);
+uint8_t wall_feature(uint8_t prism_feature);
 
 /// The closest points on the surfaces of a and b in the world (m). Body a is a box or a cylinder, b a wall at an angle
 /// to it. Where there are several, it is the middle of all.

@@ -4,7 +4,6 @@
 #include "geometry/path_time_of_impact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "numerics/compensated.h"
 #include "numerics/cube_root.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,7 +24,7 @@ namespace {
 /// (m/s).
 template <typename Way>
 FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3& from_a, Entity b, const Vec3& xb,
-                       double speeds, std::uint8_t left, double horizon) {
+                       double speeds, uint8_t left, double horizon) {
   const double far = from_a.cwiseAbs().sum() + xb.cwiseAbs().sum() + world.radius[a];
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
   double t = 0;
@@ -65,7 +65,7 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
 
 template <typename Way>
 FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
-                                 double speeds, std::uint8_t left, double horizon) {
+                                 double speeds, uint8_t left, double horizon) {
   const RelativeMotion start{xb - xa, way.velocity(0), way.acceleration(0), speeds, left != no_feature};
   const double far = xa.cwiseAbs().sum() + xb.cwiseAbs().sum();
   switch (pair_kind(world, a, b)) {
@@ -94,12 +94,12 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
 }  // namespace
 
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
-                           double speeds, std::uint8_t left, double horizon) {
+                           double speeds, uint8_t left, double horizon) {
   return time_of_impact_along(FadingWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);
 }
 
 FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
-                           const PolynomialPath::Terms& displacement, double length, double speeds, std::uint8_t left,
+                           const PolynomialPath::Terms& displacement, double length, double speeds, uint8_t left,
                            double horizon) {
   return time_of_impact_along(PolynomialWay(displacement, length), world, a, xa, b, xb, speeds, left, horizon);
 }
@@ -107,16 +107,16 @@ FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity 
 double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, double length, double s, double speeds,
                  bool just_separated, double horizon) {
   // s^2 - |d + displacement|^2, by t / length.
-  std::array<double, 2 * PolynomialPath::terms + 1> gap{};
+  array<double, 2 * PolynomialPath::terms + 1> gap{};
   gap[0] = just_separated ? 0 : -squared_gap(d, s);
-  for (std::size_t k = 0; k < PolynomialPath::terms; ++k) {
+  for (size_t k = 0; k < PolynomialPath::terms; ++k) {
     gap[k + 1] -= 2 * d.dot(displacement[k]);
-    for (std::size_t j = 0; j < PolynomialPath::terms; ++j) gap[k + j + 2] -= displacement[k].dot(displacement[j]);
+    for (size_t j = 0; j < PolynomialPath::terms; ++j) gap[k + j + 2] -= displacement[k].dot(displacement[j]);
   }
   const bool closed = gap[0] <= 0x1p-51 * s * s;
   if (closed && std::abs(gap[1]) <= 0x1p-48 * length * speeds * s) gap[1] = 0;
   if (closed) gap[0] = 0;
-  const auto first = std::find_if(gap.begin(), gap.end(), [](double c) { return c != 0; });
+  const auto first = std::ranges::find_if(gap, [](double c) { return c != 0; });
   if (first == gap.end()) return never;
   if (*first < 0) return 0;
   // Without the root at t = 0.
@@ -129,7 +129,7 @@ double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, doubl
 }
 
 FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
-                          std::uint8_t feature, double horizon) {
+                          uint8_t feature, double horizon) {
   const FadingWay way(pa, pb);
   const double least = 0x1p-50 * world.radius[a];
   // m: the allowed difference between the path and its parabola.

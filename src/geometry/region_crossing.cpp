@@ -6,13 +6,12 @@
 #include "geometry/region_crossing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "numerics/bernstein.h"
 #include "numerics/bracketed_root.h"
 #include "numerics/compensated.h"
+#include "std.h"
 
 namespace carom {
 
@@ -48,18 +47,18 @@ class Condition {
   }
 
   double value(double t) const {
-    std::array<DoubleDouble, 3> d;
+    array<DoubleDouble, 3> d;
     const Vec3 bent = path_.parabola ? Vec3(Vec3::Zero()) : PolynomialPath::value(path_.displacement, t / path_.length);
     const DoubleDouble half_square = two_product(0.5 * t, t);
     for (int k = 0; k < 3; ++k) {
-      DoubleDouble& at = d[static_cast<std::size_t>(k)];
+      DoubleDouble& at = d[static_cast<size_t>(k)];
       at = two_sum(path_.x[k], -point_[k]);
       at = path_.parabola ? at + (two_product(t, path_.v[k]) + half_square * DoubleDouble{path_.a[k], 0})
                           : at + DoubleDouble{bent[k], 0};
     }
     DoubleDouble sum = round_ ? -two_product(reach_, reach_) : DoubleDouble{-reach_, 0};
     for (int k = 0; k < 3; ++k) {
-      const DoubleDouble& at = d[static_cast<std::size_t>(k)];
+      const DoubleDouble& at = d[static_cast<size_t>(k)];
       if (axes_[k] != 0) sum = sum + at * (round_ ? at : DoubleDouble{axes_[k], 0});
     }
     return sum.value();
@@ -75,18 +74,18 @@ class Condition {
   Bernstein on(const Stretch& in) const {
     const PolynomialPath::Terms terms =
         PolynomialPath::shifted(path_.displacement, in.from / path_.length, (in.to - in.from) / path_.length);
-    const std::size_t count = path_.parabola ? 2 : PolynomialPath::terms;
-    std::array<double, Bernstein::most_degree + 1> a{};
+    const size_t count = path_.parabola ? 2 : PolynomialPath::terms;
+    array<double, Bernstein::most_degree + 1> a{};
     a[0] = value(in.from);
     if (!round_) {
-      for (std::size_t k = 0; k < count; ++k) a[k + 1] = axes_.dot(terms[k]);
+      for (size_t k = 0; k < count; ++k) a[k + 1] = axes_.dot(terms[k]);
       return Bernstein::of_powers(a, count);
     }
     const Vec3 start = axes_.cwiseProduct(distance(in.from));
-    for (std::size_t k = 0; k < count; ++k) {
+    for (size_t k = 0; k < count; ++k) {
       const Vec3 term = axes_.cwiseProduct(terms[k]);
       a[k + 1] += 2 * start.dot(term);
-      for (std::size_t j = 0; j < count; ++j) a[k + j + 2] += term.dot(terms[j]);
+      for (size_t j = 0; j < count; ++j) a[k + j + 2] += term.dot(terms[j]);
     }
     return Bernstein::of_powers(a, 2 * count);
   }
@@ -115,7 +114,7 @@ double refine(const Condition& condition, const Stretch& in, bool falling) {
 }
 
 /// Appends the roots of a condition in an interval at which its sign changes, in order.
-void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, std::vector<double>& roots) {
+void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, vector<double>& roots) {
   const int changes = f.changes();
   if (changes == 0) return;
   const double middle = in.from + 0.5 * (in.to - in.from);
@@ -130,7 +129,7 @@ void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, std:
   // A root at the middle itself is none of the open halves.
   if (right.b[0] == 0 && f.changes() % 2 == 0) {
     const auto sign = [](const Bernstein& of, bool last) {
-      for (std::size_t k = 0; k <= of.degree; ++k)
+      for (size_t k = 0; k <= of.degree; ++k)
         if (const double b = of.b[last ? of.degree - k : k]; b != 0) return b < 0 ? -1 : 1;
       return 0;
     };
@@ -140,13 +139,13 @@ void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, std:
 }
 
 /// Reduces the intervals to those in which the condition is met.
-void restrict_to(const Condition& condition, std::vector<Stretch>& intervals) {
-  std::vector<Stretch> met;
-  std::vector<double> roots;
+void restrict_to(const Condition& condition, vector<Stretch>& intervals) {
+  vector<Stretch> met;
+  vector<double> roots;
   for (const Stretch& in : intervals) {
     Bernstein f = condition.on(in);
     double sign = 0;
-    for (std::size_t k = 0; k <= f.degree && sign == 0; ++k) sign = f.b[k];
+    for (size_t k = 0; k <= f.degree && sign == 0; ++k) sign = f.b[k];
     roots.clear();
     add_roots(condition, f, in, roots);
     double from = in.from;
@@ -162,8 +161,8 @@ void restrict_to(const Condition& condition, std::vector<Stretch>& intervals) {
 }
 
 /// When the path is inside the region, `margin` (m) wider on all sides.
-std::vector<Stretch> inside_of(const WorldRegion& region, const CenterPath& path, const Stretch& in, double margin) {
-  std::vector<Stretch> intervals{in};
+vector<Stretch> inside_of(const WorldRegion& region, const CenterPath& path, const Stretch& in, double margin) {
+  vector<Stretch> intervals{in};
   if (region.is_side()) {
     restrict_to(Condition::side(path, region.position, -region.normal, margin), intervals);
     return intervals;
@@ -180,21 +179,21 @@ std::vector<Stretch> inside_of(const WorldRegion& region, const CenterPath& path
 
 }  // namespace
 
-std::optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath& path, double from, bool inside,
-                                          double margin) {
-  if (!(path.length > from)) return std::nullopt;
-  const std::vector<Stretch> deep = inside_of(region, path, {from, path.length}, inside ? margin : -margin);
+optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath& path, double from, bool inside,
+                                     double margin) {
+  if (!(path.length > from)) return nullopt;
+  const vector<Stretch> deep = inside_of(region, path, {from, path.length}, inside ? margin : -margin);
   double sure = from;
   if (!inside) {
-    if (deep.empty()) return std::nullopt;
+    if (deep.empty()) return nullopt;
     sure = deep.front().from;
   } else if (!deep.empty() && deep.front().from == from) {
     sure = deep.front().to;
-    if (sure == path.length) return std::nullopt;
+    if (sure == path.length) return nullopt;
   }
   if (sure == from) return CrossingTime{from, from};
   // The boundary itself is crossed before.
-  const std::vector<Stretch> real = inside_of(region, path, {from, sure}, 0);
+  const vector<Stretch> real = inside_of(region, path, {from, sure}, 0);
   if (real.empty()) return CrossingTime{inside ? from : sure, sure};
   return CrossingTime{inside ? real.back().to : real.back().from, sure};
 }

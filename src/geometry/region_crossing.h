@@ -1,9 +1,9 @@
 #pragma once
 // When a path crosses the boundary of a region (physics/world_region.h).
-#include <optional>
 
 #include "numerics/polynomial_path.h"
 #include "physics/world_region.h"
+#include "std.h"
 
 namespace carom {
 
@@ -29,7 +29,7 @@ struct CrossingTime {
 
 /// The first crossing from `from` (s) on of a body that was inside before, or was not. Less than `margin` (m) beyond
 /// the boundary is no crossing. A body that is there at `from` crosses at `from`.
-std::optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath& path, double from, bool inside,
-                                          double margin);
+optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath& path, double from, bool inside,
+                                     double margin);
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include "geometry/contact_time.h"
 #include "geometry/fading_descent.h"
 #include "numerics/polynomial_path.h"
+#include "std.h"
 
 namespace carom {
 
@@ -86,7 +87,7 @@ class PolynomialWay {
     distance.degree = PolynomialPath::terms;
     distance.c[0] = gap;
     distance.c[1] = rate * length_;
-    for (std::size_t k = 1; k < PolynomialPath::terms; ++k) distance.c[k + 1] = n.dot(on[k]);
+    for (size_t k = 1; k < PolynomialPath::terms; ++k) distance.c[k + 1] = n.dot(on[k]);
     const double s = first_descent(distance, horizon / length_);
     return s == never ? never : s * length_;
   }

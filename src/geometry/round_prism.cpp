@@ -8,6 +8,7 @@
 
 #include "geometry/exact_path.h"
 #include "numerics/compensated.h"
+#include "std.h"
 
 namespace carom {
 
@@ -65,7 +66,7 @@ Separation RoundPrism::nearest(const Vec3& p) const {
   return at(p, f.code());
 }
 
-Separation RoundPrism::at(const Vec3& p, std::uint8_t feature) const {
+Separation RoundPrism::at(const Vec3& p, uint8_t feature) const {
   const PrismFeature f = PrismFeature::of(feature);
   const double v = f.y * p.y() - half.y();
   if (!f.level()) return {v - ball, Vec3(0, f.y, 0), feature};
@@ -79,7 +80,7 @@ Separation RoundPrism::at(const Vec3& p, std::uint8_t feature) const {
   return {length_beyond(e.u, v, ball), nu * e.out + Vec3(0, nv * f.y, 0), feature};
 }
 
-double RoundPrism::displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& by) const {
+double RoundPrism::displaced_gap(const Vec3& p, uint8_t feature, double gap, const Vec3& by) const {
   const PrismFeature f = PrismFeature::of(feature);
   const double dv = f.y * by.y();
   if (!f.level()) return gap + dv;
@@ -96,7 +97,7 @@ double RoundPrism::displaced_gap(const Vec3& p, std::uint8_t feature, double gap
   return lengths > 0 ? gap + (du * (2 * u + du) + dv * (2 * v + dv)) / lengths : gap;
 }
 
-bool RoundPrism::rim_gap(std::uint8_t feature, const RelativeMotion& m, double t, double& gap) const {
+bool RoundPrism::rim_gap(uint8_t feature, const RelativeMotion& m, double t, double& gap) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (!(f.y != 0 && f.bent() && disc > 0)) return false;
   const auto p = exact_position(m, t);
@@ -107,7 +108,7 @@ bool RoundPrism::rim_gap(std::uint8_t feature, const RelativeMotion& m, double t
   return true;
 }
 
-double RoundPrism::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const {
+double RoundPrism::bending(const Vec3& p, uint8_t feature, const Vec3& w) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (!f.level()) return 0;
   const Excess e = excess(p, f);
@@ -121,18 +122,18 @@ double RoundPrism::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) c
   return across * across / length + e.u / length * turn;
 }
 
-bool RoundPrism::flat(std::uint8_t feature) const {
+bool RoundPrism::flat(uint8_t feature) const {
   const PrismFeature f = PrismFeature::of(feature);
   return (f.x != 0) + (f.y != 0) + (f.z != 0) == 1;
 }
 
-bool RoundPrism::sharp(std::uint8_t feature) const {
+bool RoundPrism::sharp(uint8_t feature) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (ball > 0) return false;
   return (f.level() && f.y != 0) || (f.bent() && disc == 0);
 }
 
-std::uint8_t RoundPrism::foremost_face(const Vec3& p, std::uint8_t feature) const {
+uint8_t RoundPrism::foremost_face(const Vec3& p, uint8_t feature) const {
   const PrismFeature f = PrismFeature::of(feature);
   PrismFeature side{f.x, 0, f.z};
   const double ex = std::abs(p.x()) - half.x(), ez = std::abs(p.z()) - half.z();
@@ -142,7 +143,7 @@ std::uint8_t RoundPrism::foremost_face(const Vec3& p, std::uint8_t feature) cons
   return v > u || (v == u && side.x == 0) ? PrismFeature{0, f.y, 0}.code() : side.code();
 }
 
-Vec3 RoundPrism::within(const Vec3& p, std::uint8_t feature) const {
+Vec3 RoundPrism::within(const Vec3& p, uint8_t feature) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (flat(feature)) return p;
   Vec3 q = p;
@@ -155,8 +156,7 @@ Vec3 RoundPrism::within(const Vec3& p, std::uint8_t feature) const {
   return q;
 }
 
-bool RoundPrism::as_spheres(std::uint8_t feature, const RelativeMotion& m, RelativeMotion& reduced,
-                            double& radius) const {
+bool RoundPrism::as_spheres(uint8_t feature, const RelativeMotion& m, RelativeMotion& reduced, double& radius) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (flat(feature) || (f.y != 0 && f.bent() && disc > 0)) return false;
   reduced = m;
@@ -172,7 +172,7 @@ bool RoundPrism::as_spheres(std::uint8_t feature, const RelativeMotion& m, Relat
   return radius > 0;
 }
 
-FeatureTime RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
+FeatureTime RoundPrism::leave(uint8_t feature, const RelativeMotion& m, double horizon) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (!f.level() && disc > 0) return leave_round_cap(f, m, horizon);
   FeatureTime first{never, no_feature};
@@ -244,7 +244,7 @@ FeatureTime RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m,
     const Roots roots = roots_between(room, 0, horizon);
     const Polynomial slope = room.derivative();
     for (int k = 0; k < roots.count; ++k) {
-      const double t = roots.at[static_cast<std::size_t>(k)];
+      const double t = roots.at[static_cast<size_t>(k)];
       const Vec3 p = path(t);
       const double rounding = 0x1p-44 * (size() + p.cwiseAbs().sum() + m.d.cwiseAbs().sum());
       const bool on_corner = c.x * p.x() >= half.x() - rounding && c.z * p.z() >= half.z() - rounding;

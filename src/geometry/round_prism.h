@@ -3,11 +3,11 @@
 // The rectangle is enlarged by a disc in its plane, extended by half.y to both sides, and enlarged by a ball.
 // A rounded box has no disc, a cylinder no rectangle, and the sum of box and cylinder no ball. Without the ball the
 // rims are sharp.
-#include <cstdint>
 
 #include "geometry/contact_time.h"
 #include "geometry/separation.h"
 #include "geometry/touch.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,8 +17,8 @@ namespace carom {
 /// has signs 1 in x and z.
 struct PrismFeature {
   int x, y, z;
-  std::uint8_t code() const { return static_cast<std::uint8_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)); }
-  static PrismFeature of(std::uint8_t code) { return {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1}; }
+  uint8_t code() const { return static_cast<uint8_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)); }
+  static PrismFeature of(uint8_t code) { return {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1}; }
   // The normal has a part in the rectangle's plane.
   bool level() const { return x != 0 || z != 0; }
   // That part turns about a corner.
@@ -33,34 +33,34 @@ struct RoundPrism {
   Separation nearest(const Vec3& p) const;
 
   /// The same for one feature's surface, extended without end.
-  Separation at(const Vec3& p, std::uint8_t feature) const;
+  Separation at(const Vec3& p, uint8_t feature) const;
 
   /// The gap at a feature's surface after a displacement, from a known gap. It is exact for small displacements too.
-  double displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& displacement) const;
+  double displaced_gap(const Vec3& p, uint8_t feature, double gap, const Vec3& displacement) const;
 
   /// The gap at a round rim at time t (s), in double-double. False: the feature is not a round rim.
   /// That is the one surface that is neither flat nor met as spheres meet.
-  bool rim_gap(std::uint8_t feature, const RelativeMotion& motion, double t, double& gap) const;
+  bool rim_gap(uint8_t feature, const RelativeMotion& motion, double t, double& gap) const;
 
   /// Second derivative of the gap (m/s^2) at constant velocity w (m/s): the effect of the surface's curvature.
-  double bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const;
+  double bending(const Vec3& p, uint8_t feature, const Vec3& w) const;
 
   /// The least radius of curvature at a feature that is neither flat nor sharp (m).
-  double curvature_radius(const Vec3&, std::uint8_t feature) const {
+  double curvature_radius(const Vec3&, uint8_t feature) const {
     return PrismFeature::of(feature).y == 0 ? disc + ball : ball;
   }
 
-  bool flat(std::uint8_t feature) const;
+  bool flat(uint8_t feature) const;
 
   /// Whether the feature is an edge or a corner without rounding, which has several normals.
-  bool sharp(std::uint8_t feature) const;
+  bool sharp(uint8_t feature) const;
 
   /// The face of a sharp edge or corner over which p is farthest out. Ties go to x before y before z.
-  std::uint8_t foremost_face(const Vec3& p, std::uint8_t feature) const;
+  uint8_t foremost_face(const Vec3& p, uint8_t feature) const;
 
   /// Calls visit(face) for each face at a sharp edge or corner.
   template <typename Visit>
-  void for_each_face(std::uint8_t feature, Visit visit) const {
+  void for_each_face(uint8_t feature, Visit visit) const {
     const PrismFeature f = PrismFeature::of(feature);
     if (f.bent() && disc > 0) {
       visit(PrismFeature{f.x, 0, f.z}.code());
@@ -72,14 +72,14 @@ struct RoundPrism {
   }
 
   /// p, moved by no more than rounding into the region that is nearest to this feature.
-  Vec3 within(const Vec3& p, std::uint8_t feature) const;
+  Vec3 within(const Vec3& p, uint8_t feature) const;
 
   /// Whether a point meets the feature's surface as spheres meet. If so, it gives their motion and the sum of their
   /// radii.
-  bool as_spheres(std::uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
+  bool as_spheres(uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
 
   /// See leave_feature in touch.h. The motion's d is in the prism's frame.
-  FeatureTime leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
+  FeatureTime leave(uint8_t feature, const RelativeMotion& motion, double horizon) const;
 
   double size() const { return half.sum() + disc + ball; }
 

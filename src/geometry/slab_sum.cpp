@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,7 +18,7 @@ SlabSum::SlabSum(const Vec3& half, const Wall& wall) : size_(half.sum() + wall.h
       const double sine = cross.norm();
       // Parallel: other pairs span their faces too.
       if (sine < 0x1p-50) continue;
-      Slab& slab = slabs_[static_cast<std::size_t>(count_++)];
+      Slab& slab = slabs_[static_cast<size_t>(count_++)];
       slab = {i == 3 ? wall.normal : Vec3(cross / sine), 0};
       for (int k = 0; k < 5; ++k)
         if (k != i && k != j) slab.half += reach[k] * std::abs(along[k].dot(slab.normal));
@@ -28,32 +29,32 @@ Separation SlabSum::nearest(const Vec3& p) const {
   int face = 0;
   double gap = -never;
   for (int k = 0; k < count_; ++k) {
-    const Slab& slab = slabs_[static_cast<std::size_t>(k)];
+    const Slab& slab = slabs_[static_cast<size_t>(k)];
     const double along = slab.normal.dot(p);
     if (std::abs(along) - slab.half > gap) {
       gap = std::abs(along) - slab.half;
       face = 2 * k + (along < 0);
     }
   }
-  return at(p, static_cast<std::uint8_t>(face));
+  return at(p, static_cast<uint8_t>(face));
 }
 
-Separation SlabSum::at(const Vec3& p, std::uint8_t feature) const {
+Separation SlabSum::at(const Vec3& p, uint8_t feature) const {
   const Slab& slab = slabs_[feature / 2];
   const Vec3 n = feature % 2 == 0 ? slab.normal : Vec3(-slab.normal);
   return {n.dot(p) - slab.half, n, feature};
 }
 
-double SlabSum::displaced_gap(const Vec3&, std::uint8_t feature, double gap, const Vec3& by) const {
+double SlabSum::displaced_gap(const Vec3&, uint8_t feature, double gap, const Vec3& by) const {
   const double along = slabs_[feature / 2].normal.dot(by);
   return gap + (feature % 2 == 0 ? along : -along);
 }
 
-FeatureTime SlabSum::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
+FeatureTime SlabSum::leave(uint8_t feature, const RelativeMotion& m, double horizon) const {
   FeatureTime first{never, no_feature};
   const Vec3& n = slabs_[feature / 2].normal;
   for (int k = 0; k < 2 * count_; ++k) {
-    const auto other = static_cast<std::uint8_t>(k);
+    const auto other = static_cast<uint8_t>(k);
     if (other / 2 == feature / 2) continue;
     const Separation s = at(m.d, other);
     // The same face, spanned by another pair.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -28,9 +29,9 @@ TiltedSum::TiltedSum(double radius, double half_height, const Wall& wall)
     : radius_(radius),
       segments_{Vec3(0, half_height, 0), wall.half_width * wall.right, wall.half_height * wall.up},
       size_(radius + half_height + wall.half_width + wall.half_height) {
-  for (std::size_t k = 0; k < 3; ++k) casts_[k] = std::abs(segments_[k].y()) > 0x1p-40 * segments_[k].norm();
+  for (size_t k = 0; k < 3; ++k) casts_[k] = std::abs(segments_[k].y()) > 0x1p-40 * segments_[k].norm();
   const Vec3 along[3] = {Vec3::UnitY(), wall.right, wall.up};
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (size_t k = 0; k < 2; ++k) {
     const Vec3 cross = along[0].cross(along[k + 1]);
     const double sine = cross.norm();
     face_normals_[k] = sine < 0x1p-50 ? Vec3::Zero() : Vec3(cross / sine);
@@ -45,7 +46,7 @@ double TiltedSum::support(const Vec3& n) const {
   return reach;
 }
 
-TiltedSum::Patch TiltedSum::patch(std::uint8_t feature) const {
+TiltedSum::Patch TiltedSum::patch(uint8_t feature) const {
   const int along = (feature - patches) / 4, corner = (feature - patches) % 4;
   const Vec3& u = segments_[along == 0 ? 1 : 0];
   const Vec3& v = segments_[along == 2 ? 1 : 2];
@@ -54,21 +55,21 @@ TiltedSum::Patch TiltedSum::patch(std::uint8_t feature) const {
 
 /// p projected along a segment into the disc's plane.
 Vec3 TiltedSum::shadow(const Vec3& p, int along) const {
-  const Vec3& g = segments_[static_cast<std::size_t>(along)];
+  const Vec3& g = segments_[static_cast<size_t>(along)];
   return level_part(p - p.y() / g.y() * g);
 }
 
 /// The normal in space (not unit) of a line with the normal `level` in the projection along a segment.
 Vec3 TiltedSum::slanted(const Vec3& level, int along) const {
-  const Vec3& g = segments_[static_cast<std::size_t>(along)];
+  const Vec3& g = segments_[static_cast<size_t>(along)];
   return {level.x(), -(level.x() * g.x() + level.z() * g.z()) / g.y(), level.z()};
 }
 
 /// The corner of the shadow's parallelogram nearest to p's shadow, if a corner is the nearest part.
-std::uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
+uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
   const Vec3 q = shadow(p, along);
   const Vec3 side[2] = {shadow(segments_[along == 0 ? 1 : 0], along), shadow(segments_[along == 2 ? 1 : 2], along)};
-  std::uint8_t best = no_feature;
+  uint8_t best = no_feature;
   double best_distance = never;
   for (int corner = 0; corner < 4; ++corner) {
     const double signs[2] = {corner % 2 == 0 ? 1.0 : -1.0, corner / 2 == 0 ? 1.0 : -1.0};
@@ -78,18 +79,18 @@ std::uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
     const double distance = e.squaredNorm();
     if (distance < best_distance) {
       best_distance = distance;
-      best = static_cast<std::uint8_t>(patches + 4 * along + corner);
+      best = static_cast<uint8_t>(patches + 4 * along + corner);
     }
   }
   return best;
 }
 
-Vec3 TiltedSum::face_normal(std::uint8_t feature) const {
+Vec3 TiltedSum::face_normal(uint8_t feature) const {
   const Vec3 n = feature < caps ? face_normals_[feature / 2] : Vec3(0, 1, 0);
   return feature % 2 == 0 ? n : Vec3(-n);
 }
 
-Separation TiltedSum::at(const Vec3& p, std::uint8_t feature) const {
+Separation TiltedSum::at(const Vec3& p, uint8_t feature) const {
   if (flat(feature)) {
     const Vec3 n = face_normal(feature);
     return {n.dot(p) - support(n), n, feature};
@@ -107,15 +108,15 @@ Separation TiltedSum::nearest(const Vec3& p) const {
 
 Separation TiltedSum::nearest_but(const Vec3& p, int without) const {
   Separation best{-never, Vec3::UnitY(), caps};
-  for (std::uint8_t face = 0; face < patches; face = static_cast<std::uint8_t>(face + 2)) {
+  for (uint8_t face = 0; face < patches; face = static_cast<uint8_t>(face + 2)) {
     const Vec3 n = face_normal(face);
     if (n.isZero(0) || face / 2 == without) continue;
     const double along = n.dot(p), gap = std::abs(along) - support(n);
-    if (gap > best.gap) best = {gap, along < 0 ? Vec3(-n) : n, static_cast<std::uint8_t>(face + (along < 0))};
+    if (gap > best.gap) best = {gap, along < 0 ? Vec3(-n) : n, static_cast<uint8_t>(face + (along < 0))};
   }
   for (int along = 0; along < 3; ++along) {
-    if (!casts_[static_cast<std::size_t>(along)]) continue;
-    const std::uint8_t corner = nearest_corner(p, along);
+    if (!casts_[static_cast<size_t>(along)]) continue;
+    const uint8_t corner = nearest_corner(p, along);
     if (corner == no_feature) continue;
     // For every normal the sum lies beyond the plane. The arc's own normal is the best of those across this segment.
     Separation s = at(p, corner);
@@ -125,7 +126,7 @@ Separation TiltedSum::nearest_but(const Vec3& p, int without) const {
   return best;
 }
 
-double TiltedSum::displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& by) const {
+double TiltedSum::displaced_gap(const Vec3& p, uint8_t feature, double gap, const Vec3& by) const {
   if (flat(feature)) return gap + face_normal(feature).dot(by);
   // The change of length in the shadow, |e + by| - |e|.
   const Patch arc = patch(feature);
@@ -136,7 +137,7 @@ double TiltedSum::displaced_gap(const Vec3& p, std::uint8_t feature, double gap,
   return (gap * slant_from + d.dot(2 * e + d) / (from + to)) / slant_to;
 }
 
-double TiltedSum::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const {
+double TiltedSum::bending(const Vec3& p, uint8_t feature, const Vec3& w) const {
   if (flat(feature)) return 0;
   const Patch arc = patch(feature);
   const Vec3 e = shadow(p - arc.center, arc.along), level = shadow(w, arc.along);
@@ -147,13 +148,12 @@ double TiltedSum::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) co
 }
 
 /// A patch's cross-section is an ellipse: the disc as seen along the segment.
-double TiltedSum::curvature_radius(const Vec3& p, std::uint8_t feature) const {
-  const Vec3& g = segments_[static_cast<std::size_t>(patch(feature).along)];
+double TiltedSum::curvature_radius(const Vec3& p, uint8_t feature) const {
+  const Vec3& g = segments_[static_cast<size_t>(patch(feature).along)];
   return 1 / bending(p, feature, at(p, feature).normal.cross(g.normalized()));
 }
 
-bool TiltedSum::as_spheres(std::uint8_t feature, const RelativeMotion& m, RelativeMotion& reduced,
-                           double& radius) const {
+bool TiltedSum::as_spheres(uint8_t feature, const RelativeMotion& m, RelativeMotion& reduced, double& radius) const {
   if (flat(feature)) return false;
   const Patch arc = patch(feature);
   reduced = {shadow(m.d - arc.center, arc.along), shadow(m.w, arc.along), shadow(m.a, arc.along), m.speeds,
@@ -162,16 +162,16 @@ bool TiltedSum::as_spheres(std::uint8_t feature, const RelativeMotion& m, Relati
   return true;
 }
 
-FeatureTime TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
+FeatureTime TiltedSum::leave(uint8_t feature, const RelativeMotion& m, double horizon) const {
   FeatureTime first{never, no_feature};
   if (!flat(feature)) return first;
   const Vec3 n = face_normal(feature);
   // The face is the part of the sum that lies farthest along n: a polygon about its centre, enlarged by the disc under
   // a cap.
   Vec3 center = Vec3::Zero();
-  std::array<Vec3, 3> sides;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
+  array<Vec3, 3> sides;
+  size_t count = 0;
+  for (size_t k = 0; k < 3; ++k) {
     const Vec3& g = segments_[k];
     const double along = g.dot(n);
     const bool spans = feature < caps && (static_cast<int>(k) == first_of_face[feature / 2] ||
@@ -191,10 +191,10 @@ FeatureTime TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, doub
     first.time = t;
     outward = out;
   };
-  for (std::size_t k = 0; k < count; ++k) {
+  for (size_t k = 0; k < count; ++k) {
     const Vec3 q = n.cross(sides[k]).normalized();
     double reach = cap ? radius_ : 0;
-    for (std::size_t j = 0; j < count; ++j)
+    for (size_t j = 0; j < count; ++j)
       if (j != k) reach += std::abs(q.dot(sides[j]));
     for (double sign : {1.0, -1.0}) {
       const Vec3 out = sign * q;
@@ -210,7 +210,7 @@ FeatureTime TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, doub
       const Polynomial slope = room.derivative();
       const Roots roots = roots_between(room, 0, horizon);
       for (int k = 0; k < roots.count; ++k) {
-        const double t = roots.at[static_cast<std::size_t>(k)];
+        const double t = roots.at[static_cast<size_t>(k)];
         const Vec3 e = level.d + t * (level.w + 0.5 * t * level.a);
         if (slope(t) < 0 && end.dot(e) >= -0x1p-40 * end.norm() * radius_) offer(t, e.normalized());
       }

@@ -4,6 +4,7 @@
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -16,14 +17,14 @@ double size_of_positions(const World& world, Entity b, const RelativeMotion& mot
   return x.cwiseAbs().sum() + (x - motion.d).cwiseAbs().sum() + 2 * motion.moved;
 }
 
-FeatureTime meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, double horizon) {
+FeatureTime meet_spheres(const RelativeMotion& motion, double s, uint8_t left, double horizon) {
   RelativeMotion m = motion;
   m.just_separated = left != no_feature;
   return {sphere_contact_time(m, s, horizon), 0};
 }
 
 /// d points to the plane's point.
-FeatureTime meet_plane(const Plane& plane, const RelativeMotion& m, double reach, std::uint8_t left, double horizon) {
+FeatureTime meet_plane(const Plane& plane, const RelativeMotion& m, double reach, uint8_t left, double horizon) {
   const double noise = 0x1p-49 * m.speeds;
   const double gap = plane_gap(-m.d, Vec3::Zero(), plane.normal, reach);
   return {plane_contact_time(gap, -plane.normal.dot(m.w), -plane.normal.dot(m.a), noise, left != no_feature, horizon),
@@ -32,8 +33,8 @@ FeatureTime meet_plane(const Plane& plane, const RelativeMotion& m, double reach
 
 }  // namespace
 
-FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion,
-                                   std::uint8_t left, double horizon) {
+FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, uint8_t left,
+                                   double horizon) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres: {
       const double s = world.volume_of(a).half.x() + world.volume_of(b).half.x();
@@ -68,7 +69,7 @@ FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const
   return {never, no_feature};
 }
 
-FeatureTime leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
+FeatureTime leave_feature(const World& world, Entity a, Entity b, uint8_t feature, const RelativeMotion& motion,
                           double horizon) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres:

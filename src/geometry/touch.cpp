@@ -9,6 +9,7 @@
 #include "geometry/pair.h"
 #include "numerics/compensated.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -59,7 +60,7 @@ Touch touch_plane(const Plane& plane, const Vec3& point, const Volume& volume, c
 }
 
 Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const Vec3& xa, const Vec3& xb,
-                 std::uint8_t feature) {
+                 uint8_t feature) {
   if (feature == no_feature) {
     const PairPrism pair = pair_prism(world, a, b);
     feature = wall_feature(pair.sum.nearest(pair.frame.to(xb - xa)).feature);
@@ -124,7 +125,7 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
   return {m.x(), c.y(), m.z()};
 }
 
-Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const Vec3& xb, std::uint8_t feature) {
+Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const Vec3& xb, uint8_t feature) {
   const PairPrism pair = pair_prism(world, a, b);
   const Vec3 p = pair.frame.to(xb - xa);
   Separation s = feature == no_feature ? pair.sum.nearest(p) : pair.sum.at(p, feature);
@@ -142,7 +143,7 @@ Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const 
 
 template <typename Sum>
 Touch touch_at_an_angle(const Sum& sum, const Volume& volume, const Wall& wall, const Vec3& xa, const Vec3& xb,
-                        std::uint8_t feature) {
+                        uint8_t feature) {
   Separation s = feature == no_feature ? sum.nearest(xb - xa) : sum.at(xb - xa, feature);
   s.gap += s.normal.dot(lost_in_difference(xa, xb));
   if (feature == no_feature && s.gap > rounding_of_gap(xa, xb, sum.size())) {
@@ -174,7 +175,7 @@ bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, con
   return reach_along(world, fixed, xf, n) <= n.dot(xa) - volume.support(n) + rounding;
 }
 
-Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) {
+Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, uint8_t feature) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres:
       return touch_spheres(xa, world.volume_of(a).half.x(), xb, world.volume_of(b).half.x());
@@ -220,7 +221,7 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
   return 0;
 }
 
-bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature) {
+bool is_flat(const World& world, Entity a, Entity b, uint8_t feature) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres:
       return false;

@@ -6,6 +6,7 @@
 
 #include "geometry/contact_time.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -82,33 +83,33 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
 }  // namespace
 
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
-                              std::uint8_t left, double horizon) {
+                              uint8_t left, double horizon) {
   return wall_contact_time(wall, of_wall(wall, x, v, a), radius, left, horizon);
 }
 
-WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, std::uint8_t left,
+WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
                               double horizon) {
   const LocalPath path = to_local(wall, motion, radius);
   const double half[2] = {wall.half_width, wall.half_height};
   WallContact first{never, no_feature};
-  const auto offer = [&](double t, std::uint8_t feature) {
+  const auto offer = [&](double t, uint8_t feature) {
     if (!(t < first.time)) return;
     first = {t, feature};
     // A later contact does not matter.
     horizon = std::min(horizon, t);
   };
   const bool on_rim = left != no_feature && left >= wall_edges;
-  for (std::uint8_t face : {wall_front, wall_back})
+  for (uint8_t face : {wall_front, wall_back})
     offer(face_contact_time(path, face == wall_front ? 1 : -1, half, radius, left == face, on_rim, horizon), face);
   const double signs[2] = {1, -1};
   for (int k = 0; k < 4; ++k) {
-    const auto feature = static_cast<std::uint8_t>(wall_edges + k);
+    const auto feature = static_cast<uint8_t>(wall_edges + k);
     Vec3 axis = Vec3::Zero();
     axis[k / 2] = signs[k % 2] * half[k / 2];
     offer(edge_contact_time(path, 1 - k / 2, half[1 - k / 2], axis, radius, left == feature, horizon), feature);
   }
   for (int k = 0; k < 4; ++k) {
-    const auto feature = static_cast<std::uint8_t>(wall_corners + k);
+    const auto feature = static_cast<uint8_t>(wall_corners + k);
     const Vec3 corner(signs[k % 2] * half[0], signs[k / 2] * half[1], 0);
     const double t =
         sphere_contact_time({path.p - corner, path.v, path.a, path.rounded_speed, left == feature}, radius, horizon);
@@ -142,7 +143,7 @@ WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, do
     // The room before this rim, half - side p, falls to zero like the gap above a plane.
     const double t = plane_contact_time(half[axis] - side * path.p[axis], -side * path.v[axis], -side * path.a[axis], 0,
                                         false, horizon);
-    if (t < first.time) first = {t, static_cast<std::uint8_t>(wall_edges + k)};
+    if (t < first.time) first = {t, static_cast<uint8_t>(wall_edges + k)};
   }
   return first;
 }

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
 constexpr int most_halvings = 52;
 
-void isolate(Bernstein& f, double from, double length, int halvings, std::vector<double>& roots) {
+void isolate(Bernstein& f, double from, double length, int halvings, vector<double>& roots) {
   if (f.changes() == 0) return;
   if (halvings == most_halvings) {
     roots.push_back(from);
@@ -22,13 +24,13 @@ void isolate(Bernstein& f, double from, double length, int halvings, std::vector
 
 }  // namespace
 
-Bernstein Bernstein::of_powers(const std::array<double, most_degree + 1>& a, std::size_t degree) {
+Bernstein Bernstein::of_powers(const array<double, most_degree + 1>& a, size_t degree) {
   Bernstein to;
   to.degree = degree;
-  for (std::size_t i = 0; i <= degree; ++i) {
+  for (size_t i = 0; i <= degree; ++i) {
     // C(i, k) / C(degree, k)
     double share = 1;
-    for (std::size_t k = 0; k <= i; ++k) {
+    for (size_t k = 0; k <= i; ++k) {
       to.b[i] += share * a[k];
       if (k < i) share *= static_cast<double>(i - k) / static_cast<double>(degree - k);
     }
@@ -39,7 +41,7 @@ Bernstein Bernstein::of_powers(const std::array<double, most_degree + 1>& a, std
 int Bernstein::changes() const {
   int count = 0;
   double last = 0;
-  for (std::size_t i = 0; i <= degree; ++i) {
+  for (size_t i = 0; i <= degree; ++i) {
     if (b[i] == 0) continue;
     count += last != 0 && (last < 0) != (b[i] < 0);
     last = b[i];
@@ -51,19 +53,19 @@ Bernstein Bernstein::split() {
   Bernstein right;
   right.degree = degree;
   Bernstein work = *this;
-  for (std::size_t level = 0; level <= degree; ++level) {
+  for (size_t level = 0; level <= degree; ++level) {
     b[level] = work.b[0];
     right.b[degree - level] = work.b[degree - level];
-    for (std::size_t i = 0; i + level < degree; ++i) work.b[i] = 0.5 * (work.b[i] + work.b[i + 1]);
+    for (size_t i = 0; i + level < degree; ++i) work.b[i] = 0.5 * (work.b[i] + work.b[i + 1]);
   }
   return right;
 }
 
-std::vector<double> roots_in_unit(std::span<const double> coefficients) {
-  std::vector<double> roots;
+vector<double> roots_in_unit(span<const double> coefficients) {
+  vector<double> roots;
   if (coefficients.size() < 2) return roots;
-  std::array<double, Bernstein::most_degree + 1> powers{};
-  std::copy(coefficients.begin(), coefficients.end(), powers.begin());
+  array<double, Bernstein::most_degree + 1> powers{};
+  std::ranges::copy(coefficients, powers.begin());
   Bernstein f = Bernstein::of_powers(powers, coefficients.size() - 1);
   isolate(f, 0, 1, 0, roots);
   std::erase_if(roots, [](double s) { return !(s > 0 && s < 1); });

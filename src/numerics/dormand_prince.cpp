@@ -5,10 +5,11 @@
 #include "numerics/dormand_prince.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "std.h"
 
 namespace carom {
 
@@ -16,10 +17,10 @@ namespace {
 
 /// One term of a stage: a weight and the number of the earlier stage that it applies to.
 struct Weight {
-  std::size_t stage;
+  size_t stage;
   double value;
 };
-using StageWeights = std::vector<Weight>;
+using StageWeights = vector<Weight>;
 
 const StageWeights stage_of[] = {
     {},
@@ -155,9 +156,9 @@ const StageWeights dense[] = {
 };
 
 // The stage at the step's end. It is also the first of the next step.
-constexpr std::size_t last = 12;
+constexpr size_t last = 12;
 
-Vec3 sum(const StageWeights& row, const std::vector<Vec3>* stages, std::size_t k) {
+Vec3 sum(const StageWeights& row, const vector<Vec3>* stages, size_t k) {
   Vec3 s = Vec3::Zero();
   for (const Weight& w : row) s += w.value * stages[w.stage][k];
   return s;
@@ -172,17 +173,16 @@ double error_of(double h, double e5, double e3) {
 
 }  // namespace
 
-DormandPrince::DormandPrince(std::vector<Vec3> x, std::vector<Vec3> v, std::vector<Vec3> a)
-    : DenseMotion(std::move(x), std::move(v)) {
+DormandPrince::DormandPrince(vector<Vec3> x, vector<Vec3> v, vector<Vec3> a) : DenseMotion(std::move(x), std::move(v)) {
   velocity_[0] = v_;
   rate_[0] = std::move(a);
 }
 
-void DormandPrince::evaluate(std::size_t stage, const Acceleration& acceleration) {
-  std::vector<Vec3> x(x_);
-  std::vector<Vec3>& v = velocity_[stage];
+void DormandPrince::evaluate(size_t stage, const Acceleration& acceleration) {
+  vector<Vec3> x(x_);
+  vector<Vec3>& v = velocity_[stage];
   v.resize(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) {
+  for (size_t k = 0; k < x.size(); ++k) {
     x[k] += length_ * sum(stage_of[stage], velocity_, k);
     v[k] = v_[k] + length_ * sum(stage_of[stage], rate_, k);
   }
@@ -191,9 +191,9 @@ void DormandPrince::evaluate(std::size_t stage, const Acceleration& acceleration
 
 double DormandPrince::step(double h, const Acceleration& acceleration, double position, double velocity) {
   length_ = h;
-  for (std::size_t stage = 1; stage <= last; ++stage) evaluate(stage, acceleration);
+  for (size_t stage = 1; stage <= last; ++stage) evaluate(stage, acceleration);
   double greatest = 0;
-  for (std::size_t k = 0; k < size(); ++k) {
+  for (size_t k = 0; k < size(); ++k) {
     const Vec3 x5 = sum(error_5, velocity_, k), x3 = sum(error_3, velocity_, k);
     const Vec3 v5 = sum(error_5, rate_, k), v3 = sum(error_3, rate_, k);
     for (int axis = 0; axis < 3; ++axis) {
@@ -214,10 +214,10 @@ double DormandPrince::next_length(double h, double error) {
 }
 
 void DormandPrince::interpolate(const Acceleration& acceleration) {
-  for (std::size_t stage = last + 1; stage < stages; ++stage) evaluate(stage, acceleration);
-  const auto coefficients = [&](const std::vector<Vec3>* rates, std::vector<Vec3>& c) {
+  for (size_t stage = last + 1; stage < stages; ++stage) evaluate(stage, acceleration);
+  const auto coefficients = [&](const vector<Vec3>* rates, vector<Vec3>& c) {
     c.clear();
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (size_t k = 0; k < size(); ++k) {
       const Vec3 change = length_ * sum(stage_of[last], rates, k);
       c.push_back(change);
       c.push_back(length_ * rates[0][k] - change);
@@ -230,39 +230,39 @@ void DormandPrince::interpolate(const Acceleration& acceleration) {
 }
 
 /// c0 s + c1 s (1 - s) + c2 s^2 (1 - s) + ...
-Vec3 DormandPrince::polynomial(const std::vector<Vec3>& coefficients, std::size_t k, double s) {
+Vec3 DormandPrince::polynomial(const vector<Vec3>& coefficients, size_t k, double s) {
   Vec3 y = Vec3::Zero();
-  for (std::size_t term = terms; term-- > 0;) {
+  for (size_t term = terms; term-- > 0;) {
     y += coefficients[terms * k + term];
     y *= term % 2 == 0 ? s : 1 - s;
   }
   return y;
 }
 
-Vec3 DormandPrince::displacement(std::size_t k, double t) const {
+Vec3 DormandPrince::displacement(size_t k, double t) const {
   return polynomial(of_displacement_, k, t / length_);
 }
 
-Vec3 DormandPrince::velocity(std::size_t k, double t) const {
+Vec3 DormandPrince::velocity(size_t k, double t) const {
   return v_[k] + polynomial(of_velocity_, k, t / length_);
 }
 
-PolynomialPath DormandPrince::path(std::size_t k) const {
+PolynomialPath DormandPrince::path(size_t k) const {
   // The velocity's polynomial in powers of s. A factor s moves every coefficient up by one power.
   // A factor 1 - s makes each coefficient itself less the one of the power below.
-  std::array<Vec3, terms> change;
+  array<Vec3, terms> change;
   change.fill(Vec3::Zero());
-  for (std::size_t term = terms; term-- > 0;) {
+  for (size_t term = terms; term-- > 0;) {
     change[0] += of_velocity_[terms * k + term];
     if (term == 0) break;
-    for (std::size_t power = terms - 1; power > 0; --power)
+    for (size_t power = terms - 1; power > 0; --power)
       change[power] = term % 2 == 0 ? change[power - 1] : Vec3(change[power] - change[power - 1]);
     if (term % 2 == 0) change[0].setZero();
   }
   PolynomialPath path;
   path.length = length_;
   path.displacement[0] = length_ * v_[k];
-  for (std::size_t power = 0; power < terms; ++power)
+  for (size_t power = 0; power < terms; ++power)
     path.displacement[power + 1] = length_ / static_cast<double>(power + 2) * change[power];
   return path;
 }

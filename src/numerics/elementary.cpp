@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
@@ -22,8 +24,8 @@ SinCos sin_cos_reduced(DoubleDouble r) {
   const double square = r.hi * r.hi;
   // sin(r) = r - r^3 s and cos(r) = 1 - r^2/2 + r^4 c.
   double s = 0, c = 0;
-  for (std::size_t n = 17; n >= 3; n -= 2) s = inverse_factorial[n] - square * s;
-  for (std::size_t n = 18; n >= 4; n -= 2) c = inverse_factorial[n] - square * c;
+  for (size_t n = 17; n >= 3; n -= 2) s = inverse_factorial[n] - square * s;
+  for (size_t n = 18; n >= 4; n -= 2) c = inverse_factorial[n] - square * c;
   // The lower part of r enters by the derivative. 1 - r^2/2 is rounded once, and the rounding error is added again.
   const double sine = r.hi - (r.hi * square * s - r.lo * (1 - 0.5 * square));
   const double half = 0.5 * square, w = 1 - half;
@@ -34,7 +36,7 @@ SinCos sin_cos_reduced(DoubleDouble r) {
 double exp_change_reduced(double r) {
   // exp(-r) = 1 - r + r^2 p.
   double p = 0;
-  for (std::size_t n = 14; n >= 2; --n) p = inverse_factorial[n] - r * p;
+  for (size_t n = 14; n >= 2; --n) p = inverse_factorial[n] - r * p;
   return r * r * p - r;
 }
 

@@ -1,11 +1,10 @@
 #pragma once
 // Sines, exponentials, logarithms and angles with the same bits on every machine, which <cmath> does not promise.
 // Only + - * / and the square root reach a result. Each function is right to 2.5 units in the last place.
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "numerics/compensated.h"
+#include "std.h"
 
 namespace carom {
 
@@ -35,10 +34,10 @@ double arc_sinh(double y);
 double arc_tangent(double y, double x);
 
 /// 1 / n!
-inline constexpr std::array<double, 32> inverse_factorial = [] {
-  std::array<double, 32> of{1};
+inline constexpr array<double, 32> inverse_factorial = [] {
+  array<double, 32> of{1};
   double factorial = 1;
-  for (std::size_t n = 1; n < of.size(); ++n) of[n] = 1 / (factorial *= static_cast<double>(n));
+  for (size_t n = 1; n < of.size(); ++n) of[n] = 1 / (factorial *= static_cast<double>(n));
   return of;
 }();
 

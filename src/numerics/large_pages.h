@@ -3,10 +3,9 @@
 // without a walk through the tables of small pages.
 #include <sys/mman.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <new>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -18,8 +17,8 @@ struct LargePages {
   template <typename U>
   explicit LargePages(const LargePages<U>&) {}
 
-  T* allocate(std::size_t count) {
-    const std::size_t bytes = count * sizeof(T);
+  T* allocate(size_t count) {
+    const size_t bytes = count * sizeof(T);
     auto* const start = static_cast<T*>(::operator new(bytes, alignment));
     constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
     const auto address = reinterpret_cast<std::uintptr_t>(start);
@@ -28,7 +27,7 @@ struct LargePages {
     if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
     return start;
   }
-  void deallocate(T* start, std::size_t /*count*/) { ::operator delete(start, alignment); }
+  void deallocate(T* start, size_t /*count*/) { ::operator delete(start, alignment); }
 
   bool operator==(const LargePages&) const = default;
 
@@ -37,6 +36,6 @@ struct LargePages {
 };
 
 template <typename T>
-using LargeVector = std::vector<T, LargePages<T>>;
+using LargeVector = vector<T, LargePages<T>>;
 
 }  // namespace carom

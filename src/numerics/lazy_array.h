@@ -1,10 +1,9 @@
 #pragma once
 // Values by body that most scenes do not need. They take memory from the first write on.
-#include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <utility>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -12,14 +11,14 @@ namespace carom {
 template <typename T>
 class LazyArray {
  public:
-  explicit LazyArray(std::size_t size, T common = {}) : size_(size), common_(std::move(common)) {}
-  const T& operator[](std::size_t i) const { return values_.empty() ? common_ : values_[i]; }
-  T& write(std::size_t i) {
+  explicit LazyArray(size_t size, T common = {}) : size_(size), common_(std::move(common)) {}
+  const T& operator[](size_t i) const { return values_.empty() ? common_ : values_[i]; }
+  T& write(size_t i) {
     if (values_.empty()) values_.assign(size_, common_);
     return values_[i];
   }
   bool empty() const { return values_.empty(); }
-  std::size_t size() const { return size_; }
+  size_t size() const { return size_; }
 
   void keep(auto& archive) {
     archive(values_);
@@ -27,24 +26,24 @@ class LazyArray {
   }
 
  private:
-  std::size_t size_;
+  size_t size_;
   T common_;
-  std::vector<T> values_;
+  vector<T> values_;
 };
 
 /// An array of large values of which few are written. Each takes memory at its own first write. References stay valid.
 template <typename T>
 class SparseArray {
  public:
-  explicit SparseArray(std::size_t size) : place_(size, 0) {}
-  [[gnu::always_inline]] const T& operator[](std::size_t i) const {
+  explicit SparseArray(size_t size) : place_(size, 0) {}
+  [[gnu::always_inline]] const T& operator[](size_t i) const {
     return place_[i] == 0 ? common_ : values_[place_[i] - 1];
   }
-  T& write(std::size_t i) {
-    std::uint32_t& place = place_.write(i);
+  T& write(size_t i) {
+    uint32_t& place = place_.write(i);
     if (place == 0) {
       values_.emplace_back();
-      place = static_cast<std::uint32_t>(values_.size());
+      place = static_cast<uint32_t>(values_.size());
     }
     return values_[place - 1];
   }
@@ -53,7 +52,7 @@ class SparseArray {
 
  private:
   T common_{};
-  LazyArray<std::uint32_t> place_;  // index in values_, plus one; 0: not written
+  LazyArray<uint32_t> place_;  // index in values_, plus one; 0: not written
   std::deque<T> values_;
 };
 

@@ -5,14 +5,15 @@
 #include "numerics/monotone_cubic.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
+
+#include "std.h"
 
 namespace carom {
 
-MonotoneCubic::MonotoneCubic(std::vector<double> at, std::vector<double> value)
+MonotoneCubic::MonotoneCubic(vector<double> at, vector<double> value)
     : at_(std::move(at)), value_(std::move(value)), slope_(at_.size(), 0) {
-  for (std::size_t i = 1; i + 1 < at_.size(); ++i) {
+  for (size_t i = 1; i + 1 < at_.size(); ++i) {
     const double before = at_[i] - at_[i - 1], after = at_[i + 1] - at_[i];
     const double left = (value_[i] - value_[i - 1]) / before, right = (value_[i + 1] - value_[i]) / after;
     if (!(left * right > 0)) continue;
@@ -21,7 +22,7 @@ MonotoneCubic::MonotoneCubic(std::vector<double> at, std::vector<double> value)
   }
 }
 
-std::array<double, 4> MonotoneCubic::piece(std::size_t i) const {
+array<double, 4> MonotoneCubic::piece(size_t i) const {
   const double length = at_[i + 1] - at_[i], rise = value_[i + 1] - value_[i];
   const double start = length * slope_[i], end = length * slope_[i + 1];
   return {value_[i], start, 3 * rise - 2 * start - end, start + end - 2 * rise};
@@ -29,9 +30,9 @@ std::array<double, 4> MonotoneCubic::piece(std::size_t i) const {
 
 double MonotoneCubic::operator()(double t) const {
   if (!(t > at_.front())) return value_.front();
-  const auto next = static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), t) - at_.begin());
+  const auto next = static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), t) - at_.begin());
   if (next == at_.size()) return value_.back();
-  const std::array<double, 4> c = piece(next - 1);
+  const array<double, 4> c = piece(next - 1);
   const double s = (t - at_[next - 1]) / (at_[next] - at_[next - 1]);
   const auto [low, high] = std::minmax(value_[next - 1], value_[next]);
   // Rounding alone could leave the range.

@@ -1,23 +1,23 @@
 #pragma once
 // A smooth curve through points in order: a cubic between each two, with one slope at each point.
 // Between two points the curve never leaves the range of their values, so that it adds no turn of its own.
-#include <array>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 class MonotoneCubic {
  public:
   /// `at` ascends strictly. `value` belongs to it. There is at least one point.
-  MonotoneCubic(std::vector<double> at, std::vector<double> value);
+  MonotoneCubic(vector<double> at, vector<double> value);
 
   /// Before the first point and after the last one, their values.
   double operator()(double t) const;
   /// The piece from point i to point i + 1 as c[0] + c[1] s + c[2] s^2 + c[3] s^3, with s from 0 to 1.
-  std::array<double, 4> piece(std::size_t i) const;
+  array<double, 4> piece(size_t i) const;
 
  private:
-  std::vector<double> at_, value_, slope_;
+  vector<double> at_, value_, slope_;
 };
 
 }  // namespace carom

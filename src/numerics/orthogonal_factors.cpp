@@ -8,25 +8,27 @@
 #include <cmath>
 #include <utility>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
 
 // Sums run in four lanes on every processor, so that the bits are the same everywhere.
-constexpr std::size_t width = 4;
+constexpr size_t width = 4;
 
-double dot(const double* a, const double* b, std::size_t count) {
+double dot(const double* a, const double* b, size_t count) {
   double lane[width] = {};
-  std::size_t k = 0;
+  size_t k = 0;
   for (; k + width <= count; k += width)
-    for (std::size_t l = 0; l < width; ++l) lane[l] += a[k + l] * b[k + l];
+    for (size_t l = 0; l < width; ++l) lane[l] += a[k + l] * b[k + l];
   double sum = (lane[0] + lane[2]) + (lane[1] + lane[3]);
   for (; k < count; ++k) sum += a[k] * b[k];
   return sum;
 }
 
-void add(double* a, double t, const double* b, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) a[k] += t * b[k];
+void add(double* a, double t, const double* b, size_t count) {
+  for (size_t k = 0; k < count; ++k) a[k] += t * b[k];
 }
 
 /// Replaces a by c a + s b, and b by c b - s a.
@@ -38,28 +40,28 @@ void rotate(double c, double s, double& a, double& b) {
 
 }  // namespace
 
-void OrthogonalFactors::reset(std::size_t n) {
+void OrthogonalFactors::reset(size_t n) {
   n_ = stride_ = n;
   rank_ = 0;
   q_.assign(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) q_[i * stride_ + i] = 1;
+  for (size_t i = 0; i < n; ++i) q_[i * stride_ + i] = 1;
   if (r_.size() < n * n) r_.resize(n * n);
   reflector_.resize(n);
 }
 
-void OrthogonalFactors::transform(const std::size_t* at, const double* values, std::size_t count, double* d) {
+void OrthogonalFactors::transform(const size_t* at, const double* values, size_t count, double* d) {
   std::fill(d, d + n_, 0.0);
-  for (std::size_t block = 0; block < count; ++block)
-    for (std::size_t k = 0; k < 3; ++k) add(d, values[3 * block + k], &q_[(at[block] + k) * stride_], n_);
+  for (size_t block = 0; block < count; ++block)
+    for (size_t k = 0; k < 3; ++k) add(d, values[3 * block + k], &q_[(at[block] + k) * stride_], n_);
 }
 
 void OrthogonalFactors::to_q(const double* v, double* d) const {
   std::fill(d, d + n_, 0.0);
-  for (std::size_t i = 0; i < n_; ++i) add(d, v[i], &q_[i * stride_], n_);
+  for (size_t i = 0; i < n_; ++i) add(d, v[i], &q_[i * stride_], n_);
 }
 
 void OrthogonalFactors::from_q(const double* d, double* v) const {
-  for (std::size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_], d, n_);
+  for (size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_], d, n_);
 }
 
 double OrthogonalFactors::tail(const double* d) const {
@@ -67,17 +69,17 @@ double OrthogonalFactors::tail(const double* d) const {
 }
 
 void OrthogonalFactors::tail_direction(const double* d, double* v) const {
-  for (std::size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_ + rank_], d + rank_, n_ - rank_);
+  for (size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_ + rank_], d + rank_, n_ - rank_);
 }
 
 double OrthogonalFactors::least_diagonal() const {
   double least = 1;
-  for (std::size_t j = 0; j < rank_; ++j) least = std::min(least, std::abs(r_[j * stride_ + j]));
+  for (size_t j = 0; j < rank_; ++j) least = std::min(least, std::abs(r_[j * stride_ + j]));
   return least;
 }
 
 void OrthogonalFactors::solve(double* d) const {
-  for (std::size_t j = rank_; j-- > 0;) {
+  for (size_t j = rank_; j-- > 0;) {
     const double* column = &r_[j * stride_];
     d[j] /= column[j];
     add(d, -d[j], column, j);
@@ -85,24 +87,24 @@ void OrthogonalFactors::solve(double* d) const {
 }
 
 void OrthogonalFactors::solve_transposed(double* d) const {
-  for (std::size_t j = 0; j < rank_; ++j) {
+  for (size_t j = 0; j < rank_; ++j) {
     const double* column = &r_[j * stride_];
     d[j] = (d[j] - dot(column, d, j)) / column[j];
   }
 }
 
 void OrthogonalFactors::append(double* d) {
-  const std::size_t rest = n_ - rank_;
+  const size_t rest = n_ - rank_;
   double* h = reflector_.data();
   std::copy(d + rank_, d + n_, h);
   // If the first component is 0, it gives the reflection no sign, and a mirrored scene would need the opposite one.
   // Exchange it with the largest component: the sign of that turns with the mirror.
   if (h[0] == 0 && rest > 1) {
-    std::size_t k = 1;
-    for (std::size_t j = 2; j < rest; ++j)
+    size_t k = 1;
+    for (size_t j = 2; j < rest; ++j)
       if (std::abs(h[j]) > std::abs(h[k])) k = j;
     std::swap(h[0], h[k]);
-    for (std::size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
+    for (size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
   }
   const double length = std::sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
   // The two have opposite signs, so nothing cancels.
@@ -111,7 +113,7 @@ void OrthogonalFactors::append(double* d) {
   const double square = dot(h, h, rest);
   if (rest > 1 && square > 0) {
     const double factor = -2 / square;
-    for (std::size_t i = 0; i < n_; ++i) {
+    for (size_t i = 0; i < n_; ++i) {
       double* row = &q_[i * stride_ + rank_];
       add(row, factor * dot(row, h, rest), h, rest);
     }
@@ -122,27 +124,27 @@ void OrthogonalFactors::append(double* d) {
   ++rank_;
 }
 
-void OrthogonalFactors::remove(std::size_t place, double* d) {
-  for (std::size_t j = place + 1; j < rank_; ++j)
+void OrthogonalFactors::remove(size_t place, double* d) {
+  for (size_t j = place + 1; j < rank_; ++j)
     std::copy(&r_[j * stride_], &r_[j * stride_] + j + 1, &r_[(j - 1) * stride_]);
   --rank_;
   // Without the row, each later column has one entry below the diagonal. One rotation for each column removes it.
-  std::vector<double>& cosine = reflector_;
-  std::vector<double>& sine = sine_;
+  vector<double>& cosine = reflector_;
+  vector<double>& sine = sine_;
   sine.resize(n_);
-  for (std::size_t j = place; j < rank_; ++j) {
+  for (size_t j = place; j < rank_; ++j) {
     double* column = &r_[j * stride_];
     const double p = column[j], q = column[j + 1], length = std::sqrt(p * p + q * q);
     const double c = length == 0 ? 1 : p / length, s = length == 0 ? 0 : q / length;
     cosine[j - place] = c;
     sine[j - place] = s;
     column[j] = length;
-    for (std::size_t k = j + 1; k < rank_; ++k) rotate(c, s, r_[k * stride_ + j], r_[k * stride_ + j + 1]);
+    for (size_t k = j + 1; k < rank_; ++k) rotate(c, s, r_[k * stride_ + j], r_[k * stride_ + j + 1]);
     rotate(c, s, d[j], d[j + 1]);
   }
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (size_t i = 0; i < n_; ++i) {
     double* row = &q_[i * stride_ + place];
-    for (std::size_t j = 0; j + place < rank_; ++j) rotate(cosine[j], sine[j], row[j], row[j + 1]);
+    for (size_t j = 0; j + place < rank_; ++j) rotate(cosine[j], sine[j], row[j], row[j + 1]);
   }
 }
 

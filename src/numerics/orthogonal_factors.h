@@ -2,22 +2,22 @@
 // J^T = Q1 R for a growing and shrinking set of rows J of unit length. All of the orthogonal matrix Q = [Q1 Q2] is
 // stored. A row is appended by one Householder reflection and removed by Givens rotations. Both keep Q orthogonal to
 // rounding, however often they are applied (Golub & Van Loan, Matrix Computations, 4th ed., section 6.5).
-#include <cstddef>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 class OrthogonalFactors {
  public:
   /// Starts without rows. A row will have `n` columns, and Q = 1.
-  void reset(std::size_t n);
+  void reset(size_t n);
 
-  std::size_t columns() const { return n_; }
-  std::size_t rank() const { return rank_; }
+  size_t columns() const { return n_; }
+  size_t rank() const { return rank_; }
 
   /// Q^T j of a row j with `count` blocks of three entries from the columns `at` on. These have the given values, and
   /// all others are zero.
-  void transform(const std::size_t* at, const double* values, std::size_t count, double* d);
+  void transform(const size_t* at, const double* values, size_t count, double* d);
   /// Q^T v and Q d of full vectors.
   void to_q(const double* v, double* d) const;
   void from_q(const double* d, double* v) const;
@@ -34,13 +34,13 @@ class OrthogonalFactors {
   /// Appends the row j with d = Q^T j. The tail of d must not be zero. Changes d to Q^T j with the new Q.
   void append(double* d);
   /// Removes the row at `place` in the set. Changes d = Q^T j of any row j to its value with the new Q.
-  void remove(std::size_t place, double* d);
+  void remove(size_t place, double* d);
 
  private:
-  std::size_t n_ = 0, stride_ = 0, rank_ = 0;
-  std::vector<double> q_;                 // row by row, stride_ each
-  std::vector<double> r_;                 // column by column, stride_ each
-  std::vector<double> reflector_, sine_;  // scratch
+  size_t n_ = 0, stride_ = 0, rank_ = 0;
+  vector<double> q_;                 // row by row, stride_ each
+  vector<double> r_;                 // column by column, stride_ each
+  vector<double> reflector_, sine_;  // scratch
 };
 
 }  // namespace carom

@@ -2,15 +2,16 @@
 // Roots of the polynomials of paths: parabolas give a degree of 4 at most, steps of a method 8.
 // The method is the derivative cascade. The roots of f' divide the line into pieces on which f is monotone.
 // Each piece has one root or none, so that no root can be missed.
-#include <array>
 #include <limits>
+
+#include "std.h"
 
 namespace carom {
 
 /// c[0] + c[1] t + ... + c[degree] t^degree.
 struct Polynomial {
   static constexpr int max_degree = 8;
-  std::array<double, max_degree + 1> c{};
+  array<double, max_degree + 1> c{};
   int degree = 0;
 
   double operator()(double t) const;
@@ -19,7 +20,7 @@ struct Polynomial {
 
 /// Real roots in ascending order. A root at which the sign does not change may be missing.
 struct Roots {
-  std::array<double, Polynomial::max_degree> at{};
+  array<double, Polynomial::max_degree> at{};
   int count = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
@@ -13,7 +15,7 @@ PolynomialPath path_of(double length, std::initializer_list<Vec3> first) {
   PolynomialPath path;
   path.length = length;
   path.displacement.fill(Vec3::Zero());
-  std::copy(first.begin(), first.end(), path.displacement.begin());
+  std::ranges::copy(first, path.displacement.begin());
   return path;
 }
 
@@ -45,37 +47,36 @@ PolynomialPath PolynomialPath::through(double length, const Point& start, const 
   const Vec3 level = place - 0.5 * line;
   constexpr double cube[4] = {1, -3, 3, -1};
   Terms velocity = of;
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (size_t k = 0; k < 4; ++k) {
     velocity[2 + k] += cube[k] * level;
     velocity[3 + k] += cube[k] * line;
   }
   PolynomialPath path = path_of(length, {length * start.velocity});
-  for (std::size_t k = 0; k + 1 < terms; ++k)
-    path.displacement[k + 1] = length / static_cast<double>(k + 2) * velocity[k];
+  for (size_t k = 0; k + 1 < terms; ++k) path.displacement[k + 1] = length / static_cast<double>(k + 2) * velocity[k];
   return path;
 }
 
 Vec3 PolynomialPath::value(const Terms& of, double s) {
   Vec3 sum = of[terms - 1];
-  for (std::size_t k = terms - 1; k-- > 0;) sum = sum * s + of[k];
+  for (size_t k = terms - 1; k-- > 0;) sum = sum * s + of[k];
   return sum * s;
 }
 
 Vec3 PolynomialPath::slope_change(const Terms& of, double s) {
   Vec3 sum = static_cast<double>(terms) * of[terms - 1];
-  for (std::size_t k = terms - 1; k-- > 1;) sum = sum * s + static_cast<double>(k + 1) * of[k];
+  for (size_t k = terms - 1; k-- > 1;) sum = sum * s + static_cast<double>(k + 1) * of[k];
   return sum * s;
 }
 
 Vec3 PolynomialPath::bend(const Terms& of, double s) {
   Vec3 sum = static_cast<double>(terms * (terms - 1)) * of[terms - 1];
-  for (std::size_t k = terms - 1; k-- > 1;) sum = sum * s + static_cast<double>((k + 1) * k) * of[k];
+  for (size_t k = terms - 1; k-- > 1;) sum = sum * s + static_cast<double>((k + 1) * k) * of[k];
   return sum;
 }
 
 double PolynomialPath::greatest_acceleration() const {
   double sum = 0;
-  for (std::size_t k = 1; k < terms; ++k) sum += static_cast<double>((k + 1) * k) * displacement[k].norm();
+  for (size_t k = 1; k < terms; ++k) sum += static_cast<double>((k + 1) * k) * displacement[k].norm();
   return sum / (length * length);
 }
 
@@ -84,8 +85,8 @@ PolynomialPath::Terms PolynomialPath::shifted(const Terms& of, double from, doub
   // Repeated Horner's scheme. Each round leaves the next Taylor coefficient about `from`. The first round leaves the
   // position.
   if (from != 0)
-    for (std::size_t round = 0; round < terms; ++round)
-      for (std::size_t k = terms - 1, last = round == 0 ? 0 : round - 1; k-- > last;) to[k] += from * to[k + 1];
+    for (size_t round = 0; round < terms; ++round)
+      for (size_t k = terms - 1, last = round == 0 ? 0 : round - 1; k-- > last;) to[k] += from * to[k + 1];
   double power = 1;
   for (Vec3& term : to) term *= power *= length;
   return to;

@@ -2,16 +2,15 @@
 // A path through a step as a polynomial of degree 8 in s = t / length: the dense output of a method.
 // It is the integral of the velocity's polynomial, so that position, velocity and the acceleration at the start belong
 // to one motion.
-#include <array>
-#include <cstddef>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
 struct PolynomialPath {
-  static constexpr std::size_t terms = 8;
-  using Terms = std::array<Vec3, terms>;  // in s, s^2, ...
+  static constexpr size_t terms = 8;
+  using Terms = array<Vec3, terms>;  // in s, s^2, ...
 
   double length = 0;         // s
   bool is_parabola = false;  // no term beyond the second

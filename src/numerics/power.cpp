@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "numerics/elementary.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,10 +18,10 @@ constexpr double largest_whole = 0x1p40;
 /// mantissa 2^exponent. The mantissa is from 1/2 to 2, or 0.
 struct Scaled {
   DoubleDouble mantissa;
-  std::int64_t exponent;
+  int64_t exponent;
 };
 
-Scaled normalized(DoubleDouble m, std::int64_t exponent) {
+Scaled normalized(DoubleDouble m, int64_t exponent) {
   int shift = 0;
   std::frexp(m.hi, &shift);
   return {{std::ldexp(m.hi, -shift), std::ldexp(m.lo, -shift)}, exponent + shift};
@@ -32,13 +32,13 @@ Scaled product(const Scaled& a, const Scaled& b) {
 }
 
 double value(const Scaled& of) {
-  const std::int64_t exponent = std::clamp<std::int64_t>(of.exponent, -4000, 4000);
+  const int64_t exponent = std::clamp<int64_t>(of.exponent, -4000, 4000);
   return std::ldexp(of.mantissa.value(), static_cast<int>(exponent));
 }
 
 Scaled whole_power(double x, double n) {
   Scaled square = normalized({x, 0}, 0), result{{1, 0}, 0};
-  for (auto left = static_cast<std::uint64_t>(std::abs(n)); left > 0; left >>= 1) {
+  for (auto left = static_cast<uint64_t>(std::abs(n)); left > 0; left >>= 1) {
     if ((left & 1) != 0) result = product(result, square);
     square = product(square, square);
   }
@@ -66,7 +66,7 @@ Scaled root(double x, double f) {
   const double whole = std::nearbyint(twos.hi);
   const double rest = (twos.hi - whole) + twos.lo;
   constexpr double ln2 = 0x1.62e42fefa39efp-1;
-  return normalized({exp_of(f * log_of(m) + rest * ln2), 0}, static_cast<std::int64_t>(whole));
+  return normalized({exp_of(f * log_of(m) + rest * ln2), 0}, static_cast<int64_t>(whole));
 }
 
 }  // namespace

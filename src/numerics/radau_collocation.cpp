@@ -5,12 +5,12 @@
 #include "numerics/radau_collocation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "numerics/polynomial.h"
 #include "numerics/radau_points.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,11 +21,11 @@ constexpr int most_sweeps = 40;
 // An error of so many times the tolerance: the step is rejected.
 constexpr double hopeless = 1e4;
 
-using StageRow = std::array<double, nodes>;
+using StageRow = array<double, nodes>;
 
 /// Gauss points and weights on [0, 1]. They integrate polynomials of degree 9 exactly.
 struct Gauss {
-  std::array<double, 5> at, weight;
+  array<double, 5> at, weight;
   Gauss() {
     const double root = 2 * std::sqrt(10.0 / 7), near = std::sqrt(5 - root) / 3, far = std::sqrt(5 + root) / 3;
     const double w_near = (322 + 13 * std::sqrt(70.0)) / 900, w_far = (322 - 13 * std::sqrt(70.0)) / 900;
@@ -38,13 +38,13 @@ struct Method {
   StageRow c = radau_points<nodes>();
   Gauss gauss;
   // The collocation matrix: integrals of Lagrange's polynomials up to each point.
-  std::array<StageRow, nodes> a;
+  array<StageRow, nodes> a;
   // The sweep's matrix: the transpose of U, where L U is the transpose of a.
-  std::array<StageRow, nodes> lower;
+  array<StageRow, nodes> lower;
 
   Method() {
     for (int i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
-    std::array<StageRow, nodes> u;
+    array<StageRow, nodes> u;
     for (int i = 0; i < nodes; ++i)
       for (int j = 0; j < nodes; ++j) u[i][j] = a[j][i];
     for (int k = 0; k < nodes; ++k)
@@ -59,7 +59,7 @@ struct Method {
   /// Integrals of Lagrange's polynomials through the points, from 0 to s.
   StageRow integrals(double s) const {
     StageRow sum{};
-    for (std::size_t g = 0; g < gauss.at.size(); ++g)
+    for (size_t g = 0; g < gauss.at.size(); ++g)
       for (int j = 0; j < nodes; ++j) {
         double product = s * gauss.weight[g];
         for (int l = 0; l < nodes; ++l)
@@ -78,15 +78,15 @@ const Method& method() {
 }  // namespace
 
 /// One sweep over all stages, each computed from those before it. Returns the greatest change of a velocity (m/s).
-double RadauCollocation::sweep(std::span<const Forces> forces, const Hold& hold) {
+double RadauCollocation::sweep(span<const Forces> forces, const Hold& hold) {
   const Method& m = method();
-  const std::vector<std::vector<Vec3>> old_speed = speed_, old_rate = rate_;
+  const vector<vector<Vec3>> old_speed = speed_, old_rate = rate_;
   double changed = 0;
   for (int i = 0; i < nodes; ++i) {
     const double s = length_ * m.lower[i][i];
     // m/s: velocities without and with the new rate of this stage.
-    std::vector<Vec3> known(size()), u(size());
-    for (std::size_t k = 0; k < size(); ++k) {
+    vector<Vec3> known(size()), u(size());
+    for (size_t k = 0; k < size(); ++k) {
       Vec3 way = Vec3::Zero(), speed = Vec3::Zero();
       for (int j = 0; j < nodes; ++j) {
         way += m.a[i][j] * old_speed[j][k];
@@ -101,7 +101,7 @@ double RadauCollocation::sweep(std::span<const Forces> forces, const Hold& hold)
       u[k] = (known[k] + s * forces[k].pull) / (1 + s * forces[k].fade);
     }
     hold(at_[i], s, u);
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (size_t k = 0; k < size(); ++k) {
       changed = std::max(changed, (u[k] - old_speed[i][k]).cwiseAbs().maxCoeff());
       speed_[i][k] = u[k];
       rate_[i][k] = (u[k] - known[k]) / s;
@@ -110,12 +110,11 @@ double RadauCollocation::sweep(std::span<const Forces> forces, const Hold& hold)
   return changed;
 }
 
-double RadauCollocation::step(double h, std::span<const Forces> forces, const Hold& hold, double position,
-                              double velocity) {
+double RadauCollocation::step(double h, span<const Forces> forces, const Hold& hold, double position, double velocity) {
   length_ = h;
   at_.assign(nodes, x_);
   speed_.assign(nodes, v_);
-  rate_.assign(nodes, std::vector<Vec3>(size(), Vec3::Zero()));
+  rate_.assign(nodes, vector<Vec3>(size(), Vec3::Zero()));
   const double enough = 0.01 * std::min(velocity, position / h);
   double before = never;
   for (int pass = 0; pass < most_sweeps && before > enough; ++pass) {
@@ -136,7 +135,7 @@ double RadauCollocation::interpolate() {
   double worst = 0;
   of_displacement_.assign(terms * size(), Vec3::Zero());
   of_velocity_.assign(terms * size(), Vec3::Zero());
-  for (std::size_t k = 0; k < size(); ++k) {
+  for (size_t k = 0; k < size(); ++k) {
     Vec3* const d = &of_displacement_[terms * k];
     Vec3* const v = &of_velocity_[terms * k];
     // Radau's weights integrate these products exactly.
@@ -161,31 +160,31 @@ double RadauCollocation::interpolate() {
   return worst;
 }
 
-Vec3 RadauCollocation::sum(const std::vector<Vec3>& coefficients, std::size_t k, double s) {
+Vec3 RadauCollocation::sum(const vector<Vec3>& coefficients, size_t k, double s) {
   const auto p = legendre<nodes>(s);
   Vec3 all = Vec3::Zero();
-  for (std::size_t n = 0; n < terms; ++n) all += p[n] * coefficients[terms * k + n];
+  for (size_t n = 0; n < terms; ++n) all += p[n] * coefficients[terms * k + n];
   return all;
 }
 
-Vec3 RadauCollocation::displacement(std::size_t k, double t) const {
+Vec3 RadauCollocation::displacement(size_t k, double t) const {
   return sum(of_displacement_, k, t / length_);
 }
 
-Vec3 RadauCollocation::velocity(std::size_t k, double t) const {
+Vec3 RadauCollocation::velocity(size_t k, double t) const {
   return sum(of_velocity_, k, t / length_);
 }
 
-PolynomialPath RadauCollocation::path(std::size_t k) const {
+PolynomialPath RadauCollocation::path(size_t k) const {
   // Coefficients of Legendre's polynomials in powers of s: (n + 1) P_(n+1) = (2n + 1) (2s - 1) P_n - n P_(n-1).
-  std::array<double, terms> before{}, p{1};
-  std::array<Vec3, terms> velocity;
+  array<double, terms> before{}, p{1};
+  array<Vec3, terms> velocity;
   velocity.fill(Vec3::Zero());
-  for (std::size_t n = 0; n < terms; ++n) {
-    for (std::size_t power = 0; power <= n; ++power) velocity[power] += p[power] * of_velocity_[terms * k + n];
-    std::array<double, terms> after{};
+  for (size_t n = 0; n < terms; ++n) {
+    for (size_t power = 0; power <= n; ++power) velocity[power] += p[power] * of_velocity_[terms * k + n];
+    array<double, terms> after{};
     const auto order = static_cast<double>(n);
-    for (std::size_t power = 0; power < terms; ++power) {
+    for (size_t power = 0; power < terms; ++power) {
       const double below = power > 0 ? p[power - 1] : 0;
       after[power] = ((2 * order + 1) * (2 * below - p[power]) - order * before[power]) / (order + 1);
     }
@@ -193,7 +192,7 @@ PolynomialPath RadauCollocation::path(std::size_t k) const {
   }
   PolynomialPath path;
   path.length = length_;
-  for (std::size_t power = 0; power < terms; ++power)
+  for (size_t power = 0; power < terms; ++power)
     path.displacement[power] = length_ / static_cast<double>(power + 1) * velocity[power];
   return path;
 }

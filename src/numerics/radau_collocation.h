@@ -7,11 +7,9 @@
 // (Spectral deferred correction: Dutt, Greengard & Rokhlin, BIT 40 (2000) 241.)
 // The triangular factor of Weiser, BIT 55 (2015) 1219, keeps this so where fade is great. In a sweep drag only makes
 // points heavier, by the factor 1 + s fade.
-#include <functional>
-#include <span>
-#include <vector>
 
 #include "numerics/dense_motion.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,20 +21,20 @@ class RadauCollocation final : public DenseMotion {
   };
   /// Projects velocities u (m/s) onto those that lead along the surfaces at x (m). In the projection's norm points are
   /// 1 + s fade times as heavy.
-  using Hold = std::function<void(const std::vector<Vec3>& x, double s, std::vector<Vec3>& u)>;
+  using Hold = function<void(const vector<Vec3>& x, double s, vector<Vec3>& u)>;
 
   RadauCollocation() : DenseMotion({}, {}) {}  // to be restored
   /// Starts at x (m) and v (m/s).
-  RadauCollocation(std::vector<Vec3> x, std::vector<Vec3> v) : DenseMotion(std::move(x), std::move(v)) {}
+  RadauCollocation(vector<Vec3> x, vector<Vec3> v) : DenseMotion(std::move(x), std::move(v)) {}
 
   /// A step of h (s) from the start. It replaces the step before.
   /// Returns the greatest error of a point along an axis, as a share of `position` (m) and `velocity` (m/s). At most 1
   /// is within tolerance.
-  double step(double h, std::span<const Forces> forces, const Hold& hold, double position, double velocity);
+  double step(double h, span<const Forces> forces, const Hold& hold, double position, double velocity);
 
-  Vec3 displacement(std::size_t k, double t) const override;
-  Vec3 velocity(std::size_t k, double t) const override;
-  PolynomialPath path(std::size_t k) const override;
+  Vec3 displacement(size_t k, double t) const override;
+  Vec3 velocity(size_t k, double t) const override;
+  PolynomialPath path(size_t k) const override;
 
   void keep(auto& archive) {
     DenseMotion::keep(archive);
@@ -44,13 +42,13 @@ class RadauCollocation final : public DenseMotion {
   }
 
  private:
-  double sweep(std::span<const Forces> forces, const Hold& hold);
+  double sweep(span<const Forces> forces, const Hold& hold);
   double interpolate();
-  static Vec3 sum(const std::vector<Vec3>& coefficients, std::size_t k, double s);
+  static Vec3 sum(const vector<Vec3>& coefficients, size_t k, double s);
 
-  static constexpr std::size_t terms = 8;
-  std::vector<std::vector<Vec3>> at_, speed_, rate_;  // m, m/s, m/s^2: by stage, then by point
-  std::vector<Vec3> of_displacement_, of_velocity_;   // coefficients of Legendre's polynomials, `terms` for each point
+  static constexpr size_t terms = 8;
+  vector<vector<Vec3>> at_, speed_, rate_;      // m, m/s, m/s^2: by stage, then by point
+  vector<Vec3> of_displacement_, of_velocity_;  // coefficients of Legendre's polynomials, `terms` for each point
 };
 
 }  // namespace carom

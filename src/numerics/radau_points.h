@@ -1,32 +1,32 @@
 #pragma once
 // Radau's points in (0, 1], the last of which is 1. There Legendre's polynomials of the two highest degrees are equal
 // (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.5).
-#include <array>
-#include <cstddef>
+
+#include "std.h"
 
 namespace carom {
 
 /// Legendre's polynomials up to degree `count`, for s in [0, 1] in place of x in [-1, 1].
-template <std::size_t count>
-std::array<double, count + 1> legendre(double s) {
+template <size_t count>
+array<double, count + 1> legendre(double s) {
   const double x = 2 * s - 1;
-  std::array<double, count + 1> p{1, x};
-  for (std::size_t n = 2; n <= count; ++n) {
+  array<double, count + 1> p{1, x};
+  for (size_t n = 2; n <= count; ++n) {
     const auto degree = static_cast<double>(n);
     p[n] = ((2 * degree - 1) * x * p[n - 1] - (degree - 1) * p[n - 2]) / degree;
   }
   return p;
 }
 
-template <std::size_t count>
-std::array<double, count> radau_points() {
+template <size_t count>
+array<double, count> radau_points() {
   const auto f = [](double s) {
     const auto p = legendre<count>(s);
     return p[count - 1] - p[count];
   };
   constexpr int intervals = 1000;
-  std::array<double, count> points{};
-  std::size_t found = 0;
+  array<double, count> points{};
+  size_t found = 0;
   for (int k = 0; k < intervals - 1; ++k) {
     double low = static_cast<double>(k) / intervals, high = (k + 1.0) / intervals;
     if (f(low) * f(high) > 0) continue;

@@ -1,9 +1,8 @@
 #pragma once
 // The curve between linear light and its encoding, both 0 to 1 (IEC 61966-2-1).
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom {
 
@@ -18,11 +17,11 @@ inline double srgb_of_light(double x) {
 /// Bytes of the encoding by the root of the light, which spreads the dark values: index 0 to `steps` for 0 to 1.
 struct SrgbBytes {
   static constexpr int steps = 1 << 14;
-  std::array<std::uint8_t, steps + 1> of_root{};
+  array<uint8_t, steps + 1> of_root{};
   SrgbBytes() {
     for (int i = 0; i <= steps; ++i) {
       const double root = static_cast<double>(i) / steps;
-      of_root[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * srgb_of_light(root * root)));
+      of_root[static_cast<size_t>(i)] = static_cast<uint8_t>(std::lround(255 * srgb_of_light(root * root)));
     }
   }
 };

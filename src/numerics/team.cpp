@@ -9,7 +9,8 @@
 #include <system_error>
 #include <thread>
 #include <utility>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -71,10 +72,10 @@ struct Team::Impl {
 
   alignas(64) std::atomic<int> begun{0};  // tasks so far
   alignas(64) std::atomic<int> busy{0};   // threads
-  std::vector<std::thread> threads;
+  vector<std::thread> threads;
 };
 
-Team::Team(int count) : impl_(std::make_unique<Impl>()) {
+Team::Team(int count) : impl_(make_unique<Impl>()) {
   // Signals belong to the thread that runs the scene.
   sigset_t all, before;
   sigfillset(&all);

@@ -1,7 +1,7 @@
 #pragma once
 // Threads that do the parts of one task together, again and again.
-#include <functional>
-#include <memory>
+
+#include "std.h"
 
 namespace carom {
 
@@ -17,14 +17,14 @@ class Team {
   int size() const;
 
   /// One thread's part of a task, by the thread's number.
-  using Task = std::function<void(int thread)>;
+  using Task = function<void(int thread)>;
   /// Calls the task once for each number from 0 to size() - 1, 0 by the caller. Returns when all are
   /// done, or throws what one of them has thrown.
   void run(const Task& task);
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  unique_ptr<Impl> impl_;
 };
 
 }  // namespace carom

@@ -4,13 +4,11 @@
 // its games up to the first one with the same result.
 #include <algorithm>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "numerics/large_pages.h"
 #include "numerics/prefetch.h"
+#include "std.h"
 
 #ifdef __SSE2__
 #include <immintrin.h>
@@ -23,10 +21,10 @@ namespace carom {
 template <typename Before>
 class Tournament {
  public:
-  Tournament(std::uint32_t entries, Before before) : before_(before) {
-    std::vector<std::size_t> sizes;
-    std::size_t nodes = entries;
-    std::size_t all = 0;
+  Tournament(uint32_t entries, Before before) : before_(before) {
+    vector<size_t> sizes;
+    size_t nodes = entries;
+    size_t all = 0;
     do {
       nodes = (nodes + width - 1) / width;
       sizes.push_back(nodes * width);
@@ -37,8 +35,8 @@ class Tournament {
     winners_.assign(all - sizes[0], none);
 
     double* time = times_.data();
-    std::uint32_t* winner = winners_.data();
-    for (std::size_t l = 0; l < sizes.size(); ++l) {
+    uint32_t* winner = winners_.data();
+    for (size_t l = 0; l < sizes.size(); ++l) {
       levels_.push_back({time, l == 0 ? nullptr : winner});
       time += sizes[l];
       if (l > 0) winner += sizes[l];
@@ -47,16 +45,16 @@ class Tournament {
   Tournament(const Tournament&) = delete;
   Tournament& operator=(const Tournament&) = delete;
 
-  std::uint32_t first() const { return first_; }  // none: no entry is due
+  uint32_t first() const { return first_; }  // none: no entry is due
   double first_time() const { return first_time_; }
-  double time(std::uint32_t i) const { return levels_[0].time[i]; }  // as of the last update
+  double time(uint32_t i) const { return levels_[0].time[i]; }  // as of the last update
 
   /// Call this after entry i has changed. Its time (s) may be infinite: it is then never due.
-  void update(std::uint32_t i, double time) {
-    std::size_t at = i;
-    std::uint32_t winner = i;
+  void update(uint32_t i, double time) {
+    size_t at = i;
+    uint32_t winner = i;
     levels_[0].time[i] = time;
-    for (std::size_t l = 1; l < levels_.size(); ++l) {
+    for (size_t l = 1; l < levels_.size(); ++l) {
       at /= width;
       Level& up = levels_[l];
 
@@ -76,8 +74,8 @@ class Tournament {
     play(levels_.size() - 1, 0, first_, first_time_);
   }
 
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-  void prefetch(std::uint32_t i) const {
+  static constexpr uint32_t none = ~uint32_t{0};
+  void prefetch(uint32_t i) const {
     carom::prefetch(&levels_[0].time[i]);
     if (levels_.size() > 1) carom::prefetch(&levels_[1].time[i / width]);
     if (levels_.size() > 1) carom::prefetch(&levels_[1].winner[i / width]);
@@ -91,11 +89,11 @@ class Tournament {
   /// An entry and its time.
   struct Due {
     double time;
-    std::uint32_t entry;
+    uint32_t entry;
   };
   /// Appends entries that are due up to `until`, in no order. Of entries in the same games at the lowest levels, only
   /// the first is appended.
-  void due_until(double until, std::vector<Due>& due) const {
+  void due_until(double until, vector<Due>& due) const {
     if (first_time_ <= until) collect(levels_.size() - 1, 0, until, due);
   }
 
@@ -105,22 +103,22 @@ class Tournament {
   }
 
  private:
-  static constexpr std::size_t width = 8;
+  static constexpr size_t width = 8;
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   struct Level {
     double* time;  // s, padded to whole games
     // The winner with that time. There is none at the bottom, where it is the entry itself.
-    std::uint32_t* winner;
+    uint32_t* winner;
   };
 
-  void collect(std::size_t l, std::size_t game, double until, std::vector<Due>& due) const {
-    constexpr std::size_t low = 2;
+  void collect(size_t l, size_t game, double until, vector<Due>& due) const {
+    constexpr size_t low = 2;
     const Level& level = levels_[l];
-    for (std::size_t k = game * width; k < (game + 1) * width; ++k) {
+    for (size_t k = game * width; k < (game + 1) * width; ++k) {
       if (level.time[k] > until) continue;
       if (l == 0)
-        due.push_back({level.time[k], static_cast<std::uint32_t>(k)});
+        due.push_back({level.time[k], static_cast<uint32_t>(k)});
       else if (l == low)
         due.push_back({level.time[k], level.winner[k]});
       else
@@ -128,7 +126,7 @@ class Tournament {
     }
   }
 
-  [[gnu::always_inline]] void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
+  [[gnu::always_inline]] void play(size_t l, size_t game, uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
     const double* t = level.time + game * width;
 
@@ -157,18 +155,18 @@ class Tournament {
     }
   }
 
-  std::uint32_t entry(std::size_t l, std::size_t place) const {
-    return l == 0 ? static_cast<std::uint32_t>(place) : levels_[l].winner[place];
+  uint32_t entry(size_t l, size_t place) const {
+    return l == 0 ? static_cast<uint32_t>(place) : levels_[l].winner[place];
   }
 
   /// Of several entries of a game with this time or close to it, the one that comes before all others.
-  [[gnu::noinline]] std::uint32_t first_of(unsigned ties, std::size_t l, std::size_t game, double time) const {
+  [[gnu::noinline]] uint32_t first_of(unsigned ties, size_t l, size_t game, double time) const {
     note_close(time);
-    std::uint32_t winner = none;
+    uint32_t winner = none;
     for (; ties != 0; ties &= ties - 1) {
-      const std::size_t place = game * width + static_cast<unsigned>(std::countr_zero(ties));
+      const size_t place = game * width + static_cast<unsigned>(std::countr_zero(ties));
       if (levels_[l].time[place] != time) continue;
-      const std::uint32_t other = entry(l, place);
+      const uint32_t other = entry(l, place);
       if (winner == none || before_(other, winner)) winner = other;
     }
     return winner;
@@ -183,13 +181,13 @@ class Tournament {
   }
 
   Before before_;
-  LargeVector<double> times_;           // of all levels
-  LargeVector<std::uint32_t> winners_;  // of all levels but the first
-  std::vector<Level> levels_;
-  std::uint32_t first_ = none;
+  LargeVector<double> times_;      // of all levels
+  LargeVector<uint32_t> winners_;  // of all levels but the first
+  vector<Level> levels_;
+  uint32_t first_ = none;
   double first_time_ = never;
   double close_ = 0;  // s
-  mutable std::vector<double> close_times_;
+  mutable vector<double> close_times_;
 };
 
 }  // namespace carom

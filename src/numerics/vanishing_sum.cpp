@@ -4,20 +4,22 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
 class VanishingSum {
  public:
-  VanishingSum(std::span<const Vec3> directions, std::size_t first, double tolerance)
+  VanishingSum(span<const Vec3> directions, size_t first, double tolerance)
       : directions_(directions), first_(first), tolerance_(tolerance) {}
 
-  std::vector<std::size_t> find() {
-    for (std::size_t count = 1; count <= 3; ++count) {
+  vector<size_t> find() {
+    for (size_t count = 1; count <= 3; ++count) {
       others_.clear();
       if (!choose(0, count)) continue;
       others_.push_back(first_);
-      std::sort(others_.begin(), others_.end());
+      std::ranges::sort(others_);
       return others_;
     }
     return {};
@@ -25,9 +27,9 @@ class VanishingSum {
 
  private:
   /// Adds `count` more of the directions from `from` on. Returns whether the sum vanishes with some of them.
-  bool choose(std::size_t from, std::size_t count) {
+  bool choose(size_t from, size_t count) {
     if (count == 0) return vanishes();
-    for (std::size_t k = from; k < directions_.size(); ++k) {
+    for (size_t k = from; k < directions_.size(); ++k) {
       if (k == first_) continue;
       others_.push_back(k);
       if (choose(k + 1, count - 1)) return true;
@@ -38,7 +40,7 @@ class VanishingSum {
 
   bool vanishes() const {
     const Vec3& n = directions_[first_];
-    const auto other = [&](std::size_t k) -> const Vec3& { return directions_[others_[k]]; };
+    const auto other = [&](size_t k) -> const Vec3& { return directions_[others_[k]]; };
     Vec3 factors(1, 0, 0);
     if (others_.size() == 2) {
       const double cosine = other(0).dot(other(1)), a = -n.dot(other(0)), b = -n.dot(other(1));
@@ -48,7 +50,7 @@ class VanishingSum {
       factors = -all / other(0).dot(other(1).cross(other(2)));
     }
     Vec3 sum = n;
-    for (std::size_t k = 0; k < others_.size(); ++k) {
+    for (size_t k = 0; k < others_.size(); ++k) {
       // False also where it is not a number: of directions that depend on one another.
       if (!(factors[static_cast<Eigen::Index>(k)] > 0)) return false;
       sum += factors[static_cast<Eigen::Index>(k)] * other(k);
@@ -56,15 +58,15 @@ class VanishingSum {
     return sum.norm() <= tolerance_;
   }
 
-  std::span<const Vec3> directions_;
-  const std::size_t first_;
+  span<const Vec3> directions_;
+  const size_t first_;
   const double tolerance_;
-  std::vector<std::size_t> others_;
+  vector<size_t> others_;
 };
 
 }  // namespace
 
-std::vector<std::size_t> vanishing_sum(std::span<const Vec3> directions, std::size_t first, double tolerance) {
+vector<size_t> vanishing_sum(span<const Vec3> directions, size_t first, double tolerance) {
   return VanishingSum(directions, first, tolerance).find();
 }
 

@@ -1,24 +1,25 @@
 #pragma once
 // Conversion from any double to an integer.
 #include <cmath>
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom {
 
 /// The largest whole number that whole_below returns; its negative is the least.
-/// It is far within std::int64_t, so that sums and differences of two stay in range.
-inline constexpr std::int64_t most_whole = std::int64_t{1} << 61;
+/// It is far within int64_t, so that sums and differences of two stay in range.
+inline constexpr int64_t most_whole = int64_t{1} << 61;
 
 /// x rounded down and clamped to most_whole; 0 for NaN. A cast of a double beyond the integer's range is undefined.
-inline std::int64_t whole_below(double x) {
+inline int64_t whole_below(double x) {
   constexpr double most = 0x1p61;
   if (x >= most) return most_whole;
   if (x <= -most) return -most_whole;
-  return x == x ? static_cast<std::int64_t>(std::floor(x)) : 0;
+  return x == x ? static_cast<int64_t>(std::floor(x)) : 0;
 }
 
 /// The same, rounded to the nearest whole number.
-inline std::int64_t nearest_whole(double x) {
+inline int64_t nearest_whole(double x) {
   return whole_below(x + 0.5);
 }
 

@@ -7,6 +7,7 @@
 
 #include "physics/force.h"
 #include "scene/color_scale.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -54,7 +55,7 @@ double way_out(const Volume& volume, const Vec3& along) {
   return 0;
 }
 
-void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& color, std::vector<Stroke>& strokes) {
+void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& color, vector<Stroke>& strokes) {
   const double length = arrow.norm();
   // A short arrow is a head alone, in proportion.
   const double head = std::min(head_length * size, length), scale = head / (head_length * size);
@@ -79,8 +80,8 @@ Color ArrowScale::color() const {
   return from_rgb(kind == Kind::velocity ? 0x2b7bba : 0xd9541e);
 }
 
-std::vector<ArrowScale> arrow_scales(const Scene& scene) {
-  std::vector<ArrowScale> scales;
+vector<ArrowScale> arrow_scales(const Scene& scene) {
+  vector<ArrowScale> scales;
   if (scene.world.body_count() == 0) return scales;
   const double size = median_radius(scene.world);
   if (scene.overlay.velocity_arrows) {
@@ -94,7 +95,7 @@ std::vector<ArrowScale> arrow_scales(const Scene& scene) {
   return scales;
 }
 
-void add_arrows(const Moment& moment, const std::vector<ArrowScale>& scales, std::vector<Stroke>& strokes) {
+void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<Stroke>& strokes) {
   if (scales.empty()) return;
   const World& world = moment.scene.world;
   for (Entity body = 0; body < world.body_count(); ++body) {

@@ -1,16 +1,15 @@
 #pragma once
 // Arrows of velocity and force at bodies.
-#include <cstdint>
-#include <vector>
 
 #include "overlay/moment.h"
 #include "render/drawing.h"
+#include "std.h"
 
 namespace carom {
 
 /// A kind of arrows: its colour, and the quantity that is as long as a metre.
 struct ArrowScale {
-  enum class Kind : std::uint8_t { velocity, force };
+  enum class Kind : uint8_t { velocity, force };
   Kind kind = Kind::velocity;
   double typical = 1;  // m/s or N: what an arrow of the length below shows
   double length = 1;   // m
@@ -21,9 +20,9 @@ struct ArrowScale {
 
 /// The arrows that the scene requests. The greatest speed to expect (color_scale.h), or the greatest force at time 0,
 /// is six median radii long.
-std::vector<ArrowScale> arrow_scales(const Scene& scene);
+vector<ArrowScale> arrow_scales(const Scene& scene);
 
 /// Arrows from the surfaces of the bodies, in the direction of the quantity and as long as its scale has it.
-void add_arrows(const Moment& moment, const std::vector<ArrowScale>& scales, std::vector<Stroke>& strokes);
+void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<Stroke>& strokes);
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "physics/body_now.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,12 +15,11 @@ Color ColorRule::color_of(double value) const {
   return color_in(coloring.map, last > 0 ? value / last : 0.5);
 }
 
-std::vector<ColorRule> color_rules(const Scene& scene) {
-  std::vector<ColorRule> rules;
+vector<ColorRule> color_rules(const Scene& scene) {
+  vector<ColorRule> rules;
   for (const BodyRange& range : scene.roster.bodies) {
     if (!range.coloring) continue;
-    auto rule = std::find_if(rules.begin(), rules.end(),
-                             [&](const ColorRule& other) { return other.coloring == *range.coloring; });
+    auto rule = std::ranges::find_if(rules, [&](const ColorRule& other) { return other.coloring == *range.coloring; });
     if (rule == rules.end()) rule = rules.insert(rules.end(), {*range.coloring, scale_of(scene, *range.coloring), {}});
     // Members of a repeated thing follow one another.
     if (rule->names.empty() || rule->names.back() != range.thing()) rule->names.emplace_back(range.thing());
@@ -34,23 +34,23 @@ BodyColors::BodyColors(const Scene& scene) : scene_(scene), rules_(color_rules(s
     rule_.assign(bodies, plain);
     name_.assign(bodies, 0);
   }
-  std::vector<std::uint32_t> names(rules_.size(), 0);  // up to the body, by rule
+  vector<uint32_t> names(rules_.size(), 0);  // up to the body, by rule
   for (const BodyRange& range : scene.roster.bodies) {
     std::fill_n(color_.begin() + range.first, range.count, range.color);
     if (!range.coloring) continue;
-    const auto rule = std::find_if(rules_.begin(), rules_.end(),
-                                   [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
-                      rules_.begin();
-    std::fill_n(rule_.begin() + range.first, range.count, static_cast<std::uint32_t>(rule));
-    std::uint32_t& name = names[static_cast<std::size_t>(rule)];
-    if (rules_[static_cast<std::size_t>(rule)].names[name] != range.thing()) ++name;
+    const auto rule =
+        std::ranges::find_if(rules_, [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
+        rules_.begin();
+    std::fill_n(rule_.begin() + range.first, range.count, static_cast<uint32_t>(rule));
+    uint32_t& name = names[static_cast<size_t>(rule)];
+    if (rules_[static_cast<size_t>(rule)].names[name] != range.thing()) ++name;
     std::fill_n(name_.begin() + range.first, range.count, name);
   }
 }
 
-std::vector<Color> BodyColors::at(const State& state, const History& history) const {
+vector<Color> BodyColors::at(const State& state, const History& history) const {
   if (rule_.empty()) return {};
-  std::vector<Color> colors(color_.size());
+  vector<Color> colors(color_.size());
   for (Entity i = 0; i < colors.size(); ++i) colors[i] = of(i, state.time, state.velocity[i], state, history);
   return colors;
 }

@@ -1,14 +1,12 @@
 #pragma once
 // Colours of bodies by a quantity.
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "overlay/history.h"
 #include "physics/state.h"
 #include "scene/color_scale.h"
 #include "scene/overlay.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -16,14 +14,14 @@ namespace carom {
 struct ColorRule {
   Coloring coloring;
   ColorScale scale;
-  std::vector<std::string> names;
+  vector<string> names;
 
   /// The colour of a value in the quantity's unit; of `group` the number of the name.
   Color color_of(double value) const;
 };
 
 /// The different colourings of a scene, in the order of its bodies.
-std::vector<ColorRule> color_rules(const Scene& scene);
+vector<ColorRule> color_rules(const Scene& scene);
 
 class BodyColors {
  public:
@@ -31,18 +29,18 @@ class BodyColors {
   explicit BodyColors(const Scene& scene);
 
   /// By body; empty: those of the scene.
-  std::vector<Color> at(const State& state, const History& history) const;
+  vector<Color> at(const State& state, const History& history) const;
   /// The colour that a body with this velocity (m/s) had at an earlier `time` (s), no older than the trails.
   Color of(Entity body, double time, const Vec3& velocity, const State& state, const History& history) const;
 
  private:
-  static constexpr std::uint32_t plain = 0xffffffff;
+  static constexpr uint32_t plain = 0xffffffff;
 
   const Scene& scene_;
-  std::vector<ColorRule> rules_;
-  std::vector<std::uint32_t> rule_;  // by body; `plain`: its colour is constant; empty: of all bodies
-  std::vector<Color> color_;         // by body, if it is constant
-  std::vector<std::uint32_t> name_;  // by body, of its rule
+  vector<ColorRule> rules_;
+  vector<uint32_t> rule_;  // by body; `plain`: its colour is constant; empty: of all bodies
+  vector<Color> color_;    // by body, if it is constant
+  vector<uint32_t> name_;  // by body, of its rule
 };
 
 }  // namespace carom

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -12,34 +14,34 @@ namespace {
 constexpr double plate_opacity = 0.6;
 
 /// x / 255, rounded, for x up to 255 * 255.
-constexpr std::uint8_t part_of_255(std::uint32_t x) {
-  return static_cast<std::uint8_t>(((x + 128) * 257) >> 16);
+constexpr uint8_t part_of_255(uint32_t x) {
+  return static_cast<uint8_t>(((x + 128) * 257) >> 16);
 }
 
 }  // namespace
 
 Canvas::Bytes::Bytes(const Color& color) {
   const double parts[] = {color.r, color.g, color.b};
-  for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<std::uint32_t>(std::lround(255 * parts[c]));
+  for (size_t c = 0; c < 3; ++c) rgb[c] = static_cast<uint32_t>(std::lround(255 * parts[c]));
 }
 
 Canvas::Canvas(int width, int height)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+    : width_(width), height_(height), pixels_(static_cast<size_t>(width) * static_cast<size_t>(height)) {}
 
 void Canvas::add(Pixel& pixel, const Bytes& color, int opacity) {
-  const auto new_part = static_cast<std::uint32_t>(opacity), old_part = 255 - new_part;
-  for (std::size_t c = 0; c < 3; ++c) pixel.rgb[c] = part_of_255(old_part * pixel.rgb[c] + new_part * color.rgb[c]);
+  const auto new_part = static_cast<uint32_t>(opacity), old_part = 255 - new_part;
+  for (size_t c = 0; c < 3; ++c) pixel.rgb[c] = part_of_255(old_part * pixel.rgb[c] + new_part * color.rgb[c]);
   pixel.opacity = part_of_255(old_part * pixel.opacity + new_part * 255);
 }
 
 void Canvas::add_plate(double feather) {
   const auto parts_along = [feather](int size) {
-    std::vector<double> parts(static_cast<std::size_t>(size));
+    vector<double> parts(static_cast<size_t>(size));
     for (int i = 0; i < size; ++i)
-      parts[static_cast<std::size_t>(i)] = std::min(1.0, (std::min(i, size - 1 - i) + 0.5) / std::max(feather, 1.0));
+      parts[static_cast<size_t>(i)] = std::min(1.0, (std::min(i, size - 1 - i) + 0.5) / std::max(feather, 1.0));
     return parts;
   };
-  const std::vector<double> across = parts_along(width_), down = parts_along(height_);
+  const vector<double> across = parts_along(width_), down = parts_along(height_);
   const Bytes black(Color{0, 0, 0});
   auto at = pixels_.begin();
   for (const double y : down)
@@ -48,29 +50,28 @@ void Canvas::add_plate(double feather) {
 
 void Canvas::add(const Coverage& coverage, const Color& color) {
   const Bytes bytes(color);
-  for (std::size_t i = 0; i < pixels_.size(); ++i)
+  for (size_t i = 0; i < pixels_.size(); ++i)
     if (coverage.values[i] > 0) add(pixels_[i], bytes, coverage.values[i]);
 }
 
 void Canvas::lay_onto(Image& image, int left, int top) const {
   for (int y = 0; y < height_; ++y) {
-    const Pixel* above = &pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)];
-    std::uint8_t* rgb = image.pixels.data() + static_cast<std::size_t>(top + y) * image.row_size() +
-                        static_cast<std::size_t>(left * image.channels);
+    const Pixel* above = &pixels_[static_cast<size_t>(y) * static_cast<size_t>(width_)];
+    uint8_t* rgb = image.pixels.data() + static_cast<size_t>(top + y) * image.row_size() +
+                   static_cast<size_t>(left * image.channels);
     for (int x = 0; x < width_; ++x, ++above, rgb += image.channels) {
-      const std::uint32_t rest = 255U - above->opacity;
+      const uint32_t rest = 255U - above->opacity;
       if (image.channels == 3) {
-        for (std::size_t c = 0; c < 3; ++c)
-          rgb[c] = static_cast<std::uint8_t>(above->rgb[c] + part_of_255(rest * rgb[c]));
+        for (size_t c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(above->rgb[c] + part_of_255(rest * rgb[c]));
         continue;
       }
-      std::uint8_t& alpha = rgb[3];
-      const std::uint32_t below = part_of_255(rest * alpha), whole = above->opacity + below;
+      uint8_t& alpha = rgb[3];
+      const uint32_t below = part_of_255(rest * alpha), whole = above->opacity + below;
       if (whole == 0) continue;
-      for (std::size_t c = 0; c < 3; ++c)
-        rgb[c] = static_cast<std::uint8_t>(
-            std::min<std::uint32_t>(255, (255U * above->rgb[c] + below * rgb[c] + whole / 2) / whole));
-      alpha = static_cast<std::uint8_t>(whole);
+      for (size_t c = 0; c < 3; ++c)
+        rgb[c] =
+            static_cast<uint8_t>(std::min<uint32_t>(255, (255U * above->rgb[c] + below * rgb[c] + whole / 2) / whole));
+      alpha = static_cast<uint8_t>(whole);
     }
   }
 }

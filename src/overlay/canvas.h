@@ -1,13 +1,10 @@
 #pragma once
 // A small picture with opacity, to be laid onto the pictures of a run.
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "overlay/font.h"
 #include "render/image.h"
 #include "scene/colors.h"
+#include "std.h"
 
 namespace carom {
 
@@ -33,20 +30,20 @@ class Canvas {
   /// A colour of three bytes.
   struct Bytes {
     explicit Bytes(const Color& color);
-    std::array<std::uint32_t, 3> rgb;
+    array<uint32_t, 3> rgb;
   };
   struct Pixel {
-    std::array<std::uint8_t, 3> rgb{};  // sRGB, times the opacity
-    std::uint8_t opacity = 0;
+    array<uint8_t, 3> rgb{};  // sRGB, times the opacity
+    uint8_t opacity = 0;
   };
 
   Pixel& pixel(int x, int y) {
-    return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+    return pixels_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
   }
   static void add(Pixel& pixel, const Bytes& color, int opacity);
 
   int width_, height_;
-  std::vector<Pixel> pixels_;  // top row first
+  vector<Pixel> pixels_;  // top row first
 };
 
 }  // namespace carom

@@ -10,13 +10,14 @@
 #include "overlay/trails.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 bool has_springs(const World& world) {
-  return std::any_of(world.forces.begin(), world.forces.end(),
-                     [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
+  return std::ranges::any_of(world.forces,
+                             [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
 }
 
 bool has_strings(const Scene& scene) {
@@ -48,8 +49,8 @@ Drawing DrawingMaker::at(const State& state, const Camera& camera) const {
   return drawing;
 }
 
-std::vector<float> DrawingMaker::glow(double time) const {
-  std::vector<float> values(scene_.world.body_count());
+vector<float> DrawingMaker::glow(double time) const {
+  vector<float> values(scene_.world.body_count());
   for (Entity i = 0; i < values.size(); ++i)
     values[i] = static_cast<float>(std::max(0.0, 1 - (time - history_.last_collision(i)) / flash_));
   return values;

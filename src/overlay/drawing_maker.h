@@ -1,12 +1,12 @@
 #pragma once
 // The Drawing of an instant: the camera, and what a picture shows besides the bodies.
-#include <vector>
 
 #include "overlay/arrows.h"
 #include "overlay/body_colors.h"
 #include "overlay/history.h"
 #include "render/drawing.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,14 +23,14 @@ class DrawingMaker {
   Drawing at(const State& state, const Camera& camera) const;
 
  private:
-  std::vector<float> glow(double time) const;
+  vector<float> glow(double time) const;
 
   const Scene& scene_;
   const History& history_;
   Size size_;
   double flash_;  // s, simulated
   BodyColors colors_;
-  std::vector<ArrowScale> arrows_;
+  vector<ArrowScale> arrows_;
   bool strokes_;  // whether there may be any
 };
 

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "render/renderer.h"
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
@@ -22,28 +23,28 @@ namespace fs = std::filesystem;
 constexpr const char* font_file = "DejaVuSans.ttf";
 constexpr int deepest = 4;  // folders below a folder of fonts
 
-std::string variable_or(const char* name, const std::string& usual) {
+string variable_or(const char* name, const string& usual) {
   const char* text = std::getenv(name);
   return text != nullptr && *text != '\0' ? text : usual;
 }
 
 /// The folders of fonts of the XDG base directories, and the older one of a user.
-std::vector<fs::path> font_folders() {
-  std::vector<fs::path> folders;
-  const std::string home = variable_or("HOME", "");
-  const std::string own = variable_or("XDG_DATA_HOME", home.empty() ? "" : home + "/.local/share");
+vector<fs::path> font_folders() {
+  vector<fs::path> folders;
+  const string home = variable_or("HOME", "");
+  const string own = variable_or("XDG_DATA_HOME", home.empty() ? "" : home + "/.local/share");
   if (!own.empty()) folders.push_back(fs::path(own) / "fonts");
   if (!home.empty()) folders.push_back(fs::path(home) / ".fonts");
-  const std::string shared = variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share");
-  for (std::size_t i = 0; i <= shared.size();) {
-    const std::size_t end = std::min(shared.find(':', i), shared.size());
+  const string shared = variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share");
+  for (size_t i = 0; i <= shared.size();) {
+    const size_t end = std::min(shared.find(':', i), shared.size());
     if (end > i) folders.push_back(fs::path(shared.substr(i, end - i)) / "fonts");
     i = end + 1;
   }
   return folders;
 }
 
-std::string found_in(const fs::path& folder) {
+string found_in(const fs::path& folder) {
   std::error_code error;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
   for (; !error && entry != end; entry.increment(error)) {
@@ -54,13 +55,13 @@ std::string found_in(const fs::path& folder) {
 }
 
 /// The characters of UTF-8. Bytes that are not part of one are left out.
-std::vector<char32_t> characters(std::string_view text) {
-  std::vector<char32_t> codes;
-  for (std::size_t i = 0; i < text.size();) {
+vector<char32_t> characters(string_view text) {
+  vector<char32_t> codes;
+  for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);
     if (length > 0) codes.push_back(code);
-    i += static_cast<std::size_t>(std::max(length, 1));
+    i += static_cast<size_t>(std::max(length, 1));
   }
   return codes;
 }
@@ -71,9 +72,9 @@ double pixels(FT_Pos units) {
 
 }  // namespace
 
-std::string find_font(std::string_view user, std::string_view instead) {
+string find_font(string_view user, string_view instead) {
   for (const fs::path& folder : font_folders()) {
-    const std::string found = found_in(folder);
+    const string found = found_in(folder);
     if (!found.empty()) return found;
   }
   throw RenderError(fmt::format(
@@ -82,7 +83,7 @@ std::string find_font(std::string_view user, std::string_view instead) {
       user, font_file, instead));
 }
 
-std::string find_font() {
+string find_font() {
   return find_font("text in pictures", "leave out `caption`, `arrows` and `color: {by: ...}`");
 }
 
@@ -98,7 +99,7 @@ struct Font::Face {
   /// Calls `use` with each glyph, unhinted, and the place of its origin in pixels from the start of the text.
   /// Returns the width of the text.
   template <typename Use>
-  double each_glyph(std::string_view text, const Use& use) const {
+  double each_glyph(string_view text, const Use& use) const {
     double x = 0;
     FT_UInt before = 0;
     for (const char32_t code : characters(text)) {
@@ -119,7 +120,7 @@ struct Font::Face {
   FT_Face face = nullptr;
 };
 
-Font::Font(const std::string& file, double size) : face_(std::make_unique<Face>()) {
+Font::Font(const string& file, double size) : face_(make_unique<Face>()) {
   if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file.c_str(), 0, &face_->face) != 0)
     throw RenderError(fmt::format("cannot read the font {}: install fonts-dejavu-core again", file));
   resize(size);
@@ -141,11 +142,11 @@ double Font::descent() const {
   return -size_ * face_->face->descender / face_->face->units_per_EM;
 }
 
-double Font::width(std::string_view text) const {
+double Font::width(string_view text) const {
   return face_->each_glyph(text, [](FT_GlyphSlot, double) {});
 }
 
-void Font::draw(std::string_view text, double x, double y, Coverage& to) const {
+void Font::draw(string_view text, double x, double y, Coverage& to) const {
   const auto add = [&](FT_GlyphSlot glyph, double place) {
     const double left = x + place, whole_x = std::floor(left), whole_y = std::floor(y);
     // The outline's y axis points upwards.
@@ -157,8 +158,8 @@ void Font::draw(std::string_view text, double x, double y, Coverage& to) const {
         const int px = static_cast<int>(whole_x) + glyph->bitmap_left + column;
         const int py = static_cast<int>(whole_y) - glyph->bitmap_top + row;
         if (px < 0 || py < 0 || px >= to.width || py >= to.height) continue;
-        std::uint8_t& covered = to.at(px, py);
-        covered = static_cast<std::uint8_t>(std::min(255, covered + bitmap.buffer[row * bitmap.pitch + column]));
+        uint8_t& covered = to.at(px, py);
+        covered = static_cast<uint8_t>(std::min(255, covered + bitmap.buffer[row * bitmap.pitch + column]));
       }
     }
   };

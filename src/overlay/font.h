@@ -1,38 +1,35 @@
 #pragma once
 // Text as coverage of pixels, by FreeType, in the typeface DejaVu Sans.
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 /// How much of each pixel is covered, 0 to 255, top row first.
 struct Coverage {
-  Coverage(int w, int h) : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-  std::uint8_t& at(int x, int y) {
-    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  Coverage(int w, int h) : width(w), height(h), values(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
+  uint8_t& at(int x, int y) {
+    return values[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
   }
-  std::uint8_t at(int x, int y) const {
-    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  uint8_t at(int x, int y) const {
+    return values[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
   }
 
   int width, height;  // pixels
-  std::vector<std::uint8_t> values;
+  vector<uint8_t> values;
 };
 
 /// The file of the typeface, from the system's folders of fonts. Throws RenderError with the remedy.
 /// `user` needs it, and `instead` can be done without it.
-std::string find_font(std::string_view user, std::string_view instead);
+string find_font(string_view user, string_view instead);
 /// For the text of a scene's pictures.
-std::string find_font();
+string find_font();
 
 class Font {
  public:
   /// Letters without hinting, so that the same text has the same pixels everywhere. `file`: that of find_font().
   /// `size`: pixels (em). Throws RenderError.
-  explicit Font(const std::string& file, double size = 12);
+  explicit Font(const string& file, double size = 12);
   ~Font();
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
@@ -43,15 +40,15 @@ class Font {
   double ascent() const;
   double descent() const;
   double line() const { return 1.2 * (ascent() + descent()); }  // pixels from line to line
-  double width(std::string_view text) const;                    // pixels; text: UTF-8
+  double width(string_view text) const;                         // pixels; text: UTF-8
   /// Adds the text. Its base line starts at (x, y), in pixels from the upper left corner. What lies outside is left
   /// out.
-  void draw(std::string_view text, double x, double y, Coverage& to) const;
+  void draw(string_view text, double x, double y, Coverage& to) const;
 
  private:
   struct Face;
   double size_ = 0;
-  std::unique_ptr<Face> face_;
+  unique_ptr<Face> face_;
 };
 
 }  // namespace carom

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -28,7 +30,7 @@ double inverse_of_sinh_ratio(double q) {
 
 }  // namespace
 
-std::vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length, const Vec3& down, double error) {
+vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length, const Vec3& down, double error) {
   const Vec3 way = to - from;
   const double distance = way.norm();
   if (!(length > distance) || down.isZero(0)) return {to};
@@ -41,7 +43,7 @@ std::vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length,
   const double x = inverse_of_sinh_ratio(ratio);
   const double a = width / (2 * x), middle = std::atanh(rise / length), first = middle - x;
   const double count = std::clamp(std::ceil(2 * x / std::sqrt(8 * error / a)), 1.0, most_strokes);
-  std::vector<Vec3> points;
+  vector<Vec3> points;
   for (double i = 1; i < count; ++i) {
     const double turn = 2 * x * i / count;
     const double height = 2 * a * std::sinh(first + turn / 2) * std::sinh(turn / 2);

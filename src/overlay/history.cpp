@@ -7,6 +7,7 @@
 #include "scene/caption.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -43,13 +44,13 @@ void History::count(Entity body, double time) {
   if (!counts_.empty()) ++counts_[body];
   if (!last_.empty()) last_[body] = time;
   if (recent_.empty()) return;
-  std::vector<double>& times = recent_[body];
+  vector<double>& times = recent_[body];
   const auto kept = std::lower_bound(times.begin(), times.end(), time - scene_.overlay.trails->seconds);
   if (2 * (kept - times.begin()) > times.end() - times.begin()) times.erase(times.begin(), kept);
   times.push_back(time);
 }
 
-void History::record(std::span<const Collision> collisions) {
+void History::record(span<const Collision> collisions) {
   if (!needs_.collisions) return;
   for (const Collision& collision : collisions) {
     if (collision.kind == CollisionKind::rest) continue;
@@ -59,7 +60,7 @@ void History::record(std::span<const Collision> collisions) {
   if (sampler_) sampler_->record(collisions);
 }
 
-void History::record_paths(std::span<const PathPiece> pieces) {
+void History::record_paths(span<const PathPiece> pieces) {
   if (needs_.paths) tracks_->add(pieces);
 }
 
@@ -71,11 +72,11 @@ void History::sample(const State& state) {
   if (sampler_) sampler_->sample(state);
 }
 
-std::uint64_t History::collisions_of(Entity body, double time) const {
+uint64_t History::collisions_of(Entity body, double time) const {
   if (counts_.empty()) return 0;
   if (recent_.empty()) return counts_[body];
-  const std::vector<double>& times = recent_[body];
-  return counts_[body] - static_cast<std::uint64_t>(times.end() - std::upper_bound(times.begin(), times.end(), time));
+  const vector<double>& times = recent_[body];
+  return counts_[body] - static_cast<uint64_t>(times.end() - std::upper_bound(times.begin(), times.end(), time));
 }
 
 }  // namespace carom

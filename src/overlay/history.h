@@ -1,16 +1,13 @@
 #pragma once
 // What pictures show of the past: collisions of each body, and paths. Only what a scene requests is kept.
-#include <cstdint>
 #include <limits>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "overlay/track_sampler.h"
 #include "overlay/tracks.h"
 #include "physics/collision.h"
 #include "physics/path_piece.h"
 #include "physics/state.h"
+#include "std.h"
 
 namespace carom {
 
@@ -34,15 +31,15 @@ class History {
   History(const Scene& scene, const OverlayNeeds& needs);
 
   /// Take what has been recorded since the last call, in order.
-  void record(std::span<const Collision> collisions);
-  void record_paths(std::span<const PathPiece> pieces);
+  void record(span<const Collision> collisions);
+  void record_paths(span<const PathPiece> pieces);
   /// The time (s) at which the next state is due, at the latest. Infinity: none.
   double next_sample() const;
   /// Takes a state. Call it before each picture, too.
   void sample(const State& state);
 
   /// Collisions of a body until `time` (s), which is no older than the trails.
-  std::uint64_t collisions_of(Entity body, double time = std::numeric_limits<double>::infinity()) const;
+  uint64_t collisions_of(Entity body, double time = std::numeric_limits<double>::infinity()) const;
   /// The time (s) of a body's last collision. Minus infinity: none.
   double last_collision(Entity body) const { return last_.empty() ? no_collision : last_[body]; }
   /// Null: no trails are requested.
@@ -55,11 +52,11 @@ class History {
 
   const Scene& scene_;
   OverlayNeeds needs_;
-  std::vector<std::uint64_t> counts_;        // by body; empty: not needed
-  std::vector<double> last_;                 // s, by body; empty: not needed
-  std::vector<std::vector<double>> recent_;  // s, by body, for trails with colours by collisions; empty: not needed
-  std::optional<Tracks> tracks_;
-  std::optional<TrackSampler> sampler_;
+  vector<uint64_t> counts_;        // by body; empty: not needed
+  vector<double> last_;            // s, by body; empty: not needed
+  vector<vector<double>> recent_;  // s, by body, for trails with colours by collisions; empty: not needed
+  optional<Tracks> tracks_;
+  optional<TrackSampler> sampler_;
 };
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -31,12 +32,12 @@ Inscription::Inscription(const Scene& scene, Size size)
       size_(size),
       margin_(static_cast<int>(0.4 * letters_of(size))),
       captioned_(!scene.overlay.caption.empty()) {
-  const std::vector<Legend> legends = legends_of(scene);
+  const vector<Legend> legends = legends_of(scene);
   if (!captioned_ && legends.empty()) return;
-  font_ = std::make_unique<Font>(find_font());
+  font_ = make_unique<Font>(find_font());
   if (legends.empty()) return;
-  legends_ = std::make_unique<LegendBlock>(*font_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
-                                           static_cast<int>(legend_part * size.height) - margin_);
+  legends_ = make_unique<LegendBlock>(*font_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
+                                      static_cast<int>(legend_part * size.height) - margin_);
   if (legends_->canvas() == nullptr) legends_.reset();
 }
 
@@ -46,11 +47,11 @@ int Inscription::legends_top() const {
 
 void Inscription::write(const CaptionValues& values, Image& image) {
   if (captioned_) {
-    std::string text = caption_text(scene_.overlay.caption, values);
+    string text = caption_text(scene_.overlay.caption, values);
     if (caption_ == nullptr || text != text_) {
       text_ = std::move(text);
-      caption_ = std::make_unique<TextBlock>(*font_, text_, letters_of(size_), size_.width - 2 * margin_,
-                                             static_cast<int>(caption_part * size_.height) - margin_);
+      caption_ = make_unique<TextBlock>(*font_, text_, letters_of(size_), size_.width - 2 * margin_,
+                                        static_cast<int>(caption_part * size_.height) - margin_);
     }
     if (caption_->canvas() != nullptr) caption_->canvas()->lay_onto(image, margin_, margin_);
   }

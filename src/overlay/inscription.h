@@ -1,13 +1,12 @@
 #pragma once
 // The text of the pictures of one size: a caption at the upper left, and legends at the lower left.
-#include <memory>
-#include <string>
 
 #include "overlay/legend_block.h"
 #include "overlay/text_block.h"
 #include "render/image.h"
 #include "scene/caption.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,10 +35,10 @@ class Inscription {
   Size size_;
   int margin_;
   bool captioned_;
-  std::unique_ptr<Font> font_;          // null: there is no text
-  std::string text_;                    // of the caption below
-  std::unique_ptr<TextBlock> caption_;  // of the last picture
-  std::unique_ptr<LegendBlock> legends_;
+  unique_ptr<Font> font_;          // null: there is no text
+  string text_;                    // of the caption below
+  unique_ptr<TextBlock> caption_;  // of the last picture
+  unique_ptr<LegendBlock> legends_;
 };
 
 }  // namespace carom

@@ -6,16 +6,17 @@
 #include "overlay/arrows.h"
 #include "overlay/body_colors.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t most_entries = 12;
+constexpr size_t most_entries = 12;
 
 // In the order of ColorQuantity.
 constexpr const char* titles[] = {"speed (m/s)", "kinetic energy (J)", "collisions", "mass (kg)", "radius (m)", ""};
 
-std::string number_text(double value) {
+string number_text(double value) {
   return fmt::format("{:.6g}", value == 0 ? 0.0 : value);
 }
 
@@ -23,15 +24,14 @@ Legend legend_of(const ColorRule& rule) {
   Legend legend;
   legend.map = rule.coloring.map;
   const ColorQuantity by = rule.coloring.by.value_or(ColorQuantity::group);
-  legend.title = titles[static_cast<std::size_t>(by)];
+  legend.title = titles[static_cast<size_t>(by)];
   if (by != ColorQuantity::group) {
     legend.min = number_text(rule.scale.min);
     legend.max = number_text(rule.scale.max);
     return legend;
   }
-  const std::size_t count = rule.names.size(), shown = count > most_entries ? most_entries - 1 : count;
-  for (std::size_t i = 0; i < shown; ++i)
-    legend.entries.push_back({rule.color_of(static_cast<double>(i)), rule.names[i]});
+  const size_t count = rule.names.size(), shown = count > most_entries ? most_entries - 1 : count;
+  for (size_t i = 0; i < shown; ++i) legend.entries.push_back({rule.color_of(static_cast<double>(i)), rule.names[i]});
   if (shown < count)
     legend.entries.push_back({rule.color_of(static_cast<double>(count - 1)), fmt::format("{} more", count - shown)});
   return legend;
@@ -45,8 +45,8 @@ Legend::Entry entry_of(const ArrowScale& scale) {
 
 }  // namespace
 
-std::vector<Legend> legends_of(const Scene& scene) {
-  std::vector<Legend> legends;
+vector<Legend> legends_of(const Scene& scene) {
+  vector<Legend> legends;
   for (const ColorRule& rule : color_rules(scene)) legends.push_back(legend_of(rule));
   Legend arrows;
   for (const ArrowScale& scale : arrow_scales(scene)) arrows.entries.push_back(entry_of(scale));

@@ -1,10 +1,9 @@
 #pragma once
 // The contents of legends: what colours and arrows of a scene's pictures mean.
-#include <string>
-#include <vector>
 
 #include "scene/color_map.h"
 #include "scene/colors.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,16 +13,16 @@ struct Scene;
 struct Legend {
   struct Entry {
     Color color;
-    std::string name;
+    string name;
   };
-  std::string title;  // "speed (m/s)"; may be empty above a list
+  string title;  // "speed (m/s)"; may be empty above a list
   ColorMap map = ColorMap::viridis;
-  std::string min, max;        // the numbers at the strip's ends
-  std::vector<Entry> entries;  // empty: a strip
+  string min, max;        // the numbers at the strip's ends
+  vector<Entry> entries;  // empty: a strip
 };
 
 /// One for each different colouring in the order of the bodies, and one for the arrows.
 /// A list of more than 12 names ends with the number of those left out.
-std::vector<Legend> legends_of(const Scene& scene);
+vector<Legend> legends_of(const Scene& scene);
 
 }  // namespace carom

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "overlay/text_block.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,12 +18,12 @@ const Color white{1, 1, 1};
 /// The pen moves down the block. Without a canvas it only measures.
 class LegendPen {
  public:
-  LegendPen(const Font& font, double padding, Canvas* canvas, std::vector<PixelBox>* strips)
+  LegendPen(const Font& font, double padding, Canvas* canvas, vector<PixelBox>* strips)
       : font_(font), left_(padding), y_(padding), canvas_(canvas), strips_(strips) {
     if (canvas != nullptr) coverage_.emplace(canvas->width(), canvas->height());
   }
 
-  void add(const std::vector<Legend>& legends) {
+  void add(const vector<Legend>& legends) {
     for (const Legend& legend : legends) {
       if (&legend != &legends.front()) y_ += 0.6 * font_.size();
       if (!legend.title.empty()) line(legend.title, 0);
@@ -38,12 +38,12 @@ class LegendPen {
 
  private:
   /// A line of text, `x` pixels from the left.
-  void line(const std::string& text, double x) {
+  void line(const string& text, double x) {
     write(text, left_ + x);
     y_ += font_.line();
   }
 
-  void write(const std::string& text, double x) {
+  void write(const string& text, double x) {
     width_ = std::max(width_, x + font_.width(text));
     if (coverage_) font_.draw(text, x, y_ + font_.ascent(), *coverage_);
   }
@@ -82,13 +82,13 @@ class LegendPen {
   const Font& font_;
   double left_, y_, width_ = 0;
   Canvas* canvas_;
-  std::vector<PixelBox>* strips_;
-  std::optional<Coverage> coverage_;
+  vector<PixelBox>* strips_;
+  optional<Coverage> coverage_;
 };
 
 }  // namespace
 
-LegendBlock::LegendBlock(Font& font, const std::vector<Legend>& legends, double size, int width, int height) {
+LegendBlock::LegendBlock(Font& font, const vector<Legend>& legends, double size, int width, int height) {
   if (legends.empty()) return;
   for (; size >= TextBlock::least_size; size *= shrink) {
     font.resize(size);
@@ -98,7 +98,7 @@ LegendBlock::LegendBlock(Font& font, const std::vector<Legend>& legends, double 
     const int needed_width = static_cast<int>(std::ceil(measure.width() + padding));
     const int needed_height = static_cast<int>(std::ceil(measure.height() + padding));
     if (needed_width > width || needed_height > height) continue;
-    canvas_ = std::make_unique<Canvas>(needed_width, needed_height);
+    canvas_ = make_unique<Canvas>(needed_width, needed_height);
     canvas_->add_plate(padding);
     LegendPen(font, padding, canvas_.get(), &strips_).add(legends);
     return;

@@ -1,12 +1,10 @@
 #pragma once
 // Legends as a picture.
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "overlay/canvas.h"
 #include "overlay/font.h"
 #include "overlay/legend.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,15 +18,15 @@ class LegendBlock {
  public:
   /// At most `width` times `height` pixels: letters of `size` pixels, or smaller ones where the legends do not fit.
   /// Changes the font's size. Throws RenderError.
-  LegendBlock(Font& font, const std::vector<Legend>& legends, double size, int width, int height);
+  LegendBlock(Font& font, const vector<Legend>& legends, double size, int width, int height);
 
   const Canvas* canvas() const { return canvas_.get(); }  // null: letters would be below 5 pixels
   /// By legend: its strip of colours. The first and the last column have the colours of the map's ends.
-  const std::vector<PixelBox>& strips() const { return strips_; }
+  const vector<PixelBox>& strips() const { return strips_; }
 
  private:
-  std::unique_ptr<Canvas> canvas_;
-  std::vector<PixelBox> strips_;
+  unique_ptr<Canvas> canvas_;
+  vector<PixelBox> strips_;
 };
 
 }  // namespace carom

@@ -3,32 +3,31 @@
 #include "overlay/light_mean.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "numerics/srgb.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr double most = 65535;
 
-const std::array<std::uint16_t, 256>& light_of_bytes() {
+const array<uint16_t, 256>& light_of_bytes() {
   static const auto table = [] {
-    std::array<std::uint16_t, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint16_t>(std::lround(most * light_of_srgb(static_cast<double>(i) / 255)));
+    array<uint16_t, 256> values{};
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<uint16_t>(std::lround(most * light_of_srgb(static_cast<double>(i) / 255)));
     return values;
   }();
   return table;
 }
 
-const std::vector<std::uint8_t>& bytes_of_light() {
+const vector<uint8_t>& bytes_of_light() {
   static const auto table = [] {
-    std::vector<std::uint8_t> values(65536);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_of_light(static_cast<double>(i) / most)));
+    vector<uint8_t> values(65536);
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<uint8_t>(std::lround(255 * srgb_of_light(static_cast<double>(i) / most)));
     return values;
   }();
   return table;
@@ -43,30 +42,30 @@ void LightMean::add(const Image& image) {
     mean_.channels = image.channels;
     sums_.assign(image.pixels.size(), 0);
   }
-  const std::array<std::uint16_t, 256>& light = light_of_bytes();
+  const array<uint16_t, 256>& light = light_of_bytes();
   if (image.channels == 3) {
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) sums_[i] += light[image.pixels[i]];
+    for (size_t i = 0; i < image.pixels.size(); ++i) sums_[i] += light[image.pixels[i]];
     return;
   }
-  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
-    const std::uint32_t opacity = image.pixels[i + 3];
-    for (std::size_t c = 0; c < 3; ++c) sums_[i + c] += (light[image.pixels[i + c]] * opacity + 127) / 255;
+  for (size_t i = 0; i < image.pixels.size(); i += 4) {
+    const uint32_t opacity = image.pixels[i + 3];
+    for (size_t c = 0; c < 3; ++c) sums_[i + c] += (light[image.pixels[i + c]] * opacity + 127) / 255;
     sums_[i + 3] += opacity;
   }
 }
 
 const Image& LightMean::take() {
-  const auto count = static_cast<std::uint32_t>(std::max(count_, 1));
-  const std::vector<std::uint8_t>& bytes = bytes_of_light();
+  const auto count = static_cast<uint32_t>(std::max(count_, 1));
+  const vector<uint8_t>& bytes = bytes_of_light();
   mean_.pixels.resize(sums_.size());
   if (mean_.channels == 3) {
-    for (std::size_t i = 0; i < sums_.size(); ++i) mean_.pixels[i] = bytes[(sums_[i] + count / 2) / count];
+    for (size_t i = 0; i < sums_.size(); ++i) mean_.pixels[i] = bytes[(sums_[i] + count / 2) / count];
   } else {
-    for (std::size_t i = 0; i < sums_.size(); i += 4) {
+    for (size_t i = 0; i < sums_.size(); i += 4) {
       const double whole = std::max(sums_[i + 3] / 255.0, 1e-9);
-      for (std::size_t c = 0; c < 3; ++c)
-        mean_.pixels[i + c] = bytes[static_cast<std::size_t>(std::min(most, std::round(sums_[i + c] / whole)))];
-      mean_.pixels[i + 3] = static_cast<std::uint8_t>((sums_[i + 3] + count / 2) / count);
+      for (size_t c = 0; c < 3; ++c)
+        mean_.pixels[i + c] = bytes[static_cast<size_t>(std::min(most, std::round(sums_[i + c] / whole)))];
+      mean_.pixels[i + 3] = static_cast<uint8_t>((sums_[i + 3] + count / 2) / count);
     }
   }
   count_ = 0;

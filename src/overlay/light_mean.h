@@ -1,9 +1,8 @@
 #pragma once
 // The mean of pictures in linear light.
-#include <cstdint>
-#include <vector>
 
 #include "render/image.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +18,7 @@ class LightMean {
   Image mean_;
   int count_ = 0;
   /// By byte of a picture: linear light of 65535 times opacity, and opacity of 255, summed.
-  std::vector<std::uint32_t> sums_;
+  vector<uint32_t> sums_;
 };
 
 }  // namespace carom

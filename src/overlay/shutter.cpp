@@ -7,6 +7,7 @@
 
 #include "physics/body_now.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -30,7 +31,7 @@ bool meets(double a, double b, double radius, double half) {
 
 int exposures_of(const Scene& scene, const State& state, double open, const Eye& opening, const Eye& closing) {
   double most = 1;
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
+  for (size_t i = 0; i < state.position.size(); ++i) {
     if (is_gone(state, static_cast<Entity>(i))) continue;
     const Vec3 &x = state.position[i], &v = state.velocity[i];
     const Projected from = projected(opening, x), to = projected(closing, x + open * v);

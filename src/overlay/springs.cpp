@@ -9,6 +9,7 @@
 
 #include "overlay/wire.h"
 #include "physics/force.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -32,7 +33,7 @@ double turns_of(const Spring& spring, double coil, double start_length) {
   return std::clamp(std::round(length / (pitch * coil)), fewest_turns, most_turns);
 }
 
-void add_spring(const Moment& moment, const Spring& spring, Entity body, std::vector<Stroke>& strokes) {
+void add_spring(const Moment& moment, const Spring& spring, Entity body, vector<Stroke>& strokes) {
   const Vec3 end = moment.state.position[body], whole = end - spring.anchor;
   const double length = whole.norm(), reach = moment.radius_of(body);
   if (!(length > 0)) return;
@@ -57,13 +58,13 @@ void add_spring(const Moment& moment, const Spring& spring, Entity body, std::ve
 
 }  // namespace
 
-void add_springs(const Moment& moment, std::vector<Stroke>& strokes) {
+void add_springs(const Moment& moment, vector<Stroke>& strokes) {
   const World& world = moment.scene.world;
-  const std::vector<std::size_t>& hidden = moment.scene.overlay.hidden_springs;
-  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+  const vector<size_t>& hidden = moment.scene.overlay.hidden_springs;
+  for (size_t k = 0; k < world.forces.size(); ++k) {
     const Force& force = world.forces[k];
     const Spring* spring = std::get_if<Spring>(&force.law);
-    if (spring == nullptr || std::find(hidden.begin(), hidden.end(), k) != hidden.end()) continue;
+    if (spring == nullptr || std::ranges::find(hidden, k) != hidden.end()) continue;
     for (Entity body = 0; body < world.body_count(); ++body)
       if (acts(force, body, moment.state.time) && !moment.is_part(body)) add_spring(moment, *spring, body, strokes);
   }

@@ -5,6 +5,7 @@
 
 #include "overlay/hanging_curve.h"
 #include "overlay/wire.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double string_radius = 0.06, rod_radius = 0.1;  // of the smaller body's radius
 const Color hemp = from_rgb(0x8a6d3b);
 
-void add_string(const Moment& moment, const String& string, std::vector<Stroke>& strokes) {
+void add_string(const Moment& moment, const String& string, vector<Stroke>& strokes) {
   const bool tied = string.other != no_entity;
   const Vec3 from = moment.state.position[string.body];
   const Vec3 to = tied ? moment.state.position[string.other] : string.anchor;
@@ -28,10 +29,10 @@ void add_string(const Moment& moment, const String& string, std::vector<Stroke>&
 
 }  // namespace
 
-void add_strings(const Moment& moment, std::vector<Stroke>& strokes) {
-  const std::vector<String>& strings = moment.scene.world.strings;
-  const std::vector<std::size_t>& hidden = moment.scene.overlay.hidden_strings;
-  for (std::size_t k = 0; k < strings.size(); ++k) {
+void add_strings(const Moment& moment, vector<Stroke>& strokes) {
+  const vector<String>& strings = moment.scene.world.strings;
+  const vector<size_t>& hidden = moment.scene.overlay.hidden_strings;
+  for (size_t k = 0; k < strings.size(); ++k) {
     const String& string = strings[k];
     const bool is_cut = moment.is_part(string.body) || (string.other != no_entity && moment.is_part(string.other));
     if (!is_cut && !std::binary_search(hidden.begin(), hidden.end(), k)) add_string(moment, string, strokes);

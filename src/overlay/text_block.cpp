@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
@@ -13,15 +14,15 @@ namespace {
 constexpr double shrink = 0.9;
 const Color white{1, 1, 1};
 
-std::unique_ptr<Canvas> drawn(const Font& font, const std::vector<std::string>& lines, double padding) {
+unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double padding) {
   double width = 0;
-  for (const std::string& line : lines) width = std::max(width, font.width(line));
+  for (const string& line : lines) width = std::max(width, font.width(line));
   const double height = font.line() * static_cast<double>(lines.size() - 1) + font.ascent() + font.descent();
-  auto canvas = std::make_unique<Canvas>(static_cast<int>(std::ceil(width + 2 * padding)),
-                                         static_cast<int>(std::ceil(height + 2 * padding)));
+  auto canvas = make_unique<Canvas>(static_cast<int>(std::ceil(width + 2 * padding)),
+                                    static_cast<int>(std::ceil(height + 2 * padding)));
   Coverage coverage(canvas->width(), canvas->height());
   double y = padding + font.ascent();
-  for (const std::string& line : lines) {
+  for (const string& line : lines) {
     font.draw(line, padding, y, coverage);
     y += font.line();
   }
@@ -32,14 +33,14 @@ std::unique_ptr<Canvas> drawn(const Font& font, const std::vector<std::string>& 
 
 }  // namespace
 
-WrappedText wrapped(const Font& font, const std::string& text, double width) {
+WrappedText wrapped(const Font& font, const string& text, double width) {
   WrappedText result;
-  std::string line;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t word = std::min(text.find_first_not_of(' ', i), text.size());
-    const std::size_t end = std::min(text.find(' ', word), text.size());
+  string line;
+  for (size_t i = 0; i < text.size();) {
+    const size_t word = std::min(text.find_first_not_of(' ', i), text.size());
+    const size_t end = std::min(text.find(' ', word), text.size());
     if (word == end) break;
-    const std::string longer = (line.empty() ? "" : line + text.substr(i, word - i)) + text.substr(word, end - word);
+    const string longer = (line.empty() ? "" : line + text.substr(i, word - i)) + text.substr(word, end - word);
     if (!line.empty() && font.width(longer) > width) {
       result.lines.push_back(line);
       line = text.substr(word, end - word);
@@ -53,21 +54,21 @@ WrappedText wrapped(const Font& font, const std::string& text, double width) {
   return result;
 }
 
-std::string shortened(const Font& font, const std::string& text, double width) {
+string shortened(const Font& font, const string& text, double width) {
   if (font.width(text) <= width) return text;
-  const std::string ellipsis = "\u2026";
-  std::string best;
-  for (std::size_t i = 0; i < text.size();) {
+  const string ellipsis = "\u2026";
+  string best;
+  for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
-    i += static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
-    std::string shorter = text.substr(0, i) + ellipsis;
+    i += static_cast<size_t>(std::max(utf8_length(text, i, code), 1));
+    string shorter = text.substr(0, i) + ellipsis;
     if (font.width(shorter) > width) break;
     best = std::move(shorter);
   }
   return best;
 }
 
-TextBlock::TextBlock(Font& font, const std::string& text, double size, int width, int height)
+TextBlock::TextBlock(Font& font, const string& text, double size, int width, int height)
     : size_(std::max(size, least_size)) {
   for (;; size_ = std::max(least_size, shrink * size_)) {
     font.resize(size_);
@@ -75,17 +76,17 @@ TextBlock::TextBlock(Font& font, const std::string& text, double size, int width
     const double one = font.ascent() + font.descent();
     const double most = std::floor((height - 2 * padding - one - 1) / font.line()) + 1;
     WrappedText text_lines = wrapped(font, text, space);
-    std::vector<std::string>& lines = text_lines.lines;
+    vector<string>& lines = text_lines.lines;
     if (lines.empty()) return;
     const bool fits = text_lines.fits && static_cast<double>(lines.size()) <= most;
     if (!fits && size_ > least_size) continue;
     if (!fits) {
       if (!(most >= 1)) return;
       if (static_cast<double>(lines.size()) > most) {
-        lines.resize(static_cast<std::size_t>(most));
+        lines.resize(static_cast<size_t>(most));
         lines.back() += " \u2026";
       }
-      for (std::string& line : lines) line = shortened(font, line, space);
+      for (string& line : lines) line = shortened(font, line, space);
       std::erase(lines, "");
       if (lines.empty()) return;
     }

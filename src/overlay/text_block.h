@@ -1,30 +1,28 @@
 #pragma once
 // Text in lines that fit into a given space.
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "overlay/canvas.h"
 #include "overlay/font.h"
+#include "std.h"
 
 namespace carom {
 
 /// Lines of at most `width` pixels, broken at spaces. `fits`: whether no word is longer than a line.
 struct WrappedText {
-  std::vector<std::string> lines;
+  vector<string> lines;
   bool fits = true;
 };
-WrappedText wrapped(const Font& font, const std::string& text, double width);
+WrappedText wrapped(const Font& font, const string& text, double width);
 
 /// The text up to the last letter that, with an ellipsis, fits into `width` pixels. Empty: not even that fits.
-std::string shortened(const Font& font, const std::string& text, double width);
+string shortened(const Font& font, const string& text, double width);
 
 /// A text of several lines on a plate.
 class TextBlock {
  public:
   /// At most `width` times `height` pixels: letters of `size` pixels, or smaller ones where the lines do not fit.
   /// Below 5 pixels text is cut off. Changes the font's size. Throws RenderError.
-  TextBlock(Font& font, const std::string& text, double size, int width, int height);
+  TextBlock(Font& font, const string& text, double size, int width, int height);
 
   const Canvas* canvas() const { return canvas_.get(); }  // null: there is no text, or no space for a line
   double size() const { return size_; }                   // pixels, of letters
@@ -35,7 +33,7 @@ class TextBlock {
 
  private:
   double size_;
-  std::unique_ptr<Canvas> canvas_;
+  unique_ptr<Canvas> canvas_;
 };
 
 }  // namespace carom

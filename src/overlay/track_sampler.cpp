@@ -9,6 +9,7 @@
 
 #include "physics/body_now.h"
 #include "physics/force.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -37,14 +38,14 @@ TrackPiece parabola(double from, double until, double at, const Vec3& x, const V
 TrackSampler::TrackSampler(const World& world, Tracks& tracks, double seconds)
     : world_(world), tracks_(tracks), seconds_(seconds), known_(world.body_count()) {}
 
-void TrackSampler::record(std::span<const Collision> collisions) {
+void TrackSampler::record(span<const Collision> collisions) {
   for (const Collision& collision : collisions) {
     for (const Entity e : {collision.a, world_.second_body(collision.b)})
       if (world_.is_body(e) && tracks_.has(e)) known_[e].impacts.push_back(collision.time);
   }
 }
 
-std::size_t TrackSampler::add_path(Entity body, const Known& known, double time, const Known& now, bool ends) {
+size_t TrackSampler::add_path(Entity body, const Known& known, double time, const Known& now, bool ends) {
   if (known.impacts.empty()) {
     tracks_.add(body, hermite(time_, time, known.x, known.v, now.x, now.v));
     return 1;
@@ -73,7 +74,7 @@ void TrackSampler::sample(const State& state) {
     const bool ends = is_gone(state, body);
     Known now{state.position[body], state.velocity[body], Vec3::Zero(), {}, ends, 0};
     now.a = free_acceleration(world_, body, state.time, now.x, now.v);
-    const std::size_t pieces = started_ && state.time > time_ ? add_path(body, known, state.time, now, ends) : 0;
+    const size_t pieces = started_ && state.time > time_ ? add_path(body, known, state.time, now, ends) : 0;
     if (!own) {
       known.tip = pieces;
       continue;

@@ -1,11 +1,10 @@
 #pragma once
 // The recent paths of bodies from states, for motions without recorded paths.
-#include <span>
-#include <vector>
 
 #include "overlay/tracks.h"
 #include "physics/collision.h"
 #include "physics/state.h"
+#include "std.h"
 
 namespace carom {
 
@@ -18,28 +17,28 @@ class TrackSampler {
 
   double next() const { return next_; }  // s: take a state at this time or before
   /// Takes the collisions since the last state, in order.
-  void record(std::span<const Collision> collisions);
+  void record(span<const Collision> collisions);
   /// Adds the paths since the last state of its own times next(). Those until another time are replaced by the next
   /// call, so that paths do not depend on the times of pictures.
   void sample(const State& state);
 
  private:
   struct Known {
-    Vec3 x, v, a;                 // at the last state of an own time
-    std::vector<double> impacts;  // s, times of collisions since then
-    bool ended = false;           // has become part of another body
-    std::size_t tip = 0;          // pieces until a time that is not an own one
+    Vec3 x, v, a;            // at the last state of an own time
+    vector<double> impacts;  // s, times of collisions since then
+    bool ended = false;      // has become part of another body
+    size_t tip = 0;          // pieces until a time that is not an own one
   };
 
   /// Returns the number of pieces. `ends`: the body has become part of another.
-  std::size_t add_path(Entity body, const Known& known, double time, const Known& now, bool ends);
+  size_t add_path(Entity body, const Known& known, double time, const Known& now, bool ends);
 
   const World& world_;
   Tracks& tracks_;
   double seconds_;
   bool started_ = false;
   double time_ = 0, next_ = 0;  // s
-  std::vector<Known> known_;    // by body
+  vector<Known> known_;         // by body
 };
 
 }  // namespace carom

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "std.h"
+
 namespace carom {
 
-Tracks::Tracks(Entity bodies, const std::vector<Entity>& on, double seconds)
+Tracks::Tracks(Entity bodies, const vector<Entity>& on, double seconds)
     : seconds_(seconds), bodies_(on), wanted_(bodies, on.empty()), pieces_(bodies) {
   if (on.empty()) {
     bodies_.resize(bodies);
@@ -16,7 +18,7 @@ Tracks::Tracks(Entity bodies, const std::vector<Entity>& on, double seconds)
   for (const Entity body : on) wanted_[body] = true;
 }
 
-void Tracks::add(std::span<const PathPiece> pieces) {
+void Tracks::add(span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
     if (!has(piece.body)) continue;
     if (piece.part_of == no_entity && !piece.removed)
@@ -34,14 +36,13 @@ void Tracks::add(Entity body, const TrackPiece& piece) {
 }
 
 void Tracks::end(Entity body, double time) {
-  std::vector<TrackPiece>& pieces = pieces_[body];
+  vector<TrackPiece>& pieces = pieces_[body];
   if (!pieces.empty()) pieces.back().until = std::min(pieces.back().until, time);
 }
 
 void Tracks::forget(Entity body, double before) {
-  std::vector<TrackPiece>& pieces = pieces_[body];
-  const auto kept =
-      std::find_if(pieces.begin(), pieces.end(), [&](const TrackPiece& piece) { return piece.until > before; });
+  vector<TrackPiece>& pieces = pieces_[body];
+  const auto kept = std::ranges::find_if(pieces, [&](const TrackPiece& piece) { return piece.until > before; });
   if (2 * (kept - pieces.begin()) > pieces.end() - pieces.begin()) pieces.erase(pieces.begin(), kept);
 }
 

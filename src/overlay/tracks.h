@@ -1,14 +1,11 @@
 #pragma once
 // The recent paths of bodies, as pieces of polynomials.
-#include <cstddef>
 #include <limits>
-#include <memory>
-#include <span>
-#include <vector>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
 #include "physics/path_piece.h"
+#include "std.h"
 
 namespace carom {
 
@@ -41,17 +38,17 @@ struct TrackPiece {
 class Tracks {
  public:
   /// The paths of `on` (empty: of all bodies) during the last `seconds`.
-  Tracks(Entity bodies, const std::vector<Entity>& on, double seconds);
+  Tracks(Entity bodies, const vector<Entity>& on, double seconds);
 
-  const std::vector<Entity>& bodies() const { return bodies_; }  // those with tracks, ascending
-  std::span<const TrackPiece> of(Entity body) const { return pieces_[body]; }
+  const vector<Entity>& bodies() const { return bodies_; }  // those with tracks, ascending
+  span<const TrackPiece> of(Entity body) const { return pieces_[body]; }
 
   /// Adds pieces of recorded paths, in order. A body that becomes part of another has no further path.
-  void add(std::span<const PathPiece> pieces);
+  void add(span<const PathPiece> pieces);
   /// Adds a piece of a body's path, which begins where its last one ends, or later.
   void add(Entity body, const TrackPiece& piece);
   /// Removes the last `count` pieces of a body, which were added and whose predecessor ended by itself.
-  void remove(Entity body, std::size_t count) { pieces_[body].resize(pieces_[body].size() - count); }
+  void remove(Entity body, size_t count) { pieces_[body].resize(pieces_[body].size() - count); }
   bool has(Entity body) const { return wanted_[body]; }
 
  private:
@@ -59,9 +56,9 @@ class Tracks {
   void forget(Entity body, double before);
 
   double seconds_;
-  std::vector<Entity> bodies_;
-  std::vector<bool> wanted_;                     // by body
-  std::vector<std::vector<TrackPiece>> pieces_;  // by body, in order of time
+  vector<Entity> bodies_;
+  vector<bool> wanted_;                // by body
+  vector<vector<TrackPiece>> pieces_;  // by body, in order of time
 };
 
 }  // namespace carom

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -20,7 +22,7 @@ struct TrailPoint {
 
 class TrailMaker {
  public:
-  TrailMaker(const Moment& moment, const Trails& trails, std::vector<Stroke>& strokes)
+  TrailMaker(const Moment& moment, const Trails& trails, vector<Stroke>& strokes)
       : moment_(moment), trails_(trails), strokes_(strokes), now_(moment.state.time) {}
 
   void add(Entity body) {
@@ -86,7 +88,7 @@ class TrailMaker {
 
   const Moment& moment_;
   const Trails& trails_;
-  std::vector<Stroke>& strokes_;
+  vector<Stroke>& strokes_;
   double now_;             // s
   double radius_ = 0;      // m
   bool has_last_ = false;  // whether the two points below are of a line
@@ -95,7 +97,7 @@ class TrailMaker {
 
 }  // namespace
 
-void add_trails(const Moment& moment, std::vector<Stroke>& strokes) {
+void add_trails(const Moment& moment, vector<Stroke>& strokes) {
   const Tracks* tracks = moment.history.tracks();
   if (tracks == nullptr) return;
   TrailMaker maker(moment, *moment.scene.overlay.trails, strokes);

@@ -1,10 +1,10 @@
 #pragma once
 // Strokes of one width through points, such as a spring or a string.
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "render/drawing.h"
 #include "scene/colors.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,7 +14,7 @@ inline const Color wire_steel = from_rgb(0xa7adb5);
 /// Appends strokes through points.
 class Wire {
  public:
-  Wire(double radius, const Vec3& start, const Color& color, std::vector<Stroke>& strokes)
+  Wire(double radius, const Vec3& start, const Color& color, vector<Stroke>& strokes)
       : radius_(radius), at_(start), color_(color), strokes_(strokes) {}
 
   void go_to(const Vec3& point) {
@@ -31,7 +31,7 @@ class Wire {
   double radius_;  // m
   Vec3 at_;        // m
   Color color_;
-  std::vector<Stroke>& strokes_;
+  vector<Stroke>& strokes_;
 };
 
 }  // namespace carom

@@ -2,22 +2,16 @@
 // The state of objects as bytes, and back. A class lists what changes in it in a member template `keep(archive)`, once
 // for both directions. Members that the same World, State and options determine are not listed, nor are scratch and
 // caches. The bytes are those of this processor and this version of the program.
-#include <array>
-#include <cstdint>
 #include <cstring>
 #include <deque>
 #include <map>
-#include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -33,30 +27,30 @@ class ByteWriter {
  public:
   static constexpr bool reads = false;
 
-  std::string take() { return std::move(bytes_); }
+  string take() { return std::move(bytes_); }
 
  protected:
-  void bytes(const void* from, std::size_t count) {
+  void bytes(const void* from, size_t count) {
     if (count > 0) bytes_.append(static_cast<const char*>(from), count);
   }
   void require(bool /*fits*/) const {}
-  void check_left(std::uint64_t /*count*/) const {}
+  void check_left(uint64_t /*count*/) const {}
 
   /// The number of a shared value, from 1 on in the order in which they are met; 0: none.
-  std::uint64_t number_of(const void* shared) const {
+  uint64_t number_of(const void* shared) const {
     if (shared == nullptr) return 0;
     const auto known = numbers_.find(shared);
     return known == numbers_.end() ? numbers_.size() + 1 : known->second;
   }
   /// Takes the shared value of this number. Returns whether it is new, so that its contents follow.
   template <typename T>
-  bool take_shared(const std::shared_ptr<T>& shared, std::uint64_t number) {
+  bool take_shared(const std::shared_ptr<T>& shared, uint64_t number) {
     return number > 0 && numbers_.try_emplace(shared.get(), number).second;
   }
 
  private:
-  std::string bytes_;
-  std::map<const void*, std::uint64_t> numbers_;
+  string bytes_;
+  std::map<const void*, uint64_t> numbers_;
 };
 
 /// Reads them. Throws ArchiveError.
@@ -65,12 +59,12 @@ class ByteReader {
   static constexpr bool reads = true;
 
   /// `world`: that of the objects.
-  ByteReader(std::string_view bytes, const World& world) : left_(bytes), world_(world) {}
+  ByteReader(string_view bytes, const World& world) : left_(bytes), world_(world) {}
   /// To be called at the end: all bytes must have been read.
   void finish() const { require(left_.empty()); }
 
  protected:
-  void bytes(void* to, std::size_t count) {
+  void bytes(void* to, size_t count) {
     check_left(count);
     if (count > 0) std::memcpy(to, left_.data(), count);
     left_.remove_prefix(count);
@@ -79,11 +73,11 @@ class ByteReader {
     if (!fits) throw ArchiveError();
   }
   /// So many values can follow: each takes a byte at least.
-  void check_left(std::uint64_t count) const { require(count <= left_.size()); }
+  void check_left(uint64_t count) const { require(count <= left_.size()); }
 
-  std::uint64_t number_of(const void* /*shared*/) const { return 0; }
+  uint64_t number_of(const void* /*shared*/) const { return 0; }
   template <typename T>
-  bool take_shared(std::shared_ptr<T>& shared, std::uint64_t number) {
+  bool take_shared(std::shared_ptr<T>& shared, uint64_t number) {
     require(number <= known_.size() + 1);
     if (number <= known_.size()) {
       shared = number == 0 ? nullptr : std::static_pointer_cast<T>(known_[number - 1]);
@@ -99,9 +93,9 @@ class ByteReader {
   }
 
  private:
-  std::string_view left_;
+  string_view left_;
   const World& world_;
-  std::vector<std::shared_ptr<void>> known_;  // shared values, by number
+  vector<std::shared_ptr<void>> known_;  // shared values, by number
 };
 
 template <typename Bytes>
@@ -147,20 +141,20 @@ class StateArchive : public Bytes {
   }
 
   template <typename T, typename Allocator>
-  void one(std::vector<T, Allocator>& list) {
+  void one(vector<T, Allocator>& list) {
     resize(list);
     if constexpr (is_plain<T>)
       Bytes::bytes(list.data(), list.size() * sizeof(T));
     else
       for (T& value : list) one(value);
   }
-  void one(std::string& text) {
+  void one(string& text) {
     resize(text);
     Bytes::bytes(text.data(), text.size());
   }
   template <typename Key, typename T>
   void one(std::map<Key, T>& map) {
-    std::vector<std::pair<Key, T>> entries(map.begin(), map.end());
+    vector<std::pair<Key, T>> entries(map.begin(), map.end());
     one(entries);
     if constexpr (Bytes::reads) map = {entries.begin(), entries.end()};
   }
@@ -169,8 +163,8 @@ class StateArchive : public Bytes {
     resize(list);
     for (T& value : list) one(value);
   }
-  template <typename T, std::size_t size>
-  void one(std::array<T, size>& list) {
+  template <typename T, size_t size>
+  void one(array<T, size>& list) {
     for (T& value : list) one(value);
   }
   template <typename First, typename Second>
@@ -179,7 +173,7 @@ class StateArchive : public Bytes {
     one(pair.second);
   }
   template <typename T>
-  void one(std::optional<T>& value) {
+  void one(optional<T>& value) {
     bool there = value.has_value();
     one(there);
     if (there && !value) value.emplace();
@@ -188,10 +182,10 @@ class StateArchive : public Bytes {
   }
   template <typename... Types>
   void one(std::variant<Types...>& value) {
-    std::size_t index = value.index();
+    size_t index = value.index();
     one(index);
     if constexpr (Bytes::reads) {
-      std::size_t k = 0;
+      size_t k = 0;
       ((k++ == index ? (void)value.template emplace<Types>() : (void)0), ...);
     }
     std::visit([this](auto& held) { this->one(held); }, value);
@@ -200,7 +194,7 @@ class StateArchive : public Bytes {
   template <typename T>
   void one(std::shared_ptr<T>& value) {
     auto shared = std::const_pointer_cast<std::remove_const_t<T>>(value);
-    std::uint64_t number = Bytes::number_of(shared.get());
+    uint64_t number = Bytes::number_of(shared.get());
     one(number);
     if (Bytes::take_shared(shared, number)) one(*shared);
     value = shared;
@@ -208,13 +202,13 @@ class StateArchive : public Bytes {
 
   template <typename List>
   void resize(List& list) {
-    std::uint64_t count = list.size();
+    uint64_t count = list.size();
     one(count);
     Bytes::check_left(count);
     if constexpr (Bytes::reads) list.resize(count);
   }
   template <typename List>
-  void one_of_size(List& list, std::size_t size) {
+  void one_of_size(List& list, size_t size) {
     one(list);
     Bytes::require(list.size() == size);
   }

@@ -1,11 +1,10 @@
 #pragma once
 // The properties of a body at an instant, since bodies that merge change, and of all bodies.
 #include <algorithm>
-#include <cstddef>
-#include <vector>
 
 #include "physics/state.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -34,9 +33,9 @@ inline Volume volume_now(const World& world, const State& state, Entity body) {
 
 /// m; 0: there are no bodies.
 inline double median_radius(const World& world) {
-  std::vector<double> radii = world.radius;
+  vector<double> radii = world.radius;
   if (radii.empty()) return 0;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  const auto middle = radii.begin() + static_cast<ptrdiff_t>(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   return *middle;
 }

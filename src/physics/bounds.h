@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 

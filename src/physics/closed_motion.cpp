@@ -8,6 +8,7 @@
 
 #include "physics/force.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,9 +37,9 @@ class Gathering {
     forces_.strength += law.strength;
   }
 
-  std::optional<ClosedForces> all() const {
+  optional<ClosedForces> all() const {
     const bool springs = forces_.stiffness > 0 || forces_.fade > 0;
-    if (!closed_ || (forces_.strength != 0 ? springs || constant_ : !(forces_.stiffness > 0))) return std::nullopt;
+    if (!closed_ || (forces_.strength != 0 ? springs || constant_ : !(forces_.stiffness > 0))) return nullopt;
     return forces_;
   }
 
@@ -50,7 +51,7 @@ class Gathering {
 
 }  // namespace
 
-std::optional<ClosedForces> closed_forces(const World& world, Entity body, double time) {
+optional<ClosedForces> closed_forces(const World& world, Entity body, double time) {
   Gathering all(world.mass[body]);
   all.gravity(world.gravity);
   for (const Force& force : world.forces)

@@ -2,13 +2,13 @@
 // Free motion in closed form under a force that varies with position.
 // The force is that of linear springs of rest length 0 with linear drag and constant forces, or of one attractor
 // without softening.
-#include <optional>
 #include <variant>
 
 #include "numerics/compensated.h"
 #include "physics/entity.h"
 #include "physics/kepler_orbit.h"
 #include "physics/oscillation.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,7 +27,7 @@ struct ClosedForces {
 
 /// The forces on a body from `time` (s) on. It is empty where they have no closed form of this kind together.
 /// It is empty too where only constant forces and linear drag act.
-std::optional<ClosedForces> closed_forces(const World& world, Entity body, double time);
+optional<ClosedForces> closed_forces(const World& world, Entity body, double time);
 
 /// A motion from its start on.
 class ClosedMotion {

@@ -1,20 +1,20 @@
 #pragma once
 // A collision that happened. A predicted one is an Event, which is private to a simulator.
-#include <cstdint>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
-enum class CollisionKind : std::uint8_t {
+enum class CollisionKind : uint8_t {
   body_body,   // two bodies struck each other
   body_fixed,  // a body struck a fixed surface
   rest,        // a body's bounces on a surface ended; from here on it rests or slides
   merge,       // two bodies became one
   // A string went taut; a: its body, b: the string. The point is the centre of a, and the normal points from the other
   // end of the string to a.
-  string
+  taut
 };
 
 struct Collision {

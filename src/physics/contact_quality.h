@@ -1,11 +1,11 @@
 #pragma once
 // How finely crowds are computed: islands with contacts that change too often to be followed one by one.
-#include <array>
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom {
 
-enum class QualityLevel : std::uint8_t { preview, fast, normal, fine, finer, reference };
+enum class QualityLevel : uint8_t { preview, fast, normal, fine, finer, reference };
 
 /// One row of the table of qualities. Lengths are shares of the least radius r, times of falling by it: sqrt(2 r / a).
 struct ContactQuality {
@@ -20,7 +20,7 @@ struct ContactQuality {
 };
 
 /// By level.
-inline constexpr std::array<ContactQuality, 6> contact_qualities{{
+inline constexpr array<ContactQuality, 6> contact_qualities{{
     {0.16, 0.5, 1, 1e-2, 20, 5, 0.05, true},
     {0.08, 0.2, 0.3, 3e-3, 300, 20, 0, true},
     {0.04, 0.1, 0.05, 1e-3, 300, 20, 0, false},
@@ -30,7 +30,7 @@ inline constexpr std::array<ContactQuality, 6> contact_qualities{{
 }};
 
 constexpr const ContactQuality& quality_of(QualityLevel level) {
-  return contact_qualities[static_cast<std::size_t>(level)];
+  return contact_qualities[static_cast<size_t>(level)];
 }
 
 }  // namespace carom

@@ -1,13 +1,14 @@
 #pragma once
 // The number of a body or a fixed thing.
-#include <cstdint>
 #include <limits>
+
+#include "std.h"
 
 namespace carom {
 
 /// A body or a fixed thing, by number. Bodies have the numbers 0 .. body_count()-1. Planes, walls, obstacles
 /// and strings follow.
-using Entity = std::uint32_t;
+using Entity = uint32_t;
 inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
 
 }  // namespace carom

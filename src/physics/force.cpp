@@ -87,8 +87,8 @@ const Force* bending_force(const World& world) {
 }
 
 bool bends(const World& world, Entity body, double time) {
-  return std::any_of(world.forces.begin(), world.forces.end(),
-                     [&](const Force& force) { return bends(force.law) && acts(force, body, time); });
+  return std::ranges::any_of(world.forces,
+                             [&](const Force& force) { return bends(force.law) && acts(force, body, time); });
 }
 
 namespace {
@@ -114,7 +114,7 @@ const Force* open_force(const World& world, Entity body, double time) {
 
 const Force* force_without_closed_form(const World& world) {
   if (bending_force(world) == nullptr) return nullptr;
-  const bool alike = std::all_of(world.forces.begin(), world.forces.end(), [](const Force& f) { return f.on.empty(); });
+  const bool alike = std::ranges::all_of(world.forces, [](const Force& f) { return f.on.empty(); });
   const Entity bodies = alike ? std::min<Entity>(1, world.body_count()) : world.body_count();
   for (Entity i = 0; i < bodies; ++i)
     for (double time = 0; time < std::numeric_limits<double>::infinity(); time = next_switch(world, i, time))
@@ -123,7 +123,7 @@ const Force* force_without_closed_form(const World& world) {
 }
 
 bool damps(const World& world, Entity body, double time) {
-  return std::any_of(world.forces.begin(), world.forces.end(), [&](const Force& force) {
+  return std::ranges::any_of(world.forces, [&](const Force& force) {
     if (!acts(force, body, time)) return false;
     const Spring* const spring = std::get_if<Spring>(&force.law);
     return std::holds_alternative<Drag>(force.law) || (spring != nullptr && spring->damping > 0);

@@ -13,12 +13,13 @@
 
 #include "numerics/lu_factors.h"
 #include "numerics/radau_points.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t nodes = 7, axes = 3, unknowns = nodes * axes;
+constexpr size_t nodes = 7, axes = 3, unknowns = nodes * axes;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int most_passes = 12;
@@ -39,12 +40,12 @@ constexpr double term_share = 0.5;
 // A share of the step. A transient that is over in less counts by its velocity, not by its acceleration.
 constexpr double filter = 0x1p-5;
 
-using NodeRow = std::array<double, nodes>;
-using NodeMatrix = std::array<NodeRow, nodes>;
+using NodeRow = array<double, nodes>;
+using NodeMatrix = array<NodeRow, nodes>;
 
 /// Gauss points and weights on [0, 1]. They integrate polynomials of degree 7 exactly.
 struct GaussRule {
-  std::array<double, 4> at, weight;
+  array<double, 4> at, weight;
   GaussRule() {
     const double root = 2 * std::sqrt(1.2), near = std::sqrt((3 - root) / 7), far = std::sqrt((3 + root) / 7);
     const double part = std::sqrt(30.0) / 72;
@@ -59,18 +60,18 @@ struct SevenStages {
   NodeMatrix a;
   NodeMatrix a_squared;
   // Coefficients of Legendre's polynomials of degrees 4 to 7 in the polynomial of `power`.
-  std::array<NodeRow, 4> tail;
+  array<NodeRow, 4> tail;
   // Coefficients of s^(row + 1) in the polynomial that is 0 at 0, 1 at the column's point and 0 at the other points.
   NodeMatrix power;
 
   SevenStages() {
-    for (std::size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
-    for (std::size_t i = 0; i < nodes; ++i)
-      for (std::size_t j = 0; j < nodes; ++j) {
+    for (size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
+    for (size_t i = 0; i < nodes; ++i)
+      for (size_t j = 0; j < nodes; ++j) {
         a_squared[i][j] = 0;
-        for (std::size_t k = 0; k < nodes; ++k) a_squared[i][j] += a[i][k] * a[k][j];
+        for (size_t k = 0; k < nodes; ++k) a_squared[i][j] += a[i][k] * a[k][j];
       }
-    for (std::size_t j = 0; j < nodes; ++j) {
+    for (size_t j = 0; j < nodes; ++j) {
       set_powers(j);
       set_tail(j);
     }
@@ -80,10 +81,10 @@ struct SevenStages {
   NodeRow integrals(double s) const {
     const GaussRule gauss;
     NodeRow sum{};
-    for (std::size_t g = 0; g < gauss.at.size(); ++g)
-      for (std::size_t j = 0; j < nodes; ++j) {
+    for (size_t g = 0; g < gauss.at.size(); ++g)
+      for (size_t j = 0; j < nodes; ++j) {
         double product = s * gauss.weight[g];
-        for (std::size_t l = 0; l < nodes; ++l)
+        for (size_t l = 0; l < nodes; ++l)
           if (l != j) product *= (s * gauss.at[g] - c[l]) / (c[j] - c[l]);
         sum[j] += product;
       }
@@ -91,25 +92,25 @@ struct SevenStages {
   }
 
   /// Coefficients of s / c_j times the product of (s - c_l) / (c_j - c_l) over the other points.
-  void set_powers(std::size_t j) {
+  void set_powers(size_t j) {
     NodeRow terms{1 / c[j]};
-    std::size_t degree = 0;
-    for (std::size_t l = 0; l < nodes; ++l) {
+    size_t degree = 0;
+    for (size_t l = 0; l < nodes; ++l) {
       if (l == j) continue;
       const double scale = 1 / (c[j] - c[l]);
       ++degree;
-      for (std::size_t k = degree; k > 0; --k) terms[k] = scale * (terms[k - 1] - c[l] * terms[k]);
+      for (size_t k = degree; k > 0; --k) terms[k] = scale * (terms[k - 1] - c[l] * terms[k]);
       terms[0] *= -scale * c[l];
     }
-    for (std::size_t k = 0; k < nodes; ++k) power[k][j] = terms[k];
+    for (size_t k = 0; k < nodes; ++k) power[k][j] = terms[k];
   }
 
   /// Radau's weights integrate the products exactly for degrees up to 6. A multiple of (P_6 - P_7) / 2 then brings the
   /// polynomial to 0 at 0. That one is 1 at 0 and zero at the points.
-  void set_tail(std::size_t j) {
+  void set_tail(size_t j) {
     const auto p = legendre<nodes>(c[j]);
     double missed = 0, sign = 1;
-    for (std::size_t n = 0; n < nodes; ++n, sign = -sign) {
+    for (size_t n = 0; n < nodes; ++n, sign = -sign) {
       const double term = static_cast<double>(2 * n + 1) * a[nodes - 1][j] * p[n];
       missed -= sign * term;
       if (n >= 4) tail[n - 4][j] = term;
@@ -140,12 +141,12 @@ struct ImplicitStep::Newton {
   const Vec3 &x, &v;
   const Acceleration& acceleration;
   const Jacobian& jacobian;
-  std::array<Vec3, stages>& z;
+  array<Vec3, stages>& z;
   LuFactors<unknowns> factors;
 
-  Vec3 position(std::size_t i) const {
+  Vec3 position(size_t i) const {
     Vec3 sum = method().c[i] * v;
-    for (std::size_t j = 0; j < nodes; ++j) sum += method().a[i][j] * z[j];
+    for (size_t j = 0; j < nodes; ++j) sum += method().a[i][j] * z[j];
     return x + h * sum;
   }
 
@@ -153,9 +154,9 @@ struct ImplicitStep::Newton {
   bool factor(const ForceJacobian& j) {
     const SevenStages& m = method();
     const Eigen::Matrix3d hj = h * j.by_velocity, hhj = h * h * j.by_position;
-    for (std::size_t row = 0; row < unknowns; ++row)
-      for (std::size_t column = 0; column < unknowns; ++column) {
-        const std::size_t i = row / axes, k = column / axes;
+    for (size_t row = 0; row < unknowns; ++row)
+      for (size_t column = 0; column < unknowns; ++column) {
+        const size_t i = row / axes, k = column / axes;
         const auto p = static_cast<Eigen::Index>(row % axes), q = static_cast<Eigen::Index>(column % axes);
         factors.at(row, column) = (row == column ? 1 : 0) - m.a[i][k] * hj(p, q) - m.a_squared[i][k] * hhj(p, q);
       }
@@ -165,18 +166,18 @@ struct ImplicitStep::Newton {
   /// The same with the Jacobian of each stage.
   bool factor_at_stages() {
     const SevenStages& m = method();
-    std::array<Eigen::Matrix3d, nodes> hj, hhj;
-    for (std::size_t l = 0; l < nodes; ++l) {
+    array<Eigen::Matrix3d, nodes> hj, hhj;
+    for (size_t l = 0; l < nodes; ++l) {
       const ForceJacobian j = jacobian(position(l), v + z[l]);
       hj[l] = h * j.by_velocity;
       hhj[l] = h * h * j.by_position;
     }
-    for (std::size_t i = 0; i < nodes; ++i)
-      for (std::size_t k = 0; k < nodes; ++k) {
+    for (size_t i = 0; i < nodes; ++i)
+      for (size_t k = 0; k < nodes; ++k) {
         Eigen::Matrix3d block = m.a[i][k] * hj[k];
-        for (std::size_t l = 0; l < nodes; ++l) block += (m.a[i][l] * m.a[l][k]) * hhj[l];
-        for (std::size_t p = 0; p < axes; ++p)
-          for (std::size_t q = 0; q < axes; ++q)
+        for (size_t l = 0; l < nodes; ++l) block += (m.a[i][l] * m.a[l][k]) * hhj[l];
+        for (size_t p = 0; p < axes; ++p)
+          for (size_t q = 0; q < axes; ++q)
             factors.at(i * axes + p, k * axes + q) =
                 (i == k && p == q ? 1 : 0) - block(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
       }
@@ -187,28 +188,28 @@ struct ImplicitStep::Newton {
   void predict(const Vec3& a0, const ForceJacobian& j) {
     const Vec3 turn = 0.5 * h * h * (j.by_position * v);
     Vector b;
-    for (std::size_t i = 0; i < nodes; ++i) {
+    for (size_t i = 0; i < nodes; ++i) {
       const double c = method().c[i];
       put(b, i, c * (h * a0 + c * turn));
     }
     factors.solve(b);
-    for (std::size_t i = 0; i < nodes; ++i) z[i] = Vec3(b[axes * i], b[axes * i + 1], b[axes * i + 2]);
+    for (size_t i = 0; i < nodes; ++i) z[i] = Vec3(b[axes * i], b[axes * i + 1], b[axes * i + 2]);
   }
 
   /// One pass of Newton's method. Returns the greatest change of a velocity (m/s); infinity: a number is not finite.
   double correct() {
-    std::array<Vec3, nodes> a;
-    for (std::size_t j = 0; j < nodes; ++j) a[j] = acceleration(position(j), v + z[j]);
+    array<Vec3, nodes> a;
+    for (size_t j = 0; j < nodes; ++j) a[j] = acceleration(position(j), v + z[j]);
     Vector b;
-    for (std::size_t i = 0; i < nodes; ++i) {
+    for (size_t i = 0; i < nodes; ++i) {
       Vec3 sum = Vec3::Zero();
-      for (std::size_t j = 0; j < nodes; ++j) sum += method().a[i][j] * a[j];
+      for (size_t j = 0; j < nodes; ++j) sum += method().a[i][j] * a[j];
       put(b, i, h * sum - z[i]);
     }
     factors.solve(b);
     double changed = 0;
-    for (std::size_t i = 0; i < nodes; ++i)
-      for (std::size_t p = 0; p < axes; ++p) {
+    for (size_t i = 0; i < nodes; ++i)
+      for (size_t p = 0; p < axes; ++p) {
         const double change = b[axes * i + p];
         if (!std::isfinite(change)) return infinity;
         z[i][static_cast<Eigen::Index>(p)] += change;
@@ -217,13 +218,13 @@ struct ImplicitStep::Newton {
     return changed;
   }
 
-  static void put(Vector& b, std::size_t i, const Vec3& value) {
-    std::copy(value.data(), value.data() + axes, b.begin() + static_cast<std::ptrdiff_t>(axes * i));
+  static void put(Vector& b, size_t i, const Vec3& value) {
+    std::copy(value.data(), value.data() + axes, b.begin() + static_cast<ptrdiff_t>(axes * i));
   }
 
   /// Whether the velocities converge to within `limit` (m/s).
   bool solve(double limit) {
-    const std::array<Vec3, stages> predicted = z;
+    const array<Vec3, stages> predicted = z;
     double before = infinity;
     bool at_stages = false;
     for (int pass = 0; pass < most_passes; ++pass) {
@@ -266,10 +267,10 @@ double ImplicitStep::step(double h, const Vec3& x, const Vec3& v, const Accelera
 /// terms of one parity may vanish. A transient that is small beside the slow motion stays hidden from this estimate.
 double ImplicitStep::error_by_terms() const {
   // Sizes of the terms of degrees 4 to 7.
-  std::array<double, 4> size;
-  for (std::size_t n = 0; n < size.size(); ++n) {
+  array<double, 4> size;
+  for (size_t n = 0; n < size.size(); ++n) {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t j = 0; j < nodes; ++j) sum += method().tail[n][j] * change_[j];
+    for (size_t j = 0; j < nodes; ++j) sum += method().tail[n][j] * change_[j];
     size[n] = sum.cwiseAbs().maxCoeff();
   }
   const double last = std::max(size[2], size[3]), before = std::max(size[0], size[1]);
@@ -285,15 +286,15 @@ double ImplicitStep::error_by_terms() const {
 double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const {
   const double s = filter * length_;
   LuFactors<axes> factors;
-  for (std::size_t p = 0; p < axes; ++p)
-    for (std::size_t q = 0; q < axes; ++q) {
+  for (size_t p = 0; p < axes; ++p)
+    for (size_t q = 0; q < axes; ++q) {
       const auto row = static_cast<Eigen::Index>(p), column = static_cast<Eigen::Index>(q);
       factors.at(p, q) = (p == q ? 1 : 0) - s * j.by_velocity(row, column) - s * s * j.by_position(row, column);
     }
   if (!factors.factor()) return infinity;
   // The slope of the polynomial at the start, by the step, m/s.
   Vec3 slope = Vec3::Zero();
-  for (std::size_t k = 0; k < nodes; ++k) slope += method().power[0][k] * change_[k];
+  for (size_t k = 0; k < nodes; ++k) slope += method().power[0][k] * change_[k];
   const Vec3 miss = length_ * a - slope;
   LuFactors<axes>::Row b{miss[0], miss[1], miss[2]};
   factors.solve(b);
@@ -316,9 +317,9 @@ PolynomialPath ImplicitStep::path() const {
   PolynomialPath path;
   path.length = length_;
   path.displacement[0] = length_ * v_;
-  for (std::size_t k = 0; k < nodes; ++k) {
+  for (size_t k = 0; k < nodes; ++k) {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t j = 0; j < nodes; ++j) sum += method().power[k][j] * change_[j];
+    for (size_t j = 0; j < nodes; ++j) sum += method().power[k][j] * change_[j];
     path.displacement[k + 1] = length_ / static_cast<double>(k + 2) * sum;
   }
   return path;

@@ -5,20 +5,19 @@
 // The order is 13 at a step's end. Within the step it is 7 for the velocity and 8 for the displacement.
 // The displacement's polynomial has degree 8, that of PolynomialPath.
 #include <Eigen/Core>
-#include <array>
-#include <functional>
 
 #include "numerics/polynomial_path.h"
 #include "physics/force_jacobian.h"
+#include "std.h"
 
 namespace carom {
 
 class ImplicitStep {
  public:
   /// The acceleration (m/s^2) at x (m) and v (m/s).
-  using Acceleration = std::function<Vec3(const Vec3& x, const Vec3& v)>;
+  using Acceleration = function<Vec3(const Vec3& x, const Vec3& v)>;
   /// Its derivatives there.
-  using Jacobian = std::function<ForceJacobian(const Vec3& x, const Vec3& v)>;
+  using Jacobian = function<ForceJacobian(const Vec3& x, const Vec3& v)>;
 
   /// A step of h (s) from x (m) and v (m/s). It replaces the step before.
   /// Returns the greatest error along an axis at any time of the step, as a share of `position` (m) and `velocity`
@@ -32,15 +31,15 @@ class ImplicitStep {
   PolynomialPath path() const;
 
  private:
-  static constexpr std::size_t stages = 7;
+  static constexpr size_t stages = 7;
   struct Newton;
 
   double error_by_terms() const;
   double error_by_start(const Vec3& a, const ForceJacobian& j) const;
 
-  double length_ = 0;                // s
-  Vec3 v_ = Vec3::Zero();            // m/s, at the start
-  std::array<Vec3, stages> change_;  // m/s: change of the velocity since the start, by stage
+  double length_ = 0;           // s
+  Vec3 v_ = Vec3::Zero();       // m/s, at the start
+  array<Vec3, stages> change_;  // m/s: change of the velocity since the start, by stage
 };
 
 }  // namespace carom

@@ -1,13 +1,13 @@
 #pragma once
 // Methods that carry particles through a step in time under any acceleration.
 // Two of them give parabolas, with another acceleration in each step. curved_flights.h applies these.
-#include <cstdint>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
-enum class Integrator : std::uint8_t {
+enum class Integrator : uint8_t {
   // The method of Dormand and Prince with steps of its own (dormand_prince.h). Order 8.
   dop853,
   // The semi-implicit method: v' = v + h a(x, v), x' = x + h v'. Its path is a parabola that starts with velocity v + h

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "numerics/elementary.h"
+#include "std.h"
 
 namespace carom {
 
@@ -75,7 +76,7 @@ Universal universal(double beta, double root, double s) {
   }
   const double size = std::abs(z);
   double second = 0, third = 0;
-  for (std::size_t n = size < 0.3 ? 16 : size < 2.6 ? 22 : 28; n >= 2; n -= 2) {
+  for (size_t n = size < 0.3 ? 16 : size < 2.6 ? 22 : 28; n >= 2; n -= 2) {
     second = inverse_factorial[n] - z * second;
     third = inverse_factorial[n + 1] - z * third;
   }
@@ -91,8 +92,8 @@ constexpr double inverse_factorial_rest[] = {
 // clang-format on
 
 /// 1/n! - z/(n + 2)! + z^2/(n + 4)! - ..., n = 2 or 3, to 2^-70 for |z| <= 6. The first terms are in two doubles.
-DoubleDouble stumpff(DoubleDouble z, std::size_t n) {
-  std::size_t m = n + 26;
+DoubleDouble stumpff(DoubleDouble z, size_t n) {
+  size_t m = n + 26;
   double tail = 0;
   for (; m > n + 10; m -= 2) tail = inverse_factorial[m] - z.hi * tail;
   DoubleDouble sum = {tail, 0};

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "numerics/elementary.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,24 +23,24 @@ double maxwell_density(double speed, int dimensions, double deviation) {
 }
 
 void EnergyByDirection::add(double mass, const Vec3& v) {
-  const std::array<double, 6> products = {v.x() * v.x(), v.y() * v.y(), v.z() * v.z(),
-                                          v.x() * v.y(), v.x() * v.z(), v.y() * v.z()};
-  for (std::size_t k = 0; k < products.size(); ++k) sum_[k] += mass * products[k];
+  const array<double, 6> products = {v.x() * v.x(), v.y() * v.y(), v.z() * v.z(),
+                                     v.x() * v.y(), v.x() * v.z(), v.y() * v.z()};
+  for (size_t k = 0; k < products.size(); ++k) sum_[k] += mass * products[k];
 }
 
 int EnergyByDirection::dimensions() const {
   // Cholesky's factors with the largest pivot first reveal the rank of a matrix without negative eigenvalues.
-  std::array<std::array<double, 3>, 3> m = {
+  array<array<double, 3>, 3> m = {
       {{sum_[0], sum_[3], sum_[4]}, {sum_[3], sum_[1], sum_[5]}, {sum_[4], sum_[5], sum_[2]}}};
-  std::array<bool, 3> used{};
+  array<bool, 3> used{};
   for (int rank = 0; rank < 3; ++rank) {
-    std::size_t pivot = 3;
-    for (std::size_t k = 0; k < 3; ++k)
+    size_t pivot = 3;
+    for (size_t k = 0; k < 3; ++k)
       if (!used[k] && (pivot == 3 || m[k][k] > m[pivot][pivot])) pivot = k;
     if (!(m[pivot][pivot] > least_share * 2 * kinetic())) return rank;
     used[pivot] = true;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 3; ++j)
         if (!used[i] && !used[j]) m[i][j] -= m[i][pivot] * m[pivot][j] / m[pivot][pivot];
   }
   return 3;

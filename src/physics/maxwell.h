@@ -1,9 +1,8 @@
 #pragma once
 // Maxwell's distribution of the speeds of bodies in equilibrium, in one, two or three dimensions.
-#include <array>
-#include <span>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,7 +22,7 @@ class EnergyByDirection {
   int dimensions() const;
 
  private:
-  std::array<double, 6> sum_{};  // xx, yy, zz, xy, xz, yz; J
+  array<double, 6> sum_{};  // xx, yy, zz, xy, xz, yz; J
 };
 
 }  // namespace carom

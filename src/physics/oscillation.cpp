@@ -6,6 +6,7 @@
 #include "physics/oscillation.h"
 
 #include "numerics/elementary.h"
+#include "std.h"
 
 namespace carom {
 
@@ -49,7 +50,7 @@ Response series(double fade, double stiffness, double t) {
   const double f = fade * t, k = stiffness * t * t;
   // With s_n = h_n / (n + 1)!, the recurrence is h_n = -f h_(n - 1) - k h_(n - 2).
   double before = 0, h = 1, displaced = 1, bent = 0.5;
-  for (std::size_t n = 1; n <= terms; ++n) {
+  for (size_t n = 1; n <= terms; ++n) {
     const double next = -f * h - k * before;
     before = h;
     h = next;

@@ -1,18 +1,17 @@
 #pragma once
 // A piece of a body's path, as it is recorded. The pieces of all bodies reproduce the state at any instant, bit for
 // bit, without simulation.
-#include <cstdint>
-#include <memory>
 
 #include "numerics/compensated.h"
 #include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
 /// What gives a piece its motion.
-enum class PathLaw : std::uint8_t {
+enum class PathLaw : uint8_t {
   constant,  // a parabola, or the curve of a method's step
   verlet,    // the same, with the velocities of Verlet's method: v + t (a at t - a) / 2
   closed,    // springs or an attractor in closed form, from x and v at start on (closed_motion.h)

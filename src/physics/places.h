@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 

@@ -1,13 +1,13 @@
 #pragma once
 // The quantities of a body's motion that measures name.
-#include <cstdint>
 #include <limits>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
-enum class Quantity : std::uint8_t { x, y, z, vx, vy, vz, speed, kinetic };
+enum class Quantity : uint8_t { x, y, z, vx, vy, vz, speed, kinetic };
 
 /// Whether the quantity is a coordinate of the position.
 constexpr bool is_place(Quantity quantity) {

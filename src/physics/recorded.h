@@ -1,12 +1,10 @@
 #pragma once
 // A part of the record of a motion: a piece of a path, or a collision.
 #include <cmath>
-#include <cstddef>
-#include <optional>
-#include <span>
 
 #include "physics/collision.h"
 #include "physics/path_piece.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +17,7 @@ struct CollisionMark {
 };
 
 struct Recorded {
-  enum class Kind : std::uint8_t { piece, collision };
+  enum class Kind : uint8_t { piece, collision };
   Kind kind = Kind::piece;
   // Of its kind.
   PathPiece piece{};
@@ -35,7 +33,7 @@ inline CollisionMark mark_of(const Collision& collision) {
 
 /// The mark of a collision, if it comes before a piece that holds from `from` (s) on. Otherwise nothing. A collision
 /// that begins the piece may lie between two doubles, the later of which is `from`: then the mark has that one.
-inline std::optional<CollisionMark> mark_until(const Collision& collision, double from) {
+inline optional<CollisionMark> mark_until(const Collision& collision, double from) {
   if (collision.time > from) return {};
   CollisionMark mark = mark_of(collision);
   if (std::nextafter(mark.time, from) == from) mark.time = from;
@@ -44,12 +42,11 @@ inline std::optional<CollisionMark> mark_until(const Collision& collision, doubl
 
 /// Calls `mark` and `piece` for the collisions and pieces of one advance, each in order, collisions first.
 template <typename Mark, typename Piece>
-void in_order(std::span<const Collision> collisions, std::span<const PathPiece> pieces, const Mark& mark,
-              const Piece& piece) {
-  std::size_t next = 0;
+void in_order(span<const Collision> collisions, span<const PathPiece> pieces, const Mark& mark, const Piece& piece) {
+  size_t next = 0;
   for (const PathPiece& each : pieces) {
     for (; next < collisions.size(); ++next) {
-      const std::optional<CollisionMark> before = mark_until(collisions[next], each.from);
+      const optional<CollisionMark> before = mark_until(collisions[next], each.from);
       if (!before) break;
       mark(*before);
     }

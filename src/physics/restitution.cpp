@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -51,9 +52,9 @@ double pair_restitution(const World& world, Entity a, Entity b) {
 
   const bool plane = world.is_plane(b), wall = !plane && world.is_wall(b);
   if (!plane && !wall && world.is_string(b)) return world.string(b).restitution;
-  const std::optional<double>& own = plane  ? world.plane(b).restitution
-                                     : wall ? world.wall(b).restitution
-                                            : world.obstacle(b).restitution;
+  const optional<double>& own = plane  ? world.plane(b).restitution
+                                : wall ? world.wall(b).restitution
+                                       : world.obstacle(b).restitution;
   const double eb = own.value_or(ea);
   if (world.combine == Combine::mass_weighted)
     return eb;  // the limit of (m1 e1 + m2 e2)/(m1 + m2) for m2 without bound

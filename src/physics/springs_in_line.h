@@ -2,11 +2,11 @@
 // Springs with a rest length, on a body that moves along a line through their anchors.
 // At an anchor such a spring's push turns round at once. A step towards the anchor continues as if it did not, and ends
 // there.
-#include <vector>
 
 #include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -39,7 +39,7 @@ class SpringsInLine {
   Vec3 correction(const Vec3& x) const;
 
   Vec3 along_ = Vec3::Zero();  // of length 1
-  std::vector<OneSpring> springs_;
+  vector<OneSpring> springs_;
 };
 
 }  // namespace carom

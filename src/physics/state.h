@@ -1,25 +1,25 @@
 #pragma once
 // What changes during a run: the positions and velocities of the bodies at one instant.
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "physics/volume.h"
+#include "std.h"
 
 namespace carom {
 
 struct State {
-  double time = 0;             // s
-  std::vector<Vec3> position;  // m, of the centre, by body
-  std::vector<Vec3> velocity;  // m/s, by body
+  double time = 0;        // s
+  vector<Vec3> position;  // m, of the centre, by body
+  vector<Vec3> velocity;  // m/s, by body
 
   // These are empty where no bodies have merged or left the world. A merged body keeps its own mass and radius in the
   // World. Here its mass is zero, and its position and velocity are those of the joint body.
-  std::vector<double> mass{};    // kg, by body
-  std::vector<double> radius{};  // m, by body: radius of the smallest sphere about the volume
-  std::vector<Volume> volume{};  // by body
+  vector<double> mass{};    // kg, by body
+  vector<double> radius{};  // m, by body: radius of the smallest sphere about the volume
+  vector<Volume> volume{};  // by body
   // The body that it is part of; its own number: none; no_entity: it has left the world, from its position.
-  std::vector<Entity> part_of{};
+  vector<Entity> part_of{};
 
   /// Brings all fields to the form above.
   /// Before, part_of may name a body that has itself become part of another, and the rest is as it was before the

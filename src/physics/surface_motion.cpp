@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,7 +18,7 @@ DoubleDouble along(const MotionLeg& leg, const DoubleDouble& time, int axis) {
   return start + (time - DoubleDouble{leg.from, 0}) * DoubleDouble{leg.velocity[axis], 0};
 }
 
-MotionLeg next_leg(const std::vector<MotionLeg>& legs, double from, const Vec3& velocity) {
+MotionLeg next_leg(const vector<MotionLeg>& legs, double from, const Vec3& velocity) {
   MotionLeg next{from, velocity, Vec3::Zero(), Vec3::Zero()};
   for (int axis = 0; axis < 3 && !legs.empty(); ++axis) {
     const DoubleDouble at = along(legs.back(), {from, 0}, axis);
@@ -29,8 +30,8 @@ MotionLeg next_leg(const std::vector<MotionLeg>& legs, double from, const Vec3& 
 
 }  // namespace
 
-std::vector<MotionLeg> legs_of(std::span<const MotionWindow> windows) {
-  std::vector<MotionLeg> legs;
+vector<MotionLeg> legs_of(span<const MotionWindow> windows) {
+  vector<MotionLeg> legs;
   const auto begin = [&](double from, const Vec3& velocity) {
     if (!legs.empty() && legs.back().velocity == velocity) return;
     // A window may start where the one before ends.
@@ -48,7 +49,7 @@ std::vector<MotionLeg> legs_of(std::span<const MotionWindow> windows) {
   return legs;
 }
 
-const MotionLeg& leg_at(const std::vector<MotionLeg>& legs, const DoubleDouble& time) {
+const MotionLeg& leg_at(const vector<MotionLeg>& legs, const DoubleDouble& time) {
   const auto later = [](const DoubleDouble& t, const MotionLeg& leg) {
     return t.hi < leg.from || (t.hi == leg.from && t.lo < 0);
   };
@@ -73,14 +74,14 @@ Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time) 
 
 bool place_fixed_things(const World& world, double time, World& copy) {
   bool changed = false;
-  const auto place = [&](std::size_t fixed, Vec3& x) {
+  const auto place = [&](size_t fixed, Vec3& x) {
     const Entity e = world.body_count() + static_cast<Entity>(fixed);
     if (!world.moves(e)) return;
     const Vec3 there = fixed_position(world, e, {time, 0});
     changed = changed || there != x;
     x = there;
   };
-  std::size_t fixed = 0;
+  size_t fixed = 0;
   for (Plane& plane : copy.planes) place(fixed++, plane.point);
   for (Wall& wall : copy.walls) place(fixed++, wall.center);
   for (Obstacle& obstacle : copy.obstacles) place(fixed++, obstacle.center);

@@ -3,12 +3,11 @@
 // arrived. Its motion is a list of legs, and each leg starts from an exact sum of those before it. Positions therefore
 // have no error that grows. On a plane only the velocity along its normal has an effect, because there is no friction.
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -30,10 +29,10 @@ struct MotionLeg {
 };
 
 /// The legs of windows in order that do not overlap. None: the thing never moves.
-std::vector<MotionLeg> legs_of(std::span<const MotionWindow> windows);
+vector<MotionLeg> legs_of(span<const MotionWindow> windows);
 
 /// The leg of a fixed thing that moves at a time (s).
-const MotionLeg& leg_at(const std::vector<MotionLeg>& legs, const DoubleDouble& time);
+const MotionLeg& leg_at(const vector<MotionLeg>& legs, const DoubleDouble& time);
 /// The displacement since time 0 (m) on this leg, at a time (s), added to `from` (m). It is rounded once.
 Vec3 place_on(const Vec3& from, const MotionLeg& leg, const DoubleDouble& time);
 

@@ -1,30 +1,28 @@
 #pragma once
 // Running sums of a run: what summary.csv needs without a table of collisions.
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <optional>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/collision.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
 /// Impacts that lasting contact absorbed. They leave no approach and are not recorded.
 struct TakenUp {
-  std::uint64_t impacts = 0;
+  uint64_t impacts = 0;
   double fastest = 0;  // m/s, of approach
   double energy = 0;   // J, a part of the energy lost
 };
 
 /// Several impacts on a body at one instant, not all with e = 0. Rigid bodies leave their outcome open.
 struct SharedImpacts {
-  std::uint64_t instants = 0;
-  std::uint64_t ties = 0;          // of these: with opposed impacts of equal speed, where a slight difference decides
-  std::uint64_t without_room = 0;  // instants with bodies that had no room to rebound
-  double absorbed = 0;             // J, by these; a part of the energy lost
+  uint64_t instants = 0;
+  uint64_t ties = 0;          // of these: with opposed impacts of equal speed, where a slight difference decides
+  uint64_t without_room = 0;  // instants with bodies that had no room to rebound
+  double absorbed = 0;        // J, by these; a part of the energy lost
   // When (s) it was so first, for which body, and the two things that it met. NaN: never.
   double first = std::numeric_limits<double>::quiet_NaN();
   Entity body = no_entity;
@@ -36,7 +34,7 @@ struct SharedImpacts {
 
 /// What regions have taken out of the world.
 struct Removed {
-  std::uint64_t bodies = 0;
+  uint64_t bodies = 0;
   double energy = 0;             // J, kinetic and potential, each body's at its removal
   Vec3 momentum = Vec3::Zero();  // kg m/s
 
@@ -44,7 +42,7 @@ struct Removed {
 };
 
 /// Why a run has ended before its duration.
-enum class EndReason : std::uint8_t {
+enum class EndReason : uint8_t {
   rest,        // all bodies were at rest
   collisions,  // there were as many as simulate.stop allows
   region       // a body entered it
@@ -53,7 +51,7 @@ enum class EndReason : std::uint8_t {
 struct RunEnd {
   double time = 0;  // s
   EndReason reason = EndReason::rest;
-  std::uint32_t region = 0;  // of that reason
+  uint32_t region = 0;  // of that reason
 
   void keep(auto& archive) { archive(time, reason, region); }
 };
@@ -89,23 +87,23 @@ struct Unbalanced {
 /// What may make a run doubtful (run/warnings.h).
 struct Doubts {
   // Contact problems with a solution that may be off by more than rounding.
-  std::uint64_t contacts = 0;
+  uint64_t contacts = 0;
   double contact_made = 0;  // J, by errors of the steps of crowds; a part of the method's error
-  std::uint64_t crowd_steps = 0;
-  std::uint64_t unsolved_steps = 0;  // of crowds: forces were less accurate than they should be
-  StiffStep stiffest;                // the step with the greatest angle, for a method with steps of one length
-  Unbalanced unbalanced;             // that with the longest way
+  uint64_t crowd_steps = 0;
+  uint64_t unsolved_steps = 0;  // of crowds: forces were less accurate than they should be
+  StiffStep stiffest;           // the step with the greatest angle, for a method with steps of one length
+  Unbalanced unbalanced;        // that with the longest way
 
   void keep(auto& archive) { archive(contacts, contact_made, crowd_steps, unsolved_steps, stiffest, unbalanced); }
 };
 
 struct Tally {
-  std::uint64_t body_body = 0;   // collisions
-  std::uint64_t body_fixed = 0;  // collisions
-  std::uint64_t merges = 0;
-  std::uint64_t tautened = 0;  // strings that went taut
+  uint64_t body_body = 0;   // collisions
+  uint64_t body_fixed = 0;  // collisions
+  uint64_t merges = 0;
+  uint64_t tautened = 0;  // strings that went taut
   // Inelastic collapses: clusters of bodies with ever more frequent impacts, taken into lasting contact.
-  std::uint64_t collapses = 0;
+  uint64_t collapses = 0;
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
   // J, by impacts: those recorded, and those that contact absorbed.
@@ -114,24 +112,24 @@ struct Tally {
   double method_error = 0;
   double work = 0;  // J, by the World's forces (gravity apart)
   // J, the part of each force in the work; empty: there are no forces, or it was not recorded.
-  std::vector<double> force_work;
+  vector<double> force_work;
   Doubts doubts;
-  double max_overlap = 0;     // m, deepest seen
-  Fastest fastest;            // seen
-  std::uint64_t resting = 0;  // bodies in lasting contact
+  double max_overlap = 0;  // m, deepest seen
+  Fastest fastest;         // seen
+  uint64_t resting = 0;    // bodies in lasting contact
   // s, summed over bodies: lasting contact in crowds.
   double stepped_contact = 0;
   TakenUp taken_up;
   SharedImpacts shared;
   Removed removed;
-  std::optional<RunEnd> end;  // none: the run goes on until its duration
+  optional<RunEnd> end;  // none: the run goes on until its duration
 
   /// Counts a record. The end of bounces is not a collision.
   void count(CollisionKind kind) {
     if (kind == CollisionKind::rest) return;
     ++(kind == CollisionKind::body_body    ? body_body
        : kind == CollisionKind::body_fixed ? body_fixed
-       : kind == CollisionKind::string     ? tautened
+       : kind == CollisionKind::taut     ? tautened
                                            : merges);
   }
   /// The same, with its time (s).
@@ -141,7 +139,7 @@ struct Tally {
     if (std::isnan(first_collision)) first_collision = time;
     last_collision = time;
   }
-  std::uint64_t collisions() const { return body_body + body_fixed + merges + tautened; }
+  uint64_t collisions() const { return body_body + body_fixed + merges + tautened; }
 
   void keep(auto& archive) {
     archive(body_body, body_fixed, merges, tautened, collapses, first_collision, last_collision, energy_lost);

@@ -1,13 +1,13 @@
 #pragma once
 // Bounding volumes (chapter 8): a sphere, an upright cylinder (its axis along y), a box along the axes.
 // Bodies move without turning, so a volume is its shape and its half extents about its centre.
-#include <cstdint>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
-enum class Shape : std::uint8_t { sphere, cylinder, box };
+enum class Shape : uint8_t { sphere, cylinder, box };
 
 struct Volume {
   Shape shape = Shape::sphere;

@@ -1,9 +1,5 @@
 #pragma once
 // What never changes during a run. What changes is State (state.h).
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
@@ -11,32 +7,33 @@
 #include "physics/surface_motion.h"
 #include "physics/volume.h"
 #include "physics/world_region.h"
+#include "std.h"
 
 namespace carom {
 
 /// An unbounded one-sided surface. Free space is where (x - point) . normal > 0.
 struct Plane {
-  Vec3 point;                         // m
-  Vec3 normal;                        // unit, to the free side
-  std::optional<double> restitution;  // none: the moving body's
+  Vec3 point;                    // m
+  Vec3 normal;                   // unit, to the free side
+  optional<double> restitution;  // none: the moving body's
 };
 
 /// A two-sided rectangle without thickness.
 struct Wall {
-  Vec3 center;                        // m
-  Vec3 normal;                        // unit
-  Vec3 right;                         // unit, along the width; right x up = normal
-  Vec3 up;                            // unit, along the height
-  double half_width;                  // m
-  double half_height;                 // m
-  std::optional<double> restitution;  // none: the moving body's
+  Vec3 center;                   // m
+  Vec3 normal;                   // unit
+  Vec3 right;                    // unit, along the width; right x up = normal
+  Vec3 up;                       // unit, along the height
+  double half_width;             // m
+  double half_height;            // m
+  optional<double> restitution;  // none: the moving body's
 };
 
 /// A body that no impact moves.
 struct Obstacle {
   Vec3 center;  // m
   Volume volume;
-  std::optional<double> restitution;  // none: the moving body's
+  optional<double> restitution;  // none: the moving body's
 };
 
 /// An inextensible, massless string between the centres of two bodies, or of a body and a fixed point. It is slack
@@ -55,11 +52,11 @@ struct Force {
   ForceLaw law;
   double from = 0;                                         // s, when it sets in
   double until = std::numeric_limits<double>::infinity();  // s, when it ceases
-  std::vector<Entity> on{};                                // ascending; empty: all bodies
+  vector<Entity> on{};                                     // ascending; empty: all bodies
 };
 
 /// The rule that makes a pair's coefficient of restitution from two (restitution.h).
-enum class Combine : std::uint8_t { average, minimum, maximum, product, geometric_mean, mass_weighted, book };
+enum class Combine : uint8_t { average, minimum, maximum, product, geometric_mean, mass_weighted, book };
 
 /// A coefficient that overrides the rule, for every pair with one entity in each range.
 struct PairRestitution {
@@ -70,21 +67,21 @@ struct PairRestitution {
 
 /// Bodies, fixed surfaces and the laws between them. Arrays are indexed by body.
 struct World {
-  std::vector<double> mass;         // kg, > 0
-  std::vector<double> radius;       // m, > 0: volume.reach(), for a ball its radius
-  std::vector<Volume> volume;       // about the position; empty: all are spheres
-  std::vector<double> restitution;  // >= 0; above 1 makes energy
-  std::vector<Vec3> impulse;        // N s, applied at time 0; empty: none
-  std::vector<Plane> planes;
-  std::vector<Wall> walls;
-  std::vector<Obstacle> obstacles;
-  std::vector<std::vector<MotionLeg>> motions;  // by fixed thing, none where it stands still; empty: nothing moves
-  std::vector<Force> forces;
+  vector<double> mass;         // kg, > 0
+  vector<double> radius;       // m, > 0: volume.reach(), for a ball its radius
+  vector<Volume> volume;       // about the position; empty: all are spheres
+  vector<double> restitution;  // >= 0; above 1 makes energy
+  vector<Vec3> impulse;        // N s, applied at time 0; empty: none
+  vector<Plane> planes;
+  vector<Wall> walls;
+  vector<Obstacle> obstacles;
+  vector<vector<MotionLeg>> motions;  // by fixed thing, none where it stands still; empty: nothing moves
+  vector<Force> forces;
   Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
   Combine combine = Combine::average;
-  std::vector<PairRestitution> pairs;  // the last match counts
-  std::vector<WorldRegion> regions;
-  std::vector<String> strings;
+  vector<PairRestitution> pairs;  // the last match counts
+  vector<WorldRegion> regions;
+  vector<String> strings;
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
@@ -100,7 +97,7 @@ struct World {
   const Wall& wall(Entity e) const { return walls[e - walls_from()]; }
   const Obstacle& obstacle(Entity e) const { return obstacles[e - obstacles_from()]; }
   const String& string(Entity e) const { return strings[e - strings_from()]; }
-  Entity string_number(std::size_t k) const { return static_cast<Entity>(strings_from() + k); }
+  Entity string_number(size_t k) const { return static_cast<Entity>(strings_from() + k); }
   /// The second body of a contact that is named by a body and e: e itself, or the other end of a string. no_entity: the
   /// second thing does not move by forces.
   Entity second_body(Entity e) const { return is_body(e) ? e : is_string(e) ? string(e).other : no_entity; }
@@ -113,7 +110,7 @@ struct World {
   bool moves() const { return !motions.empty(); }
   /// Whether a fixed thing moves at some time, and how.
   bool moves(Entity e) const { return !motions.empty() && is_fixed(e) && !motions[e - body_count()].empty(); }
-  const std::vector<MotionLeg>& legs(Entity e) const { return motions[e - body_count()]; }
+  const vector<MotionLeg>& legs(Entity e) const { return motions[e - body_count()]; }
   /// The point of a plane, the centre of a wall or an obstacle, or the anchor of a string (m), at time 0.
   const Vec3& fixed_position(Entity e) const {
     return is_plane(e)    ? plane(e).point
@@ -123,9 +120,9 @@ struct World {
   }
 
  private:
-  std::size_t walls_from() const { return body_count() + planes.size(); }
-  std::size_t obstacles_from() const { return walls_from() + walls.size(); }
-  std::size_t strings_from() const { return obstacles_from() + obstacles.size(); }
+  size_t walls_from() const { return body_count() + planes.size(); }
+  size_t obstacles_from() const { return walls_from() + walls.size(); }
+  size_t strings_from() const { return obstacles_from() + obstacles.size(); }
 };
 
 }  // namespace carom

@@ -1,6 +1,8 @@
 // A region without its boundary.
 #include "physics/world_region.h"
 
+#include "std.h"
+
 namespace carom {
 
 bool holds(const WorldRegion& region, const Vec3& x) {

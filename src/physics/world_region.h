@@ -1,11 +1,10 @@
 #pragma once
 // A region of space that the centres of bodies enter and leave. It is fixed, and it touches nothing.
-#include <cstdint>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "physics/volume.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,7 +12,7 @@ struct WorldRegion {
   Vec3 position = Vec3::Zero();  // m, the centre of the volume, or a point of the plane
   Volume volume{};
   Vec3 normal = Vec3::Zero();  // unit: the region is the side of a plane to which it points; zero: a volume
-  std::vector<Entity> on{};    // ascending; empty: all bodies
+  vector<Entity> on{};         // ascending; empty: all bodies
   bool removes = false;        // a body that enters leaves the world
   bool stops = false;          // a body that enters ends the run
 
@@ -26,7 +25,7 @@ bool holds(const WorldRegion& region, const Vec3& x);
 /// A body's centre enters or leaves a region.
 struct RegionCrossing {
   double time = 0;  // s
-  std::uint32_t region = 0;
+  uint32_t region = 0;
   Entity body = no_entity;
   bool enters = true;
   void keep(auto& archive) { archive(time, region, body, enters); }

@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "std.h"
+
 namespace carom::raster {
 namespace {
 
 /// Tiles, ends excluded.
 PixelBounds in_tiles(const PixelBounds& b) {
   if (b.empty()) return {};
-  const auto tile = [](int pixel) { return static_cast<std::int16_t>(pixel / tile_side); };
+  const auto tile = [](int pixel) { return static_cast<int16_t>(pixel / tile_side); };
   return {tile(b.left), tile(b.top), tile(b.right - 1 + tile_side), tile(b.bottom - 1 + tile_side)};
 }
 
@@ -26,12 +28,12 @@ PixelBounds joined(const PixelBounds& a, const PixelBounds& b) {
 void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   columns_ = (shot.lens.width + tile_side - 1) / tile_side;
   rows_ = (shot.lens.height + tile_side - 1) / tile_side;
-  const auto count = static_cast<std::uint32_t>(shot.solids.size());
+  const auto count = static_cast<uint32_t>(shot.solids.size());
   tiles_.resize(count);
   around_.resize(count);
   nearest_.resize(count);
   largest_around_ = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < count; ++i) {
     const Solid& solid = shot.solids[i];
     const float nearest = silhouettes.of(i).nearest;
     nearest_[i] = nearest;
@@ -45,17 +47,17 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   }
   order_.sort(nearest_);
 
-  start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-  const auto each_tile = [&](std::uint32_t i, auto visit) {
+  start_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_) + 1, 0);
+  const auto each_tile = [&](uint32_t i, auto visit) {
     const PixelBounds& b = tiles_[i];
     for (int y = b.top; y < b.bottom; ++y)
-      for (int x = b.left; x < b.right; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
+      for (int x = b.left; x < b.right; ++x) visit(static_cast<size_t>(y * columns_ + x));
   };
-  for (std::uint32_t i = 0; i < count; ++i) each_tile(i, [&](std::size_t tile) { ++start_[tile + 1]; });
+  for (uint32_t i = 0; i < count; ++i) each_tile(i, [&](size_t tile) { ++start_[tile + 1]; });
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   members_.resize(start_.back());
   next_.assign(start_.begin(), start_.end() - 1);
-  for (const std::uint32_t i : order_.numbers()) each_tile(i, [&](std::size_t tile) { members_[next_[tile]++] = i; });
+  for (const uint32_t i : order_.numbers()) each_tile(i, [&](size_t tile) { members_[next_[tile]++] = i; });
 }
 
 }  // namespace carom::raster

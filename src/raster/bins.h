@@ -1,13 +1,10 @@
 #pragma once
 // Which solids each tile of the picture may show, and which are so near to what it shows that they take light of the
 // sky there.
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "raster/radix_sort.h"
 #include "raster/silhouettes.h"
+#include "std.h"
 
 namespace carom::raster {
 
@@ -32,22 +29,22 @@ class Bins {
   int columns() const { return columns_; }
   int count() const { return columns_ * rows_; }
   /// Numbers of solids, from the nearest to the farthest.
-  std::span<const std::uint32_t> tile(int i) const {
-    const auto k = static_cast<std::size_t>(i);
+  span<const uint32_t> tile(int i) const {
+    const auto k = static_cast<size_t>(i);
     return {members_.data() + start_[k], start_[k + 1] - start_[k]};
   }
-  const BallAround& around(std::uint32_t solid) const { return around_[solid]; }
+  const BallAround& around(uint32_t solid) const { return around_[solid]; }
   float largest_around() const { return largest_around_; }
 
  private:
   int columns_ = 0, rows_ = 0;
-  std::vector<PixelBounds> tiles_;  // by solid, in tiles: where it is seen or takes light
-  std::vector<BallAround> around_;  // by solid
-  float largest_around_ = 0;        // m, of their radii
-  std::vector<float> nearest_;      // m, by solid
-  SortedNumbers order_;             // by nearest_
-  std::vector<std::size_t> start_, next_;
-  std::vector<std::uint32_t> members_;
+  vector<PixelBounds> tiles_;  // by solid, in tiles: where it is seen or takes light
+  vector<BallAround> around_;  // by solid
+  float largest_around_ = 0;   // m, of their radii
+  vector<float> nearest_;      // m, by solid
+  SortedNumbers order_;        // by nearest_
+  vector<size_t> start_, next_;
+  vector<uint32_t> members_;
 };
 
 }  // namespace carom::raster

@@ -1,11 +1,12 @@
 #pragma once
 // Three floats in the camera's frame.
-#include <array>
 #include <cmath>
+
+#include "std.h"
 
 namespace carom::raster {
 
-using Float3 = std::array<float, 3>;
+using Float3 = array<float, 3>;
 
 inline float dot(const Float3& a, const Float3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "std.h"
+
 namespace carom::raster {
 namespace {
 
@@ -72,7 +74,7 @@ void LightGrid::measure(const Shot& shot) {
     e.u0 = e.v0 = -1, e.u1 = e.v1 = 1;
     e.side = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(shot.solids.size()))), 1, most_cells / 2);
   } else {
-    const float widest = *std::max_element(blur_.begin(), blur_.end());
+    const float widest = *std::ranges::max_element(blur_);
     e.u0 -= widest, e.v0 -= widest, e.u1 += widest, e.v1 += widest;
     e.side = std::clamp(static_cast<int>(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
   }
@@ -88,7 +90,7 @@ double LightGrid::find_blurs(const Shot& shot) {
   blur_.resize(shot.solids.size());
   double width = 0;
   int count = 0;
-  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+  for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
     float blur = shot.lighting.lamp_radius;
     if (!key.near) {
@@ -112,18 +114,18 @@ void LightGrid::find_rects(const Shot& shot) {
   const Lamp& key = shot.lighting.lamps[0];
   const LightExtent& e = extent;
   const auto at = [&](float x, float origin, float per) {
-    return static_cast<std::int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(e.side - 1)));
+    return static_cast<int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(e.side - 1)));
   };
   const auto add = [&](int face, float a0, float a1, float b0, float b1) {
-    rects_.push_back({static_cast<std::int16_t>(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u),
-                      at(b0, e.v0, e.per_v), at(b1, e.v0, e.per_v)});
+    rects_.push_back({static_cast<int16_t>(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u), at(b0, e.v0, e.per_v),
+                      at(b1, e.v0, e.per_v)});
   };
   rects_.clear();
   rects_.reserve(shot.solids.size());
   first_rect_.resize(shot.solids.size() + 1);
-  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+  for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
-    first_rect_[i] = static_cast<std::uint32_t>(rects_.size());
+    first_rect_[i] = static_cast<uint32_t>(rects_.size());
     if (!key.near) {
       const float a = dot(e.u, s.center), b = dot(e.v, s.center);
       const float wide = half_width(shot, s, e.u) + blur_[i], high = half_width(shot, s, e.v) + blur_[i];
@@ -132,8 +134,8 @@ void LightGrid::find_rects(const Shot& shot) {
     }
     const float radius = s.radius + blur_[i];
     for (int face = 0; face < 6; ++face) {
-      const auto axis = static_cast<std::size_t>(face / 2);
-      const auto p = [&](std::size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
+      const auto axis = static_cast<size_t>(face / 2);
+      const auto p = [&](size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
       const float ahead = face % 2 ? -p(axis) : p(axis);
       float a0, a1, b0, b1;
       if (ahead > -radius && span_on_face(p(axis + 1), ahead, radius, a0, a1) &&
@@ -141,27 +143,27 @@ void LightGrid::find_rects(const Shot& shot) {
         add(face, a0, a1, b0, b1);
     }
   }
-  first_rect_.back() = static_cast<std::uint32_t>(rects_.size());
+  first_rect_.back() = static_cast<uint32_t>(rects_.size());
 }
 
 /// The members of each cell are contiguous: counts them first, then fills.
 void LightGrid::sort_into_cells(const Shot& shot) {
   const int side = extent.side;
-  const std::size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
-  const std::size_t count = faces * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  const auto each_cell = [&](std::size_t i, auto visit) {
-    for (std::uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
+  const size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
+  const size_t count = faces * static_cast<size_t>(side) * static_cast<size_t>(side);
+  const auto each_cell = [&](size_t i, auto visit) {
+    for (uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
       const CellRect& r = rects_[k];
       for (int b = r.v0; b <= r.v1; ++b)
-        for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<std::size_t>((r.face * side + b) * side + a));
+        for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<size_t>((r.face * side + b) * side + a));
     }
   };
   for (LightCells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
   is_ball_.resize(shot.solids.size());
-  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+  for (size_t i = 0; i < shot.solids.size(); ++i) {
     is_ball_[i] = shot.solids[i].kind == SolidKind::ball;
     LightCells& cells = is_ball_[i] ? balls : others;
-    each_cell(i, [&](std::size_t cell) { ++cells.start[cell + 1]; });
+    each_cell(i, [&](size_t cell) { ++cells.start[cell + 1]; });
   }
   for (LightCells* cells : {&balls, &others}) {
     std::partial_sum(cells->start.begin(), cells->start.end(), cells->start.begin());
@@ -169,10 +171,10 @@ void LightGrid::sort_into_cells(const Shot& shot) {
   }
   next_ball_.assign(balls.start.begin(), balls.start.end() - 1);
   next_other_.assign(others.start.begin(), others.start.end() - 1);
-  for (const std::uint32_t i : order_.numbers()) {
+  for (const uint32_t i : order_.numbers()) {
     LightCells& cells = is_ball_[i] ? balls : others;
-    std::vector<std::size_t>& next = is_ball_[i] ? next_ball_ : next_other_;
-    each_cell(i, [&](std::size_t cell) { cells.members[next[cell]++] = i; });
+    vector<size_t>& next = is_ball_[i] ? next_ball_ : next_other_;
+    each_cell(i, [&](size_t cell) { cells.members[next[cell]++] = i; });
   }
 }
 
@@ -186,7 +188,7 @@ void LightGrid::fill(const Shot& shot) {
   }
   measure(shot);
   towards_light.resize(shot.solids.size());
-  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+  for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Float3& c = shot.solids[i].center;
     const Float3 off = {key.vector[0] - c[0], key.vector[1] - c[1], key.vector[2] - c[2]};
     towards_light[i] = key.near ? -dot(off, off) : dot(key.vector, c);

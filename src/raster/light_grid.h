@@ -1,12 +1,10 @@
 #pragma once
 // The solids that may shade a point, by a grid of the directions across the key light.
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "raster/ball_packs.h"
 #include "raster/radix_sort.h"
 #include "raster/shot.h"
+#include "std.h"
 
 namespace carom::raster {
 
@@ -26,7 +24,7 @@ class LightGrid {
   void fill(const Shot& shot);
 
   bool empty() const { return balls.members.empty() && others.members.empty(); }
-  std::size_t cells() const { return balls.start.size() - 1; }
+  size_t cells() const { return balls.start.size() - 1; }
 
   LightCells balls, others;
   BallPacks packs;
@@ -36,24 +34,24 @@ class LightGrid {
   float widest_blur = 1;
   /// By solid: m along parallel light, minus the squared distance from a lamp, m^2. Of two that shade a point, the
   /// nearer one to it has the smaller number.
-  std::vector<float> towards_light;
+  vector<float> towards_light;
 
  private:
   /// Cells of one face, ends included.
   struct CellRect {
-    std::int16_t face, u0, u1, v0, v1;
+    int16_t face, u0, u1, v0, v1;
   };
   void measure(const Shot& shot);
   double find_blurs(const Shot& shot);
   void find_rects(const Shot& shot);
   void sort_into_cells(const Shot& shot);
 
-  std::vector<float> blur_;                          // m, the most by solid
-  std::vector<CellRect> rects_;                      // of all solids
-  std::vector<std::uint32_t> first_rect_;            // by solid, and one more
-  std::vector<std::uint8_t> is_ball_;                // by solid
-  std::vector<std::size_t> next_ball_, next_other_;  // by cell
-  SortedNumbers order_;                              // by towards_light
+  vector<float> blur_;                     // m, the most by solid
+  vector<CellRect> rects_;                 // of all solids
+  vector<uint32_t> first_rect_;            // by solid, and one more
+  vector<uint8_t> is_ball_;                // by solid
+  vector<size_t> next_ball_, next_other_;  // by cell
+  SortedNumbers order_;                    // by towards_light
 };
 
 }  // namespace carom::raster

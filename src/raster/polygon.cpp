@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "std.h"
+
 namespace carom::raster {
 namespace {
 
@@ -15,19 +17,19 @@ double side(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
 }
 
 /// The convex hull, counterclockwise, by the monotone chain (Andrew 1979).
-std::vector<PlanePoint> hull_of(std::vector<PlanePoint> points) {
+vector<PlanePoint> hull_of(vector<PlanePoint> points) {
   if (points.size() < 3) return {};
-  std::sort(points.begin(), points.end(),
-            [](const PlanePoint& a, const PlanePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<PlanePoint> hull;
+  std::ranges::sort(points,
+                    [](const PlanePoint& a, const PlanePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  vector<PlanePoint> hull;
   for (int half = 0; half < 2; ++half) {
-    const std::size_t start = hull.size();
+    const size_t start = hull.size();
     for (const PlanePoint& p : points) {
       while (hull.size() >= start + 2 && side(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
-    std::reverse(points.begin(), points.end());
+    std::ranges::reverse(points);
   }
   return hull;
 }
@@ -44,17 +46,17 @@ class Projection {
     const double z = std::max(b.z(), near_);
     points_.push_back({b.x() / z, b.y() / z});
   }
-  std::vector<PlanePoint> hull() { return hull_of(std::move(points_)); }
+  vector<PlanePoint> hull() { return hull_of(std::move(points_)); }
 
  private:
   double near_;
-  std::vector<PlanePoint> points_;
+  vector<PlanePoint> points_;
 };
 
 void project_box(const Lens& lens, const Solid& solid, Projection& to) {
   const auto corner = [&](int k) {
     Vec3 p = vec(solid.center);
-    for (std::size_t i = 0; i < 3; ++i) p += (k >> i & 1 ? 1 : -1) * double{solid.half[i]} * vec(lens.axes[i]);
+    for (size_t i = 0; i < 3; ++i) p += (k >> i & 1 ? 1 : -1) * double{solid.half[i]} * vec(lens.axes[i]);
     return p;
   };
   for (int k = 0; k < 8; ++k)
@@ -90,7 +92,7 @@ void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
 
 }  // namespace
 
-std::vector<PlanePoint> outline_polygon(const Shot& shot, const Solid& solid) {
+vector<PlanePoint> outline_polygon(const Shot& shot, const Solid& solid) {
   Projection projection(shot.lens.near);
   if (solid.kind == SolidKind::box) project_box(shot.lens, solid, projection);
   if (solid.kind == SolidKind::cylinder) project_cylinder(shot.lens, solid, projection);

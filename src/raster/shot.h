@@ -2,15 +2,13 @@
 // One picture as plain numbers: camera, light, surfaces and solids in the camera's frame. That is x to the right, y up,
 // z ahead, the eye at the origin, lengths in m. A ray through a picture point is (x, y, 1), so that the place on it is
 // its z. Colours and light are linear.
-#include <array>
-#include <cstdint>
-#include <vector>
 
 #include "raster/float3.h"
+#include "std.h"
 
 namespace carom::raster {
 
-enum class SolidKind : std::int32_t { ball, box, cylinder, wall, mesh };
+enum class SolidKind : int32_t { ball, box, cylinder, wall, mesh };
 
 /// A shadow whose blur is so many radii of its ball wide is gone.
 inline constexpr float faintest = 8;
@@ -26,7 +24,7 @@ struct Solid {
   SolidKind kind = SolidKind::ball;
   Float3 color{1, 1, 1};
   float glow = 0;            // 0 to 1: the share of its light that is its own, which is white
-  std::uint32_t part = 0;    // walls, meshes: index into Shot::walls, Shot::meshes
+  uint32_t part = 0;         // walls, meshes: index into Shot::walls, Shot::meshes
   bool shadow_only = false;  // out of view
 };
 
@@ -39,7 +37,7 @@ struct WallAxes {
 /// What a mesh casts its shadow by.
 struct MeshShadow {
   SolidKind volume = SolidKind::ball;  // whose shadow it casts without an outline
-  std::int32_t outline = -1;           // in MeshOutlines::of_files; -1: none
+  int32_t outline = -1;                // in MeshOutlines::of_files; -1: none
   Float3 middle{};                     // m, of that outline
   float reach = 0;                     // m, half of its side
 };
@@ -62,31 +60,31 @@ struct Lamp {
 
 /// The coverage of a mesh's outline along the light, with all coarser levels, each half as wide.
 struct OutlineLevels {
-  int side = 0;                            // of level 0, a power of two
-  std::vector<std::vector<float>> levels;  // rows of side / 2^level values, 0 to 1
+  int side = 0;                  // of level 0, a power of two
+  vector<vector<float>> levels;  // rows of side / 2^level values, 0 to 1
 };
 
 struct MeshOutlines {
   Across across{};  // along rows and columns
-  std::vector<OutlineLevels> of_files;
+  vector<OutlineLevels> of_files;
 };
 
 /// Meshes that were drawn elsewhere: by pixel.
 struct MeshPixels {
-  std::vector<float> depth;           // z; 0: nothing there
-  std::vector<float> cover;           // share of the pixel
-  std::vector<std::int32_t> solid;    // number
-  std::vector<Float3> normal, color;  // of the nearest
+  vector<float> depth;           // z; 0: nothing there
+  vector<float> cover;           // share of the pixel
+  vector<int32_t> solid;         // number
+  vector<Float3> normal, color;  // of the nearest
 };
 
 /// The picture before the eye.
 struct Lens {
-  int width = 0, height = 0;     // pixels
-  float pixel = 0;               // side of a pixel in the plane z = 1
-  float left = 0, top = 0;       // x, y of the middle of the pixel in the corner
-  float near = 0;                // m; what is nearer is cut off
-  bool smooth = true;            // anti-aliased edges
-  std::array<Float3, 3> axes{};  // the world's axes x, y, z
+  int width = 0, height = 0;  // pixels
+  float pixel = 0;            // side of a pixel in the plane z = 1
+  float left = 0, top = 0;    // x, y of the middle of the pixel in the corner
+  float near = 0;             // m; what is nearer is cut off
+  bool smooth = true;         // anti-aliased edges
+  array<Float3, 3> axes{};    // the world's axes x, y, z
 };
 
 /// What rays show that meet nothing.
@@ -97,7 +95,7 @@ struct Backdrop {
 };
 
 struct Lighting {
-  std::vector<Lamp> lamps;  // the first one, the key light, casts shadows
+  vector<Lamp> lamps;  // the first one, the key light, casts shadows
   Float3 ambient{};
   float softness = 0;     // tangent of half the angle of the key light
   float lamp_radius = 0;  // m, of a key light that is near
@@ -122,10 +120,10 @@ struct Shot {
   Lighting lighting;
   FloorLight floor;
   Pattern pattern;
-  std::vector<Ground> grounds;
-  std::vector<Solid> solids;
-  std::vector<WallAxes> walls;
-  std::vector<MeshShadow> meshes;
+  vector<Ground> grounds;
+  vector<Solid> solids;
+  vector<WallAxes> walls;
+  vector<MeshShadow> meshes;
   const MeshOutlines* outlines = nullptr;  // where a MeshShadow has one
   const MeshPixels* mesh_pixels = nullptr;
 };

@@ -6,6 +6,7 @@
 
 #include "raster/outline.h"
 #include "raster/polygon.h"
+#include "std.h"
 
 namespace carom::raster {
 namespace {
@@ -16,12 +17,12 @@ PixelBounds pixels(const Lens& lens, double left, double right, double bottom, d
   const auto first = [](double x, int most) {
     x = std::clamp(x, 0.0, static_cast<double>(most));
     const int i = static_cast<int>(x);
-    return static_cast<std::int16_t>(i < x ? i + 1 : i);
+    return static_cast<int16_t>(i < x ? i + 1 : i);
   };
   const auto end = [](double x, int most) {
     x = std::clamp(x, -1.0, most - 1.0);
     const int i = static_cast<int>(x);
-    return static_cast<std::int16_t>(i > x ? i : i + 1);
+    return static_cast<int16_t>(i > x ? i : i + 1);
   };
   // The middle of pixel i is at left + i pixel.
   return {first((left - lens.left) / lens.pixel - 0.5, lens.width),
@@ -62,7 +63,7 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
 PixelBounds bounds_of_ball(const Lens& lens, const Float3& center, float radius) {
   const double near = center[2] - radius, far = center[2] + radius;
   if (far <= lens.near) return {};
-  if (near <= lens.near) return {0, 0, static_cast<std::int16_t>(lens.width), static_cast<std::int16_t>(lens.height)};
+  if (near <= lens.near) return {0, 0, static_cast<int16_t>(lens.width), static_cast<int16_t>(lens.height)};
   const auto low = [&](double x) { return x / (x < 0 ? near : far); };
   const auto high = [&](double x) { return x / (x > 0 ? near : far); };
   return pixels(lens, low(center[0] - radius), high(center[0] + radius), low(center[1] - radius),
@@ -71,20 +72,20 @@ PixelBounds bounds_of_ball(const Lens& lens, const Float3& center, float radius)
 
 PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silhouette& to) {
   const Lens& lens = shot.lens;
-  const std::vector<PlanePoint> hull = outline_polygon(shot, solid);
+  const vector<PlanePoint> hull = outline_polygon(shot, solid);
   if (hull.size() < 3) return {};
 
-  to.first_edge = static_cast<std::int32_t>(edges_.size());
-  const std::size_t pairs = (hull.size() + 1) / 2;
-  to.edge_pairs = static_cast<std::int32_t>(pairs);
-  const auto edge = [&](std::size_t i) -> Edge {
+  to.first_edge = static_cast<int32_t>(edges_.size());
+  const size_t pairs = (hull.size() + 1) / 2;
+  to.edge_pairs = static_cast<int32_t>(pairs);
+  const auto edge = [&](size_t i) -> Edge {
     if (i >= hull.size()) return {0, 0, 1e6F};
     const PlanePoint &p = hull[i], &q = hull[(i + 1) % hull.size()];
     const double length = std::hypot(q.x - p.x, q.y - p.y) * lens.pixel;
     const double a = -(q.y - p.y) / length, b = (q.x - p.x) / length;
     return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(-a * p.x - b * p.y)};
   };
-  for (std::size_t i = 0; i < pairs; ++i) {
+  for (size_t i = 0; i < pairs; ++i) {
     edges_.push_back(edge(i));
     edges_.push_back(edge(i + pairs));
   }
@@ -96,7 +97,7 @@ PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silho
 void Silhouettes::fill(const Shot& shot) {
   edges_.clear();
   all_.resize(shot.solids.size());
-  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+  for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& solid = shot.solids[i];
     Silhouette& to = all_[i];
     to = {};

@@ -1,16 +1,15 @@
 #pragma once
 // Outlines of all solids of a picture in the plane z = 1 before the eye: ellipses of balls, convex polygons of boxes,
 // cylinders and walls.
-#include <cstdint>
-#include <vector>
 
 #include "raster/shot.h"
+#include "std.h"
 
 namespace carom::raster {
 
 /// Pixels, ends excluded. A picture's side is at most 16384.
 struct PixelBounds {
-  std::int16_t left = 0, top = 0, right = 0, bottom = 0;
+  int16_t left = 0, top = 0, right = 0, bottom = 0;
   bool empty() const { return left >= right || top >= bottom; }
 };
 
@@ -35,7 +34,7 @@ struct alignas(64) Silhouette {
   bool wide = false;   // a ball that reaches behind the eye: it has no ellipse
   BallOutline ball;
   // Of other solids: edges in pairs that are opposite each other.
-  std::int32_t first_edge = 0, edge_pairs = 0;
+  int32_t first_edge = 0, edge_pairs = 0;
 };
 
 class Silhouettes {
@@ -43,14 +42,14 @@ class Silhouettes {
   /// Computes the outlines of all solids. The memory of the last picture is used again.
   void fill(const Shot& shot);
 
-  const Silhouette& of(std::uint32_t solid) const { return all_[solid]; }
+  const Silhouette& of(uint32_t solid) const { return all_[solid]; }
   const Edge* edges(const Silhouette& silhouette) const { return edges_.data() + silhouette.first_edge; }
 
  private:
   PixelBounds add_polygon(const Shot& shot, const Solid& solid, Silhouette& to);
 
-  std::vector<Silhouette> all_;  // by solid
-  std::vector<Edge> edges_;
+  vector<Silhouette> all_;  // by solid
+  vector<Edge> edges_;
 };
 
 /// The pixels that a ball, m, may meet, roughly: they are never too few.

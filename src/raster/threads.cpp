@@ -5,14 +5,15 @@
 #include <atomic>
 #include <charconv>
 #include <cstdlib>
-#include <string_view>
 #include <thread>
+
+#include "std.h"
 
 namespace carom::raster {
 
 int drawing_threads() {
   const char* const text = std::getenv("LP_NUM_THREADS");
-  const std::string_view words = text ? text : "";
+  const string_view words = text ? text : "";
   int count = 0;
   if (std::from_chars(words.data(), words.data() + words.size(), count).ec != std::errc())
     count = static_cast<int>(std::thread::hardware_concurrency());
@@ -22,7 +23,7 @@ int drawing_threads() {
 void Threads::run(int count, const Task& task) {
   std::atomic<int> next{0};  // part
   team_.run([&](int thread) {
-    for (int part; (part = next.fetch_add(1)) < count;) task(memories_[static_cast<std::size_t>(thread)], part);
+    for (int part; (part = next.fetch_add(1)) < count;) task(memories_[static_cast<size_t>(thread)], part);
   });
 }
 

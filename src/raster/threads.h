@@ -1,10 +1,9 @@
 #pragma once
 // Threads that draw the tiles of a picture together. The bytes do not depend on their number.
-#include <functional>
-#include <vector>
 
 #include "numerics/team.h"
 #include "raster/tile.h"
+#include "std.h"
 
 namespace carom::raster {
 
@@ -15,10 +14,10 @@ int drawing_threads();
 class Threads {
  public:
   /// Starts `count` - 1 threads, or as many as the system has left.
-  explicit Threads(int count) : team_(count), memories_(static_cast<std::size_t>(team_.size())) {}
+  explicit Threads(int count) : team_(count), memories_(static_cast<size_t>(team_.size())) {}
 
   /// One part of a task, by its number. The memory is the thread's own.
-  using Task = std::function<void(TileMemory& memory, int part)>;
+  using Task = function<void(TileMemory& memory, int part)>;
   /// Does parts 0 to count - 1 in any order, and returns when all are done. A task throws nothing.
   void run(int count, const Task& task);
   /// Draws all tiles.
@@ -26,7 +25,7 @@ class Threads {
 
  private:
   Team team_;
-  std::vector<TileMemory> memories_;  // by thread
+  vector<TileMemory> memories_;  // by thread
 };
 
 }  // namespace carom::raster

@@ -44,16 +44,17 @@ CAROM_END_TARGET
 namespace any_processor {
 #define WIDTH 0
 #include "raster/kernel.inc"
+#include "std.h"
 #undef WIDTH
 }  // namespace any_processor
 #endif
 
-TileMemory::TileMemory() : data_(std::make_unique<Data>()) {}
+TileMemory::TileMemory() : data_(make_unique<Data>()) {}
 TileMemory::~TileMemory() = default;
 
-std::vector<TileKernel> tile_kernels() {
+vector<TileKernel> tile_kernels() {
 #ifdef __x86_64__
-  std::vector<TileKernel> kernels{bits128::draw};
+  vector<TileKernel> kernels{bits128::draw};
   if (has_avx2()) kernels.push_back(bits256::draw);
   if (has_avx512()) kernels.push_back(bits512::draw);
   return kernels;

@@ -2,14 +2,11 @@
 // Draws one tile of a picture: finds what each pixel shows, then the light from there. The kernel is compiled for each
 // vector width and chosen by the processor at run time. All widths have the same arithmetic in the same order, so that
 // the bytes do not depend on the processor.
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <vector>
 
 #include "raster/bins.h"
 #include "raster/light_grid.h"
 #include "raster/silhouettes.h"
+#include "std.h"
 
 namespace carom::raster {
 
@@ -29,10 +26,10 @@ struct Picture {
   const Silhouettes* silhouettes;
   const Bins* bins;
   const LightGrid* lights;
-  const std::vector<Line>* lines;                             // or nullptr
-  const std::vector<std::vector<std::uint32_t>>* tile_lines;  // by tile
-  std::uint8_t* pixels;                                       // rows of `channels` bytes each
-  int channels;                                               // 3: RGB; 4: with alpha, not premultiplied
+  const vector<Line>* lines;                   // or nullptr
+  const vector<vector<uint32_t>>* tile_lines;  // by tile
+  uint8_t* pixels;                             // rows of `channels` bytes each
+  int channels;                                // 3: RGB; 4: with alpha, not premultiplied
 };
 
 /// The memory of one thread for the tiles that it draws.
@@ -46,13 +43,13 @@ class TileMemory {
   Data& data() { return *data_; }
 
  private:
-  std::unique_ptr<Data> data_;
+  unique_ptr<Data> data_;
 };
 
 using TileKernel = void (*)(const Picture& picture, TileMemory::Data& memory, int tile);
 
 /// The kernels that this processor can run, the widest last.
-std::vector<TileKernel> tile_kernels();
+vector<TileKernel> tile_kernels();
 
 /// Draws the tile by the widest one.
 void draw_tile(const Picture& picture, TileMemory& memory, int tile);

@@ -3,13 +3,12 @@
 #include "render/camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -24,11 +23,11 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 /// The distance from a point to a convex quadrilateral with its corners in order.
-double distance_to_quad(const Vec3& p, std::span<const Vec3, 4> q) {
+double distance_to_quad(const Vec3& p, span<const Vec3, 4> q) {
   const Vec3 n = (q[2] - q[0]).cross(q[3] - q[1]).normalized();
   bool inside = true;
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (size_t i = 0; i < 4; ++i) {
     const Vec3 &a = q[i], &b = q[(i + 1) % 4];
     if (n.dot((b - a).cross(p - a)) < 0) inside = false;
     nearest = std::min(nearest, distance_to_segment(p, a, b));
@@ -78,10 +77,10 @@ bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3
   const Vec3 p(x, y, z);
   const auto corner = [&](double sx, double sy, double depth) { return Vec3(sx * depth * tx, sy * depth * ty, depth); };
   const double n = camera.near, f = camera.far;
-  const std::array<Vec3, 4> right{corner(1, -1, n), corner(1, 1, n), corner(1, 1, f), corner(1, -1, f)};
-  const std::array<Vec3, 4> top{corner(-1, 1, n), corner(1, 1, n), corner(1, 1, f), corner(-1, 1, f)};
-  const std::array<Vec3, 4> front{corner(-1, -1, n), corner(1, -1, n), corner(1, 1, n), corner(-1, 1, n)};
-  const std::array<Vec3, 4> back{corner(-1, -1, f), corner(1, -1, f), corner(1, 1, f), corner(-1, 1, f)};
+  const array<Vec3, 4> right{corner(1, -1, n), corner(1, 1, n), corner(1, 1, f), corner(1, -1, f)};
+  const array<Vec3, 4> top{corner(-1, 1, n), corner(1, 1, n), corner(1, 1, f), corner(-1, 1, f)};
+  const array<Vec3, 4> front{corner(-1, -1, n), corner(1, -1, n), corner(1, 1, n), corner(-1, 1, n)};
+  const array<Vec3, 4> back{corner(-1, -1, f), corner(1, -1, f), corner(1, 1, f), corner(-1, 1, f)};
   for (const auto& face : {right, top, front, back})
     if (distance_to_quad(p, face) <= radius) return true;
   return false;

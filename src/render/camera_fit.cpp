@@ -2,6 +2,8 @@
 // high as it is deep, such as one on a table, is seen from higher up. There bodies hide one another less.
 #include "render/camera_fit.h"
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -26,7 +28,7 @@ Camera CameraFit::camera() const {
   MotionView::Content content = motion_.content(0);
   const double height = size_along(content.bodies, motion_.direction(0).up());
   const bool is_flat = 2 * height < size_along(content.bodies, motion_.direction(0).front());
-  const std::size_t direction = is_flat ? 1 : 0;
+  const size_t direction = is_flat ? 1 : 0;
   if (is_flat) content = motion_.content(direction);
   const Frustum& frustum = motion_.direction(direction);
   const Frustum::Reach& reach = content.reach[direction];

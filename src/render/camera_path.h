@@ -1,10 +1,10 @@
 #pragma once
 // The views between the keyframes of a camera.
-#include <vector>
 
 #include "numerics/monotone_cubic.h"
 #include "numerics/monotone_path.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,7 +13,7 @@ namespace carom {
 class CameraPath {
  public:
   /// At least one, ascending in time.
-  explicit CameraPath(const std::vector<Keyframe>& keys);
+  explicit CameraPath(const vector<Keyframe>& keys);
 
   Keyframe at(double time) const { return {time, eye_(time), target_(time), fov_(time)}; }  // s
 

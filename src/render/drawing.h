@@ -1,9 +1,9 @@
 #pragma once
 // What one picture shows besides the State: the camera at that time, colours that change, and lines in space.
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,9 +21,9 @@ struct Stroke {
 
 struct Drawing {
   Camera camera;
-  std::vector<Color> body_colors;  // by body; empty: those of the scene
-  std::vector<float> glow;         // by body, 0 to 1: the share of white light that it sends out; empty: none does
-  std::vector<Stroke> strokes;
+  vector<Color> body_colors;  // by body; empty: those of the scene
+  vector<float> glow;         // by body, 0 to 1: the share of white light that it sends out; empty: none does
+  vector<Stroke> strokes;
   friend bool operator==(const Drawing&, const Drawing&) = default;
 };
 

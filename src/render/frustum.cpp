@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -38,17 +40,17 @@ Frustum::Frustum(const Camera& lens, Size size, double elevation)
                (tan_y_ * view_.forward + view_.up).normalized(), (tan_y_ * view_.forward - view_.up).normalized()} {}
 
 void Frustum::Reach::add(const Reach& other) {
-  for (std::size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], other.least[i]);
+  for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], other.least[i]);
 }
 
 void Frustum::add(Reach& reach, const Vec3& center, double radius) const {
-  for (std::size_t i = 0; i < normals_.size(); ++i)
+  for (size_t i = 0; i < normals_.size(); ++i)
     reach.least[i] = std::min(reach.least[i], normals_[i].dot(center) - radius);
 }
 
 void Frustum::add(Reach& reach, const Vec3& center, const Volume& volume) const {
   if (volume.shape == Shape::sphere) return add(reach, center, volume.half.x());
-  for (std::size_t i = 0; i < normals_.size(); ++i)
+  for (size_t i = 0; i < normals_.size(); ++i)
     reach.least[i] = std::min(reach.least[i], normals_[i].dot(center) - volume.support(normals_[i]));
 }
 
@@ -64,7 +66,7 @@ Vec3 Frustum::eye(const Reach& reach) const {
 
 double Frustum::distance(const Reach& reach, const Vec3& target) const {
   double distance = 0;
-  for (std::size_t i = 0; i < normals_.size(); ++i)
+  for (size_t i = 0; i < normals_.size(); ++i)
     distance = std::max(distance, (normals_[i].dot(target) - reach.least[i]) / normals_[i].dot(view_.forward));
   return distance;
 }

@@ -1,10 +1,10 @@
 #pragma once
 // A view of fixed direction and angles: from where does it hold given things?
-#include <array>
 
 #include "physics/volume.h"
 #include "render/camera.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +19,7 @@ class Frustum {
 
   /// How far things extend beyond the sides: the least of n . x, with each side's inward normal n (m).
   struct Reach {
-    std::array<double, 4> least = {1e300, 1e300, 1e300, 1e300};
+    array<double, 4> least = {1e300, 1e300, 1e300, 1e300};
     bool empty() const { return least[0] >= 1e300; }
     void add(const Reach& other);
   };
@@ -45,8 +45,8 @@ class Frustum {
 
   Vec3 up_, front_;
   CameraFrame view_;
-  double tan_x_, tan_y_;         // of half the angles, for what is used
-  std::array<Vec3, 4> normals_;  // unit, inward: left, right, bottom, top
+  double tan_x_, tan_y_;    // of half the angles, for what is used
+  array<Vec3, 4> normals_;  // unit, inward: left, right, bottom, top
 };
 
 }  // namespace carom

@@ -6,10 +6,10 @@
 
 #include <cstdlib>
 #include <utility>
-#include <vector>
 
 #include "render/gl_threads.h"
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom::gl {
 namespace {
@@ -20,9 +20,9 @@ GLuint made(void (*generate)(GLsizei, GLuint*)) {
   return name;
 }
 
-GLuint compile(GLenum kind, std::initializer_list<std::string_view> parts) {
-  std::string text = "#version 450 core\n";
-  for (std::string_view part : parts) text += part;
+GLuint compile(GLenum kind, std::initializer_list<string_view> parts) {
+  string text = "#version 450 core\n";
+  for (string_view part : parts) text += part;
   const GLuint shader = gl::CreateShader(kind);
   const char* source = text.c_str();
   gl::ShaderSource(shader, 1, &source, nullptr);
@@ -30,10 +30,10 @@ GLuint compile(GLenum kind, std::initializer_list<std::string_view> parts) {
   GLint ok = 0;
   gl::GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
   if (ok) return shader;
-  std::string log(4096, '\0');
+  string log(4096, '\0');
   GLsizei length = 0;
   gl::GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-  log.resize(static_cast<std::size_t>(length));
+  log.resize(static_cast<size_t>(length));
   gl::DeleteShader(shader);
   throw RenderError(fmt::format("a shader does not compile on this OpenGL: {}", log));
 }
@@ -98,10 +98,10 @@ Texture make_texture(GLenum format, int width, int height, int levels) {
   return texture;
 }
 
-Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth) {
+Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth) {
   Framebuffer framebuffer(made(gl::GenFramebuffers));
   gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  std::vector<GLenum> targets;
+  vector<GLenum> targets;
   for (GLuint color : colors) {
     targets.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(targets.size()));
     gl::FramebufferTexture2D(GL_FRAMEBUFFER, targets.back(), GL_TEXTURE_2D, color, 0);
@@ -114,7 +114,7 @@ Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth) {
   return framebuffer;
 }
 
-Program::Program(std::initializer_list<std::string_view> vertex, std::initializer_list<std::string_view> fragment)
+Program::Program(std::initializer_list<string_view> vertex, std::initializer_list<string_view> fragment)
     : handle_(gl::CreateProgram()) {
   for (const auto& [kind, parts] : {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
     const GLuint shader = compile(static_cast<GLenum>(kind), parts);
@@ -125,10 +125,10 @@ Program::Program(std::initializer_list<std::string_view> vertex, std::initialize
   GLint ok = 0;
   gl::GetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
   if (ok) return;
-  std::string log(4096, '\0');
+  string log(4096, '\0');
   GLsizei length = 0;
   gl::GetProgramInfoLog(handle_.name(), static_cast<GLsizei>(log.size()), &length, log.data());
-  log.resize(static_cast<std::size_t>(length));
+  log.resize(static_cast<size_t>(length));
   throw RenderError(fmt::format("a shader does not link on this OpenGL: {}", log));
 }
 

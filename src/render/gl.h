@@ -1,12 +1,10 @@
 #pragma once
 // The part of OpenGL that the render passes use: an off-screen context, and objects that free themselves.
-#include <array>
 #include <initializer_list>
-#include <span>
-#include <string_view>
 #include <utility>
 
 #include "render/gl_functions.h"
+#include "std.h"
 
 namespace carom::gl {
 
@@ -22,7 +20,7 @@ class Context {
  private:
   OSMesaContext context_;
   // OSMesa needs a window. Pictures are drawn into textures instead.
-  std::array<unsigned char, 4 * 8 * 8> window_{};
+  array<unsigned char, 4 * 8 * 8> window_{};
 };
 
 /// The name of an OpenGL object. It is freed with its owner. The owner's context must then be current.
@@ -71,13 +69,13 @@ Vertices make_vertices();
 /// A texture with so many levels, of which the finest is shown, without interpolation.
 Texture make_texture(GLenum format, int width, int height, int levels = 1);
 /// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.
-Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth);
+Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth);
 
 /// A vertex and a fragment shader. Throws RenderError with the compiler's own text.
 class Program {
  public:
   /// `parts` are appended to the version line.
-  Program(std::initializer_list<std::string_view> vertex, std::initializer_list<std::string_view> fragment);
+  Program(std::initializer_list<string_view> vertex, std::initializer_list<string_view> fragment);
   void use() const { gl::UseProgram(handle_.name()); }
   GLint at(const char* uniform) const { return gl::GetUniformLocation(handle_.name(), uniform); }
 

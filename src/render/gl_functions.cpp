@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom::gl {
 namespace {

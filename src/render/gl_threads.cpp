@@ -8,13 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
-#include <string>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "raster/threads.h"
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom::gl {
 namespace {
@@ -34,7 +33,7 @@ unsigned thread_count() {
 bool can_have(unsigned count) {
   std::promise<void> end;
   const std::shared_future<void> ended = end.get_future().share();
-  std::vector<std::thread> threads;
+  vector<std::thread> threads;
   bool all = true;
   try {
     while (threads.size() < count) threads.emplace_back([ended] { ended.wait(); });
@@ -52,7 +51,7 @@ unsigned drawing_threads() {
   std::error_code error;
   for (std::filesystem::directory_iterator task("/proc/self/task", error), end; !error && task != end;
        task.increment(error)) {
-    std::string name;
+    string name;
     std::ifstream(task->path() / "comm") >> name;
     count += name.starts_with("llvmpipe-");
   }

@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -23,15 +21,16 @@
 #include "render/renderer.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Moves a vector's pointers to an array that assimp deletes.
 template <typename Item, typename Count>
-void hand_over(std::vector<Item*>& items, Item**& to, Count& count) {
+void hand_over(vector<Item*>& items, Item**& to, Count& count) {
   to = new Item*[items.size()];
-  std::copy(items.begin(), items.end(), to);
+  std::ranges::copy(items, to);
   count = static_cast<Count>(items.size());
   items.clear();
 }
@@ -46,9 +45,9 @@ constexpr double usual = std::numbers::pi * 683;  // lux
 class GlbBuilder {
  public:
   GlbBuilder(const Scene& scene, const KeyedMotion& motion)
-      : scene_(scene), motion_(motion), out_(std::make_unique<aiScene>()) {}
+      : scene_(scene), motion_(motion), out_(make_unique<aiScene>()) {}
 
-  std::string build() {
+  string build() {
     for (const BodyRange& range : scene_.roster.bodies)
       for (Entity body = range.first; body < range.first + range.count; ++body) add_body(range, body);
     for (const StillThing& thing : still_things(scene_, motion_.extent, true)) add_still(thing);
@@ -60,10 +59,10 @@ class GlbBuilder {
 
  private:
   /// A free name for the camera or a light. A thing may already have the name.
-  std::string free_name(const std::string& name) const {
-    std::string free = name;
+  string free_name(const string& name) const {
+    string free = name;
     const auto taken = [&](const GlbNode& node) { return node.name == free; };
-    for (int i = 2; std::any_of(nodes_.begin(), nodes_.end(), taken); ++i) free = fmt::format("{} {}", name, i);
+    for (int i = 2; std::ranges::any_of(nodes_, taken); ++i) free = fmt::format("{} {}", name, i);
     return free;
   }
 
@@ -89,9 +88,9 @@ class GlbBuilder {
 
   /// The positions of a fixed thing that moves, at both ends of the film and where its velocity changes. They are
   /// linear in between. A plane moves along its normal, as its pattern does in pictures.
-  aiNodeAnim* channel_of_fixed(std::size_t node, Entity fixed) const {
+  aiNodeAnim* channel_of_fixed(size_t node, Entity fixed) const {
     const World& world = scene_.world;
-    std::vector<double> times{motion_.times.front()};
+    vector<double> times{motion_.times.front()};
     for (const MotionLeg& leg : world.legs(fixed))
       if (leg.from > times.front() && leg.from < motion_.times.back()) times.push_back(leg.from);
     if (motion_.times.back() > times.back()) times.push_back(motion_.times.back());
@@ -99,7 +98,7 @@ class GlbBuilder {
     channel->mNodeName = exported_name(node);
     channel->mNumPositionKeys = static_cast<unsigned>(times.size());
     channel->mPositionKeys = new aiVectorKey[times.size()];
-    for (std::size_t key = 0; key < times.size(); ++key) {
+    for (size_t key = 0; key < times.size(); ++key) {
       Vec3 way = fixed_position(world, fixed, {times[key], 0}) - world.fixed_position(fixed);
       if (world.is_plane(fixed)) way = world.plane(fixed).normal.dot(way) * world.plane(fixed).normal;
       channel->mPositionKeys[key] = {times[key], vector_of(nodes_[node].translation + way)};
@@ -134,12 +133,12 @@ class GlbBuilder {
   }
 
   /// Of the camera's node: it looks along its -z.
-  std::array<double, 4> rotation_of(const Camera& camera) const {
+  array<double, 4> rotation_of(const Camera& camera) const {
     const CameraFrame view = view_of(camera, picture_size(scene_.output));
     return rotation_to(view.right, view.up, -view.forward);
   }
 
-  void add_sun(const std::string& name, const Vec3& towards, const std::array<float, 3>& color, double intensity) {
+  void add_sun(const string& name, const Vec3& towards, const array<float, 3>& color, double intensity) {
     const Vec3 right = (std::abs(towards.y()) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)).cross(towards).normalized();
     GlbNode node{free_name(name)};
     node.rotation = rotation_to(right, towards.cross(right), towards);
@@ -149,50 +148,50 @@ class GlbBuilder {
 
   void animate() {
     const Entity bodies = scene_.world.body_count();
-    const bool camera_moves = std::any_of(motion_.cameras.begin(), motion_.cameras.end(), [&](const Camera& camera) {
+    const bool camera_moves = std::ranges::any_of(motion_.cameras, [&](const Camera& camera) {
       return camera.eye != motion_.cameras.front().eye || camera.target != motion_.cameras.front().target;
     });
     if (motion_.times.empty() || (bodies == 0 && !camera_moves && moving_.empty())) return;
-    auto animation = std::make_unique<aiAnimation>();
+    auto animation = make_unique<aiAnimation>();
     animation->mName = "motion";
     animation->mTicksPerSecond = 1;
     animation->mDuration = motion_.times.back();
-    std::vector<std::vector<aiVectorKey>> scales(bodies);
+    vector<vector<aiVectorKey>> scales(bodies);
     for (const KeyedMotion::Change& change : motion_.changes) add_scale(scales[change.body], change);
-    std::vector<aiNodeAnim*> channels;
+    vector<aiNodeAnim*> channels;
     for (Entity body = 0; body < bodies; ++body) {
       auto* channel = new aiNodeAnim;
       channels.push_back(channel);
       channel->mNodeName = exported_name(body);
       channel->mNumPositionKeys = static_cast<unsigned>(motion_.times.size());
       channel->mPositionKeys = new aiVectorKey[motion_.times.size()];
-      for (std::size_t key = 0; key < motion_.times.size(); ++key) {
-        const std::array<float, 3>& p = motion_.position[key * bodies + body];
+      for (size_t key = 0; key < motion_.times.size(); ++key) {
+        const array<float, 3>& p = motion_.position[key * bodies + body];
         channel->mPositionKeys[key] = {motion_.times[key], {p[0], p[1], p[2]}};
       }
       channel->mNumScalingKeys = static_cast<unsigned>(scales[body].size());
       if (scales[body].empty()) continue;
       channel->mScalingKeys = new aiVectorKey[scales[body].size()];
-      std::copy(scales[body].begin(), scales[body].end(), channel->mScalingKeys);
+      std::ranges::copy(scales[body], channel->mScalingKeys);
     }
     if (camera_moves) channels.push_back(camera_channel());
     for (const auto& [node, fixed] : moving_) channels.push_back(channel_of_fixed(node, fixed));
     hand_over(channels, animation->mChannels, animation->mNumChannels);
-    std::vector<aiAnimation*> animations = {animation.release()};
+    vector<aiAnimation*> animations = {animation.release()};
     hand_over(animations, out_->mAnimations, out_->mNumAnimations);
   }
 
   /// The camera's position and direction at each keyframe.
   aiNodeAnim* camera_channel() const {
-    const std::size_t keys = motion_.times.size();
+    const size_t keys = motion_.times.size();
     auto* channel = new aiNodeAnim;
     channel->mNodeName = exported_name(camera_node_);
     channel->mNumPositionKeys = channel->mNumRotationKeys = static_cast<unsigned>(keys);
     channel->mPositionKeys = new aiVectorKey[keys];
     channel->mRotationKeys = new aiQuatKey[keys];
-    std::array<double, 4> before{};
-    for (std::size_t key = 0; key < keys; ++key) {
-      std::array<double, 4> q = rotation_of(motion_.cameras[key]);
+    array<double, 4> before{};
+    for (size_t key = 0; key < keys; ++key) {
+      array<double, 4> q = rotation_of(motion_.cameras[key]);
       // q and -q are one rotation. Between two of one sign the turn is the shorter one.
       const double cosine = std::inner_product(q.begin(), q.end(), before.begin(), 0.0);
       if (cosine < 0)
@@ -207,7 +206,7 @@ class GlbBuilder {
   }
 
   /// Adds a keyframe for the scale: a mesh grows as its volume does.
-  void add_scale(std::vector<aiVectorKey>& keys, const KeyedMotion::Change& change) const {
+  void add_scale(vector<aiVectorKey>& keys, const KeyedMotion::Change& change) const {
     const Vec3& at_first = nodes_[change.body].scale;
     if (keys.empty()) keys.push_back({motion_.times.front(), vector_of(at_first)});
     const Vec3 grown = change.volume ? Vec3(change.volume->half.cwiseQuotient(scene_.world.volume_of(change.body).half))
@@ -219,18 +218,18 @@ class GlbBuilder {
       keys.push_back(key);
   }
 
-  std::string exported() {
+  string exported() {
     out_->mRootNode = new aiNode("scene");
-    std::vector<aiNode*> children;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    vector<aiNode*> children;
+    for (size_t i = 0; i < nodes_.size(); ++i) {
       auto* child = new aiNode(exported_name(i));
       children.push_back(child);
       child->mParent = out_->mRootNode;
-      const std::vector<unsigned>& meshes = nodes_[i].meshes;
+      const vector<unsigned>& meshes = nodes_[i].meshes;
       if (meshes.empty()) continue;
       child->mNumMeshes = static_cast<unsigned>(meshes.size());
       child->mMeshes = new unsigned[meshes.size()];
-      std::copy(meshes.begin(), meshes.end(), child->mMeshes);
+      std::ranges::copy(meshes, child->mMeshes);
     }
     hand_over(children, out_->mRootNode->mChildren, out_->mRootNode->mNumChildren);
     meshes_.hand_over(*out_);
@@ -242,16 +241,16 @@ class GlbBuilder {
 
   const Scene& scene_;
   const KeyedMotion& motion_;
-  std::unique_ptr<aiScene> out_;
-  std::vector<GlbNode> nodes_;                          // the bodies first
-  std::vector<std::pair<std::size_t, Entity>> moving_;  // nodes of fixed things that move
-  std::size_t camera_node_ = 0;
+  unique_ptr<aiScene> out_;
+  vector<GlbNode> nodes_;                     // the bodies first
+  vector<std::pair<size_t, Entity>> moving_;  // nodes of fixed things that move
+  size_t camera_node_ = 0;
   GlbMeshes meshes_;
 };
 
 }  // namespace
 
-std::string glb(const Scene& scene, const KeyedMotion& motion) {
+string glb(const Scene& scene, const KeyedMotion& motion) {
   return GlbBuilder(scene, motion).build();
 }
 

@@ -2,9 +2,9 @@
 // A scene and its motion as a binary glTF 2 file, for Blender and similar programs. It has a node for each body and for
 // each fixed thing, the camera and the lights. assimp writes meshes, materials and animation. What its exporter cannot
 // write is added afterwards.
-#include <string>
 
 #include "render/model.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,6 +14,6 @@ struct Scene;
 /// body has scale 0, and the joint one its new size. A camera that moves has keyframes too; its field of view is that
 /// of the first. Colours are in linear light, y is up, times are in seconds. Meshes in colours of their own have base
 /// colours, textures (PNG) and holes. Throws RenderError.
-std::string glb(const Scene& scene, const KeyedMotion& motion);
+string glb(const Scene& scene, const KeyedMotion& motion);
 
 }  // namespace carom

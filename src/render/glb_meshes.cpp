@@ -17,15 +17,16 @@
 #include "render/renderer.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Moves pointers to an array that assimp deletes.
 template <typename Item, typename Count>
-void hand_over_all(std::vector<std::unique_ptr<Item>>& items, Item**& to, Count& count) {
+void hand_over_all(vector<unique_ptr<Item>>& items, Item**& to, Count& count) {
   to = new Item*[items.size()];
-  for (std::size_t i = 0; i < items.size(); ++i) to[i] = items[i].release();
+  for (size_t i = 0; i < items.size(); ++i) to[i] = items[i].release();
   count = static_cast<Count>(items.size());
   items.clear();
 }
@@ -41,15 +42,15 @@ void add_paint(const MeshPaint& paint, aiMesh& out) {
   out.mTextureCoords[0] = new aiVector3D[paint.uv.size()];
   std::transform(paint.uv.begin(), paint.uv.end(), out.mTextureCoords[0],
                  [](const auto& uv) { return aiVector3D(uv[0], 1 - uv[1], 0); });
-  const std::array<float, 3> white{1, 1, 1};
-  if (std::all_of(paint.tint.begin(), paint.tint.end(), [&](const auto& tint) { return tint == white; })) return;
+  const array<float, 3> white{1, 1, 1};
+  if (std::ranges::all_of(paint.tint, [&](const auto& tint) { return tint == white; })) return;
   out.mColors[0] = new aiColor4D[paint.tint.size()];
   std::transform(paint.tint.begin(), paint.tint.end(), out.mColors[0],
                  [](const auto& tint) { return aiColor4D(tint[0], tint[1], tint[2], 1); });
 }
 
-std::unique_ptr<aiMesh> mesh_of(const Mesh& mesh, std::size_t material, const std::string& name) {
-  auto out = std::make_unique<aiMesh>();
+unique_ptr<aiMesh> mesh_of(const Mesh& mesh, size_t material, const string& name) {
+  auto out = make_unique<aiMesh>();
   out->mName = name;
   out->mMaterialIndex = static_cast<unsigned>(material);
   out->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
@@ -61,7 +62,7 @@ std::unique_ptr<aiMesh> mesh_of(const Mesh& mesh, std::size_t material, const st
                  [](const Vec3& n) { return floats_of(n.isZero(0) ? Vec3(0, 1, 0) : n); });
   out->mNumFaces = static_cast<unsigned>(mesh.triangles.size() / 3);
   out->mFaces = new aiFace[out->mNumFaces];
-  for (std::size_t i = 0; i < out->mNumFaces; ++i) {
+  for (size_t i = 0; i < out->mNumFaces; ++i) {
     out->mFaces[i].mNumIndices = 3;
     out->mFaces[i].mIndices = new unsigned[3];
     std::copy_n(&mesh.triangles[3 * i], 3, out->mFaces[i].mIndices);
@@ -73,8 +74,8 @@ std::unique_ptr<aiMesh> mesh_of(const Mesh& mesh, std::size_t material, const st
 constexpr float roughness = 0.6F;
 
 /// `base`: linear.
-std::unique_ptr<aiMaterial> material_of(const aiColor4D& base, bool two_sided, const std::string& name) {
-  auto out = std::make_unique<aiMaterial>();
+unique_ptr<aiMaterial> material_of(const aiColor4D& base, bool two_sided, const string& name) {
+  auto out = make_unique<aiMaterial>();
   const aiString named(name);
   const float metallic = 0;
   const int sides = two_sided ? 1 : 0;
@@ -87,15 +88,15 @@ std::unique_ptr<aiMaterial> material_of(const aiColor4D& base, bool two_sided, c
 }
 
 /// The part of the triangles from `first` on, with the vertices that it uses.
-Mesh part_of(const Mesh& mesh, std::size_t first, const MeshPart& part) {
+Mesh part_of(const Mesh& mesh, size_t first, const MeshPart& part) {
   Mesh out;
   out.paint.parts = {part};
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(mesh.vertices.size(), none);
-  for (std::size_t i = first; i < first + std::size_t{3} * part.triangles; ++i) {
-    const std::uint32_t from = mesh.triangles[i];
+  constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
+  vector<uint32_t> number(mesh.vertices.size(), none);
+  for (size_t i = first; i < first + size_t{3} * part.triangles; ++i) {
+    const uint32_t from = mesh.triangles[i];
     if (number[from] == none) {
-      number[from] = static_cast<std::uint32_t>(out.vertices.size());
+      number[from] = static_cast<uint32_t>(out.vertices.size());
       out.vertices.push_back(mesh.vertices[from]);
       out.normals.push_back(mesh.normals[from]);
       out.paint.uv.push_back(mesh.paint.uv[from]);
@@ -106,21 +107,21 @@ Mesh part_of(const Mesh& mesh, std::size_t first, const MeshPart& part) {
   return out;
 }
 
-std::string png_of(const MeshTexture& texture) {
+string png_of(const MeshTexture& texture) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = texture.width, png.height = texture.height, png.format = PNG_FORMAT_RGBA;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::string bytes(size, '\0');
+  string bytes(size, '\0');
   if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, texture.rgba.data(), 0, nullptr))
     throw RenderError("cannot write a texture of animation.glb");
   bytes.resize(size);
   return bytes;
 }
 
-std::unique_ptr<aiTexture> texture_of(const MeshTexture& texture) {
-  const std::string bytes = png_of(texture);
-  auto out = std::make_unique<aiTexture>();
+unique_ptr<aiTexture> texture_of(const MeshTexture& texture) {
+  const string bytes = png_of(texture);
+  auto out = make_unique<aiTexture>();
   // assimp deletes texels of four bytes.
   out->mWidth = static_cast<unsigned>(bytes.size());
   out->mHeight = 0;
@@ -138,7 +139,7 @@ int mode_of_axis(Wrap wrap) {
 
 }  // namespace
 
-std::size_t GlbMeshes::material(const Color& color, bool two_sided) {
+size_t GlbMeshes::material(const Color& color, bool two_sided) {
   const auto [found, is_new] =
       material_numbers_.try_emplace({Srgb{color.r, color.g, color.b}, two_sided}, materials_.size());
   if (is_new) {
@@ -149,22 +150,21 @@ std::size_t GlbMeshes::material(const Color& color, bool two_sided) {
   return found->second;
 }
 
-std::size_t GlbMeshes::texture(const MeshTexture& picture) {
-  std::unique_ptr<aiTexture> made = texture_of(picture);
-  const auto same = [&](const std::unique_ptr<aiTexture>& other) {
+size_t GlbMeshes::texture(const MeshTexture& picture) {
+  unique_ptr<aiTexture> made = texture_of(picture);
+  const auto same = [&](const unique_ptr<aiTexture>& other) {
     return other->mWidth == made->mWidth && std::memcmp(other->pcData, made->pcData, made->mWidth) == 0;
   };
-  const auto found = std::find_if(textures_.begin(), textures_.end(), same);
-  const auto number = static_cast<std::size_t>(found - textures_.begin());
+  const auto found = std::ranges::find_if(textures_, same);
+  const auto number = static_cast<size_t>(found - textures_.begin());
   if (found == textures_.end()) textures_.push_back(std::move(made));
   return number;
 }
 
-std::size_t GlbMeshes::material(const MeshPart& part, const std::vector<std::size_t>& textures,
-                                const std::string& name) {
+size_t GlbMeshes::material(const MeshPart& part, const vector<size_t>& textures, const string& name) {
   const auto& f = part.factor;
   // Pictures show both sides.
-  std::unique_ptr<aiMaterial> out = material_of({f[0], f[1], f[2], f[3]}, true, name);
+  unique_ptr<aiMaterial> out = material_of({f[0], f[1], f[2], f[3]}, true, name);
   if (part.cutoff > 0) {
     const aiString mask("MASK");
     out->AddProperty(&mask, AI_MATKEY_GLTF_ALPHAMODE);
@@ -174,7 +174,7 @@ std::size_t GlbMeshes::material(const MeshPart& part, const std::vector<std::siz
     const aiString file(fmt::format("*{}", textures[part.texture - 1]));
     const aiString sampler(
         fmt::format("{}{}{}", static_cast<int>(part.wrap[0]), static_cast<int>(part.wrap[1]), part.sharp));
-    const std::array<int, 2> modes{mode_of_axis(part.wrap[0]), mode_of_axis(part.wrap[1])};
+    const array<int, 2> modes{mode_of_axis(part.wrap[0]), mode_of_axis(part.wrap[1])};
     // GL_NEAREST, GL_LINEAR
     const int filter = part.sharp ? 9728 : 9729;
     out->AddProperty(&file, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
@@ -187,22 +187,22 @@ std::size_t GlbMeshes::material(const MeshPart& part, const std::vector<std::siz
   return materials_.size() - 1;
 }
 
-unsigned GlbMeshes::add(const Mesh& mesh, std::size_t material, const std::string& name) {
+unsigned GlbMeshes::add(const Mesh& mesh, size_t material, const string& name) {
   meshes_.push_back(mesh_of(mesh, material, name));
   return static_cast<unsigned>(meshes_.size() - 1);
 }
 
-GlbMeshes::Numbers GlbMeshes::single(const Mesh& mesh, const Color& color, bool two_sided, const std::string& name) {
+GlbMeshes::Numbers GlbMeshes::single(const Mesh& mesh, const Color& color, bool two_sided, const string& name) {
   if (mesh.paint.parts.empty()) return {add(mesh, material(color, two_sided), name)};
   Numbers numbers;
-  std::vector<std::size_t> textures;
+  vector<size_t> textures;
   for (const MeshTexture& picture : mesh.paint.textures) textures.push_back(texture(picture));
-  std::size_t first = 0;
+  size_t first = 0;
   for (const MeshPart& part : mesh.paint.parts) {
     if (part.triangles == 0) continue;
-    const std::size_t look = part.colored ? material(part, textures, name) : material(color, two_sided);
+    const size_t look = part.colored ? material(part, textures, name) : material(color, two_sided);
     numbers.push_back(add(part_of(mesh, first, part), look, name));
-    first += std::size_t{3} * part.triangles;
+    first += size_t{3} * part.triangles;
   }
   return numbers;
 }
@@ -213,13 +213,13 @@ const GlbMeshes::Numbers& GlbMeshes::volume(Shape shape, const Color& color) {
     const Mesh mesh = shape == Shape::sphere ? round_ball() : shape == Shape::cylinder ? round_cylinder() : unit_box();
     constexpr const char* names[] = {"ball", "cylinder", "box"};
     found->second =
-        single(mesh, color, false, fmt::format("{} {}", names[static_cast<std::size_t>(shape)], hex_text(color)));
+        single(mesh, color, false, fmt::format("{} {}", names[static_cast<size_t>(shape)], hex_text(color)));
   }
   return found->second;
 }
 
 const GlbMeshes::Numbers& GlbMeshes::file(const MeshUse& use, const Color& color) {
-  const std::array<double, 4> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
+  const array<double, 4> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
   // A mesh whose parts all have a colour is the same for every body.
   constexpr Srgb any{-1, -1, -1};
   const Srgb own{color.r, color.g, color.b};
@@ -227,10 +227,9 @@ const GlbMeshes::Numbers& GlbMeshes::file(const MeshUse& use, const Color& color
     if (const auto same = files_.find({use.file, how, use.own_colors, of}); same != files_.end()) return same->second;
   const Mesh mesh = drawn_mesh(use);
   const auto& parts = mesh.paint.parts;
-  const bool colored =
-      !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const MeshPart& part) { return part.colored; });
+  const bool colored = !parts.empty() && std::ranges::all_of(parts, [](const MeshPart& part) { return part.colored; });
   Numbers& numbers = files_[{use.file, how, use.own_colors, colored ? any : own}];
-  const std::string name = parts.empty() ? "mesh " + hex_text(color) : std::filesystem::path(use.file).stem().string();
+  const string name = parts.empty() ? "mesh " + hex_text(color) : std::filesystem::path(use.file).stem().string();
   numbers = single(mesh, color, false, name);
   return numbers;
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/renderer.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -17,18 +18,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A;  // "glTF", "JSON"
-constexpr std::size_t head_size = 12, chunk_head_size = 8;
+constexpr uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A;  // "glTF", "JSON"
+constexpr size_t head_size = 12, chunk_head_size = 8;
 
-std::uint32_t word_at(std::string_view file, std::size_t at) {
-  std::uint32_t word = 0;
+uint32_t word_at(string_view file, size_t at) {
+  uint32_t word = 0;
   if (at + sizeof word > file.size()) throw RenderError("assimp wrote an incomplete glTF file");
   std::memcpy(&word, file.data() + at, sizeof word);
   return word;
 }
 
-void put_word(std::string& file, std::size_t at, std::size_t value) {
-  const auto word = static_cast<std::uint32_t>(value);
+void put_word(string& file, size_t at, size_t value) {
+  const auto word = static_cast<uint32_t>(value);
   std::memcpy(file.data() + at, &word, sizeof word);
 }
 
@@ -59,14 +60,14 @@ Json camera_json(const GlbCamera& camera) {
 
 class Mender {
  public:
-  Mender(Json& gltf, const std::vector<GlbNode>& nodes) : gltf_(gltf), nodes_(nodes) {}
+  Mender(Json& gltf, const vector<GlbNode>& nodes) : gltf_(gltf), nodes_(nodes) {}
 
   void mend() {
     gltf_.erase("extensionsUsed");
     for (Json& material : gltf_["materials"]) material.erase("extensions");
-    std::map<std::string, std::size_t> numbers;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) numbers[exported_name(i)] = i;
-    std::size_t found = 0;
+    std::map<string, size_t> numbers;
+    for (size_t i = 0; i < nodes_.size(); ++i) numbers[exported_name(i)] = i;
+    size_t found = 0;
     for (Json& json : gltf_["nodes"]) {
       const auto number = numbers.find(json.value("name", ""));
       // The root.
@@ -104,22 +105,22 @@ class Mender {
   static void step_scales(Json& animation) {
     for (const Json& channel : animation.at("channels"))
       if (channel.at("target").at("path") == "scale")
-        animation.at("samplers").at(channel.at("sampler").get<std::size_t>())["interpolation"] = "STEP";
+        animation.at("samplers").at(channel.at("sampler").get<size_t>())["interpolation"] = "STEP";
   }
 
   Json& gltf_;
-  const std::vector<GlbNode>& nodes_;
+  const vector<GlbNode>& nodes_;
   Json lights_ = Json::array();
 };
 
 }  // namespace
 
-std::array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
+array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
   // 4 q_i^2 from the matrix's diagonal. The largest gives the others without loss (Shepperd 1978).
-  const std::array<double, 4> squares = {1 + x.x() - y.y() - z.z(), 1 - x.x() + y.y() - z.z(),
-                                         1 - x.x() - y.y() + z.z(), 1 + x.x() + y.y() + z.z()};
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < 4; ++i)
+  const array<double, 4> squares = {1 + x.x() - y.y() - z.z(), 1 - x.x() + y.y() - z.z(), 1 - x.x() - y.y() + z.z(),
+                                    1 + x.x() + y.y() + z.z()};
+  size_t largest = 0;
+  for (size_t i = 1; i < 4; ++i)
     if (squares[i] > squares[largest]) largest = i;
   const double twice = std::sqrt(squares[largest]), by = 0.5 / twice;
   const double xy = (x.y() + y.x()) * by, yz = (y.z() + z.y()) * by, zx = (z.x() + x.z()) * by;
@@ -136,12 +137,12 @@ std::array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
   }
 }
 
-std::string exported_name(std::size_t node) {
+string exported_name(size_t node) {
   return fmt::format("carom node {}", node);
 }
 
-std::string mended_glb(std::string_view file, const std::string& title, const std::vector<GlbNode>& nodes) {
-  const std::size_t json_size = word_at(file, head_size), json_from = head_size + chunk_head_size;
+string mended_glb(string_view file, const string& title, const vector<GlbNode>& nodes) {
+  const size_t json_size = word_at(file, head_size), json_from = head_size + chunk_head_size;
   if (word_at(file, 0) != magic || word_at(file, head_size + 4) != json_chunk || json_from + json_size > file.size())
     throw RenderError("assimp wrote no glTF file");
   Json gltf = json_of_text(file.substr(json_from, json_size));
@@ -149,15 +150,15 @@ std::string mended_glb(std::string_view file, const std::string& title, const st
   Mender(gltf, nodes).mend();
   gltf["asset"]["generator"] = "carom " CAROM_VERSION ", by assimp";
   gltf["scenes"][0]["name"] = title;
-  std::string text = text_of_json(gltf);
+  string text = text_of_json(gltf);
   text.resize((text.size() + 3) / 4 * 4, ' ');
 
-  std::string out(file.substr(0, json_from));
+  string out(file.substr(0, json_from));
   put_word(out, head_size, text.size());
   out += text;
   out += file.substr(json_from + json_size);
   // Bytes, the largest size that the format can represent.
-  constexpr std::size_t largest = 0xFFFFFFFF;
+  constexpr size_t largest = 0xFFFFFFFF;
   if (out.size() > largest) throw RenderError("animation.glb would be larger than 4 GB: use fewer keyframes a second");
   put_word(out, 8, out.size());
   return out;

@@ -6,10 +6,11 @@
 
 #include "numerics/srgb.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
-std::array<float, 3> linear(const Color& srgb) {
+array<float, 3> linear(const Color& srgb) {
   const auto light = [](double c) { return static_cast<float>(light_of_srgb(std::clamp(c, 0.0, 1.0))); };
   return {light(srgb.r), light(srgb.g), light(srgb.b)};
 }

@@ -1,21 +1,21 @@
 #pragma once
 // The lights of a scene, or a key light from above left behind the camera. Values are in linear light; authored colours
 // are sRGB.
-#include <array>
 
 #include "numerics/vec3.h"
 #include "raster/shot.h"
 #include "render/eye.h"
 #include "scene/colors.h"
+#include "std.h"
 
 namespace carom {
 
 /// An authored colour in linear light (IEC 61966-2-1).
-std::array<float, 3> linear(const Color& srgb);
+array<float, 3> linear(const Color& srgb);
 
 struct KeyLight {
-  Vec3 towards;                   // unit, in the world's frame
-  std::array<float, 3> radiance;  // linear
+  Vec3 towards;              // unit, in the world's frame
+  array<float, 3> radiance;  // linear
 };
 /// The light of a scene without lights: from above, left of and behind the camera, in the world's upright frame. The
 /// sun then stays high for a steep camera.

@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -25,6 +24,7 @@
 
 #include "render/mesh_import.h"
 #include "render/mesh_reply.h"
+#include "std.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -33,25 +33,25 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // ms between two checks.
-constexpr std::int64_t glance = 50;
+constexpr int64_t glance = 50;
 
-std::function<void()>& stop_check() {
-  static std::function<void()> function = [] {};
+function<void()>& stop_check() {
+  static function<void()> function = [] {};
   return function;
 }
 
-[[noreturn]] void fail(const std::string& path, const std::string& why) {
+[[noreturn]] void fail(const string& path, const string& why) {
   throw std::runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
 }
 
 /// Checks that the file is a regular one of permitted size with a known ending. Returns the ending in lower case.
-std::string check_file(const std::string& path, const MeshLimits& limits) {
-  std::string ending = std::filesystem::path(path).extension().string();
+string check_file(const string& path, const MeshLimits& limits) {
+  string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty()) ending.erase(0, 1);
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   const auto& known = mesh_endings();
-  if (std::find(known.begin(), known.end(), ending) == known.end())
+  if (std::ranges::find(known, ending) == known.end())
     fail(path, fmt::format("meshes are read from files that end in .{}", joined(known, ", .")));
   // Opening must not wait for a queue or a device.
   const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -63,14 +63,14 @@ std::string check_file(const std::string& path, const MeshLimits& limits) {
   if (S_ISDIR(info.st_mode)) fail(path, "it is a folder");
   if (!S_ISREG(info.st_mode)) fail(path, "it is not a regular file");
   if (info.st_size == 0) fail(path, "it is empty");
-  if (static_cast<std::uint64_t>(info.st_size) > limits.file_bytes)
+  if (static_cast<uint64_t>(info.st_size) > limits.file_bytes)
     fail(path, fmt::format("it has {} bytes; at most {} are read", info.st_size, limits.file_bytes));
   return ending;
 }
 
 // ---- the child ----
 
-void limit(int what, std::uint64_t value) {
+void limit(int what, uint64_t value) {
   rlimit bound{value, value};
   rlimit now{};
   if (getrlimit(static_cast<__rlimit_resource>(what), &now) == 0)
@@ -79,12 +79,12 @@ void limit(int what, std::uint64_t value) {
 }
 
 // In bytes of address space.
-std::uint64_t memory_now() {
+uint64_t memory_now() {
   unsigned long long pages = 0;
   FILE* file = std::fopen("/proc/self/statm", "re");
   if (!file || std::fscanf(file, "%llu", &pages) != 1) pages = 0;
   if (file) std::fclose(file);
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 void confine(const MeshLimits& limits, pid_t parent) {
@@ -102,26 +102,26 @@ void confine(const MeshLimits& limits, pid_t parent) {
   limit(RLIMIT_AS, memory_now() + limits.memory_bytes);
 }
 
-void send(int pipe, const void* bytes, std::size_t size) {
+void send(int pipe, const void* bytes, size_t size) {
   const char* from = static_cast<const char*>(bytes);
   while (size > 0) {
     const ssize_t n = write(pipe, from, size);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) _exit(3);
     from += n;
-    size -= static_cast<std::size_t>(n);
+    size -= static_cast<size_t>(n);
   }
 }
 
 void send_trouble(int pipe, const char* text) {
   MeshReplyHead head;
-  head.text = static_cast<std::uint32_t>(std::min<std::size_t>(std::strlen(text), longest_mesh_trouble));
+  head.text = static_cast<uint32_t>(std::min<size_t>(std::strlen(text), longest_mesh_trouble));
   send(pipe, &head, sizeof head);
   send(pipe, text, head.text);
 }
 
 template <typename Item>
-void send(int pipe, const std::vector<Item>& items) {
+void send(int pipe, const vector<Item>& items) {
   send(pipe, items.data(), items.size() * sizeof(Item));
 }
 
@@ -130,14 +130,14 @@ void send_paint(int pipe, const MeshPaint& paint) {
   send(pipe, paint.uv);
   send(pipe, paint.tint);
   for (const MeshTexture& texture : paint.textures) {
-    for (const std::uint32_t side : {texture.width, texture.height}) send(pipe, &side, sizeof side);
+    for (const uint32_t side : {texture.width, texture.height}) send(pipe, &side, sizeof side);
     send(pipe, texture.rgba);
   }
 }
 
 /// What is read, and how.
 struct MeshRequest {
-  std::string path, ending;
+  string path, ending;
   bool painted;
   const MeshLimits& limits;
 };
@@ -145,7 +145,7 @@ struct MeshRequest {
 [[noreturn]] void run_child(int pipe, const MeshRequest& request) {
   try {
     const ImportedMesh mesh = import_mesh(request.path, request.ending, request.painted, request.limits);
-    const auto count = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
+    const auto count = [](size_t size) { return static_cast<uint32_t>(size); };
     const MeshReplyHead head{count(mesh.vertices.size() / 3), count(mesh.triangles.size() / 3), 0,
                              count(mesh.paint.parts.size()), count(mesh.paint.textures.size())};
     send(pipe, &head, sizeof head);
@@ -171,7 +171,7 @@ class MeshReader {
  public:
   explicit MeshReader(const MeshRequest& request)
       : deadline_(Clock::now() + std::chrono::seconds(3 * request.limits.seconds)) {
-    const std::string& path = request.path;
+    const string& path = request.path;
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(path, std::strerror(errno));
     const pid_t parent = getpid();
@@ -196,7 +196,7 @@ class MeshReader {
   MeshReader& operator=(const MeshReader&) = delete;
 
   /// False: the data have ended, or the time is over.
-  bool receive(void* bytes, std::size_t size) {
+  bool receive(void* bytes, size_t size) {
     char* to = static_cast<char*>(bytes);
     while (size > 0) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
@@ -205,7 +205,7 @@ class MeshReader {
         return false;
       }
       pollfd request{pipe_, POLLIN, 0};
-      if (poll(&request, 1, static_cast<int>(std::min<std::int64_t>(left, glance))) <= 0) {
+      if (poll(&request, 1, static_cast<int>(std::min<int64_t>(left, glance))) <= 0) {
         stop_check()();
         continue;
       }
@@ -213,13 +213,13 @@ class MeshReader {
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) return false;
       to += n;
-      size -= static_cast<std::size_t>(n);
+      size -= static_cast<size_t>(n);
     }
     return true;
   }
 
   /// The reason why no more data come.
-  std::string trouble(const MeshLimits& limits) {
+  string trouble(const MeshLimits& limits) {
     const int status = late_ ? 0 : wait();
     if (late_ || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
       return fmt::format("reading it takes longer than {} s; it may be damaged", limits.seconds);
@@ -247,13 +247,13 @@ class MeshReader {
   bool late_ = false;
 };
 
-Mesh read(const std::string& path, bool painted, const MeshLimits& limits) {
+Mesh read(const string& path, bool painted, const MeshLimits& limits) {
   const MeshRequest request{path, check_file(path, limits), painted, limits};
   MeshReader reader(request);
   try {
-    return receive_mesh({[&](void* bytes, std::size_t size) { return reader.receive(bytes, size); },
-                         [&] { return reader.trouble(limits); }},
-                        limits);
+    return receive_mesh(
+        {[&](void* bytes, size_t size) { return reader.receive(bytes, size); }, [&] { return reader.trouble(limits); }},
+        limits);
   } catch (const std::runtime_error& error) {
     fail(path, error.what());
   }
@@ -261,19 +261,19 @@ Mesh read(const std::string& path, bool painted, const MeshLimits& limits) {
 
 }  // namespace
 
-void check_while_reading(std::function<void()> function) {
+void check_while_reading(function<void()> function) {
   stop_check() = std::move(function);
 }
 
-Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
+Mesh read_mesh(const string& path, const MeshLimits& limits) {
   return read(path, false, limits);
 }
 
-Mesh read_painted_mesh(const std::string& path, const MeshLimits& limits) {
+Mesh read_painted_mesh(const string& path, const MeshLimits& limits) {
   return read(path, true, limits);
 }
 
-std::vector<Vec3> read_mesh_points(const std::string& path, const MeshLimits& limits) {
+vector<Vec3> read_mesh_points(const string& path, const MeshLimits& limits) {
   return read_mesh(path, limits).vertices;
 }
 

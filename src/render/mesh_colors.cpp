@@ -3,16 +3,16 @@
 #include "render/mesh_colors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "render/texture_levels.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 gl::Texture uploaded(const MeshTexture& finest) {
-  const std::vector<MeshTexture> coarser = coarser_levels(finest);
+  const vector<MeshTexture> coarser = coarser_levels(finest);
   gl::Texture texture = gl::make_texture(GL_SRGB8_ALPHA8, static_cast<int>(finest.width),
                                          static_cast<int>(finest.height), static_cast<int>(coarser.size()) + 1);
   const auto upload = [](GLint level, const MeshTexture& from) {
@@ -20,7 +20,7 @@ gl::Texture uploaded(const MeshTexture& finest) {
                       GL_RGBA, GL_UNSIGNED_BYTE, from.rgba.data());
   };
   upload(0, finest);
-  for (std::size_t i = 0; i < coarser.size(); ++i) upload(static_cast<GLint>(i + 1), coarser[i]);
+  for (size_t i = 0; i < coarser.size(); ++i) upload(static_cast<GLint>(i + 1), coarser[i]);
   gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   return texture;
 }
@@ -30,32 +30,32 @@ GLint mode_of(Wrap wrap) {
 }
 
 /// The pixel of a side of `length` at x, 1 a side.
-std::uint32_t pixel_at(float x, Wrap wrap, std::uint32_t length) {
+uint32_t pixel_at(float x, Wrap wrap, uint32_t length) {
   float inside = x - std::floor(x);
   if (wrap == Wrap::clamp) inside = std::clamp(x, 0.0F, 1.0F);
   if (wrap == Wrap::mirror) inside = 1 - std::abs(1 - (x - 2 * std::floor(x / 2)));
-  return std::min(static_cast<std::uint32_t>(inside * static_cast<float>(length)), length - 1);
+  return std::min(static_cast<uint32_t>(inside * static_cast<float>(length)), length - 1);
 }
 
 /// At least so many points of a mesh are looked at for its mean colour.
 constexpr double least_points = 4096;
 
-using Color4 = std::array<float, 4>;
+using Color4 = array<float, 4>;
 
 /// At a place of a triangle with the vertices v, with its opacity. `at`: the vertices' weights.
-Color4 color_at(const MeshPaint& paint, const MeshPart& part, const std::uint32_t* v, const std::array<float, 3>& at) {
-  std::array<float, 2> uv{};
-  std::array<float, 3> tint{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 2; ++i) uv[i] += at[k] * paint.uv[v[k]][i];
-    for (std::size_t i = 0; i < 3; ++i) tint[i] += at[k] * paint.tint[v[k]][i];
+Color4 color_at(const MeshPaint& paint, const MeshPart& part, const uint32_t* v, const array<float, 3>& at) {
+  array<float, 2> uv{};
+  array<float, 3> tint{};
+  for (size_t k = 0; k < 3; ++k) {
+    for (size_t i = 0; i < 2; ++i) uv[i] += at[k] * paint.uv[v[k]][i];
+    for (size_t i = 0; i < 3; ++i) tint[i] += at[k] * paint.tint[v[k]][i];
   }
   Color4 color{part.factor[0] * tint[0], part.factor[1] * tint[1], part.factor[2] * tint[2], part.factor[3]};
   if (part.texture == 0) return color;
   const MeshTexture& texture = paint.textures[part.texture - 1];
   const Color4 light =
       light_of(texture, pixel_at(uv[0], part.wrap[0], texture.width), pixel_at(uv[1], part.wrap[1], texture.height));
-  for (std::size_t c = 0; c < 4; ++c) color[c] *= light[c];
+  for (size_t c = 0; c < 4; ++c) color[c] *= light[c];
   return color;
 }
 
@@ -67,7 +67,7 @@ void for_points(int n, Use use) {
       const float third = (k % 2 ? 2.0F : 1.0F) / 3;
       const float b = (static_cast<float>(i) + third) / static_cast<float>(n);
       const float c = (static_cast<float>(k / 2) + third) / static_cast<float>(n);
-      use(std::array<float, 3>{1 - b - c, b, c});
+      use(array<float, 3>{1 - b - c, b, c});
     }
 }
 
@@ -76,24 +76,24 @@ void for_points(int n, Use use) {
 MeshColors::MeshColors(const Mesh& mesh) : parts_(mesh.paint.parts), rows_(gl::make_buffer()) {
   textures_.push_back(uploaded({1, 1, {255, 255, 255, 255}}));
   for (const MeshTexture& texture : mesh.paint.textures) textures_.push_back(uploaded(texture));
-  constexpr std::size_t row = 5;
-  std::vector<float> rows;
+  constexpr size_t row = 5;
+  vector<float> rows;
   rows.reserve(row * mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     rows.insert(rows.end(), mesh.paint.uv[i].begin(), mesh.paint.uv[i].end());
     rows.insert(rows.end(), mesh.paint.tint[i].begin(), mesh.paint.tint[i].end());
   }
   gl::BindBuffer(GL_ARRAY_BUFFER, rows_.name());
   gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
-  for (const auto& [index, floats, offset] : {std::array{4, 2, 0}, std::array{5, 3, 2}}) {
+  for (const auto& [index, floats, offset] : {array{4, 2, 0}, array{5, 3, 2}}) {
     gl::EnableVertexAttribArray(static_cast<GLuint>(index));
     gl::VertexAttribPointer(static_cast<GLuint>(index), floats, GL_FLOAT, GL_FALSE, row * sizeof(float),
-                            reinterpret_cast<const void*>(static_cast<std::size_t>(offset) * sizeof(float)));
+                            reinterpret_cast<const void*>(static_cast<size_t>(offset) * sizeof(float)));
   }
 }
 
 bool MeshColors::has_holes() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](const MeshPart& part) { return part.cutoff > 0; });
+  return std::ranges::any_of(parts_, [](const MeshPart& part) { return part.cutoff > 0; });
 }
 
 void MeshColors::bind(const MeshPart& part) const {
@@ -106,25 +106,25 @@ void MeshColors::bind(const MeshPart& part) const {
 MeanColor mean_color(const Mesh& mesh) {
   const double triangles = static_cast<double>(mesh.triangles.size()) / 3;
   const int n = std::max(1, static_cast<int>(std::ceil(std::sqrt(least_points / triangles))));
-  std::array<double, 3> sum{};
+  array<double, 3> sum{};
   double area = 0, plain = 0;
-  std::size_t t = 0;
+  size_t t = 0;
   for (const MeshPart& part : mesh.paint.parts)
-    for (const std::size_t end = t + std::size_t{3} * part.triangles; t < end; t += 3) {
-      const std::uint32_t* v = &mesh.triangles[t];
+    for (const size_t end = t + size_t{3} * part.triangles; t < end; t += 3) {
+      const uint32_t* v = &mesh.triangles[t];
       const Vec3 &a = mesh.vertices[v[0]], &b = mesh.vertices[v[1]], &c = mesh.vertices[v[2]];
       const double share = (b - a).cross(c - a).norm() / (n * n);
-      for_points(n, [&](const std::array<float, 3>& at) {
+      for_points(n, [&](const array<float, 3>& at) {
         const Color4 color = color_at(mesh.paint, part, v, at);
         if (color[3] < part.cutoff) return;
         area += share;
         if (!part.colored) plain += share;
-        for (std::size_t i = 0; part.colored && i < 3; ++i) sum[i] += share * static_cast<double>(color[i]);
+        for (size_t i = 0; part.colored && i < 3; ++i) sum[i] += share * static_cast<double>(color[i]);
       });
     }
   MeanColor mean{{}, 1};
   if (!(area > 0)) return mean;
-  for (std::size_t i = 0; i < 3; ++i) mean.colored[i] = static_cast<float>(sum[i] / area);
+  for (size_t i = 0; i < 3; ++i) mean.colored[i] = static_cast<float>(sum[i] / area);
   mean.plain = static_cast<float>(plain / area);
   return mean;
 }

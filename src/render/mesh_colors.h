@@ -1,12 +1,11 @@
 #pragma once
 // The colours of mesh files on OpenGL: textures with their coarser levels, and vertices' colours. Only meshes whose
 // file has colours have them.
-#include <cstdint>
-#include <vector>
 
 #include "render/gl.h"
 #include "render/mesh.h"
 #include "render/things.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,14 +14,14 @@ class MeshColors {
   /// Uploads the paint, and adds attributes 4 (place in the texture) and 5 (colour) to the bound vertex array.
   explicit MeshColors(const Mesh& mesh);
 
-  const std::vector<MeshPart>& parts() const { return parts_; }
+  const vector<MeshPart>& parts() const { return parts_; }
   bool has_holes() const;
   /// Binds the part's texture, or a white one.
   void bind(const MeshPart& part) const;
 
  private:
-  std::vector<MeshPart> parts_;
-  std::vector<gl::Texture> textures_;  // the first one is white
+  vector<MeshPart> parts_;
+  vector<gl::Texture> textures_;  // the first one is white
   gl::Buffer rows_;
 };
 

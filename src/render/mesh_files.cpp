@@ -7,33 +7,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <fstream>
 #include <map>
-#include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string_view>
-#include <vector>
 
+#include "std.h"
 #include "yaml/other_case.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t most_changes = 1000;
+constexpr size_t most_changes = 1000;
 
-std::string remedy(const char* way) {
+string remedy(const char* way) {
   return fmt::format("Remedy: {}, or give the body a `color`", way);
 }
 
 /// Calls `use` with the place of each line's first word and the line from there on.
 template <typename Use>
-void for_lines(std::string_view text, Use use) {
-  for (std::size_t i = 0; i < text.size();) {
+void for_lines(string_view text, Use use) {
+  for (size_t i = 0; i < text.size();) {
     while (i < text.size() && (text[i] == ' ' || text[i] == '\t')) ++i;
-    std::size_t end = i;
+    size_t end = i;
     while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
     use(i, text.substr(i, end - i));
     i = end;
@@ -42,26 +38,26 @@ void for_lines(std::string_view text, Use use) {
 }
 
 /// Whether this is the first word of the line.
-bool opens(std::string_view line, std::string_view word) {
+bool opens(string_view line, string_view word) {
   return line.starts_with(word) && (line.size() == word.size() || line[word.size()] <= ' ');
 }
 
-std::string after(std::string_view line, std::string_view word) {
+string after(string_view line, string_view word) {
   line.remove_prefix(word.size());
   while (!line.empty() && line.front() <= ' ') line.remove_prefix(1);
   while (!line.empty() && line.back() <= ' ') line.remove_suffix(1);
-  return std::string(line);
+  return string(line);
 }
 
-std::size_t words(std::string_view line) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) count += line[i] > ' ' && (i == 0 || line[i - 1] <= ' ');
+size_t words(string_view line) {
+  size_t count = 0;
+  for (size_t i = 0; i < line.size(); ++i) count += line[i] > ' ' && (i == 0 || line[i - 1] <= ' ');
   return count;
 }
 
-WavefrontNames names_of(std::string_view text) {
+WavefrontNames names_of(string_view text) {
   WavefrontNames names;
-  for_lines(text, [&](std::size_t, std::string_view line) {
+  for_lines(text, [&](size_t, string_view line) {
     if (opens(line, "mtllib")) names.libraries.push_back(after(line, "mtllib"));
     if (opens(line, "usemtl")) ++names.changes;
     if (!names.vertex_colors && opens(line, "v")) names.vertex_colors = words(line) == 7;
@@ -70,67 +66,65 @@ WavefrontNames names_of(std::string_view text) {
 }
 
 /// Turns lines that name groups, and materials unless `painted`, into comments. They have no effect on the shape.
-void drop_names(std::string& text, bool painted) {
-  for_lines(text, [&](std::size_t at, std::string_view line) {
+void drop_names(string& text, bool painted) {
+  for_lines(text, [&](size_t at, string_view line) {
     if (opens(line, "g") || opens(line, "o") || (!painted && (opens(line, "usemtl") || opens(line, "mtllib"))))
       text[at] = '#';
   });
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> parts;
-  for (std::size_t i = 0; i < line.size();) {
-    const std::size_t end = std::min(line.find_first_of(" \t", i), line.size());
+vector<string_view> split(string_view line) {
+  vector<string_view> parts;
+  for (size_t i = 0; i < line.size();) {
+    const size_t end = std::min(line.find_first_of(" \t", i), line.size());
     if (end > i) parts.push_back(line.substr(i, end - i));
     i = end + 1;
   }
   return parts;
 }
 
-std::optional<float> number_in(std::string_view word) {
+optional<float> number_in(string_view word) {
   float x = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(x) : std::nullopt;
+  return error == std::errc() && end == word.data() + word.size() ? optional(x) : nullopt;
 }
 
 /// A line `map_Kd -s 2 2 1 -clamp on wood.png` in parts.
 struct TextureLine {
-  std::string file;
+  string file;
   bool clamp = false;
   WavefrontPlacement placement;
-  std::string unused;  // the first option that is not used, and would change the picture
+  string unused;  // the first option that is not used, and would change the picture
 };
 
-TextureLine texture_line(std::string_view line) {
+TextureLine texture_line(string_view line) {
   TextureLine out;
-  const std::vector<std::string_view> parts = split(line);
-  std::size_t i = 1;
+  const vector<string_view> parts = split(line);
+  size_t i = 1;
   while (i < parts.size() && parts[i].size() > 1 && parts[i][0] == '-' && !number_in(parts[i])) {
-    const std::string_view option = parts[i++];
-    const std::size_t first = i;
+    const string_view option = parts[i++];
+    const size_t first = i;
     // One to three numbers, or a word.
-    std::array<float, 3> numbers = option == "-s" ? std::array<float, 3>{1, 1, 1} : std::array<float, 3>{};
+    array<float, 3> numbers = option == "-s" ? array<float, 3>{1, 1, 1} : array<float, 3>{};
     for (; i + 1 < parts.size() && i - first < 3 && number_in(parts[i]); ++i) numbers[i - first] = *number_in(parts[i]);
-    const std::string_view word = i == first && i + 1 < parts.size() ? parts[i++] : std::string_view();
+    const string_view word = i == first && i + 1 < parts.size() ? parts[i++] : string_view();
     if (option == "-s") out.placement.scale = {numbers[0], numbers[1]};
     if (option == "-o") out.placement.offset = {numbers[0], numbers[1]};
     if (option == "-clamp") out.clamp = word == "on";
     // These do not change the colours.
-    static constexpr std::string_view harmless[] = {"-s",      "-o",     "-clamp",  "-blendu",
-                                                    "-blendv", "-boost", "-texres", "-bm"};
+    static constexpr string_view harmless[] = {"-s", "-o", "-clamp", "-blendu", "-blendv", "-boost", "-texres", "-bm"};
     const bool is_known = std::find(std::begin(harmless), std::end(harmless), option) != std::end(harmless);
     if (!is_known && out.unused.empty()) out.unused = option;
   }
   // A name may contain spaces.
-  if (i < parts.size()) out.file = after(line.substr(static_cast<std::size_t>(parts[i].data() - line.data())), "");
+  if (i < parts.size()) out.file = after(line.substr(static_cast<size_t>(parts[i].data() - line.data())), "");
   return out;
 }
 
 /// Makes materials white that give no colour: a texture alone then has its own. Options of textures become placements.
-std::string with_white(const std::string& text, std::set<std::string>& defined,
-                       std::map<std::string, WavefrontPlacement>& placements) {
-  std::string out, material;
-  for_lines(text, [&](std::size_t, std::string_view line) {
+string with_white(const string& text, std::set<string>& defined, std::map<string, WavefrontPlacement>& placements) {
+  string out, material;
+  for_lines(text, [&](size_t, string_view line) {
     if (opens(line, "map_Kd")) {
       const TextureLine texture = texture_line(line);
       placements[material] = texture.placement;
@@ -147,33 +141,33 @@ std::string with_white(const std::string& text, std::set<std::string>& defined,
 }
 
 /// Throws std::runtime_error if a texture has an option that is not used.
-void check_options(const std::string& name, const std::string& text) {
-  std::size_t number = 1, counted = 0;
-  for_lines(text, [&](std::size_t at, std::string_view line) {
-    number += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(counted),
-                                                  text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+void check_options(const string& name, const string& text) {
+  size_t number = 1, counted = 0;
+  for_lines(text, [&](size_t at, string_view line) {
+    number += static_cast<size_t>(
+        std::count(text.begin() + static_cast<ptrdiff_t>(counted), text.begin() + static_cast<ptrdiff_t>(at), '\n'));
     counted = at;
-    const std::string unused = opens(line, "map_Kd") ? texture_line(line).unused : "";
+    const string unused = opens(line, "map_Kd") ? texture_line(line).unused : "";
     if (!unused.empty())
       throw std::runtime_error(fmt::format("line {} of its material file {}: the option {} of map_Kd is not used. {}",
                                            number, name, unused, remedy("remove the option")));
   });
 }
 
-std::string whole(Assimp::IOStream& stream) {
-  std::string text(stream.FileSize(), '\0');
+string whole(Assimp::IOStream& stream) {
+  string text(stream.FileSize(), '\0');
   text.resize(stream.Read(text.data(), 1, text.size()));
   return text;
 }
 
-std::string whole(const std::filesystem::path& file) {
+string whole(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Assimp::IOStream* stream_of(const std::string& text) {
-  auto bytes = std::make_unique<std::uint8_t[]>(text.size());
-  std::copy(text.begin(), text.end(), bytes.get());
+Assimp::IOStream* stream_of(const string& text) {
+  auto bytes = make_unique<uint8_t[]>(text.size());
+  std::ranges::copy(text, bytes.get());
   return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
 }
 
@@ -185,9 +179,9 @@ int hex_digit(char c) {
 }
 
 /// The file name in a URI ("my%20wood.png"), with the separators of this system.
-std::string name_in(const std::string& uri) {
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
+string name_in(const string& uri) {
+  string name;
+  for (size_t i = 0; i < uri.size(); ++i) {
     const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1, low = high < 0 ? -1 : hex_digit(uri[i + 2]);
     if (uri[i] == '%' && low >= 0 && 16 * high + low > 0) {
       name += static_cast<char>(16 * high + low);
@@ -199,14 +193,14 @@ std::string name_in(const std::string& uri) {
   return name;
 }
 
-std::filesystem::path folder_of(const std::string& file) {
+std::filesystem::path folder_of(const string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).lexically_normal().parent_path();
   return folder.empty() ? "." : folder;
 }
 
 }  // namespace
 
-MeshFiles::MeshFiles(const std::string& file, const std::string& ending, bool painted)
+MeshFiles::MeshFiles(const string& file, const string& ending, bool painted)
     : file_(file), ending_(ending), painted_(painted), folder_(folder_of(file)) {}
 
 bool MeshFiles::within(const std::filesystem::path& file) const {
@@ -224,30 +218,29 @@ bool MeshFiles::Exists(const char* file) const {
 }
 
 Assimp::IOStream* MeshFiles::Open(const char* file, const char* mode) {
-  const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
+  const bool reads = string_view(mode).find_first_of("wa+") == string_view::npos;
   if (!reads) return nullptr;
   if (file != file_ && !within(file)) {
     if (unopened_.empty()) unopened_ = std::filesystem::path(file).lexically_relative(folder_).string();
     return nullptr;
   }
-  std::unique_ptr<Assimp::IOStream> stream(Assimp::DefaultIOSystem::Open(file, mode));
+  unique_ptr<Assimp::IOStream> stream(Assimp::DefaultIOSystem::Open(file, mode));
   if (!stream || ending_ != "obj") return stream.release();
-  std::string text = whole(*stream);
+  string text = whole(*stream);
   if (file != file_) return stream_of(with_white(text, defined_, placements_));
   drop_names(text, painted_);
   return stream_of(text);
 }
 
 bool MeshFiles::mentions_colors() const {
-  const std::string text = whole(file_);
-  if (ending_ != "obj")
-    return text.find("\"materials\"") != std::string::npos || text.find("\"COLOR_0\"") != std::string::npos;
+  const string text = whole(file_);
+  if (ending_ != "obj") return text.find("\"materials\"") != string::npos || text.find("\"COLOR_0\"") != string::npos;
   const WavefrontNames names = names_of(text);
   if (names.changes == 0 || names.libraries.empty()) return names.vertex_colors;
   if (names.changes > most_changes)
     throw std::runtime_error(fmt::format("it changes its material more than {} times. {}", most_changes,
                                          remedy("sort its faces by material")));
-  for (const std::string& name : names.libraries) check_options(name, whole(found("material file", name)));
+  for (const string& name : names.libraries) check_options(name, whole(found("material file", name)));
   return true;
 }
 
@@ -255,16 +248,15 @@ void MeshFiles::check_opened() const {
   if (!unopened_.empty()) found("file", unopened_, "");
 }
 
-std::filesystem::path MeshFiles::found(const std::string& what, const std::string& name,
-                                       std::string_view instead) const {
-  for (const std::string& way : {name, name_in(name)}) {
+std::filesystem::path MeshFiles::found(const string& what, const string& name, string_view instead) const {
+  for (const string& way : {name, name_in(name)}) {
     const std::filesystem::path file = folder_ / way;
     if (within(file)) return file;
   }
 
-  std::string fault = "is not there", way = "put it beside the mesh";
+  string fault = "is not there", way = "put it beside the mesh";
   std::error_code error;
-  const std::string other = name_in_other_case(folder_, name_in(name));
+  const string other = name_in_other_case(folder_, name_in(name));
   if (std::filesystem::exists(folder_ / name_in(name), error)) {
     fault = "is not a file in the mesh's folder";
     way = "copy it into that folder and name the copy";
@@ -275,9 +267,9 @@ std::filesystem::path MeshFiles::found(const std::string& what, const std::strin
   throw std::runtime_error(fmt::format("its {} {} {}. Remedy: {}{}", what, name, fault, way, instead));
 }
 
-std::string MeshFiles::read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const {
+string MeshFiles::read(const string& what, const string& name, uint64_t most_bytes) const {
   const std::filesystem::path file = found(what, name);
-  const std::uint64_t size = std::filesystem::file_size(file);
+  const uint64_t size = std::filesystem::file_size(file);
   if (size > most_bytes)
     throw std::runtime_error(fmt::format("its {} {} has {} bytes; at most {} are read", what, name, size, most_bytes));
   return whole(file);

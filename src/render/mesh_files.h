@@ -3,32 +3,30 @@
 // folder and below. What their text says about materials is found before assimp reads it.
 #include <assimp/DefaultIOSystem.h>
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <set>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 /// The lines of a Wavefront file that name materials.
 struct WavefrontNames {
-  std::vector<std::string> libraries;  // of mtllib
-  std::size_t changes = 0;             // of usemtl
+  vector<string> libraries;  // of mtllib
+  size_t changes = 0;        // of usemtl
   bool vertex_colors = false;
 };
 
 /// How the texture of a material lies on the surface: u' = scale u + offset, with v upwards.
 struct WavefrontPlacement {
-  std::array<float, 2> scale = {1, 1}, offset = {};
+  array<float, 2> scale = {1, 1}, offset = {};
 };
 
 class MeshFiles : public Assimp::DefaultIOSystem {
  public:
   /// `painted`: whether assimp sees the names of materials.
-  MeshFiles(const std::string& file, const std::string& ending, bool painted);
+  MeshFiles(const string& file, const string& ending, bool painted);
 
   bool Exists(const char* file) const override;
   /// Returns nullptr for a file that may not be opened, or written. The caller owns the stream.
@@ -38,9 +36,9 @@ class MeshFiles : public Assimp::DefaultIOSystem {
   /// that are not there or have options that are not used, or changes its material too often.
   bool mentions_colors() const;
   /// Whether a material file that was opened defines this material.
-  bool defines(const std::string& material) const { return defined_.contains(material); }
+  bool defines(const string& material) const { return defined_.contains(material); }
   /// By -s and -o of its map_Kd.
-  WavefrontPlacement placement(const std::string& material) const {
+  WavefrontPlacement placement(const string& material) const {
     const auto found = placements_.find(material);
     return found == placements_.end() ? WavefrontPlacement{} : found->second;
   }
@@ -48,22 +46,21 @@ class MeshFiles : public Assimp::DefaultIOSystem {
   void check_opened() const;
   /// The bytes of a file by the name that the mesh gives it. `what`: "texture", for the error. Throws
   /// std::runtime_error.
-  std::string read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const;
+  string read(const string& what, const string& name, uint64_t most_bytes) const;
 
  private:
   bool within(const std::filesystem::path& file) const;
   /// `instead`: the end of the remedy.
-  std::filesystem::path found(const std::string& what, const std::string& name,
-                              std::string_view instead = or_color) const;
+  std::filesystem::path found(const string& what, const string& name, string_view instead = or_color) const;
 
-  static constexpr std::string_view or_color = ", or give the body a `color`";
+  static constexpr string_view or_color = ", or give the body a `color`";
 
-  std::string file_, ending_;
+  string file_, ending_;
   bool painted_;
   std::filesystem::path folder_;
-  std::string unopened_;  // the first file that could not be opened, by its name in the mesh
-  std::set<std::string> defined_;
-  std::map<std::string, WavefrontPlacement> placements_;  // by material, where it is not the usual one
+  string unopened_;  // the first file that could not be opened, by its name in the mesh
+  std::set<string> defined_;
+  std::map<string, WavefrontPlacement> placements_;  // by material, where it is not the usual one
 };
 
 }  // namespace carom

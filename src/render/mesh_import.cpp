@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
@@ -23,7 +22,6 @@
 #include <map>
 #include <new>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 
 #include "numerics/srgb.h"
@@ -31,41 +29,42 @@
 #include "render/mesh_files.h"
 #include "render/mesh_materials.h"
 #include "render/stl.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Leaves only the readers for the file's ending. Otherwise its content may select any of them.
-void keep_readers(Assimp::Importer& importer, const std::string& ending) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    const std::string endings = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
-    if (endings.find(" " + ending + " ") == std::string::npos) importer.UnregisterLoader(importer.GetImporter(i));
+void keep_readers(Assimp::Importer& importer, const string& ending) {
+  for (size_t i = importer.GetImporterCount(); i-- > 0;) {
+    const string endings = string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
+    if (endings.find(" " + ending + " ") == string::npos) importer.UnregisterLoader(importer.GetImporter(i));
   }
 }
 
-Vec3 vertex(const ImportedMesh& mesh, std::size_t i) {
+Vec3 vertex(const ImportedMesh& mesh, size_t i) {
   return Vec3(double{mesh.vertices[3 * i]}, double{mesh.vertices[3 * i + 1]}, double{mesh.vertices[3 * i + 2]});
 }
 
 constexpr double cos_smooth = 0.70710678118654752;  // cosine of 45 degrees
 // Greatest number of triangles at a vertex for which normals are smoothed.
-constexpr std::size_t most_around = 256;
+constexpr size_t most_around = 256;
 
 /// Adds a vertex like this one, without its normal.
-void repeat_vertex(ImportedMesh& mesh, std::size_t i) {
-  for (std::size_t k = 0; k < 3; ++k) mesh.vertices.push_back(mesh.vertices[3 * i + k]);
+void repeat_vertex(ImportedMesh& mesh, size_t i) {
+  for (size_t k = 0; k < 3; ++k) mesh.vertices.push_back(mesh.vertices[3 * i + k]);
   if (mesh.paint.uv.empty()) return;
   mesh.paint.uv.push_back(mesh.paint.uv[i]);
   mesh.paint.tint.push_back(mesh.paint.tint[i]);
 }
 
 /// By vertex from `first` on: the first of those at its position. Paint divides vertices, but not the surface.
-std::vector<std::uint32_t> places(const ImportedMesh& mesh, std::size_t first) {
-  std::vector<std::uint32_t> place(mesh.vertices.size() / 3 - first);
+vector<uint32_t> places(const ImportedMesh& mesh, size_t first) {
+  vector<uint32_t> place(mesh.vertices.size() / 3 - first);
   std::iota(place.begin(), place.end(), 0U);
   if (mesh.paint.uv.empty()) return place;
-  std::map<std::array<float, 3>, std::uint32_t> known;
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
+  std::map<array<float, 3>, uint32_t> known;
+  for (uint32_t v = 0; v < place.size(); ++v) {
     const float* p = &mesh.vertices[3 * (first + v)];
     place[v] = known.try_emplace({p[0], p[1], p[2]}, v).first->second;
   }
@@ -75,62 +74,61 @@ std::vector<std::uint32_t> places(const ImportedMesh& mesh, std::size_t first) {
 /// Makes normals for the triangles from `triangle` on, with vertices from `first` on that have none. The normal at a
 /// corner is the mean over triangles around it, weighted by area, that lean less than 45 degrees against its own. At
 /// sharp edges a vertex is split into several.
-void make_normals(ImportedMesh& mesh, std::size_t first, std::size_t triangle) {
-  const std::size_t count = mesh.triangles.size() / 3 - triangle, vertices = mesh.vertices.size() / 3 - first;
-  std::vector<Vec3> area(count), normal(count);
-  std::vector<std::vector<std::uint32_t>> at_vertex(vertices), at_place(vertices);
-  const std::vector<std::uint32_t> place = places(mesh, first);
-  for (std::size_t t = 0; t < count; ++t) {
-    const std::uint32_t* corner = &mesh.triangles[3 * (triangle + t)];
+void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
+  const size_t count = mesh.triangles.size() / 3 - triangle, vertices = mesh.vertices.size() / 3 - first;
+  vector<Vec3> area(count), normal(count);
+  vector<vector<uint32_t>> at_vertex(vertices), at_place(vertices);
+  const vector<uint32_t> place = places(mesh, first);
+  for (size_t t = 0; t < count; ++t) {
+    const uint32_t* corner = &mesh.triangles[3 * (triangle + t)];
     const Vec3 a = vertex(mesh, corner[0]), b = vertex(mesh, corner[1]), c = vertex(mesh, corner[2]);
     area[t] = (b - a).cross(c - a);
     normal[t] = area[t].stableNormalized();
     for (int k = 0; k < 3; ++k) {
-      at_vertex[corner[k] - first].push_back(static_cast<std::uint32_t>(t));
-      at_place[place[corner[k] - first]].push_back(static_cast<std::uint32_t>(t));
+      at_vertex[corner[k] - first].push_back(static_cast<uint32_t>(t));
+      at_place[place[corner[k] - first]].push_back(static_cast<uint32_t>(t));
     }
   }
   mesh.normals.resize(mesh.vertices.size(), 0);
   struct Made {
     Vec3 normal;
-    std::uint32_t vertex;
+    uint32_t vertex;
   };
-  std::vector<Made> made;
-  for (std::size_t v = 0; v < vertices; ++v) {
+  vector<Made> made;
+  for (size_t v = 0; v < vertices; ++v) {
     made.clear();
-    const std::vector<std::uint32_t>& around = at_place[place[v]];
-    for (const std::uint32_t t : at_vertex[v]) {
+    const vector<uint32_t>& around = at_place[place[v]];
+    for (const uint32_t t : at_vertex[v]) {
       Vec3 sum = area[t];
       if (around.size() <= most_around) {
         sum.setZero();
-        for (const std::uint32_t other : around)
+        for (const uint32_t other : around)
           if (normal[other].dot(normal[t]) > cos_smooth || other == t) sum += area[other];
       }
       const Vec3 mean = sum.stableNormalized();
-      std::uint32_t at = static_cast<std::uint32_t>(first + v);
+      uint32_t at = static_cast<uint32_t>(first + v);
       bool known = false;
       for (const Made& m : made)
         if (m.normal == mean) known = true, at = m.vertex;
       if (!known) {
         // The first one keeps its place.
         if (!made.empty()) {
-          at = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+          at = static_cast<uint32_t>(mesh.vertices.size() / 3);
           repeat_vertex(mesh, first + v);
           mesh.normals.resize(mesh.vertices.size());
         }
-        for (int k = 0; k < 3; ++k)
-          mesh.normals[3 * std::size_t{at} + static_cast<std::size_t>(k)] = static_cast<float>(mean[k]);
+        for (int k = 0; k < 3; ++k) mesh.normals[3 * size_t{at} + static_cast<size_t>(k)] = static_cast<float>(mean[k]);
         made.push_back({mean, at});
       }
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t& corner = mesh.triangles[3 * (triangle + t) + k];
+      for (size_t k = 0; k < 3; ++k) {
+        uint32_t& corner = mesh.triangles[3 * (triangle + t) + k];
         if (corner == first + v) corner = at;
       }
     }
   }
 }
 
-void check_count(std::size_t count, std::size_t most, const char* what) {
+void check_count(size_t count, size_t most, const char* what) {
   if (count > most) throw std::runtime_error("it has more than " + std::to_string(most) + " " + what);
 }
 
@@ -142,13 +140,13 @@ void append_vertices(const aiMesh& part, ImportedMesh& mesh) {
     }
 }
 
-void append_triangles(const aiMesh& part, std::size_t first, ImportedMesh& mesh) {
+void append_triangles(const aiMesh& part, size_t first, ImportedMesh& mesh) {
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= part.mNumVertices) throw std::runtime_error("a triangle refers to a missing vertex");
-      mesh.triangles.push_back(static_cast<std::uint32_t>(first + face.mIndices[k]));
+      mesh.triangles.push_back(static_cast<uint32_t>(first + face.mIndices[k]));
     }
   }
 }
@@ -166,13 +164,13 @@ void append_paint(const aiMesh& part, const PartSource& source, MeshPaint& paint
   const aiVector3D* const uv =
       source.uv_set < AI_MAX_NUMBER_OF_TEXTURECOORDS ? part.mTextureCoords[source.uv_set] : nullptr;
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    std::array<float, 2> at{};
-    for (std::size_t k = 0; uv && k < 2; ++k) {
+    array<float, 2> at{};
+    for (size_t k = 0; uv && k < 2; ++k) {
       at[k] = source.uv[k][0] * uv[i].x + source.uv[k][1] * uv[i].y + source.uv[k][2];
       if (!std::isfinite(at[k])) at[k] = 0;
     }
     paint.uv.push_back(at);
-    std::array<float, 3> tint{1, 1, 1};
+    array<float, 3> tint{1, 1, 1};
     for (unsigned c = 0; part.mColors[0] && c < 3; ++c) {
       tint[c] = color_share(part.mColors[0][i][c]);
       if (source.srgb_tint) tint[c] = static_cast<float>(light_of_srgb(double{tint[c]}));
@@ -182,7 +180,7 @@ void append_paint(const aiMesh& part, const PartSource& source, MeshPaint& paint
 }
 
 void append(const aiMesh& part, MeshMaterials* materials, ImportedMesh& mesh, const MeshLimits& limits) {
-  const std::size_t first = mesh.vertices.size() / 3, triangle = mesh.triangles.size() / 3;
+  const size_t first = mesh.vertices.size() / 3, triangle = mesh.triangles.size() / 3;
   check_count(first + part.mNumVertices, limits.vertices, "vertices");
   check_count(triangle + part.mNumFaces, limits.triangles, "triangles");
   append_vertices(part, mesh);
@@ -190,7 +188,7 @@ void append(const aiMesh& part, MeshMaterials* materials, ImportedMesh& mesh, co
   if (materials) {
     PartSource source = materials->of(part);
     append_paint(part, source, mesh.paint);
-    source.part.triangles = static_cast<std::uint32_t>(mesh.triangles.size() / 3 - triangle);
+    source.part.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3 - triangle);
     mesh.paint.parts.push_back(source.part);
   }
   if (part.mNormals) return append_normals(part, mesh);
@@ -199,27 +197,26 @@ void append(const aiMesh& part, MeshMaterials* materials, ImportedMesh& mesh, co
 }
 
 /// The triangles of an STL file, joined where corners are at one place.
-ImportedMesh imported_stl(const std::string& path, const MeshLimits& limits) {
+ImportedMesh imported_stl(const string& path, const MeshLimits& limits) {
   std::ifstream in(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  const std::vector<std::array<float, 3>> corners = stl_corners(bytes);
+  const string bytes{std::istreambuf_iterator<char>(in), {}};
+  const vector<array<float, 3>> corners = stl_corners(bytes);
   check_count(corners.size() / 3, limits.triangles, "triangles");
   if (corners.empty()) throw std::runtime_error("it has no triangles");
 
   // By place, with a number each. The first corner of a place comes first.
-  std::vector<std::uint32_t> order(corners.size());
+  vector<uint32_t> order(corners.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
-  std::vector<std::uint32_t> first(corners.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return corners[a] < corners[b]; });
+  vector<uint32_t> first(corners.size());
+  for (size_t i = 0; i < order.size(); ++i)
     first[order[i]] = i > 0 && corners[order[i]] == corners[order[i - 1]] ? first[order[i - 1]] : order[i];
 
   ImportedMesh mesh;
-  std::vector<std::uint32_t> number(corners.size());
-  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+  vector<uint32_t> number(corners.size());
+  for (uint32_t i = 0; i < corners.size(); ++i) {
     if (first[i] == i) {
-      number[i] = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+      number[i] = static_cast<uint32_t>(mesh.vertices.size() / 3);
       mesh.vertices.insert(mesh.vertices.end(), corners[i].begin(), corners[i].end());
     }
     mesh.triangles.push_back(number[first[i]]);
@@ -240,7 +237,7 @@ class MissingVertices : public Assimp::LogStream {
   bool seen_ = false;
 };
 
-ImportedMesh imported(const std::string& path, const std::string& ending, bool painted, const MeshLimits& limits) {
+ImportedMesh imported(const string& path, const string& ending, bool painted, const MeshLimits& limits) {
   Assimp::Importer importer;
   auto* const files = new MeshFiles(path, ending, painted);
   // The importer owns it.
@@ -258,17 +255,17 @@ ImportedMesh imported(const std::string& path, const std::string& ending, bool p
                                                      aiProcess_Triangulate | aiProcess_SortByPType |
                                                      aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
   if (!scene) {
-    const std::string text = importer.GetErrorString();
+    const string text = importer.GetErrorString();
     if (text == "std::bad_alloc") throw std::bad_alloc();
     for (const char* empty : {"no faces", "No meshes remaining"})
-      if (text.find(empty) != std::string::npos) throw std::runtime_error("it has no triangles");
+      if (text.find(empty) != string::npos) throw std::runtime_error("it has no triangles");
     files->check_opened();
     throw std::runtime_error(fmt::format("it is damaged, or no .{} file: {}. Remedy: export it again", ending, text));
   }
   Assimp::DefaultLogger::get()->detachStream(&missing, Assimp::Logger::Warn);
   if (missing.seen()) throw std::runtime_error("a triangle refers to a missing vertex. Remedy: export it again");
   ImportedMesh mesh;
-  std::optional<MeshMaterials> materials;
+  optional<MeshMaterials> materials;
   if (painted) {
     check_count(scene->mNumMeshes, limits.parts, "parts of different materials");
     materials.emplace(*scene, *files, ending, limits);
@@ -282,19 +279,19 @@ ImportedMesh imported(const std::string& path, const std::string& ending, bool p
 
 }  // namespace
 
-const std::vector<std::string>& mesh_endings() {
+const vector<string>& mesh_endings() {
   // Formats with readers that a damaged file seldom harms. In fuzzing, STL and OBJ never did, glTF in one of 2,900
   // files.
-  static const std::vector<std::string> endings{"obj", "stl", "gltf", "glb"};
+  static const vector<string> endings{"obj", "stl", "gltf", "glb"};
   return endings;
 }
 
-ImportedMesh import_mesh(const std::string& path, const std::string& ending, bool painted, const MeshLimits& limits) {
+ImportedMesh import_mesh(const string& path, const string& ending, bool painted, const MeshLimits& limits) {
   if (ending == "stl") return imported_stl(path, limits);
   if (painted && MeshFiles(path, ending, true).mentions_colors()) {
     ImportedMesh mesh = imported(path, ending, true, limits);
     const auto& parts = mesh.paint.parts;
-    if (std::any_of(parts.begin(), parts.end(), [](const MeshPart& part) { return part.colored != 0; })) return mesh;
+    if (std::ranges::any_of(parts, [](const MeshPart& part) { return part.colored != 0; })) return mesh;
   }
   return imported(path, ending, false, limits);
 }

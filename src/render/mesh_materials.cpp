@@ -13,6 +13,7 @@
 
 #include "numerics/srgb.h"
 #include "render/texture_decode.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -20,12 +21,12 @@ namespace {
 constexpr float blend_cutoff = 0.5F;
 constexpr int nearest_pixel = 9728;  // GL_NEAREST of a glTF sampler
 
-std::string texture_name(const aiMaterial& material) {
+string texture_name(const aiMaterial& material) {
   aiString name;
   return material.Get(AI_MATKEY_TEXTURE(aiTextureType_DIFFUSE, 0), name) == AI_SUCCESS ? name.C_Str() : "";
 }
 
-std::string alpha_mode(const aiMaterial& material) {
+string alpha_mode(const aiMaterial& material) {
   aiString mode;
   return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS ? mode.C_Str() : "";
 }
@@ -43,8 +44,7 @@ void add_transform(const aiUVTransform& t, PartSource& source) {
   const float offset_u = t.mTranslation.x - 0.5F * sx * (1 - c + s);
   const float offset_v = 1 - sy - t.mTranslation.y + 0.5F * sy * (s + c - 1);
   // With v = 1 - assimp's.
-  const std::array<std::array<float, 3>, 2> uv = {
-      {{c * sx, -s * sy, offset_u + s * sy}, {-s * sx, -c * sy, offset_v + c * sy}}};
+  const array<array<float, 3>, 2> uv = {{{c * sx, -s * sy, offset_u + s * sy}, {-s * sx, -c * sy, offset_v + c * sy}}};
   for (const auto& row : uv)
     for (const float x : row)
       if (!std::isfinite(x)) return;
@@ -52,21 +52,21 @@ void add_transform(const aiUVTransform& t, PartSource& source) {
 }
 
 /// The same for Wavefront, where v is upwards as assimp has it.
-std::array<std::array<float, 3>, 2> uv_of(const WavefrontPlacement& placement) {
+array<array<float, 3>, 2> uv_of(const WavefrontPlacement& placement) {
   const auto [scale, offset] = placement;
   return {{{scale[0], 0, offset[0]}, {0, -scale[1], 1 - offset[1]}}};
 }
 
 }  // namespace
 
-MeshMaterials::MeshMaterials(const aiScene& scene, const MeshFiles& files, const std::string& ending,
+MeshMaterials::MeshMaterials(const aiScene& scene, const MeshFiles& files, const string& ending,
                              const MeshLimits& limits)
     : scene_(scene), files_(files), limits_(limits), wavefront_(ending == "obj") {
   // A picture may be needed twice, opaque and not.
-  std::set<std::pair<std::string, std::string>> names;
+  std::set<std::pair<string, string>> names;
   for (unsigned i = 0; i < scene.mNumMaterials; ++i)
     names.insert({texture_name(*scene.mMaterials[i]), alpha_mode(*scene.mMaterials[i])});
-  most_kept_ = std::max<std::uint64_t>(limits.texture_bytes / 4 / std::max<std::size_t>(names.size(), 1), 1);
+  most_kept_ = std::max<uint64_t>(limits.texture_bytes / 4 / std::max<size_t>(names.size(), 1), 1);
 }
 
 bool MeshMaterials::gives_color(const aiMesh& mesh, const aiMaterial& material) const {
@@ -92,7 +92,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
     aiColor4D color(1, 1, 1, 1);
     material.Get(AI_MATKEY_BASE_COLOR, color);
     for (unsigned c = 0; c < 4; ++c) part.factor[c] = color_share(color[c]);
-    const std::string alpha = alpha_mode(material);
+    const string alpha = alpha_mode(material);
     if (alpha == "BLEND") part.cutoff = blend_cutoff;
     if (alpha == "MASK") {
       part.cutoff = blend_cutoff;
@@ -106,7 +106,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
 }
 
 void MeshMaterials::add_texture(const aiMaterial& material, bool opaque, PartSource& source) {
-  const std::string name = texture_name(material);
+  const string name = texture_name(material);
   if (name.empty()) return;
   const auto number = [&](const char* key, unsigned type, unsigned index) {
     int value = 0;
@@ -122,20 +122,20 @@ void MeshMaterials::add_texture(const aiMaterial& material, bool opaque, PartSou
     if (material.Get(AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0), transform) == AI_SUCCESS)
       add_transform(transform, source);
   }
-  const auto [found, is_new] = known_.try_emplace({name, opaque}, static_cast<std::uint32_t>(textures_.size() + 1));
+  const auto [found, is_new] = known_.try_emplace({name, opaque}, static_cast<uint32_t>(textures_.size() + 1));
   part.texture = found->second;
   if (!is_new) return;
   textures_.push_back(texture(name));
   if (opaque)
-    for (std::size_t i = 3; i < textures_.back().rgba.size(); i += 4) textures_.back().rgba[i] = 255;
+    for (size_t i = 3; i < textures_.back().rgba.size(); i += 4) textures_.back().rgba[i] = 255;
 }
 
-MeshTexture MeshMaterials::texture(const std::string& name) const {
+MeshTexture MeshMaterials::texture(const string& name) const {
   const aiTexture* const inside = scene_.GetEmbeddedTexture(name.c_str());
-  const std::string shown = inside ? "in the mesh" : name;
+  const string shown = inside ? "in the mesh" : name;
   if (inside && inside->mHeight > 0) throw std::runtime_error("its texture in the mesh is neither PNG nor JPEG");
-  const std::string bytes = inside ? std::string(reinterpret_cast<const char*>(inside->pcData), inside->mWidth)
-                                   : files_.read("texture", name, limits_.file_bytes);
+  const string bytes = inside ? string(reinterpret_cast<const char*>(inside->pcData), inside->mWidth)
+                              : files_.read("texture", name, limits_.file_bytes);
   try {
     return decoded_texture(bytes, limits_.texture_pixels, most_kept_);
   } catch (const std::bad_alloc&) {

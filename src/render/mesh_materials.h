@@ -3,14 +3,12 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <map>
-#include <string>
 #include <utility>
 
 #include "render/mesh.h"
 #include "render/mesh_files.h"
+#include "std.h"
 
 namespace carom {
 
@@ -25,30 +23,30 @@ struct PartSource {
   unsigned uv_set = 0;
   bool srgb_tint = false;  // its vertices' colours are sRGB
   /// From assimp's place in the texture (u, v, 1; v upwards) to that of MeshPaint::uv.
-  std::array<std::array<float, 3>, 2> uv = {{{1, 0, 0}, {0, -1, 1}}};
+  array<array<float, 3>, 2> uv = {{{1, 0, 0}, {0, -1, 1}}};
 };
 
 /// Reads materials, and each texture once.
 class MeshMaterials {
  public:
-  MeshMaterials(const aiScene& scene, const MeshFiles& files, const std::string& ending, const MeshLimits& limits);
+  MeshMaterials(const aiScene& scene, const MeshFiles& files, const string& ending, const MeshLimits& limits);
 
   /// Of a part of the mesh. Throws std::runtime_error with the fault of a texture.
   PartSource of(const aiMesh& mesh);
-  std::vector<MeshTexture> take_textures() { return std::move(textures_); }
+  vector<MeshTexture> take_textures() { return std::move(textures_); }
 
  private:
   bool gives_color(const aiMesh& mesh, const aiMaterial& material) const;
   void add_texture(const aiMaterial& material, bool opaque, PartSource& source);
-  MeshTexture texture(const std::string& name) const;
+  MeshTexture texture(const string& name) const;
 
   const aiScene& scene_;
   const MeshFiles& files_;
   const MeshLimits& limits_;
   bool wavefront_;
-  std::uint64_t most_kept_;                                      // pixels of a texture
-  std::map<std::pair<std::string, bool>, std::uint32_t> known_;  // by name and whether it is opaque
-  std::vector<MeshTexture> textures_;
+  uint64_t most_kept_;                                 // pixels of a texture
+  std::map<std::pair<string, bool>, uint32_t> known_;  // by name and whether it is opaque
+  vector<MeshTexture> textures_;
 };
 
 }  // namespace carom

@@ -3,25 +3,25 @@
 #include "render/mesh_reply.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <stdexcept>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// The message of a reader on one line, without bytes that a terminal would interpret.
-std::string printable(std::string text) {
+string printable(string text) {
   for (char& c : text)
     if (c < ' ' || c > '~') c = ' ';
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text.empty() ? "it is damaged" : text;
 }
 
-std::vector<Vec3> vectors(std::span<const float> values) {
-  std::vector<Vec3> result(values.size() / 3);
-  for (std::size_t i = 0; i < result.size(); ++i)
+vector<Vec3> vectors(span<const float> values) {
+  vector<Vec3> result(values.size() / 3);
+  for (size_t i = 0; i < result.size(); ++i)
     result[i] = Vec3(double{values[3 * i]}, double{values[3 * i + 1]}, double{values[3 * i + 2]});
   return result;
 }
@@ -31,7 +31,7 @@ std::vector<Vec3> vectors(std::span<const float> values) {
 }
 
 template <typename Item>
-void receive(const MeshReplySource& source, std::vector<Item>& items) {
+void receive(const MeshReplySource& source, vector<Item>& items) {
   if (!source.receive(items.data(), items.size() * sizeof(Item))) throw std::runtime_error(source.trouble());
 }
 
@@ -39,23 +39,22 @@ bool is_share(float x) {
   return x >= 0 && x <= 1;
 }
 
-void check_part(const MeshPart& part, std::uint32_t textures) {
+void check_part(const MeshPart& part, uint32_t textures) {
   const auto is_wrap = [](Wrap wrap) { return wrap <= Wrap::mirror; };
   if (part.texture > textures || part.sharp > 1 || part.colored > 1 || !std::isfinite(part.cutoff) || part.cutoff < 0 ||
-      !std::all_of(part.wrap.begin(), part.wrap.end(), is_wrap) ||
-      !std::all_of(part.factor.begin(), part.factor.end(), is_share))
+      !std::ranges::all_of(part.wrap, is_wrap) || !std::ranges::all_of(part.factor, is_share))
     refuse();
 }
 
-MeshTexture receive_texture(const MeshReplySource& source, std::uint64_t& bytes_left) {
-  std::array<std::uint32_t, 2> sides{};
+MeshTexture receive_texture(const MeshReplySource& source, uint64_t& bytes_left) {
+  array<uint32_t, 2> sides{};
   if (!source.receive(sides.data(), sizeof sides)) throw std::runtime_error(source.trouble());
-  for (const std::uint32_t side : sides)
+  for (const uint32_t side : sides)
     if (side == 0 || side > longest_texture_side) refuse();
-  const std::uint64_t bytes = std::uint64_t{4} * sides[0] * sides[1];
+  const uint64_t bytes = uint64_t{4} * sides[0] * sides[1];
   if (bytes > bytes_left) refuse();
   bytes_left -= bytes;
-  MeshTexture texture{sides[0], sides[1], std::vector<std::uint8_t>(bytes)};
+  MeshTexture texture{sides[0], sides[1], vector<uint8_t>(bytes)};
   receive(source, texture.rgba);
   return texture;
 }
@@ -64,7 +63,7 @@ MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head
   MeshPaint paint;
   paint.parts.resize(head.parts);
   receive(source, paint.parts);
-  std::uint64_t triangles = 0;
+  uint64_t triangles = 0;
   for (const MeshPart& part : paint.parts) {
     check_part(part, head.textures);
     triangles += part.triangles;
@@ -77,9 +76,9 @@ MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head
   paint.tint.resize(head.vertices);
   receive(source, paint.tint);
   for (const auto& tint : paint.tint)
-    if (!std::all_of(tint.begin(), tint.end(), is_share)) refuse();
-  std::uint64_t bytes_left = limits.texture_bytes;
-  for (std::uint32_t i = 0; i < head.textures; ++i) paint.textures.push_back(receive_texture(source, bytes_left));
+    if (!std::ranges::all_of(tint, is_share)) refuse();
+  uint64_t bytes_left = limits.texture_bytes;
+  for (uint32_t i = 0; i < head.textures; ++i) paint.textures.push_back(receive_texture(source, bytes_left));
   return paint;
 }
 
@@ -89,22 +88,22 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   MeshReplyHead head;
   if (!source.receive(&head, sizeof head)) throw std::runtime_error(source.trouble());
   if (head.text > 0) {
-    std::string text(std::min(head.text, longest_mesh_trouble), ' ');
+    string text(std::min(head.text, longest_mesh_trouble), ' ');
     source.receive(text.data(), text.size());
     throw std::runtime_error(printable(text));
   }
   if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0) refuse();
   if (head.parts > limits.parts || head.textures > limits.parts) refuse();
-  std::vector<float> positions(3 * std::size_t{head.vertices}), normals(positions.size());
+  vector<float> positions(3 * size_t{head.vertices}), normals(positions.size());
   Mesh mesh;
-  mesh.triangles.resize(3 * std::size_t{head.triangles});
+  mesh.triangles.resize(3 * size_t{head.triangles});
   receive(source, positions);
   receive(source, normals);
   receive(source, mesh.triangles);
   const auto finite = [](float x) { return std::isfinite(x); };
-  if (!std::all_of(positions.begin(), positions.end(), finite) || !std::all_of(normals.begin(), normals.end(), finite))
+  if (!std::ranges::all_of(positions, finite) || !std::ranges::all_of(normals, finite))
     throw std::runtime_error("a vertex is not finite");
-  for (std::uint32_t i : mesh.triangles)
+  for (uint32_t i : mesh.triangles)
     if (i >= head.vertices) throw std::runtime_error("a triangle refers to a missing vertex");
   mesh.vertices = vectors(positions);
   mesh.normals = vectors(normals);

@@ -1,12 +1,9 @@
 #pragma once
 // The message through the pipe from the process that reads a mesh file, and its conversion to a Mesh. The file may have
 // corrupted that process, so every part of the message is checked.
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <string>
 
 #include "render/mesh.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,17 +11,17 @@ namespace carom {
 /// its paint follows: the parts, `uv` and `tint` by vertex, then each texture as its two sides and its bytes. An error
 /// follows as its text.
 struct MeshReplyHead {
-  std::uint32_t vertices = 0, triangles = 0;
-  std::uint32_t text = 0;                 // bytes; above 0: no mesh follows
-  std::uint32_t parts = 0, textures = 0;  // no parts: no paint
+  uint32_t vertices = 0, triangles = 0;
+  uint32_t text = 0;                 // bytes; above 0: no mesh follows
+  uint32_t parts = 0, textures = 0;  // no parts: no paint
 };
 
-inline constexpr std::uint32_t longest_mesh_trouble = 400;  // bytes
+inline constexpr uint32_t longest_mesh_trouble = 400;  // bytes
 
 /// The receiving end of the pipe.
 struct MeshReplySource {
-  std::function<bool(void* bytes, std::size_t size)> receive;  // false: so many bytes do not come
-  std::function<std::string()> trouble;                        // the reason
+  function<bool(void* bytes, size_t size)> receive;  // false: so many bytes do not come
+  function<string()> trouble;                        // the reason
 };
 
 /// Throws std::runtime_error. Its text states the fault of the mesh, without the path.

@@ -7,6 +7,7 @@
 
 #include "raster/silhouettes.h"
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr int outline_side = 1024;  // a power of two
 
 // Of a mesh in colours of its own, `number` has this bit.
-constexpr std::uint32_t colored_bit = 1U << 31U;
+constexpr uint32_t colored_bit = 1U << 31U;
 
 // The shaders are compiled without and with COLORS. Only those with HOLES drop points: without, OpenGL tests the depth
 // before it computes a colour.
@@ -133,8 +134,8 @@ float f(double x) {
 }
 
 void set_axes(const gl::Program& program, const raster::Shot& shot) {
-  std::array<float, 9> axes{};
-  for (std::size_t i = 0; i < 9; ++i) axes[i] = shot.lens.axes[i / 3][i % 3];
+  array<float, 9> axes{};
+  for (size_t i = 0; i < 9; ++i) axes[i] = shot.lens.axes[i / 3][i % 3];
   gl::UniformMatrix3fv(program.at("axes"), 1, GL_FALSE, axes.data());
 }
 
@@ -147,12 +148,12 @@ void set_part(const gl::Program& program, const MeshColors& colors, const MeshPa
 }
 
 /// Half the side of an outline's picture, in the file's units.
-double reach_of(const Shapes& shapes, std::size_t file) {
+double reach_of(const Shapes& shapes, size_t file) {
   return 1.05 * shapes.half(file).norm();
 }
 
 /// Red, green or blue of a point in a colour of its own.
-float light_at(std::uint32_t roots, std::size_t i) {
+float light_at(uint32_t roots, size_t i) {
   const float root = static_cast<float>(roots >> 10 * i & 1023U) / 1023;
   return root * root;
 }
@@ -160,11 +161,11 @@ float light_at(std::uint32_t roots, std::size_t i) {
 /// Each level has the means of four values of the one before.
 void add_levels(raster::OutlineLevels& outline) {
   for (int side = outline.side; side > 1; side /= 2) {
-    const std::vector<float>& fine = outline.levels.back();
-    const auto n = static_cast<std::size_t>(side), half = n / 2;
-    std::vector<float> coarse(half * half);
-    for (std::size_t y = 0; y < half; ++y)
-      for (std::size_t x = 0; x < half; ++x)
+    const vector<float>& fine = outline.levels.back();
+    const auto n = static_cast<size_t>(side), half = n / 2;
+    vector<float> coarse(half * half);
+    for (size_t y = 0; y < half; ++y)
+      for (size_t x = 0; x < half; ++x)
         coarse[y * half + x] = 0.25F * (fine[2 * y * n + 2 * x] + fine[2 * y * n + 2 * x + 1] +
                                         fine[(2 * y + 1) * n + 2 * x] + fine[(2 * y + 1) * n + 2 * x + 1]);
     outline.levels.push_back(std::move(coarse));
@@ -173,7 +174,7 @@ void add_levels(raster::OutlineLevels& outline) {
 
 }  // namespace
 
-Meshes::Meshes(const std::vector<DrawnFile>& files, Size size, bool smooth)
+Meshes::Meshes(const vector<DrawnFile>& files, Size size, bool smooth)
     : size_(size),
       fine_(smooth ? 4 : 1),
       shapes_(files),
@@ -181,18 +182,18 @@ Meshes::Meshes(const std::vector<DrawnFile>& files, Size size, bool smooth)
       outline_program_({outline_vertex_shader}, {outline_fragment_shader}),
       what_(gl::make_texture(GL_RG32UI, tile_side * fine_, tile_side * fine_)),
       depth_(gl::make_texture(GL_DEPTH_COMPONENT32F, tile_side * fine_, tile_side * fine_)),
-      buffer_(gl::make_framebuffer(std::array{what_.name()}, depth_.name())) {
-  const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+      buffer_(gl::make_framebuffer(array{what_.name()}, depth_.name())) {
+  const size_t pixels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
   pixels_.depth.resize(pixels);
   pixels_.cover.resize(pixels);
   pixels_.solid.resize(pixels);
   pixels_.normal.resize(pixels);
   pixels_.color.resize(pixels);
   bool colored = false;
-  for (std::size_t i = 0; i < shapes_.count(); ++i) colored |= shapes_.colors(i) != nullptr;
+  for (size_t i = 0; i < shapes_.count(); ++i) colored |= shapes_.colors(i) != nullptr;
   if (!colored) return;
   gl::Texture color = gl::make_texture(GL_R32UI, tile_side * fine_, tile_side * fine_);
-  gl::Framebuffer both = gl::make_framebuffer(std::array{what_.name(), color.name()}, depth_.name());
+  gl::Framebuffer both = gl::make_framebuffer(array{what_.name(), color.name()}, depth_.name());
   colored_.emplace(Colored{gl::Program({with_colors, vertex_shader}, {with_colors, fragment_shader}),
                            gl::Program({with_colors, vertex_shader}, {with_colors, with_holes, fragment_shader}),
                            gl::Program({with_colors, outline_vertex_shader}, {with_colors, outline_fragment_shader}),
@@ -209,12 +210,12 @@ Meshes::~Meshes() {
   }
 }
 
-MeshSize Meshes::size_of(const MeshUse& use, std::size_t file) const {
+MeshSize Meshes::size_of(const MeshUse& use, size_t file) const {
   return {use.scale * shapes_.radius(file, use.center), use.scale * (shapes_.middle(file) - use.center),
           use.scale * reach_of(shapes_, file), shapes_.mean(file)};
 }
 
-void Meshes::draw_outline(std::size_t file) const {
+void Meshes::draw_outline(size_t file) const {
   const MeshColors* const colors = shapes_.colors(file);
   const bool holes = colors && colors->has_holes();
   const gl::Program& program = holes ? colored_->outline_program : outline_program_;
@@ -226,7 +227,7 @@ void Meshes::draw_outline(std::size_t file) const {
 
 void Meshes::draw_outlines(raster::Shot& shot) {
   const raster::Float3& l = shot.lighting.lamps[0].vector;
-  const std::array<raster::Float3, 4> now{l, shot.lens.axes[0], shot.lens.axes[1], shot.lens.axes[2]};
+  const array<raster::Float3, 4> now{l, shot.lens.axes[0], shot.lens.axes[1], shot.lens.axes[2]};
   if (outlines_.of_files.empty() || now != outlined_) {
     outlined_ = now;
     outlines_.across = raster::across(l);
@@ -238,18 +239,18 @@ void Meshes::draw_outlines(raster::Shot& shot) {
       gl::Uniform3fv(program->at("across_u"), 1, outlines_.across.u.data());
       gl::Uniform3fv(program->at("across_v"), 1, outlines_.across.v.data());
     }
-    shapes_.fill_instances(std::array<float, Shapes::row>{});
+    shapes_.fill_instances(array<float, Shapes::row>{});
     const gl::Texture texture = gl::make_texture(GL_R32F, outline_side, outline_side);
-    const gl::Framebuffer framebuffer = gl::make_framebuffer(std::array{texture.name()}, 0);
+    const gl::Framebuffer framebuffer = gl::make_framebuffer(array{texture.name()}, 0);
     gl::Viewport(0, 0, outline_side, outline_side);
     gl::Disable(GL_DEPTH_TEST);
-    for (std::size_t i = 0; i < shapes_.count(); ++i) {
+    for (size_t i = 0; i < shapes_.count(); ++i) {
       const float nothing[4] = {};
       gl::ClearBufferfv(GL_COLOR, 0, nothing);
       draw_outline(i);
       raster::OutlineLevels& outline = outlines_.of_files[i];
       outline.side = outline_side;
-      outline.levels.emplace_back(std::size_t{outline_side} * outline_side);
+      outline.levels.emplace_back(size_t{outline_side} * outline_side);
       gl::ReadPixels(0, 0, outline_side, outline_side, GL_RED, GL_FLOAT, outline.levels[0].data());
       add_levels(outline);
     }
@@ -258,10 +259,10 @@ void Meshes::draw_outlines(raster::Shot& shot) {
   shot.outlines = &outlines_;
 }
 
-void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds) {
+void Meshes::draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const vector<Rect>& bounds) {
   used_ = {tile.right, tile.bottom, tile.left, tile.top};
-  std::vector<std::size_t> inside;
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
+  vector<size_t> inside;
+  for (size_t i = 0; i < meshes.size(); ++i) {
     const Rect& b = bounds[i];
     if (b.left >= tile.right || b.right <= tile.left || b.top >= tile.bottom || b.bottom <= tile.top) continue;
     inside.push_back(i);
@@ -274,12 +275,12 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
     return;
   }
   // Meshes of one file are together. Those in colours of their own hide the farther ones before these are coloured.
-  std::stable_sort(inside.begin(), inside.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(inside, [&](size_t a, size_t b) {
     const PlacedMesh &m = meshes[a], &n = meshes[b];
     return m.file != n.file ? m.file < n.file : shapes_.colors(m.file) && m.middle.z() < n.middle.z();
   });
-  std::vector<float> rows;
-  for (const std::size_t i : inside) {
+  vector<float> rows;
+  for (const size_t i : inside) {
     const PlacedMesh& m = meshes[i];
     rows.insert(rows.end(), {f(m.middle.x()), f(m.middle.y()), f(m.middle.z()), f(m.solid + 1), f(m.scale), m.plain[0],
                              m.plain[1], m.plain[2]});
@@ -297,12 +298,12 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
   gl::ClearBufferfv(GL_DEPTH, 0, &infinitely_far);
   const double x = 1.0 / wide, y = 1.0 / high;
   program_.use();
-  const std::array<float, 4> to_tile{f(size_.width * x), f(size_.height * y), f((size_.width - 2 * tile.left) * x - 1),
-                                     f((size_.height - 2 * tile.top) * y - 1)};
+  const array<float, 4> to_tile{f(size_.width * x), f(size_.height * y), f((size_.width - 2 * tile.left) * x - 1),
+                                f((size_.height - 2 * tile.top) * y - 1)};
   gl::Uniform4f(program_.at("to_tile"), to_tile[0], to_tile[1], to_tile[2], to_tile[3]);
-  std::vector<FileRows> colored;
-  for (std::size_t first = 0, end = 0; first < inside.size(); first = end) {
-    const std::size_t file = meshes[inside[first]].file;
+  vector<FileRows> colored;
+  for (size_t first = 0, end = 0; first < inside.size(); first = end) {
+    const size_t file = meshes[inside[first]].file;
     while (end < inside.size() && meshes[inside[end]].file == file) ++end;
     if (shapes_.colors(file)) {
       colored.push_back({file, first, end - first});
@@ -313,7 +314,7 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
   if (colored_) draw_colored(colored, to_tile);
 }
 
-void Meshes::draw_colored(const std::vector<FileRows>& rows, const std::array<float, 4>& to_tile) {
+void Meshes::draw_colored(const vector<FileRows>& rows, const array<float, 4>& to_tile) {
   colored_->used = !rows.empty();
   if (rows.empty()) return;
   gl::BindFramebuffer(GL_FRAMEBUFFER, colored_->buffer.name());
@@ -334,7 +335,7 @@ void Meshes::draw_colored(const std::vector<FileRows>& rows, const std::array<fl
 void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
   const int wide = (used_.right - used_.left) * fine_, high = (used_.bottom - used_.top) * fine_;
   if (wide <= 0) return;
-  const std::size_t points = static_cast<std::size_t>(wide) * static_cast<std::size_t>(high);
+  const size_t points = static_cast<size_t>(wide) * static_cast<size_t>(high);
   what_read_.resize(2 * points);
   depth_read_.resize(points);
   const int left = (used_.left - tile.left) * fine_, top = (used_.top - tile.top) * fine_;
@@ -353,49 +354,48 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
     for (int x = used_.left; x < used_.right; ++x) {
       raster::Float3 normal{}, color{};
       float nearest = 0, farthest = 2;
-      std::uint32_t solid = 0;
+      uint32_t solid = 0;
       int covered = 0;
       for (int k = 0; k < fine_ * fine_; ++k) {
-        const auto at = static_cast<std::size_t>(((y - used_.top) * fine_ + k / fine_) * wide +
-                                                 (x - used_.left) * fine_ + k % fine_);
-        const std::uint32_t number = what_read_[2 * at] & ~colored_bit, q = what_read_[2 * at + 1];
+        const auto at =
+            static_cast<size_t>(((y - used_.top) * fine_ + k / fine_) * wide + (x - used_.left) * fine_ + k % fine_);
+        const uint32_t number = what_read_[2 * at] & ~colored_bit, q = what_read_[2 * at + 1];
         if (number == 0) continue;
         const bool own = (what_read_[2 * at] & colored_bit) != 0;
         ++covered;
         if (depth_read_[at] > nearest) nearest = depth_read_[at], solid = number;
         farthest = std::min(farthest, depth_read_[at]);
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (size_t i = 0; i < 3; ++i) {
           normal[i] += (static_cast<float>(q >> 10 * i & 1023U) - 512) / 511;
           color[i] += own ? light_at(colored_->read[at], i) : shot.solids[number - 1].color[i];
         }
       }
       if (covered == 0) continue;
-      const auto pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x);
+      const auto pixel = static_cast<size_t>(y) * static_cast<size_t>(size_.width) + static_cast<size_t>(x);
       pixels_.depth[pixel] = shot.lens.near / (0.5F * (nearest + farthest));
       pixels_.cover[pixel] = static_cast<float>(covered) / static_cast<float>(fine_ * fine_);
-      pixels_.solid[pixel] = static_cast<std::int32_t>(solid) - 1;
+      pixels_.solid[pixel] = static_cast<int32_t>(solid) - 1;
       // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
       // there that would not on either face.
       const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
       const float even = length / static_cast<float>(covered);
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (size_t i = 0; i < 3; ++i) {
         pixels_.normal[pixel][i] = even > 0.97F ? normal[i] / length : normal[i] / static_cast<float>(covered);
         pixels_.color[pixel][i] = color[i] / static_cast<float>(covered);
       }
     }
 }
 
-void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot) {
+void Meshes::draw(const vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot) {
   context_.make_current();
   if (!shot.lighting.lamps[0].near) {
     draw_outlines(shot);
   } else {
     for (raster::MeshShadow& mesh : shot.meshes) mesh.outline = -1;
   }
-  std::fill(pixels_.depth.begin(), pixels_.depth.end(), 0.0F);
+  std::ranges::fill(pixels_.depth, 0.0F);
   shot.mesh_pixels = &pixels_;
-  std::vector<const gl::Program*> programs{&program_};
+  vector<const gl::Program*> programs{&program_};
   if (colored_) programs.insert(programs.end(), {&colored_->program, &colored_->holes_program});
   for (const gl::Program* program : programs) {
     program->use();
@@ -403,9 +403,9 @@ void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster:
     gl::Uniform2f(program->at("tangent"), f(eye.tan_x), f(eye.tan_y));
     gl::Uniform1f(program->at("near"), shot.lens.near);
   }
-  std::vector<Rect> bounds;
+  vector<Rect> bounds;
   for (const PlacedMesh& m : meshes) {
-    const raster::Solid& solid = shot.solids[static_cast<std::size_t>(m.solid)];
+    const raster::Solid& solid = shot.solids[static_cast<size_t>(m.solid)];
     const raster::PixelBounds b = raster::bounds_of_ball(shot.lens, solid.center, solid.radius);
     bounds.push_back({b.left, b.top, b.right, b.bottom});
   }

@@ -2,32 +2,28 @@
 // The meshes of a picture, drawn as triangles by OSMesa: places, normals and colours by pixel, and outlines along the
 // key light for their shadows. Bodies do not turn, so a mesh has one outline for all of them. In the light of a lamp
 // the direction differs from body to body. A mesh then casts the shadow of its volume.
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "raster/shot.h"
 #include "render/gl.h"
 #include "render/shapes.h"
 #include "render/things.h"
+#include "std.h"
 
 namespace carom {
 
 class Meshes {
  public:
   /// Reads the files. `smooth`: pixels are sampled at 4 x 4 places. Throws RenderError.
-  Meshes(const std::vector<DrawnFile>& files, Size size, bool smooth);
+  Meshes(const vector<DrawnFile>& files, Size size, bool smooth);
   ~Meshes();
   Meshes(const Meshes&) = delete;
   Meshes& operator=(const Meshes&) = delete;
 
   /// Of a file as `use` draws it.
-  MeshSize size_of(const MeshUse& use, std::size_t file) const;
+  MeshSize size_of(const MeshUse& use, size_t file) const;
 
   /// Draws meshes for the shot, which then points to the result. It is valid until the next draw. Throws RenderError.
-  void draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot);
+  void draw(const vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot);
 
  private:
   struct Rect {
@@ -35,23 +31,23 @@ class Meshes {
   };
   /// Rows of the instances that show one file.
   struct FileRows {
-    std::size_t file, first, count;
+    size_t file, first, count;
   };
   /// What draws meshes in colours of their own. A run without them does not need it.
   struct Colored {
     gl::Program program, holes_program, outline_program;
     gl::Texture color;
     gl::Framebuffer buffer;
-    std::vector<std::uint32_t> read;
+    vector<uint32_t> read;
     bool used = false;  // in the last tile
   };
   static constexpr int tile_side = 256;  // pixels
 
   void draw_outlines(raster::Shot& shot);
-  void draw_outline(std::size_t file) const;
-  void draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds);
+  void draw_outline(size_t file) const;
+  void draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const vector<Rect>& bounds);
   /// Draws the files in colours of their own, of `rows` by file.
-  void draw_colored(const std::vector<FileRows>& rows, const std::array<float, 4>& to_tile);
+  void draw_colored(const vector<FileRows>& rows, const array<float, 4>& to_tile);
   void resolve(const Rect& tile, const raster::Shot& shot);
 
   Size size_;
@@ -61,12 +57,12 @@ class Meshes {
   gl::Program program_, outline_program_;
   gl::Texture what_, depth_;
   gl::Framebuffer buffer_;
-  std::optional<Colored> colored_;
+  optional<Colored> colored_;
   raster::MeshPixels pixels_;
   raster::MeshOutlines outlines_;
-  std::array<raster::Float3, 4> outlined_{};  // key light and axes of these outlines
-  std::vector<std::uint32_t> what_read_;
-  std::vector<float> depth_read_;
+  array<raster::Float3, 4> outlined_{};  // key light and axes of these outlines
+  vector<uint32_t> what_read_;
+  vector<float> depth_read_;
   Rect used_{};
 };
 

@@ -1,13 +1,6 @@
 #pragma once
 // A scene as data for other programs: still things as triangles, motion as keyframes. These are only types.
 // still_things.h and glb.h make the data.
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
@@ -16,16 +9,17 @@
 #include "render/mesh.h"
 #include "scene/colors.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 /// A plane, a wall or an obstacle that a picture shows, where it is at time 0.
 struct StillThing {
-  std::string name;
+  string name;
   Color color;
   Mesh mesh;               // m, in the world's frame; counterclockwise from outside, or from a plane's free side
   bool two_sided = false;  // a wall
-  std::size_t fixed = 0;   // its number among all fixed things
+  size_t fixed = 0;        // its number among all fixed things
 };
 
 /// A box along the axes. It is empty if it extends from above to below.
@@ -42,17 +36,17 @@ struct Extent {
 struct KeyedMotion {
   /// From keyframe `key` on, body `body` has this volume. Without one it has become part of another body.
   struct Change {
-    std::size_t key;
+    size_t key;
     Entity body;
-    std::optional<Volume> volume;
+    optional<Volume> volume;
 
     void keep(auto& archive) { archive(key, body, volume); }
   };
-  std::vector<double> times;                   // s, ascending
-  std::vector<std::array<float, 3>> position;  // m, by keyframe, then by body
-  std::vector<Change> changes;                 // by keyframe
-  Extent extent;                               // of all bodies at all keyframes
-  std::vector<Camera> cameras;                 // by keyframe; empty: the scene's at time 0
+  vector<double> times;              // s, ascending
+  vector<array<float, 3>> position;  // m, by keyframe, then by body
+  vector<Change> changes;            // by keyframe
+  Extent extent;                     // of all bodies at all keyframes
+  vector<Camera> cameras;            // by keyframe; empty: the scene's at time 0
 
   void keep(auto& archive) { archive(times, position, changes, extent, cameras); }
 };
@@ -60,11 +54,11 @@ struct KeyedMotion {
 /// The functions by which render/ makes these for src/export/. They throw RenderError.
 struct ModelMakers {
   /// `seen`: planes, which have no bounds, are cut off at some distance around it.
-  std::function<std::vector<StillThing>(const Scene& scene, const Extent& seen)> still_things;
+  function<vector<StillThing>(const Scene& scene, const Extent& seen)> still_things;
   /// The bytes of a binary glTF 2 file.
-  std::function<std::string(const Scene& scene, const KeyedMotion& motion)> glb;
+  function<string(const Scene& scene, const KeyedMotion& motion)> glb;
   /// The scene's camera at the state's time.
-  std::function<Camera(const State& state)> camera;
+  function<Camera(const State& state)> camera;
 };
 
 }  // namespace carom

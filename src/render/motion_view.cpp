@@ -3,10 +3,10 @@
 #include "render/motion_view.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "physics/body_now.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -23,17 +23,17 @@ void join(Extent& to, const Extent& other) {
   to.high = to.high.cwiseMax(other.high);
 }
 
-std::array<Vec3, 4> corners(const Wall& wall, const Vec3& center) {
+array<Vec3, 4> corners(const Wall& wall, const Vec3& center) {
   const Vec3 right = wall.half_width * wall.right, up = wall.half_height * wall.up;
   return {center - right - up, center + right - up, center + right + up, center - right + up};
 }
 
-bool is_drawn(const Scene& scene, std::size_t fixed) {
+bool is_drawn(const Scene& scene, size_t fixed) {
   return fixed >= scene.roster.fixed.size() || scene.roster.fixed[fixed].visible;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+double median(vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -41,7 +41,7 @@ double median(std::vector<double> values) {
 }  // namespace
 
 void MotionView::Content::add(const Content& other) {
-  for (std::size_t i = 0; i < reach.size(); ++i) reach[i].add(other.reach[i]);
+  for (size_t i = 0; i < reach.size(); ++i) reach[i].add(other.reach[i]);
   join(bodies, other.bodies);
   join(near, other.near);
 }
@@ -74,27 +74,27 @@ void MotionView::add(const State& state) {
 }
 
 void MotionView::add(Content& content, const Vec3& center, const Volume& volume) const {
-  for (std::size_t i = 0; i < directions_.size(); ++i) directions_[i].add(content.reach[i], center, volume);
+  for (size_t i = 0; i < directions_.size(); ++i) directions_[i].add(content.reach[i], center, volume);
   content.bodies.include(center, volume.half);
 }
 
-MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, std::size_t direction) const {
+MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size_t direction) const {
   // The width of a view is proportional to the depth of one point.
   const Vec3 middle = core_.bodies.middle();
   const auto depth = [&](const Content& content) { return frustum.depth(content.reach[direction], middle); };
-  std::vector<std::pair<double, std::size_t>> leaving;  // by depth
-  for (std::size_t body = 0; body < departures_.size(); ++body) {
+  vector<std::pair<double, size_t>> leaving;  // by depth
+  for (size_t body = 0; body < departures_.size(); ++body) {
     if (departures_[body].content.empty()) continue;
     Content with = core_;
     with.add(departures_[body].content);
     leaving.emplace_back(depth(with), body);
   }
   if (leaving.empty()) return core_;
-  std::sort(leaving.begin(), leaving.end());
+  std::ranges::sort(leaving);
 
   const double largest_dot = dot * frustum.height(1) / (2 * median(scene_.world.radius));  // per m of depth
   Content content = core_;
-  std::size_t in_view = departures_.size() - leaving.size();
+  size_t in_view = departures_.size() - leaving.size();
   double with_half = depth(core_);
   for (const auto& [alone, body] : leaving) {
     Content with = content;
@@ -110,9 +110,9 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, std:
 }
 
 /// Where a fixed thing is while bodies are shown: at both ends of that time, and where its velocity changes.
-std::vector<Vec3> MotionView::places_of(Entity fixed) const {
+vector<Vec3> MotionView::places_of(Entity fixed) const {
   const World& world = scene_.world;
-  std::vector<Vec3> places{fixed_position(world, fixed, {start_, 0})};
+  vector<Vec3> places{fixed_position(world, fixed, {start_, 0})};
   if (!world.moves(fixed)) return places;
   for (const MotionLeg& leg : world.legs(fixed))
     if (leg.from > start_ && leg.from < time_) places.push_back(fixed_position(world, fixed, {leg.from, 0}));
@@ -125,7 +125,7 @@ void MotionView::add_surroundings(Content& content) const {
   const Extent bodies = content.bodies;
   const double size = (bodies.high - bodies.low).norm();
   Entity fixed = world.body_count();
-  for (std::size_t i = 0; i < world.planes.size(); ++i) {
+  for (size_t i = 0; i < world.planes.size(); ++i) {
     const Plane& plane = world.planes[i];
     const bool is_floor = plane.normal.dot(directions_[0].up()) > 0.5;
     for (const Vec3& point : places_of(fixed++)) {
@@ -134,9 +134,9 @@ void MotionView::add_surroundings(Content& content) const {
         add(content, bodies.middle() - above * plane.normal, {});
     }
   }
-  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+  for (size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
-    const std::vector<Vec3> places = places_of(fixed++);
+    const vector<Vec3> places = places_of(fixed++);
     if (!is_drawn(scene_, world.planes.size() + i) || 2 * std::max(wall.half_width, wall.half_height) > size) continue;
     Extent box;
     for (const Vec3& center : places)
@@ -145,9 +145,9 @@ void MotionView::add_surroundings(Content& content) const {
     for (const Vec3& center : places)
       for (const Vec3& corner : corners(wall, center)) add(content, corner, {});
   }
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+  for (size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
-    const std::vector<Vec3> places = places_of(fixed++);
+    const vector<Vec3> places = places_of(fixed++);
     const bool drawn = is_drawn(scene_, world.planes.size() + world.walls.size() + i);
     if (!drawn || 2 * obstacle.volume.half.maxCoeff() > size) continue;
     Extent box;
@@ -155,8 +155,8 @@ void MotionView::add_surroundings(Content& content) const {
     if (!meet(box, content.near)) continue;
     for (const Vec3& center : places) add(content, center, obstacle.volume);
   }
-  const std::vector<std::size_t>& hidden = scene_.overlay.hidden_strings;
-  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+  const vector<size_t>& hidden = scene_.overlay.hidden_strings;
+  for (size_t k = 0; k < world.strings.size(); ++k) {
     const String& string = world.strings[k];
     if (string.other == no_entity && !std::binary_search(hidden.begin(), hidden.end(), k))
       add(content, string.anchor, {});
@@ -172,7 +172,7 @@ void MotionView::add_fixed_things(Content& content) const {
   if (content.empty()) add(content, Vec3::Zero(), {});
 }
 
-MotionView::Content MotionView::content(std::size_t direction) const {
+MotionView::Content MotionView::content(size_t direction) const {
   Content content;
   if (departures_.empty()) {
     add_fixed_things(content);

@@ -1,12 +1,11 @@
 #pragma once
 // What a view of a motion is to hold.
-#include <array>
-#include <vector>
 
 #include "physics/state.h"
 #include "render/frustum.h"
 #include "render/model.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,22 +22,22 @@ namespace carom {
 class MotionView {
  public:
   struct Content {
-    std::array<Frustum::Reach, 2> reach;  // by direction
-    Extent bodies;                        // or without them all
-    Extent near;                          // around all that the bodies met or passed within their own size
+    array<Frustum::Reach, 2> reach;  // by direction
+    Extent bodies;                   // or without them all
+    Extent near;                     // around all that the bodies met or passed within their own size
     bool empty() const { return reach[0].empty(); }
     void add(const Content& other);
   };
 
   /// `scene` must outlive this object.
-  MotionView(const Scene& scene, const std::array<Frustum, 2>& directions) : scene_(scene), directions_(directions) {}
+  MotionView(const Scene& scene, const array<Frustum, 2>& directions) : scene_(scene), directions_(directions) {}
 
   /// Takes the next instant in order.
   void add(const State& state);
   /// For the view in one of the directions. Without bodies, the fixed things.
-  Content content(std::size_t direction) const;
+  Content content(size_t direction) const;
 
-  const Frustum& direction(std::size_t i) const { return directions_[i]; }
+  const Frustum& direction(size_t i) const { return directions_[i]; }
 
  private:
   /// A body since the last instant at which it came no farther.
@@ -48,17 +47,17 @@ class MotionView {
   };
 
   void add(Content& content, const Vec3& position, const Volume& volume) const;
-  Content without_the_leaving(const Frustum& frustum, std::size_t direction) const;
+  Content without_the_leaving(const Frustum& frustum, size_t direction) const;
   void add_surroundings(Content& content) const;
-  std::vector<Vec3> places_of(Entity fixed) const;
+  vector<Vec3> places_of(Entity fixed) const;
   void add_fixed_things(Content& content) const;
 
   const Scene& scene_;
-  std::array<Frustum, 2> directions_;
-  Vec3 middle_ = Vec3::Zero();         // m, of all bodies at the first instant
-  double start_ = 0, time_ = 0;        // s, of the first and of the previous instant
-  Content core_;                       // all but the departures
-  std::vector<Departure> departures_;  // by body; empty before the first instant
+  array<Frustum, 2> directions_;
+  Vec3 middle_ = Vec3::Zero();    // m, of all bodies at the first instant
+  double start_ = 0, time_ = 0;   // s, of the first and of the previous instant
+  Content core_;                  // all but the departures
+  vector<Departure> departures_;  // by body; empty before the first instant
 };
 
 }  // namespace carom

@@ -1,11 +1,11 @@
 #pragma once
 // The camera of a scene's pictures at each instant.
-#include <optional>
 
 #include "physics/state.h"
 #include "render/camera.h"
 #include "render/camera_path.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -29,8 +29,8 @@ class MovingCamera {
   const Scene& scene_;
   Size size_;
   Camera camera_;  // at time 0
-  std::optional<CameraPath> path_;
-  std::optional<Followed> followed_;
+  optional<CameraPath> path_;
+  optional<Followed> followed_;
   Vec3 center_ = Vec3::Zero();  // m, of the followed bodies at time 0
 };
 

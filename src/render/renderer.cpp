@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "physics/surface_motion.h"
@@ -18,6 +16,7 @@
 #include "render/surfaces.h"
 #include "render/things.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -25,7 +24,7 @@ namespace {
 constexpr int largest_side = 16384;
 
 /// To prepare fewer solids takes less time than to wake a thread up.
-constexpr std::size_t worth_sharing = 1000;
+constexpr size_t worth_sharing = 1000;
 
 Size checked(Size size, int samples) {
   if (size.width < 1 || size.height < 1 || size.width > largest_side || size.height > largest_side)
@@ -40,7 +39,7 @@ Size checked(Size size, int samples) {
 struct Renderer::Impl {
   Impl(const Scene& s, Size picture_size, int samples)
       : given(s),
-        moved(s.world.moves() ? std::make_unique<Scene>(s) : nullptr),
+        moved(s.world.moves() ? make_unique<Scene>(s) : nullptr),
         scene(moved ? *moved : s),
         size(checked(picture_size, samples)),
         things(scene),
@@ -50,13 +49,13 @@ struct Renderer::Impl {
     if (scene.background) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background);
     if (!things.files().empty()) {
       meshes.emplace(things.files(), size, shot.lens.smooth);
-      things.measure([&](const MeshUse& use, std::size_t file) { return meshes->size_of(use, file); });
+      things.measure([&](const MeshUse& use, size_t file) { return meshes->size_of(use, file); });
     }
     shot.backdrop.none = scene.transparent;
     shot.pattern.unit = static_cast<float>(pattern_unit(s, size));
     image.width = size.width, image.height = size.height;
     image.channels = scene.transparent ? 4 : 3;
-    image.pixels.resize(static_cast<std::size_t>(size.height) * image.row_size());
+    image.pixels.resize(static_cast<size_t>(size.height) * image.row_size());
   }
 
   void place_camera(const Eye& eye);
@@ -64,22 +63,22 @@ struct Renderer::Impl {
   void draw(const State& state, Drawing drawing);
 
   const Scene& given;
-  const std::unique_ptr<Scene> moved;  // with fixed things where they are in the last picture; null: nothing moves
-  const Scene& scene;                  // the one that is shown
+  const unique_ptr<Scene> moved;  // with fixed things where they are in the last picture; null: nothing moves
+  const Scene& scene;             // the one that is shown
   const Size size;
   Things things;
-  std::vector<Stroke> edges;  // of the room
+  vector<Stroke> edges;  // of the room
   raster::Shot shot;
   raster::Silhouettes silhouettes;
   raster::Bins bins;
   raster::LightGrid lights;
   Lines lines;
-  std::optional<Meshes> meshes;
-  std::optional<raster::Threads> threads;
-  std::optional<Camera> own_camera;
+  optional<Meshes> meshes;
+  optional<raster::Threads> threads;
+  optional<Camera> own_camera;
   LastPicture last;
   Image image;
-  std::uint64_t drawn = 0;
+  uint64_t drawn = 0;
 };
 
 void Renderer::Impl::place_camera(const Eye& eye) {
@@ -87,7 +86,7 @@ void Renderer::Impl::place_camera(const Eye& eye) {
   shot.lens.left = static_cast<float>(-eye.tan_x + 0.5 * eye.pixel);
   shot.lens.top = static_cast<float>(eye.tan_y - 0.5 * eye.pixel);
   shot.lens.near = static_cast<float>(eye.camera.near);
-  for (std::size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(static_cast<int>(i))));
+  for (size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(static_cast<int>(i))));
   add_lights(scene, eye, shot);
   add_surfaces(scene, eye, shot);
 }
@@ -126,7 +125,7 @@ void Renderer::Impl::draw(const State& state, Drawing drawing) {
   last.take(state, std::move(drawing));
 }
 
-Renderer::Renderer(const Scene& scene, Size size, int samples) : impl_(std::make_unique<Impl>(scene, size, samples)) {}
+Renderer::Renderer(const Scene& scene, Size size, int samples) : impl_(make_unique<Impl>(scene, size, samples)) {}
 Renderer::~Renderer() = default;
 
 const Image& Renderer::draw(const State& state, Drawing drawing) {
@@ -141,7 +140,7 @@ const Image& Renderer::draw(const State& state) {
   return draw(state, std::move(drawing));
 }
 
-std::uint64_t Renderer::drawn() const {
+uint64_t Renderer::drawn() const {
   return impl_->drawn;
 }
 

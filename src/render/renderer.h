@@ -1,13 +1,12 @@
 #pragma once
 // From the look of a scene and a State to pixels.
-#include <cstdint>
-#include <memory>
 #include <stdexcept>
 
 #include "physics/state.h"
 #include "render/drawing.h"
 #include "render/image.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
@@ -32,11 +31,11 @@ class Renderer {
   const Image& draw(const State& state, Drawing drawing);
   /// The same by the scene's camera (camera_of) and nothing besides.
   const Image& draw(const State& state);
-  std::uint64_t drawn() const;  // pictures so far, repetitions of the last one excluded
+  uint64_t drawn() const;  // pictures so far, repetitions of the last one excluded
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  unique_ptr<Impl> impl_;
 };
 
 }  // namespace carom

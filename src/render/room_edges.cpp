@@ -7,15 +7,16 @@
 
 #include "physics/world.h"
 #include "render/surfaces.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 // More planes than a room has: their edges would be a mesh of lines.
-constexpr std::size_t most_planes = 64;
+constexpr size_t most_planes = 64;
 
 /// The part of the line of two planes that is on the free side of all others. False: none, or it is endless.
-bool edge_of(const std::vector<Plane>& planes, std::size_t i, std::size_t j, Vec3& from, Vec3& to) {
+bool edge_of(const vector<Plane>& planes, size_t i, size_t j, Vec3& from, Vec3& to) {
   const Plane &a = planes[i], &b = planes[j];
   const Vec3 along = a.normal.cross(b.normal);
   const double sine = along.norm();
@@ -25,7 +26,7 @@ bool edge_of(const std::vector<Plane>& planes, std::size_t i, std::size_t j, Vec
   const Vec3 within = b.normal - a.normal.dot(b.normal) * a.normal;
   const Vec3 start = a.point + b.normal.dot(b.point - a.point) / within.squaredNorm() * within;
   double low = -std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t k = 0; k < planes.size(); ++k) {
+  for (size_t k = 0; k < planes.size(); ++k) {
     if (k == i || k == j) continue;
     const double slope = planes[k].normal.dot(direction), height = planes[k].normal.dot(start - planes[k].point);
     if (std::abs(slope) < 1e-12) {
@@ -43,14 +44,14 @@ bool edge_of(const std::vector<Plane>& planes, std::size_t i, std::size_t j, Vec
 
 }  // namespace
 
-std::vector<Stroke> room_edges(const Scene& scene) {
-  std::vector<Plane> planes;
-  for (std::size_t i = 0; i < scene.world.planes.size(); ++i)
+vector<Stroke> room_edges(const Scene& scene) {
+  vector<Plane> planes;
+  for (size_t i = 0; i < scene.world.planes.size(); ++i)
     if (name_of_fixed(scene, i).visible) planes.push_back(scene.world.planes[i]);
-  std::vector<Stroke> edges;
+  vector<Stroke> edges;
   if (planes.size() > most_planes) return edges;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    for (std::size_t j = i + 1; j < planes.size(); ++j) {
+  for (size_t i = 0; i < planes.size(); ++i)
+    for (size_t j = i + 1; j < planes.size(); ++j) {
       Stroke stroke;
       if (!edge_of(planes, i, j, stroke.from, stroke.to)) continue;
       stroke.least_width = 1.3;

@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom {
-Shapes::Shapes(const std::vector<DrawnFile>& files) : instances_(gl::make_buffer()) {
+Shapes::Shapes(const vector<DrawnFile>& files) : instances_(gl::make_buffer()) {
   for (const DrawnFile& file : files) {
     Mesh mesh;
     try {
@@ -30,9 +31,9 @@ void Shapes::upload(const Mesh& mesh) {
   for (const Vec3& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
   shape.middle = 0.5 * (low + high);
   shape.half = 0.5 * (high - low);
-  std::vector<float> rows;
+  vector<float> rows;
   rows.reserve(6 * mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3 p = mesh.vertices[i] - shape.middle;
     for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(p[k]));
     for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(mesh.normals[i][k]));
@@ -45,9 +46,9 @@ void Shapes::upload(const Mesh& mesh) {
   gl::BindBuffer(GL_ARRAY_BUFFER, shape.vertices.name());
   gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
   gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.triangles.name());
-  gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)),
+  gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(uint32_t)),
                  mesh.triangles.data(), GL_STATIC_DRAW);
-  const auto attribute = [](GLuint index, GLint floats, std::size_t stride, std::size_t offset) {
+  const auto attribute = [](GLuint index, GLint floats, size_t stride, size_t offset) {
     gl::EnableVertexAttribArray(index);
     gl::VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
                             reinterpret_cast<const void*>(offset * sizeof(float)));
@@ -66,32 +67,32 @@ void Shapes::upload(const Mesh& mesh) {
   shapes_.push_back(std::move(shape));
 }
 
-double Shapes::radius(std::size_t file, const Vec3& center) const {
+double Shapes::radius(size_t file, const Vec3& center) const {
   double square = 0;
   for (const Vec3& p : points_[file]) square = std::max(square, (p - center).squaredNorm());
   return std::sqrt(square);
 }
 
-void Shapes::fill_instances(std::span<const float> rows) const {
+void Shapes::fill_instances(span<const float> rows) const {
   gl::BindBuffer(GL_ARRAY_BUFFER, instances_.name());
   gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
 }
 
-void Shapes::draw(std::size_t shape, std::size_t first, std::size_t count) const {
+void Shapes::draw(size_t shape, size_t first, size_t count) const {
   gl::BindVertexArray(shapes_[shape].array.name());
   gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr,
                                         static_cast<GLsizei>(count), static_cast<GLuint>(first));
 }
 
-void Shapes::draw_parts(std::size_t shape, std::size_t first, std::size_t count,
-                        const std::function<void(const MeshPart& part)>& prepare) const {
+void Shapes::draw_parts(size_t shape, size_t first, size_t count,
+                        const function<void(const MeshPart& part)>& prepare) const {
   gl::BindVertexArray(shapes_[shape].array.name());
-  std::size_t from = 0;
+  size_t from = 0;
   for (const MeshPart& part : shapes_[shape].colors->parts()) {
-    const std::size_t indices = std::size_t{3} * part.triangles;
+    const size_t indices = size_t{3} * part.triangles;
     prepare(part);
     gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_INT,
-                                          reinterpret_cast<const void*>(from * sizeof(std::uint32_t)),
+                                          reinterpret_cast<const void*>(from * sizeof(uint32_t)),
                                           static_cast<GLsizei>(count), static_cast<GLuint>(first));
     from += indices;
   }

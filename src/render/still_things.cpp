@@ -11,14 +11,15 @@
 #include "render/renderer.h"
 #include "render/surfaces.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// A convex polygon without its part behind a plane (Sutherland and Hodgman 1974).
-std::vector<Vec3> cut(const std::vector<Vec3>& polygon, const Vec3& point, const Vec3& normal) {
-  std::vector<Vec3> left;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
+vector<Vec3> cut(const vector<Vec3>& polygon, const Vec3& point, const Vec3& normal) {
+  vector<Vec3> left;
+  for (size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double above_a = normal.dot(a - point), above_b = normal.dot(b - point);
     if (above_a >= 0) left.push_back(a);
@@ -28,13 +29,13 @@ std::vector<Vec3> cut(const std::vector<Vec3>& polygon, const Vec3& point, const
 }
 
 /// A flat convex polygon, counterclockwise about `normal`.
-Mesh flat(const std::vector<Vec3>& corners, const Vec3& normal) {
-  Mesh mesh{corners, std::vector<Vec3>(corners.size(), normal), {}};
-  for (std::uint32_t k = 2; k < corners.size(); ++k) mesh.triangles.insert(mesh.triangles.end(), {0, k - 1, k});
+Mesh flat(const vector<Vec3>& corners, const Vec3& normal) {
+  Mesh mesh{corners, vector<Vec3>(corners.size(), normal), {}};
+  for (uint32_t k = 2; k < corners.size(); ++k) mesh.triangles.insert(mesh.triangles.end(), {0, k - 1, k});
   return mesh;
 }
 
-std::vector<Vec3> rectangle(const Vec3& center, const Vec3& right, const Vec3& up) {
+vector<Vec3> rectangle(const Vec3& center, const Vec3& right, const Vec3& up) {
   return {center - right - up, center + right - up, center + right + up, center - right + up};
 }
 
@@ -45,22 +46,22 @@ class Collector {
     find_cube(seen);
   }
 
-  std::vector<StillThing> collect() {
-    for (std::size_t i = 0; i < world_.planes.size(); ++i)
+  vector<StillThing> collect() {
+    for (size_t i = 0; i < world_.planes.size(); ++i)
       if (name(i).visible) add_plane(i);
-    for (std::size_t i = 0; i < world_.walls.size(); ++i) {
+    for (size_t i = 0; i < world_.walls.size(); ++i) {
       const Wall& wall = world_.walls[i];
       add(world_.planes.size() + i,
           flat(rectangle(wall.center, wall.half_width * wall.right, wall.half_height * wall.up), wall.normal), true);
     }
-    for (std::size_t i = 0; i < world_.obstacles.size(); ++i)
+    for (size_t i = 0; i < world_.obstacles.size(); ++i)
       add(world_.planes.size() + world_.walls.size() + i,
           obstacle_mesh(world_.obstacles[i], name_of_obstacle(scene_, i)), false);
     return std::move(things_);
   }
 
  private:
-  const FixedName& name(std::size_t fixed) const {
+  const FixedName& name(size_t fixed) const {
     static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
     return fixed < scene_.roster.fixed.size() ? scene_.roster.fixed[fixed] : unnamed;
   }
@@ -68,19 +69,19 @@ class Collector {
   /// Finds the cube around all bounded things and around the points of the visible planes opposite its centre.
   void find_cube(const Extent& seen) {
     Extent all = seen;
-    for (std::size_t i = 0; i < world_.walls.size(); ++i) {
+    for (size_t i = 0; i < world_.walls.size(); ++i) {
       const Wall& wall = world_.walls[i];
       const Vec3 half = wall.half_width * wall.right.cwiseAbs() + wall.half_height * wall.up.cwiseAbs();
       if (name(world_.planes.size() + i).visible) all.include(wall.center, half);
     }
-    for (std::size_t i = 0; i < world_.obstacles.size(); ++i)
+    for (size_t i = 0; i < world_.obstacles.size(); ++i)
       if (name_of_obstacle(scene_, i).visible) all.include(world_.obstacles[i].center, world_.obstacles[i].volume.half);
     if ((all.low.array() > all.high.array()).any()) {
       for (const Plane& plane : world_.planes) all.include(plane.point);
       all.include(Vec3::Zero());
     }
     const Vec3 middle = 0.5 * (all.low + all.high);
-    for (std::size_t i = 0; i < world_.planes.size(); ++i) {
+    for (size_t i = 0; i < world_.planes.size(); ++i) {
       const Plane& plane = world_.planes[i];
       if (name(i).visible) all.include(middle - plane.normal.dot(middle - plane.point) * plane.normal);
     }
@@ -88,17 +89,17 @@ class Collector {
     half_ = std::max(1.5 * (0.5 * (all.high - all.low)).maxCoeff(), 1e-9);
   }
 
-  void add_plane(std::size_t i) {
+  void add_plane(size_t i) {
     const Plane& plane = world_.planes[i];
     // Along a world axis, if there is one in the plane.
     const Vec3 along = std::abs(plane.normal.y()) < 0.999 ? Vec3(0, 1, 0) : Vec3(0, 0, -1);
     const Vec3 right = along.cross(plane.normal).normalized(), up = plane.normal.cross(right);
     const Vec3 foot = center_ - plane.normal.dot(center_ - plane.point) * plane.normal;
-    std::vector<Vec3> corners = rectangle(foot, 2 * half_ * right, 2 * half_ * up);
+    vector<Vec3> corners = rectangle(foot, 2 * half_ * right, 2 * half_ * up);
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {-1.0, 1.0})
         corners = cut(corners, center_ + side * half_ * Vec3::Unit(axis), -side * Vec3::Unit(axis));
-    for (std::size_t k = 0; k < world_.planes.size(); ++k)
+    for (size_t k = 0; k < world_.planes.size(); ++k)
       if (k != i && name(k).visible) corners = cut(corners, world_.planes[k].point, world_.planes[k].normal);
     if (corners.size() >= 3) add(i, flat(corners, plane.normal), false);
   }
@@ -121,7 +122,7 @@ class Collector {
     return shape == Shape::sphere ? round_ball() : shape == Shape::cylinder ? round_cylinder() : unit_box();
   }
 
-  void add(std::size_t fixed, Mesh mesh, bool two_sided) {
+  void add(size_t fixed, Mesh mesh, bool two_sided) {
     if (name(fixed).visible)
       things_.push_back({name(fixed).name, name(fixed).color, std::move(mesh), two_sided, fixed});
   }
@@ -132,12 +133,12 @@ class Collector {
   Vec3 center_;      // m, centre of the cube
   double half_ = 0;  // m, half of its edge
   std::map<Shape, Mesh> shapes_;
-  std::vector<StillThing> things_;
+  vector<StillThing> things_;
 };
 
 }  // namespace
 
-std::vector<StillThing> still_things(const Scene& scene, const Extent& seen, bool painted) {
+vector<StillThing> still_things(const Scene& scene, const Extent& seen, bool painted) {
   return Collector(scene, seen, painted).collect();
 }
 
@@ -146,12 +147,12 @@ Mesh unit_box() {
   for (int face = 0; face < 6; ++face) {
     const int axis = face / 2;
     const Vec3 normal = (face % 2 ? 1 : -1) * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
     for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
       mesh.vertices.push_back(normal + a * u + b * v);
       mesh.normals.push_back(normal);
     }
-    for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.triangles.push_back(first + k);
+    for (const uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.triangles.push_back(first + k);
   }
   return mesh;
 }
@@ -163,16 +164,16 @@ Mesh round_ball() {
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   mesh.triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
   for (int i = 0; i < times; ++i) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    const auto middle = [&](uint32_t a, uint32_t b) {
       const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), mesh.vertices.size());
       if (is_new) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]).normalized());
       return found->second;
     };
-    std::vector<std::uint32_t> finer;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-      const std::uint32_t a = mesh.triangles[t], b = mesh.triangles[t + 1], c = mesh.triangles[t + 2];
-      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    vector<uint32_t> finer;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      const uint32_t a = mesh.triangles[t], b = mesh.triangles[t + 1], c = mesh.triangles[t + 2];
+      const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
       finer.insert(finer.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
     }
     mesh.triangles = std::move(finer);
@@ -183,19 +184,19 @@ Mesh round_ball() {
 
 Mesh round_cylinder() {
   // The corners of a square. The point of the circle half way between each two is added, again and again.
-  std::vector<Vec3> circle = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
+  vector<Vec3> circle = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
   while (circle.size() < 64) {
-    std::vector<Vec3> finer;
-    for (std::size_t k = 0; k < circle.size(); ++k) {
+    vector<Vec3> finer;
+    for (size_t k = 0; k < circle.size(); ++k) {
       finer.push_back(circle[k]);
       finer.push_back((circle[k] + circle[(k + 1) % circle.size()]).normalized());
     }
     circle = std::move(finer);
   }
   const Vec3 up(0, 1, 0);
-  const auto sides = static_cast<std::uint32_t>(circle.size());
+  const auto sides = static_cast<uint32_t>(circle.size());
   Mesh mesh;
-  for (std::uint32_t k = 0; k < sides; ++k) {
+  for (uint32_t k = 0; k < sides; ++k) {
     // Vertices of the flank.
     for (const double y : {-1.0, 1.0}) {
       mesh.vertices.push_back(circle[k] + y * up);
@@ -206,7 +207,7 @@ Mesh round_cylinder() {
       mesh.vertices.push_back(circle[k] + y * up);
       mesh.normals.push_back(y * up);
     }
-    const std::uint32_t a = 4 * k, b = 4 * ((k + 1) % sides);
+    const uint32_t a = 4 * k, b = 4 * ((k + 1) % sides);
     mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, b + 1, a, b + 1, b});
     if (k > 0 && k + 1 < sides) mesh.triangles.insert(mesh.triangles.end(), {2, a + 2, b + 2, 3, b + 3, a + 3});
   }

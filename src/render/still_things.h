@@ -1,9 +1,9 @@
 #pragma once
 // The still things of a scene as triangles, and the volumes of bodies, for programs that draw triangles.
 // Corners are computed by square roots alone, so that they are the same on every machine.
-#include <vector>
 
 #include "render/model.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,7 +14,7 @@ struct Scene;
 /// walls and the obstacles. It is also cut off where it is behind other visible planes. Throws RenderError for a mesh
 /// that cannot be read.
 /// `painted`: obstacles drawn as meshes have the colours of their files.
-std::vector<StillThing> still_things(const Scene& scene, const Extent& seen, bool painted);
+vector<StillThing> still_things(const Scene& scene, const Extent& seen, bool painted);
 
 /// The cube from -1 to 1.
 Mesh unit_box();

@@ -7,20 +7,20 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
-#include <string>
 #include <system_error>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
+constexpr size_t header_bytes = 84, triangle_bytes = 50;
 
 /// For a message: at most 40 bytes, and none that a terminal may obey.
-std::string shown(std::string word) {
+string shown(string word) {
   for (char& c : word) c = c > ' ' && c <= '~' ? c : '?';
   return fmt::format("`{}`", word.substr(0, 40));
 }
@@ -28,10 +28,10 @@ std::string shown(std::string word) {
 /// The words of a text STL, in order.
 class StlText {
  public:
-  explicit StlText(std::string_view text) : text_(text) {}
+  explicit StlText(string_view text) : text_(text) {}
 
-  std::vector<std::array<float, 3>> corners() {
-    for (std::string word = next(); !word.empty(); word = next()) {
+  vector<array<float, 3>> corners() {
+    for (string word = next(); !word.empty(); word = next()) {
       if (word == "solid" || word == "endsolid") {
         skip_line();  // a name of any words
       } else if (word == "facet") {
@@ -44,16 +44,16 @@ class StlText {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const {
+  [[noreturn]] void fail(const string& why) const {
     throw std::runtime_error(fmt::format("line {}: {}. Remedy: export it again", line_, why));
   }
 
   static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
   /// The next word in lower case. Empty: the text has ended.
-  std::string next() {
+  string next() {
     for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += text_[at_] == '\n';
-    std::string word;
+    string word;
     for (; at_ < text_.size() && !is_blank(text_[at_]); ++at_) {
       const char c = text_[at_];
       word += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
@@ -63,8 +63,8 @@ class StlText {
 
   void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
 
-  void expect(std::string_view wanted) {
-    const std::string word = next();
+  void expect(string_view wanted) {
+    const string word = next();
     if (word.empty()) fail("it ends within a triangle: the file is cut off");
     if (word != wanted) fail(fmt::format("{} stands in place of `{}`", shown(word), wanted));
   }
@@ -76,7 +76,7 @@ class StlText {
     expect("loop");
     for (int corner = 0; corner < 3; ++corner) {
       expect("vertex");
-      std::array<float, 3>& place = corners_.emplace_back();
+      array<float, 3>& place = corners_.emplace_back();
       for (float& x : place) x = number();
     }
     expect("endloop");
@@ -84,9 +84,9 @@ class StlText {
   }
 
   float number() {
-    const std::string word = next();
+    const string word = next();
     if (word.empty()) fail("it ends within a triangle: the file is cut off");
-    const std::size_t sign = word.starts_with('+') ? 1 : 0;
+    const size_t sign = word.starts_with('+') ? 1 : 0;
     float x = 0;
     const auto [end, error] = std::from_chars(word.data() + sign, word.data() + word.size(), x);
     // A number that is too small for a float is 0, and one that is too large not finite.
@@ -97,26 +97,26 @@ class StlText {
     return x;
   }
 
-  std::string_view text_;
-  std::size_t at_ = 0, line_ = 1;
-  std::vector<std::array<float, 3>> corners_;
+  string_view text_;
+  size_t at_ = 0, line_ = 1;
+  vector<array<float, 3>> corners_;
 };
 
-std::vector<std::array<float, 3>> binary_corners(std::string_view bytes) {
-  std::uint32_t count = 0;
+vector<array<float, 3>> binary_corners(string_view bytes) {
+  uint32_t count = 0;
   if (bytes.size() >= header_bytes) std::memcpy(&count, bytes.data() + header_bytes - 4, 4);
-  const std::size_t whole = bytes.size() < header_bytes ? 0 : (bytes.size() - header_bytes) / triangle_bytes;
+  const size_t whole = bytes.size() < header_bytes ? 0 : (bytes.size() - header_bytes) / triangle_bytes;
   if (bytes.size() < header_bytes || whole < count)
     throw std::runtime_error(
         fmt::format("it holds {} of the {} triangles that its header counts, or it is no STL file. Remedy: export it "
                     "again",
                     whole, count));
 
-  std::vector<std::array<float, 3>> corners(3 * std::size_t{count});
-  for (std::size_t t = 0; t < count; ++t) {
+  vector<array<float, 3>> corners(3 * size_t{count});
+  for (size_t t = 0; t < count; ++t) {
     const char* const triangle = bytes.data() + header_bytes + t * triangle_bytes;
     std::memcpy(&corners[3 * t], triangle + 12, 36);  // behind the normal
-    for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
+    for (size_t k = 3 * t; k < 3 * t + 3; ++k)
       for (const float x : corners[k])
         if (!std::isfinite(x))
           throw std::runtime_error(fmt::format("triangle {} has a corner that is not finite", t + 1));
@@ -126,8 +126,8 @@ std::vector<std::array<float, 3>> binary_corners(std::string_view bytes) {
 
 }  // namespace
 
-std::vector<std::array<float, 3>> stl_corners(std::string_view bytes) {
-  if (bytes.find('\0') != std::string_view::npos) return binary_corners(bytes);
+vector<array<float, 3>> stl_corners(string_view bytes) {
+  if (bytes.find('\0') != string_view::npos) return binary_corners(bytes);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   return StlText(bytes).corners();
 }

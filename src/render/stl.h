@@ -1,14 +1,13 @@
 #pragma once
 // STL files, text or binary, to the corners of their triangles.
-#include <array>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 /// Three corners for each triangle, in the order of the file. Words of a text may be in capitals, several solids are
 /// one, and an empty one is none. Bytes behind the last triangle of a binary file are left alone. Throws
 /// std::runtime_error with the fault and its line or triangle.
-std::vector<std::array<float, 3>> stl_corners(std::string_view bytes);
+vector<array<float, 3>> stl_corners(string_view bytes);
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/lighting.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,13 +18,12 @@ int tiles_along(int pixels) {
 }  // namespace
 
 void Lines::begin(Size picture) {
-  by_tile.resize(static_cast<std::size_t>(tiles_along(picture.width)) *
-                 static_cast<std::size_t>(tiles_along(picture.height)));
+  by_tile.resize(static_cast<size_t>(tiles_along(picture.width)) * static_cast<size_t>(tiles_along(picture.height)));
   for (auto& tile : by_tile) tile.clear();
   all.clear();
 }
 
-void Lines::add(const std::vector<Stroke>& strokes, const Eye& eye) {
+void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
   const auto [width, height] = eye.size;
   const int columns = tiles_along(width), rows = tiles_along(height);
   const Stroke* last = nullptr;
@@ -65,7 +65,7 @@ void Lines::add(const std::vector<Stroke>& strokes, const Eye& eye) {
     const int right = std::min(tile(std::max(line.x0, line.x1) + wide, columns), columns - 1);
     const int top = std::max(tile(std::min(line.y0, line.y1) - wide, rows), 0);
     const int bottom = std::min(tile(std::max(line.y0, line.y1) + wide, rows), rows - 1);
-    const auto number = static_cast<std::uint32_t>(all.size());
+    const auto number = static_cast<uint32_t>(all.size());
     all.push_back(line);
     last = &stroke;
     // A long slanting line passes few of the tiles in the box around it.
@@ -75,7 +75,7 @@ void Lines::add(const std::vector<Stroke>& strokes, const Eye& eye) {
         const double half = 0.5 * raster::tile_side;
         const double ox = x * raster::tile_side + half - line.x0, oy = y * raster::tile_side + half - line.y0;
         if (length > 0 && std::abs(ox * dy - oy * dx) / length > wide + 1.5 * half) continue;
-        by_tile[static_cast<std::size_t>(y * columns + x)].push_back(number);
+        by_tile[static_cast<size_t>(y * columns + x)].push_back(number);
       }
   }
 }

@@ -8,6 +8,7 @@
 #include "physics/body_now.h"
 #include "render/lighting.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -39,12 +40,12 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
     shot.floor.present = true;
     shot.floor.normal = g.normal;
     shot.floor.height = g.height;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (size_t i = 0; i < 3; ++i) {
       const auto sent = [&](const raster::Lamp& lamp) {
         return lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
       };
       float other = shot.lighting.ambient[i];
-      for (std::size_t k = 1; k < shot.lighting.lamps.size(); ++k) other += sent(shot.lighting.lamps[k]);
+      for (size_t k = 1; k < shot.lighting.lamps.size(); ++k) other += sent(shot.lighting.lamps[k]);
       shot.floor.sky[i] = 0.9F * g.color[i] * other;
       shot.floor.key[i] = 0.9F * g.color[i] * sent(shot.lighting.lamps[0]);
     }
@@ -60,12 +61,12 @@ double pattern_unit(const Scene& scene, Size size) {
   return round_below(std::clamp(8 * median_radius(scene.world), width / 12, width / 2));
 }
 
-const FixedName& name_of_fixed(const Scene& scene, std::size_t fixed) {
+const FixedName& name_of_fixed(const Scene& scene, size_t fixed) {
   static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
   return fixed < scene.roster.fixed.size() ? scene.roster.fixed[fixed] : unnamed;
 }
 
-const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle) {
+const FixedName& name_of_obstacle(const Scene& scene, size_t obstacle) {
   return name_of_fixed(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
 }
 
@@ -77,7 +78,7 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   const double unit = double{shot.pattern.unit};
 
   shot.grounds.clear();
-  for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {
+  for (size_t i = 0; i < scene.world.planes.size(); ++i) {
     const FixedName& name = name_of_fixed(scene, i);
     if (!name.visible) continue;
     const Plane& plane = scene.world.planes[i];

@@ -1,17 +1,17 @@
 #pragma once
 // The visible planes of a scene in the camera's frame, and their pattern.
-#include <cstddef>
 
 #include "raster/shot.h"
 #include "render/eye.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 /// Name, colour and other properties of an obstacle, by its number among obstacles.
-const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle);
+const FixedName& name_of_obstacle(const Scene& scene, size_t obstacle);
 /// The same of any fixed thing, by its number among all of them.
-const FixedName& name_of_fixed(const Scene& scene, std::size_t fixed);
+const FixedName& name_of_fixed(const Scene& scene, size_t fixed);
 
 /// The side of the squares on planes, m: several bodies wide, between a twelfth and half of the picture at the target
 /// of the camera at time 0. A camera that moves does not change it.

@@ -9,7 +9,6 @@
 #include <csetjmp>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
 
 // After <cstdio>, which it needs.
 #include <jpeglib.h>
@@ -17,6 +16,7 @@
 #include <jerror.h>
 
 #include "render/texture_levels.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -25,16 +25,15 @@ namespace {
   throw std::runtime_error("is damaged. Remedy: save it again, or give the body a `color`");
 }
 
-MeshTexture blank(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
+MeshTexture blank(uint64_t width, uint64_t height, uint64_t most_pixels) {
   if (width == 0 || height == 0) throw std::runtime_error("has no pixels");
   if (width > most_pixels / height)
     throw std::runtime_error(fmt::format("has {} x {} pixels; at most {} in all are read. Remedy: scale it down", width,
                                          height, most_pixels));
-  return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-          std::vector<std::uint8_t>(4 * width * height)};
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), vector<uint8_t>(4 * width * height)};
 }
 
-MeshTexture png_texture(std::string_view bytes, std::uint64_t most_pixels) {
+MeshTexture png_texture(string_view bytes, uint64_t most_pixels) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) refuse_damaged();
@@ -79,14 +78,14 @@ bool read_jpeg_rows(JpegReader& jpeg, unsigned char* rgba) {
   if (setjmp(jpeg.failed)) return false;
   jpeg_start_decompress(&jpeg.reader);
   while (jpeg.reader.output_scanline < jpeg.reader.output_height) {
-    unsigned char* row = rgba + std::size_t{4} * jpeg.reader.output_width * jpeg.reader.output_scanline;
+    unsigned char* row = rgba + size_t{4} * jpeg.reader.output_width * jpeg.reader.output_scanline;
     jpeg_read_scanlines(&jpeg.reader, &row, 1);
   }
   return true;
 }
 
 /// The reader's memory is freed with the process.
-MeshTexture jpeg_texture(std::string_view bytes, std::uint64_t most_pixels) {
+MeshTexture jpeg_texture(string_view bytes, uint64_t most_pixels) {
   JpegReader jpeg;
   if (!read_jpeg_head(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())) refuse_damaged();
   if (jpeg.reader.jpeg_color_space == JCS_CMYK || jpeg.reader.jpeg_color_space == JCS_YCCK)
@@ -98,7 +97,7 @@ MeshTexture jpeg_texture(std::string_view bytes, std::uint64_t most_pixels) {
 
 }  // namespace
 
-MeshTexture decoded_texture(std::string_view bytes, std::uint64_t most_pixels, std::uint64_t most_kept) {
+MeshTexture decoded_texture(string_view bytes, uint64_t most_pixels, uint64_t most_kept) {
   using namespace std::string_view_literals;
   MeshTexture texture;
   if (bytes.starts_with("\x89PNG"sv)) {
@@ -108,8 +107,8 @@ MeshTexture decoded_texture(std::string_view bytes, std::uint64_t most_pixels, s
   } else {
     throw std::runtime_error("is neither PNG nor JPEG. Remedy: convert it, or give the body a `color`");
   }
-  std::uint32_t width = texture.width, height = texture.height;
-  while (width > longest_texture_side || height > longest_texture_side || std::uint64_t{width} * height > most_kept) {
+  uint32_t width = texture.width, height = texture.height;
+  while (width > longest_texture_side || height > longest_texture_side || uint64_t{width} * height > most_kept) {
     width = std::max(width / 2, 1U);
     height = std::max(height / 2, 1U);
   }

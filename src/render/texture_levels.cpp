@@ -7,81 +7,82 @@
 #include <cmath>
 
 #include "numerics/srgb.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// By byte.
-const std::array<float, 256>& lights() {
-  static const std::array<float, 256> made = [] {
-    std::array<float, 256> light{};
-    for (std::size_t i = 0; i < light.size(); ++i)
+const array<float, 256>& lights() {
+  static const array<float, 256> made = [] {
+    array<float, 256> light{};
+    for (size_t i = 0; i < light.size(); ++i)
       light[i] = static_cast<float>(light_of_srgb(static_cast<double>(i) / 255));
     return light;
   }();
   return made;
 }
 
-std::uint8_t byte_of(float light) {
+uint8_t byte_of(float light) {
   const float root = std::sqrt(std::clamp(light, 0.0F, 1.0F));
-  return srgb_bytes().of_root[static_cast<std::size_t>(std::lround(root * SrgbBytes::steps))];
+  return srgb_bytes().of_root[static_cast<size_t>(std::lround(root * SrgbBytes::steps))];
 }
 
 /// The share of one long pixel in a short one.
 struct Share {
-  std::uint32_t from, to;  // numbers of pixels
+  uint32_t from, to;  // numbers of pixels
   float weight;
 };
 
 /// How `from` pixels in a row become `to`.
-std::vector<Share> shares(std::uint32_t from, std::uint32_t to) {
-  std::vector<Share> out;
-  for (std::uint64_t k = 0; k < to; ++k)
-    for (std::uint64_t i = k * from / to; i * to < (k + 1) * from; ++i) {
-      const std::uint64_t low = std::max(i * to, k * from), high = std::min((i + 1) * to, (k + 1) * from);
-      out.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k),
+vector<Share> shares(uint32_t from, uint32_t to) {
+  vector<Share> out;
+  for (uint64_t k = 0; k < to; ++k)
+    for (uint64_t i = k * from / to; i * to < (k + 1) * from; ++i) {
+      const uint64_t low = std::max(i * to, k * from), high = std::min((i + 1) * to, (k + 1) * from);
+      out.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(k),
                      static_cast<float>(high - low) / static_cast<float>(from)});
     }
   return out;
 }
 
-using Pixel = std::array<float, 4>;
+using Pixel = array<float, 4>;
 
-Pixel loaded(const std::uint8_t* rgba) {
+Pixel loaded(const uint8_t* rgba) {
   const float opacity = static_cast<float>(rgba[3]) / 255;
   return {lights()[rgba[0]], lights()[rgba[1]], lights()[rgba[2]], opacity};
 }
 
-void store(const Pixel& sum, std::uint8_t* rgba) {
-  for (std::size_t c = 0; c < 3; ++c) rgba[c] = sum[3] > 0 ? byte_of(sum[c] / sum[3]) : 0;
-  rgba[3] = static_cast<std::uint8_t>(std::lround(std::clamp(sum[3], 0.0F, 1.0F) * 255));
+void store(const Pixel& sum, uint8_t* rgba) {
+  for (size_t c = 0; c < 3; ++c) rgba[c] = sum[3] > 0 ? byte_of(sum[c] / sum[3]) : 0;
+  rgba[3] = static_cast<uint8_t>(std::lround(std::clamp(sum[3], 0.0F, 1.0F) * 255));
 }
 
 }  // namespace
 
-MeshTexture reduced(const MeshTexture& texture, std::uint32_t width, std::uint32_t height) {
-  MeshTexture out{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
-  const std::vector<Share> across = shares(texture.width, width), down = shares(texture.height, height);
-  std::vector<Pixel> row(width), sum(width);
-  for (std::size_t k = 0; k < down.size(); ++k) {
-    const std::uint8_t* from = texture.rgba.data() + std::size_t{4} * texture.width * down[k].from;
-    std::fill(row.begin(), row.end(), Pixel{});
+MeshTexture reduced(const MeshTexture& texture, uint32_t width, uint32_t height) {
+  MeshTexture out{width, height, vector<uint8_t>(size_t{4} * width * height)};
+  const vector<Share> across = shares(texture.width, width), down = shares(texture.height, height);
+  vector<Pixel> row(width), sum(width);
+  for (size_t k = 0; k < down.size(); ++k) {
+    const uint8_t* from = texture.rgba.data() + size_t{4} * texture.width * down[k].from;
+    std::ranges::fill(row, Pixel{});
     for (const Share& share : across) {
-      const Pixel pixel = loaded(from + std::size_t{4} * share.from);
+      const Pixel pixel = loaded(from + size_t{4} * share.from);
       // Colours are weighted by opacity.
-      for (std::size_t c = 0; c < 4; ++c) row[share.to][c] += share.weight * pixel[c] * (c < 3 ? pixel[3] : 1);
+      for (size_t c = 0; c < 4; ++c) row[share.to][c] += share.weight * pixel[c] * (c < 3 ? pixel[3] : 1);
     }
-    if (k == 0 || down[k].to != down[k - 1].to) std::fill(sum.begin(), sum.end(), Pixel{});
-    for (std::uint32_t x = 0; x < width; ++x)
-      for (std::size_t c = 0; c < 4; ++c) sum[x][c] += down[k].weight * row[x][c];
+    if (k == 0 || down[k].to != down[k - 1].to) std::ranges::fill(sum, Pixel{});
+    for (uint32_t x = 0; x < width; ++x)
+      for (size_t c = 0; c < 4; ++c) sum[x][c] += down[k].weight * row[x][c];
     if (k + 1 < down.size() && down[k + 1].to == down[k].to) continue;
-    for (std::uint32_t x = 0; x < width; ++x) store(sum[x], &out.rgba[4 * (std::size_t{width} * down[k].to + x)]);
+    for (uint32_t x = 0; x < width; ++x) store(sum[x], &out.rgba[4 * (size_t{width} * down[k].to + x)]);
   }
   return out;
 }
 
-std::vector<MeshTexture> coarser_levels(const MeshTexture& texture) {
-  std::vector<MeshTexture> levels;
+vector<MeshTexture> coarser_levels(const MeshTexture& texture) {
+  vector<MeshTexture> levels;
   const MeshTexture* last = &texture;
   while (last->width > 1 || last->height > 1) {
     levels.push_back(reduced(*last, std::max(last->width / 2, 1U), std::max(last->height / 2, 1U)));
@@ -90,8 +91,8 @@ std::vector<MeshTexture> coarser_levels(const MeshTexture& texture) {
   return levels;
 }
 
-std::array<float, 4> light_of(const MeshTexture& texture, std::uint32_t x, std::uint32_t y) {
-  return loaded(&texture.rgba[4 * (std::size_t{texture.width} * y + x)]);
+array<float, 4> light_of(const MeshTexture& texture, uint32_t x, uint32_t y) {
+  return loaded(&texture.rgba[4 * (size_t{texture.width} * y + x)]);
 }
 
 }  // namespace carom

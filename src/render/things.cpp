@@ -9,6 +9,7 @@
 #include "render/lighting.h"
 #include "render/surfaces.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -22,13 +23,13 @@ raster::SolidKind kind_of(Shape shape) {
 }  // namespace
 
 Things::Things(const Scene& scene) : scene_(scene) {
-  const std::size_t bodies = scene.world.body_count();
+  const size_t bodies = scene.world.body_count();
   looks_.resize(bodies);
   for (const BodyRange& range : scene.roster.bodies) {
     const Look look = look_of(range.color, range.mesh);
-    for (std::size_t i = range.first; i < range.first + std::size_t{range.count} && i < bodies; ++i) looks_[i] = look;
+    for (size_t i = range.first; i < range.first + size_t{range.count} && i < bodies; ++i) looks_[i] = look;
   }
-  for (std::uint32_t i = 0; i < scene.world.obstacles.size(); ++i) {
+  for (uint32_t i = 0; i < scene.world.obstacles.size(); ++i) {
     const FixedName& name = name_of_obstacle(scene, i);
     if (!name.visible) continue;
     obstacles_.push_back(i);
@@ -36,11 +37,11 @@ Things::Things(const Scene& scene) : scene_(scene) {
   }
 }
 
-Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
+Look Things::look_of(const Color& color, const optional<MeshUse>& mesh) {
   Look look{linear(color), mesh, 0, {}};
   if (mesh) {
     const DrawnFile file{mesh->file, mesh->own_colors};
-    look.file = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), file) - files_.begin());
+    look.file = static_cast<size_t>(std::ranges::find(files_, file) - files_.begin());
     if (look.file == files_.size()) files_.push_back(file);
   }
   return look;
@@ -63,9 +64,9 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
     shadow.volume = solid.kind;
     shadow.middle = floats(eye.point(position + look.size.middle));
     if (look.size.reach > 0)
-      shadow.outline = static_cast<std::int32_t>(look.file), shadow.reach = static_cast<float>(look.size.reach);
+      shadow.outline = static_cast<int32_t>(look.file), shadow.reach = static_cast<float>(look.size.reach);
     solid.kind = raster::SolidKind::mesh;
-    solid.part = static_cast<std::uint32_t>(shot.meshes.size());
+    solid.part = static_cast<uint32_t>(shot.meshes.size());
     shot.meshes.push_back(shadow);
   }
   // A thing around the eye would show only its own inside.
@@ -81,21 +82,21 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   }
   if (solid.kind == raster::SolidKind::mesh && !solid.shadow_only)
     meshes_.push_back({look.file, eye.point(position + look.size.middle), look.mesh->scale,
-                       static_cast<std::int32_t>(shot.solids.size())});
+                       static_cast<int32_t>(shot.solids.size())});
   shot.solids.push_back(solid);
 }
 
 void Things::take_mean(const Look& look, raster::Shot& shot) {
   if (!look.size.mean) return;
   raster::Float3& color = shot.solids.back().color;
-  if (!meshes_.empty() && meshes_.back().solid == static_cast<std::int32_t>(shot.solids.size()) - 1)
+  if (!meshes_.empty() && meshes_.back().solid == static_cast<int32_t>(shot.solids.size()) - 1)
     meshes_.back().plain = color;
   color = look.size.mean->with(color);
 }
 
 void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
-  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+  for (size_t i = 0; i < world.walls.size(); ++i) {
     const FixedName& name = name_of_fixed(scene_, world.planes.size() + i);
     if (!name.visible) continue;
     const Wall& wall = world.walls[i];
@@ -105,7 +106,7 @@ void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
     solid.center = floats(eye.point(wall.center));
     solid.radius = static_cast<float>(std::hypot(wall.half_width, wall.half_height));
     solid.half = {static_cast<float>(wall.half_width), static_cast<float>(wall.half_height), 0};
-    solid.part = static_cast<std::uint32_t>(shot.walls.size());
+    solid.part = static_cast<uint32_t>(shot.walls.size());
     shot.walls.push_back({floats(eye.direction(wall.right)), floats(eye.direction(wall.up)),
                           floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal))});
     solid.color = linear(name.color);
@@ -118,7 +119,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   shot.solids.clear(), shot.walls.clear(), shot.meshes.clear();
   meshes_.clear();
   const World& world = scene_.world;
-  for (std::uint32_t i = 0; i < world.body_count(); ++i) {
+  for (uint32_t i = 0; i < world.body_count(); ++i) {
     if (is_gone(state, i)) continue;
     Volume volume = world.volume_of(i);
     double radius = world.radius[i];
@@ -134,8 +135,8 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     take_mean(looks_[i], shot);
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
-  std::size_t look = world.body_count();
-  for (const std::uint32_t i : obstacles_) {
+  size_t look = world.body_count();
+  for (const uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
         shot);

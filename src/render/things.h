@@ -1,15 +1,12 @@
 #pragma once
 // The bodies, obstacles and walls of a picture, placed in the camera's frame.
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "physics/state.h"
 #include "raster/shot.h"
 #include "render/drawing.h"
 #include "render/eye.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,15 +21,15 @@ struct MeanColor {
 
 /// A mesh as it is drawn, m.
 struct MeshSize {
-  double radius = 0;           // of a ball about the body's position
-  Vec3 middle = Vec3::Zero();  // from the position, along the world's axes
-  double reach = 0;            // half the side of its shadow's outline; 0: it casts its volume's shadow
-  std::optional<MeanColor> mean = std::nullopt;  // if it is drawn in colours of its own
+  double radius = 0;                   // of a ball about the body's position
+  Vec3 middle = Vec3::Zero();          // from the position, along the world's axes
+  double reach = 0;                    // half the side of its shadow's outline; 0: it casts its volume's shadow
+  optional<MeanColor> mean = nullopt;  // if it is drawn in colours of its own
 };
 
 /// A file of meshes, as it is read.
 struct DrawnFile {
-  std::string path;
+  string path;
   bool own_colors;  // with the colours of the file, where it has any
   friend bool operator==(const DrawnFile&, const DrawnFile&) = default;
 };
@@ -40,17 +37,17 @@ struct DrawnFile {
 /// The constant look of a body or obstacle.
 struct Look {
   raster::Float3 color{1, 1, 1};  // linear
-  std::optional<MeshUse> mesh = std::nullopt;
-  std::size_t file = 0;  // of the mesh, in Things::files()
+  optional<MeshUse> mesh = nullopt;
+  size_t file = 0;  // of the mesh, in Things::files()
   MeshSize size;
 };
 
 /// A mesh in the picture, by the number of its solid.
 struct PlacedMesh {
-  std::size_t file;
+  size_t file;
   Vec3 middle;  // m, camera's frame
   double scale;
-  std::int32_t solid;
+  int32_t solid;
   raster::Float3 plain{};  // linear; of the parts without a colour, if it has colours of its own
 };
 
@@ -59,7 +56,7 @@ class Things {
   explicit Things(const Scene& scene);
 
   /// The files of the meshes, without repetitions.
-  const std::vector<DrawnFile>& files() const { return files_; }
+  const vector<DrawnFile>& files() const { return files_; }
   /// Sets the sizes of meshes. Call it after the files have been read.
   template <typename SizeOf>
   void measure(SizeOf size_of) {
@@ -75,10 +72,10 @@ class Things {
   /// Fills the solids of a picture with the bodies of `state`, the obstacles and the walls. A body that is part of
   /// another is left out, and the joint body has the volume of the state. Its lens must be filled before.
   void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot);
-  const std::vector<PlacedMesh>& meshes() const { return meshes_; }
+  const vector<PlacedMesh>& meshes() const { return meshes_; }
 
  private:
-  Look look_of(const Color& color, const std::optional<MeshUse>& mesh);
+  Look look_of(const Color& color, const optional<MeshUse>& mesh);
   void add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
            raster::Shot& shot);
   /// Gives the last solid the mean of its mesh's own colours, for the light that it sends and where it is tiny.
@@ -86,10 +83,10 @@ class Things {
   void add_walls(const Eye& eye, raster::Shot& shot) const;
 
   const Scene& scene_;
-  std::vector<Look> looks_;               // of the bodies, then of obstacles_
-  std::vector<std::uint32_t> obstacles_;  // those that are visible
-  std::vector<DrawnFile> files_;
-  std::vector<PlacedMesh> meshes_;
+  vector<Look> looks_;          // of the bodies, then of obstacles_
+  vector<uint32_t> obstacles_;  // those that are visible
+  vector<DrawnFile> files_;
+  vector<PlacedMesh> meshes_;
 };
 
 }  // namespace carom

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 #include "numerics/compensated.h"
@@ -14,6 +13,7 @@
 #include "physics/force.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -28,15 +28,15 @@ Vec3 starting_momentum(const Scene& scene) {
 /// The work of each force.
 /// A force that acts at all times does the work that its potential loses. The tally has the rest.
 /// Empty for a run replayed from its record, which does not hold that work.
-std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tally& tally) {
+vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tally& tally) {
   const World& world = scene.world;
-  std::vector<ForceWork> all;
+  vector<ForceWork> all;
   if (world.forces.empty() || tally.force_work.empty()) return all;
   Sum fallen;
   for (Entity i = 0; i < world.body_count(); ++i)
     fallen.add(world.mass[i] * world.gravity.dot(end.position[i] - scene.initial.position[i]));
   if (!world.gravity.isZero(0)) all.push_back({"gravity", fallen.value()});
-  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+  for (size_t k = 0; k < world.forces.size(); ++k) {
     Sum work;
     work.add(tally.force_work[k]);
     for (Entity i = 0; i < world.body_count(); ++i) {
@@ -53,14 +53,14 @@ std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, cons
 }
 
 /// The first instant with several impacts on a body, in words; empty: there was none.
-std::string first_shared(const Scene& scene, const SharedImpacts& shared) {
+string first_shared(const Scene& scene, const SharedImpacts& shared) {
   if (shared.instants == 0) return {};
   const auto name = [&](Entity e) { return scene.roster.name(e); };
   return fmt::format("`{}` with `{}` and `{}` at {:.4g} s", name(shared.body), name(shared.one), name(shared.other),
                      shared.first);
 }
 
-std::string ended_by(const Scene& scene, const Tally& tally) {
+string ended_by(const Scene& scene, const Tally& tally) {
   if (!tally.end) return "duration";
   switch (tally.end->reason) {
     case EndReason::rest:

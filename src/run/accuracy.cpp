@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "physics/force.h"
@@ -18,6 +17,7 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,13 +26,13 @@ namespace {
 using namespace accuracy_tolerance;
 
 /// The positions of all bodies: by instant, by body (m).
-using Track = std::vector<std::vector<Vec3>>;
+using Track = vector<vector<Vec3>>;
 
 /// In s: instants at irrational fractions of `end`, which no period of the scene matches, and `end` itself.
-std::vector<double> instants_of(const Scene& scene, double end) {
+vector<double> instants_of(const Scene& scene, double end) {
   const double bodies = std::max<double>(scene.world.body_count(), 1);
   const int count = static_cast<int>(std::clamp(places_kept / bodies, 8.0, double{most_instants}));
-  std::vector<double> instants;
+  vector<double> instants;
   for (int k = 0; k + 1 < count; ++k) instants.push_back(end * (k + golden) / count);
   instants.push_back(end);
   return instants;
@@ -48,10 +48,9 @@ struct TrackedRun {
 /// Runs of one scene, sampled at the same instants.
 class Runs {
  public:
-  Runs(const Scene& scene, const std::function<void()>& stop_check)
-      : Runs(scene, stop_check, scene.simulate.duration) {}
+  Runs(const Scene& scene, const function<void()>& stop_check) : Runs(scene, stop_check, scene.simulate.duration) {}
   /// Runs until `end` (s).
-  Runs(const Scene& scene, const std::function<void()>& stop_check, double end)
+  Runs(const Scene& scene, const function<void()>& stop_check, double end)
       : scene_(scene), stop_check_(stop_check), instants_(instants_of(scene, end)) {}
 
   TrackedRun track(const Simulate& way, const StepChoice& steps, double disturbance = 0) const {
@@ -59,15 +58,15 @@ class Runs {
     const Perturbed other = perturbed(scene_.world, scene_.initial, disturbance);
     return carry(other.world, other.initial, way, steps);
   }
-  const std::vector<double>& instants() const { return instants_; }
+  const vector<double>& instants() const { return instants_; }
 
   /// In m, by instant: the greatest distance so far between a body's positions in the two runs.
-  static std::vector<double> differences(const TrackedRun& one, const TrackedRun& other) {
+  static vector<double> differences(const TrackedRun& one, const TrackedRun& other) {
     const Track &a = one.track, &b = other.track;
-    std::vector<double> most;
+    vector<double> most;
     double greatest = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      for (std::size_t i = 0; i < a[k].size(); ++i) greatest = std::max(greatest, (a[k][i] - b[k][i]).norm());
+    for (size_t k = 0; k < a.size(); ++k) {
+      for (size_t i = 0; i < a[k].size(); ++i) greatest = std::max(greatest, (a[k][i] - b[k][i]).norm());
       most.push_back(greatest);
     }
     return most;
@@ -90,14 +89,14 @@ class Runs {
   }
 
   const Scene& scene_;
-  const std::function<void()>& stop_check_;
-  std::vector<double> instants_;  // s
+  const function<void()>& stop_check_;
+  vector<double> instants_;  // s
 };
 
 /// The number of instants before differences exceed a tolerance (m).
-std::size_t within(const std::vector<double>& differences, double tolerance) {
-  const auto beyond = std::find_if(differences.begin(), differences.end(), [&](double d) { return !(d <= tolerance); });
-  return static_cast<std::size_t>(beyond - differences.begin());
+size_t within(const vector<double>& differences, double tolerance) {
+  const auto beyond = std::ranges::find_if(differences, [&](double d) { return !(d <= tolerance); });
+  return static_cast<size_t>(beyond - differences.begin());
 }
 
 /// Steps with clearly smaller errors. Where doubles have no smaller ones, clearly greater errors.
@@ -115,7 +114,7 @@ StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps
 
 class Settling {
  public:
-  Settling(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& stop_check)
+  Settling(const Scene& scene, const Simulate& way, double tolerance, const function<void()>& stop_check)
       : scene_(scene), way_(way), tolerance_(tolerance), runs_(scene, stop_check) {}
 
   Accuracy go() {
@@ -131,8 +130,8 @@ class Settling {
 
  private:
   /// Records until when the tolerance is met, from the differences of two runs of a kind.
-  void note(const std::vector<double>& differences) {
-    const std::size_t good = within(differences, tolerance_);
+  void note(const vector<double>& differences) {
+    const size_t good = within(differences, tolerance_);
     accuracy_.right_until = std::numeric_limits<double>::infinity();
     accuracy_.difference = good > 0 ? differences[good - 1] : 0;
     accuracy_.beyond = differences.back();
@@ -162,7 +161,7 @@ class Settling {
       const bool finest = steps.error <= finest_error * finer;
       steps.error = std::max(steps.error / finer, finest_error);
       TrackedRun fine = runs_.track(way_, steps, disturbance);
-      const std::vector<double> differences = Runs::differences(coarse, fine);
+      const vector<double> differences = Runs::differences(coarse, fine);
       accuracy_.steps = steps;
       note(differences);
       if (differences.back() <= tolerance || finest) return fine;
@@ -180,19 +179,19 @@ class Settling {
     const Simulate own = std::exchange(way_, finer_way);
     const TrackedRun reference = settle_adaptive(reference_share * tolerance_, coarsest_error);
     way_ = own;
-    const std::size_t known = accuracy_.right_until < scene_.simulate.duration
-                                  ? within(runs_.instants(), accuracy_.right_until)
-                                  : runs_.instants().size();
+    const size_t known = accuracy_.right_until < scene_.simulate.duration
+                             ? within(runs_.instants(), accuracy_.right_until)
+                             : runs_.instants().size();
     accuracy_.reached = false;
     accuracy_.difference = std::numeric_limits<double>::infinity();
     accuracy_.steps = {};
-    std::string trouble;
+    string trouble;
     // In m: with twice the step, and with four times the step.
     double before = 0, coarse = 0;
     double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
     const double bodies = static_cast<double>(scene_.world.body_count());
     for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
-      std::vector<double> off;
+      vector<double> off;
       try {
         off = Runs::differences(runs_.track(way_, {step, 0}), reference);
         // The step may be too long for these forces.
@@ -234,20 +233,19 @@ class Settling {
 };
 
 /// The number of instants with a small perturbation that suffices to measure its growth.
-std::size_t enough(const std::vector<double>& apart) {
+size_t enough(const vector<double>& apart) {
   return std::min(least_small, apart.size() / 2);
 }
 
 /// Measures growth from the distances of two runs (m) at instants (s). The first `small` of them are small.
-void measure_growth(const std::vector<double>& instants, const std::vector<double>& apart, std::size_t small,
-                    Growth& growth) {
-  const auto first = std::find_if(apart.begin(), apart.end(), [](double d) { return d > 0; });
+void measure_growth(const vector<double>& instants, const vector<double>& apart, size_t small, Growth& growth) {
+  const auto first = std::ranges::find_if(apart, [](double d) { return d > 0; });
   if (first == apart.end()) return;
   growth.factor = apart.back() / *first;
   if (small < enough(apart)) return;
-  const std::size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
+  const size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
   // The logarithm of the growth beyond the third power of time, from one instant to another.
-  const auto excess = [&](std::size_t from, std::size_t to) {
+  const auto excess = [&](size_t from, size_t to) {
     if (!(apart[from] > 0)) return 0.0;
     return std::log(apart[to] / apart[from]) - 3 * std::log(instants[to] / instants[from]);
   };
@@ -271,7 +269,7 @@ Vec3 rounded_otherwise(Vec3 place) {
   for (double& x : place) {
     // Steps of the golden section around a circle, as many as the coordinate's bits say (Knuth, The Art of Computer
     // Programming 3, 6.4).
-    const std::uint64_t turned = std::bit_cast<std::uint64_t>(std::abs(x)) * 0x9e3779b97f4a7c15;
+    const uint64_t turned = std::bit_cast<uint64_t>(std::abs(x)) * 0x9e3779b97f4a7c15;
     x *= 1 + place_disturbance * away_from_zero(std::ldexp(static_cast<double>(turned), -64));
   }
   return place;
@@ -280,7 +278,7 @@ Vec3 rounded_otherwise(Vec3 place) {
 }  // namespace
 
 Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
-                         const std::function<void()>& stop_check) {
+                         const function<void()>& stop_check) {
   return Settling(scene, way, tolerance, stop_check).go();
 }
 
@@ -296,29 +294,28 @@ Perturbed perturbed(const World& world, const State& initial, double share) {
   return other;
 }
 
-Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& stop_check) {
+Assessment assess(const Scene& scene, const EngineChoice& engine, const function<void()>& stop_check) {
   Assessment assessment;
   Simulate way = scene.simulate;
   way.engine = engine.engine;
-  const double least = *std::min_element(scene.world.radius.begin(), scene.world.radius.end());
+  const double least = *std::ranges::min_element(scene.world.radius);
   assessment.tolerance = way.tolerance.value_or(default_tolerance * least);
 
   const Runs runs(scene, stop_check);
   const TrackedRun run = runs.track(way, engine.steps);
   assessment.stepped_contact = run.tally.stepped_contact;
   assessment.method_error = run.tally.method_error;
-  std::vector<double> off = Runs::differences(run, runs.track(way, engine.steps, disturbance));
+  vector<double> off = Runs::differences(run, runs.track(way, engine.steps, disturbance));
   assessment.rounding = off.back();
 
   // The error of steps, where there are any.
   const bool inexact_flights = way.engine != Engine::exact && force_without_closed_form(scene.world) != nullptr;
   if (inexact_flights || run.inexact_islands) {
-    const std::vector<double> finer_off =
-        Runs::differences(run, runs.track(way, finer_steps(scene, way, engine.steps)));
+    const vector<double> finer_off = Runs::differences(run, runs.track(way, finer_steps(scene, way, engine.steps)));
     // Two runs that are the same to the last bit show no error.
     const bool unknown = !inexact_flights && finer_off.back() == 0;
     assessment.integrator = unknown ? std::numeric_limits<double>::quiet_NaN() : finer_off.back();
-    for (std::size_t k = 0; k < off.size(); ++k) off[k] = std::max(off[k], finer_off[k]);
+    for (size_t k = 0; k < off.size(); ++k) off[k] = std::max(off[k], finer_off[k]);
   }
   // Impacts at one instant: what the choice of their law changes. It is no error of the run.
   if (run.tally.shared.instants + run.tally.shared.without_room > 0) {
@@ -327,24 +324,22 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
     assessment.order = Runs::differences(run, runs.track(way, steps)).back();
   }
 
-  if (const std::size_t good = within(off, assessment.tolerance); good < off.size())
+  if (const size_t good = within(off, assessment.tolerance); good < off.size())
     assessment.right_until = good > 0 ? runs.instants()[good - 1] : 0;
   assessment.growth = growth_of(scene, way, engine.steps, stop_check);
   return assessment;
 }
 
-Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps,
-                 const std::function<void()>& stop_check) {
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const function<void()>& stop_check) {
   Growth growth;
   if (way.duration == 0 || scene.world.body_count() == 0) return growth;
-  const double large = saturated * *std::max_element(scene.world.radius.begin(), scene.world.radius.end());
+  const double large = saturated * *std::ranges::max_element(scene.world.radius);
   // Measure only while the perturbation is small, because it cannot grow beyond the size of bodies.
   // That phase may end long before the run does. The runs are then repeated up to the end of that phase.
   for (double end = way.duration;;) {
     const Runs runs(scene, stop_check, end);
-    const std::vector<double> apart =
-        Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
-    const std::size_t small = within(apart, large);
+    const vector<double> apart = Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
+    const size_t small = within(apart, large);
     if (small < apart.size()) {
       growth.large_at = runs.instants()[small];
       if (small < enough(apart) && growth.large_at > clock_share * way.duration) {

@@ -1,15 +1,13 @@
 #pragma once
 // The accuracy of a scene's run: the steps that meet its tolerance, until when they do,
 // and whether the motion is chaotic.
-#include <functional>
 #include <limits>
-#include <optional>
-#include <vector>
 
 #include "physics/state.h"
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/simulate_settings.h"
+#include "std.h"
 
 namespace carom {
 
@@ -35,14 +33,12 @@ struct Accuracy {
 ///   with dop853.
 /// Finer runs start with a perturbation of the size of rounding (perturbed()), so that no two runs agree by accident.
 /// `stop_check` is called between slices of the runs, and may throw. Throws SimulationError.
-Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
-                         const std::function<void()>& stop_check);
+Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance, const function<void()>& stop_check);
 
 /// Carries a perturbation of 1e-12, and of places by rounding, along (Benettin, Galgani, Giorgilli & Strelcyn,
 /// Meccanica 15 (1980) 9). The motion is chaotic if the perturbation grows faster than the third power of time all
 /// along. Growth is measured until the perturbation is as large as the bodies.
-Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps,
-                 const std::function<void()>& stop_check);
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const function<void()>& stop_check);
 
 /// The expected error of a run, split by its causes.
 struct Assessment {
@@ -54,17 +50,17 @@ struct Assessment {
   double rounding = 0;
   /// In m: the difference of two accuracies of steps. None: all paths have closed forms. NaN: not known, because a
   /// smaller error of each step changes nothing, as where positions are rounded by more.
-  std::optional<double> integrator{};
+  optional<double> integrator{};
   /// In m: the difference of a run in which impacts of one instant act one after the other. None: rigid bodies leave
   /// none of them open.
-  std::optional<double> order{};
+  optional<double> order{};
   double stepped_contact = 0;  // s, summed over bodies
   double method_error = 0;     // J: energy that lasting contact removed, besides impacts
   Growth growth;
 };
 
 /// Assesses runs of this scene by `engine`, which must have its steps settled. Throws as settle_accuracy() does.
-Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& stop_check);
+Assessment assess(const Scene& scene, const EngineChoice& engine, const function<void()>& stop_check);
 
 /// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves,
 /// each differently, and all places by the rounding of their coordinates.

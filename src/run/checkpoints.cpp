@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <new>
-#include <string>
 #include <utility>
 
 #include "export/flights_file.h"
 #include "physics/archive.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,7 +27,7 @@ void Checkpoints::keep_outputs(Archive& archive) {
   if (own_record_ != nullptr) own_record_->keep(archive);
 }
 
-void Checkpoints::take_over(const std::function<std::unique_ptr<Simulator>(const StepChoice&)>& simulator) {
+void Checkpoints::take_over(const function<unique_ptr<Simulator>(const StepChoice&)>& simulator) {
   const Checkpoint checkpoint = stage_->exports.take_interrupted();
   begun_at_ = checkpoint.time;
   try {
@@ -97,7 +97,7 @@ void Checkpoints::forget() {
 }
 
 /// Why the run is not kept, once.
-void Checkpoints::say(const std::string& why) {
+void Checkpoints::say(const string& why) {
   if (!std::exchange(said_, true)) watch_.remark(fmt::format("cannot go on after an interrupt: {}", why));
 }
 

@@ -2,10 +2,9 @@
 // A run that is simulated for long keeps its state from time to time, between two advances: that of the simulation, of
 // the files written so far and of the measures. After an interrupt the same run goes on from there.
 #include <chrono>
-#include <functional>
-#include <memory>
 
 #include "run/stages.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,7 +23,7 @@ class Checkpoints {
 
   /// Takes over what the interrupted run has kept. `simulator`: makes that of these steps. Throws ArchiveError where
   /// that is damaged, and removes the checkpoint then.
-  void take_over(const std::function<std::unique_ptr<Simulator>(const StepChoice&)>& simulator);
+  void take_over(const function<unique_ptr<Simulator>(const StepChoice&)>& simulator);
   /// Keeps the run, if that is due. Throws ExportError of the run's files; that it cannot be kept is a remark.
   void keep_if_due();
   /// Keeps it once more, if it was kept before.
@@ -39,7 +38,7 @@ class Checkpoints {
   void keep_outputs(Archive& archive);
   const char* obstacle() const;
   void keep();
-  void say(const std::string& why);
+  void say(const string& why);
 
   Stages& stages_;
   Simulated& simulated_;

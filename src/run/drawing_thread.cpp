@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr auto glance = std::chrono::milliseconds(20);
 
 }  // namespace
 
-DrawingThread::DrawingThread(std::function<void()> work) {
+DrawingThread::DrawingThread(function<void()> work) {
   // Signals belong to the thread that runs the scene.
   sigset_t all;
   sigset_t before;
@@ -29,7 +31,7 @@ DrawingThread::~DrawingThread() {
   if (thread_.joinable()) thread_.join();
 }
 
-void DrawingThread::run(const std::function<void()>& work) {
+void DrawingThread::run(const function<void()>& work) {
   try {
     work();
   } catch (...) {
@@ -46,7 +48,7 @@ void DrawingThread::check() const {
   if (ended_ && failure_) std::rethrow_exception(failure_);
 }
 
-void DrawingThread::wait(const std::function<void()>& meanwhile) {
+void DrawingThread::wait(const function<void()>& meanwhile) {
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, glance, [this] { return ended_.load(); })) {
     lock.unlock();

@@ -3,16 +3,17 @@
 #include <atomic>
 #include <condition_variable>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <thread>
+
+#include "std.h"
 
 namespace carom {
 
 class DrawingThread {
  public:
   /// Starts `work`, or nothing if the system has no thread left: is_there().
-  explicit DrawingThread(std::function<void()> work);
+  explicit DrawingThread(function<void()> work);
   /// Waits for the end.
   ~DrawingThread();
   DrawingThread(const DrawingThread&) = delete;
@@ -22,10 +23,10 @@ class DrawingThread {
   /// Throws what the work has thrown, if it has ended.
   void check() const;
   /// Waits for the end of the work and throws what it has thrown. `meanwhile` is called often, and may throw.
-  void wait(const std::function<void()>& meanwhile);
+  void wait(const function<void()>& meanwhile);
 
  private:
-  void run(const std::function<void()>& work);
+  void run(const function<void()>& work);
 
   std::exception_ptr failure_;  // once ended_ is set
   std::atomic<bool> ended_ = false;

@@ -4,11 +4,12 @@
 #include "run/replay.h"
 #include "run/survey.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
-std::vector<MovingCamera*> Drawings::framing_cameras() {
-  std::vector<MovingCamera*> framing;
+vector<MovingCamera*> Drawings::framing_cameras() {
+  vector<MovingCamera*> framing;
   for (const Stages::Standing& each : stages_.standing()) {
     if (!each.stage->drawings) continue;
     for (MovingCamera* camera : each.stage->drawings->cameras())
@@ -20,7 +21,7 @@ std::vector<MovingCamera*> Drawings::framing_cameras() {
 void Drawings::follow(RecordQueue& queue) {
   const auto next = [&queue](Recorded& recorded) { return queue.next(recorded); };
   try {
-    draw_all([&] { return std::make_unique<Replay>(scene_.world, next, Tally{}, true); });
+    draw_all([&] { return make_unique<Replay>(scene_.world, next, Tally{}, true); });
   } catch (const RecordAbandoned&) {
     // The simulation has failed, and its error is the run's.
   } catch (...) {
@@ -31,19 +32,19 @@ void Drawings::follow(RecordQueue& queue) {
 }
 
 void Drawings::draw(const MakeMotion& motion, bool framed) {
-  const std::vector<MovingCamera*> cameras = framing_cameras();
+  const vector<MovingCamera*> cameras = framing_cameras();
   if (!framed && !cameras.empty()) survey(cameras, *motion(), stop_check_);
   draw_all(motion);
 }
 
 void Drawings::draw_all(const MakeMotion& motion) {
-  std::vector<Stages::Standing> standing = stages_.standing();
+  vector<Stages::Standing> standing = stages_.standing();
   std::erase_if(standing, [](const Stages::Standing& each) { return !each.stage->drawings; });
-  std::vector<MotionSink*> sinks;
+  vector<MotionSink*> sinks;
   for (const Stages::Standing& each : standing) sinks.push_back(&*each.stage->drawings);
 
-  const std::unique_ptr<Simulator> simulator = motion();
-  const SinkGuard guard = [&](std::size_t sink, const std::function<void()>& work) {
+  const unique_ptr<Simulator> simulator = motion();
+  const SinkGuard guard = [&](size_t sink, const function<void()>& work) {
     stages_.guarded(standing[sink].show, work);
   };
   carry_through(*simulator, sinks, scene_.simulate.duration, guard, {.stop_check = stop_check_});

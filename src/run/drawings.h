@@ -1,26 +1,24 @@
 #pragma once
 // What is drawn of a run, of all its folders, by a record of the motion.
-#include <functional>
-#include <memory>
-#include <vector>
 
 #include "run/stages.h"
+#include "std.h"
 
 namespace carom {
 
 class RecordQueue;
 
-using MakeMotion = std::function<std::unique_ptr<Simulator>()>;
+using MakeMotion = function<unique_ptr<Simulator>()>;
 
 class Drawings {
  public:
   /// All must outlive this object. `scene`: one of those that share the motion. `stop_check` is called often, and may
   /// throw.
-  Drawings(Stages& stages, const Scene& scene, const std::function<void()>& stop_check)
+  Drawings(Stages& stages, const Scene& scene, const function<void()>& stop_check)
       : stages_(stages), scene_(scene), stop_check_(stop_check) {}
 
   /// The cameras that frame the motion.
-  std::vector<MovingCamera*> framing_cameras();
+  vector<MovingCamera*> framing_cameras();
   /// Draws the motion whose record comes through the queue.
   void follow(RecordQueue& queue);
   /// Draws by recorded motions. `framed`: the cameras that frame the motion have been given it.
@@ -33,7 +31,7 @@ class Drawings {
 
   Stages& stages_;
   const Scene& scene_;
-  const std::function<void()>& stop_check_;
+  const function<void()>& stop_check_;
 };
 
 }  // namespace carom

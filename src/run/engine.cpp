@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom {
 
@@ -46,7 +47,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
 }
 
 /// Follows paths in closed form, from event to event.
-std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
+unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   ExactOptions options = exact_options(request);
   options.merge = request.simulate.contact.merge;
   return make_exact_simulator(request.world, request.initial, options);
@@ -58,13 +59,13 @@ bool chooses_steps(const Simulate& simulate) {
 }
 
 /// The same with free flights in steps.
-std::unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
+unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
   const Simulate& simulate = request.simulate;
   const StepChoice& steps = request.steps;
   ExactOptions options = exact_options(request);
   options.integrator = simulate.integrator;
   options.closed_forms = !steps.numerical;
-  const std::optional<double> step = steps.length ? steps.length : simulate.step;
+  const optional<double> step = steps.length ? steps.length : simulate.step;
   if (step)
     options.step = *step;
   else if (!chooses_steps(simulate))
@@ -73,7 +74,7 @@ std::unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
 }
 
 /// Runs frame by frame, as in the chapter's listings.
-std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
+unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   const Simulate& simulate = request.simulate;
   BookOptions options;
   options.step = request.steps.length.value_or(simulate.step.value_or(options.step));
@@ -88,10 +89,9 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
 }
 
 /// Indexed by Engine. The limits of each engine are in scene/engines.cpp.
-constexpr std::unique_ptr<Simulator> (*makers[])(const SimulatorRequest&) = {nullptr, make_exact, make_stepped,
-                                                                             make_book};
+constexpr unique_ptr<Simulator> (*makers[])(const SimulatorRequest&) = {nullptr, make_exact, make_stepped, make_book};
 
-std::string appended(const std::string& why, const std::string& more) {
+string appended(const string& why, const string& more) {
   return why.empty() ? more : why + "; " + more;
 }
 
@@ -116,7 +116,7 @@ EngineChoice choose_engine(const Scene& scene) {
   }
   if (choice.engine != Engine::stepped || scene.simulate.tolerance) return choice;
   if (chooses_steps(scene.simulate)) {
-    const std::string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
+    const string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
     choice.why = appended(choice.why, "dop853, adaptive steps" + limit);
   } else {
     choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
@@ -129,28 +129,28 @@ EngineChoice choose_engine(const Scene& scene) {
 namespace {
 
 /// Describes how a run misses its tolerance.
-std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy& accuracy, const Growth& growth) {
+string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy& accuracy, const Growth& growth) {
   const double tolerance = *scene.simulate.tolerance;
-  std::string text;
+  string text;
   if (!accuracy.reached)
     text = fmt::format(
         "not converged: the shortest steps tried, {:.3g} s, leave an error of {:.2g} m in positions, not {} m",
         *accuracy.steps.length, accuracy.difference, tolerance);
   if (!(accuracy.right_until < way.duration)) return text;
-  const std::string since =
+  const string since =
       fmt::format("positions are right to {} m until {:.4g} s, and differ by up to {:.2g} m later: ", tolerance,
                   accuracy.right_until, accuracy.beyond);
-  const std::string why =
-      growth.chaotic ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
-                     : std::string(
-                           "not converged, though not chaotic: the motion amplifies rounding, or forces change "
-                           "too fast for doubles");
+  const string why = growth.chaotic
+                         ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
+                         : string(
+                               "not converged, though not chaotic: the motion amplifies rounding, or forces change "
+                               "too fast for doubles");
   return appended(text, since + why);
 }
 
 }  // namespace
 
-void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& stop_check) {
+void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check) {
   if (!scene.simulate.tolerance || engine.engine == Engine::book) return;
   Simulate way = scene.simulate;
   way.engine = engine.engine;
@@ -172,13 +172,13 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
   engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);
 }
 
-std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          Recording recording, const StepChoice& steps) {
-  return makers[static_cast<std::size_t>(engine_of(world, simulate))](
+unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
+                                     Recording recording, const StepChoice& steps) {
+  return makers[static_cast<size_t>(engine_of(world, simulate))](
       {world, initial, simulate, std::move(recording), steps});
 }
 
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording, const StepChoice& steps) {
+unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording, const StepChoice& steps) {
   return make_simulator(scene.world, scene.initial, scene.simulate, std::move(recording), steps);
 }
 
@@ -191,7 +191,7 @@ Engine most_exact(const World& world) {
   return engine_of(world, {});
 }
 
-std::unique_ptr<Simulator> make_oracle(const Scene& scene, bool paths) {
+unique_ptr<Simulator> make_oracle(const Scene& scene, bool paths) {
   Simulate simulate = scene.simulate;
   simulate.engine = most_exact(scene.world);
   if (simulate.engine == Engine::stepped) simulate = with_engine(simulate, Engine::stepped, Integrator::dop853);

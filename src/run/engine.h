@@ -1,14 +1,10 @@
 #pragma once
 // The choice of simulator and steps for a scene, with the reason. The table in engine.cpp makes each simulator.
-#include <functional>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "scene/engines.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +15,7 @@ struct Scene;
 /// The steps of the stepped engine, and of islands.
 struct StepChoice {
   /// In s. For dop853 the longest step. None: determined by the forces, or adaptive.
-  std::optional<double> length{};
+  optional<double> length{};
   /// For dop853 and islands, the error of each step, as a share of a radius and of speeds. 0: the default.
   double error = 0;
   /// dop853 also follows paths that have closed forms, as a method independent of these.
@@ -42,12 +38,12 @@ struct Growth {
 struct EngineChoice {
   Engine engine = Engine::exact;  // never automatic
   /// One line: the reason for this engine, and its steps.
-  std::string why{};
+  string why{};
   /// Empty for a scene with a tolerance, until settle_steps finds them.
   StepChoice steps{};
   // The following are of a scene with a tolerance.
   /// How the tolerance is missed. Empty: it is met.
-  std::string shortfall{};
+  string shortfall{};
   /// In s, until when it is met. Infinity: to the end.
   double right_until = std::numeric_limits<double>::infinity();
   /// If it is not met to the end.
@@ -65,7 +61,7 @@ Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = I
 /// For a scene with a tolerance, finds the steps that meet it, by repeated runs (accuracy.h).
 /// If none do, determines by how much the tolerance is missed.
 /// `stop_check` is called from time to time, and may throw. Throws SimulationError.
-void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& stop_check);
+void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check);
 
 /// Throws SimulationError if the scene's output has flights and its engine records no paths.
 /// The loader refuses that too, but the command line may choose other outputs.
@@ -75,22 +71,22 @@ void check_flights(const Scene& scene);
 struct Recording {
   bool collisions = false;
   bool paths = false;
-  std::vector<WatchedQuantity> watch{};  // for Simulator::extremes()
+  vector<WatchedQuantity> watch{};  // for Simulator::extremes()
 };
 
 /// The scene's simulator at time 0. `scene` must outlive it. Throws SimulationError.
 /// `steps`: the settled ones. If empty, those of the scene, or the default.
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording = {}, const StepChoice& steps = {});
+unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording = {}, const StepChoice& steps = {});
 
 /// The same from any state of any world. Both must outlive the simulator.
-std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          Recording recording = {}, const StepChoice& steps = {});
+unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
+                                     Recording recording = {}, const StepChoice& steps = {});
 
 /// The most exact engine for the world, whatever engine the scene names.
 Engine most_exact(const World& world);
 
 /// A simulator by that engine which records collisions, to find the true first event. Throws SimulationError.
 /// `paths`: it also records these.
-std::unique_ptr<Simulator> make_oracle(const Scene& scene, bool paths = false);
+unique_ptr<Simulator> make_oracle(const Scene& scene, bool paths = false);
 
 }  // namespace carom

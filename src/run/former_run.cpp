@@ -19,23 +19,24 @@
 #include "run/replay.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& reason, const std::string& remedy) {
+[[noreturn]] void refuse(const string& reason, const string& remedy) {
   throw ExportError(fmt::format("{}\n  {}", reason, remedy));
 }
 
-[[noreturn]] void refuse_damaged(const std::string& folder, const std::string& reason) {
+[[noreturn]] void refuse_damaged(const string& folder, const string& reason) {
   refuse(reason, run_again(folder));
 }
 
 /// The names of outputs in its manifest.
-std::vector<std::string> output_names_of(const Manifest& manifest) {
-  std::vector<std::string> names;
+vector<string> output_names_of(const Manifest& manifest) {
+  vector<string> names;
   const auto json = json_of_text(manifest.outputs);
   if (json.is_object())
     for (const auto& [name, settings] : json.items()) names.push_back(name);
@@ -44,11 +45,11 @@ std::vector<std::string> output_names_of(const Manifest& manifest) {
 
 }  // namespace
 
-std::string former_scene_file(const std::string& folder) {
+string former_scene_file(const string& folder) {
   const Standing stands = what_stands(folder);
   if (stands == Standing::nothing) refuse("there is no such folder", "name the folder of a run");
   if (stands == Standing::other) refuse("it is not a folder", "name the folder of a run, which has a manifest.json");
-  const std::string file = (std::filesystem::path(folder) / "scene.yaml").string();
+  const string file = (std::filesystem::path(folder) / "scene.yaml").string();
   const bool has_scene = what_stands(file) != Standing::nothing;
   if (!has_scene && what_stands((std::filesystem::path(folder) / "runs").string()) == Standing::folder)
     refuse("it holds many runs", fmt::format("name one of them or more: {}/runs/r0001", folder));
@@ -58,11 +59,11 @@ std::string former_scene_file(const std::string& folder) {
   return file;
 }
 
-FormerRun read_former_run(const std::string& folder, SceneFile& file, const SparedFile& spared) {
+FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFile& spared) {
   FormerRun run;
   run.folder = folder;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const auto manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
+  const auto manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
   if (!manifest) refuse_damaged(folder, "its manifest.json is damaged, or not written by carom");
   run.manifest = *manifest;
   if (manifest->version != CAROM_VERSION)
@@ -74,17 +75,15 @@ FormerRun read_former_run(const std::string& folder, SceneFile& file, const Spar
   run.scene.output = restricted(run.scene.output, output_names_of(*manifest));
   if (outputs_text(run.scene.output) != manifest->outputs)
     refuse("it holds no run", "name a folder that carom run has written");
-  if (const std::string wrong =
-          wrong_file(opened.get(), *manifest, [&](std::string_view name) { return spared(run, name); });
+  if (const string wrong = wrong_file(opened.get(), *manifest, [&](string_view name) { return spared(run, name); });
       !wrong.empty())
     refuse_damaged(folder, fmt::format("{} is missing or has changed", wrong));
   run.scene.file = manifest->scene_file;
   return run;
 }
 
-bool FormerRun::has(std::string_view name) const {
-  return std::any_of(manifest.files.begin(), manifest.files.end(),
-                     [&](const FileRecord& file) { return file.name == name; });
+bool FormerRun::has(string_view name) const {
+  return std::ranges::any_of(manifest.files, [&](const FileRecord& file) { return file.name == name; });
 }
 
 bool FormerRun::has_flights() const {
@@ -96,10 +95,10 @@ double FormerRun::end() const {
   Descriptor file = opened ? open_stored(opened.get(), "summary.csv") : Descriptor();
   if (!file) throw ExportError(fmt::format("{}/summary.csv is missing", folder));
   StoredTable table(std::move(file));
-  const std::optional<std::size_t> column = table.find("duration_s");
-  const std::vector<std::string_view>* row = table.next();
-  const std::optional<double> time =
-      column && row != nullptr && *column < row->size() ? number_in((*row)[*column]) : std::nullopt;
+  const optional<size_t> column = table.find("duration_s");
+  const vector<string_view>* row = table.next();
+  const optional<double> time =
+      column && row != nullptr && *column < row->size() ? number_in((*row)[*column]) : nullopt;
   if (!time) throw ExportError(fmt::format("{}/summary.csv has no duration_s", folder));
   return *time;
 }
@@ -110,9 +109,9 @@ bool FormerRun::has_flights_with_collisions(const Scene& of) const {
   return FlightsReader(opened.get(), folder, of).has_collisions();
 }
 
-std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
+unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  return replay_from(std::make_unique<FlightsReader>(opened.get(), folder, of), of.world);
+  return replay_from(make_unique<FlightsReader>(opened.get(), folder, of), of.world);
 }
 
 }  // namespace carom

@@ -1,25 +1,22 @@
 #pragma once
 // A finished run in a folder, to be drawn again or plotted without simulating it.
-#include <functional>
-#include <memory>
-#include <string>
-#include <string_view>
 
 #include "files/manifest.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
 struct FormerRun {
-  std::string folder;
+  string folder;
   Manifest manifest;
   /// From its scene.yaml, with the outputs that the folder has.
   Scene scene;
 
   /// Whether its manifest has a file of this name.
-  bool has(std::string_view file) const;
+  bool has(string_view file) const;
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
   /// The same, with its collisions (drawings_show_collisions). `scene` must have the same motion. Throws ExportError if
@@ -29,16 +26,16 @@ struct FormerRun {
   double end() const;
   /// A simulator that follows these paths. `scene` must have the same motion and outlive it.
   /// Throws ExportError, also later while it advances.
-  std::unique_ptr<Simulator> motion(const Scene& scene) const;
+  unique_ptr<Simulator> motion(const Scene& scene) const;
 };
 
 /// The run in `folder`, of this version of the program. `file`: its scene.yaml, from which the scene is read.
 /// It must be complete, except for the files that are `spared`, given the run without its scene.
 /// Throws SceneError, and ExportError with a text that names the remedy.
-using SparedFile = std::function<bool(const FormerRun& run, std::string_view name)>;
-FormerRun read_former_run(const std::string& folder, SceneFile& file, const SparedFile& spared);
+using SparedFile = function<bool(const FormerRun& run, string_view name)>;
+FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFile& spared);
 
 /// The path of a run's scene.yaml. Throws ExportError if the folder cannot be that of a complete run.
-std::string former_scene_file(const std::string& folder);
+string former_scene_file(const string& folder);
 
 }  // namespace carom

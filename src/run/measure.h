@@ -7,18 +7,13 @@
 // - a region: `regions.pocket.entries`, `.inside`, `.first_s`, `.first`
 // - the number of bodies with a property at the end: `count(y_m < 0)`
 // - a value of the scene: `let.h`, or the name of a measure of its own
-#include <cstdint>
-#include <optional>
-#include <span>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/summary.h"
 #include "numerics/vec3.h"
 #include "physics/quantity.h"
 #include "run/summary_columns.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -27,18 +22,18 @@ struct OwnMeasure;
 struct Scene;
 
 /// "x_m", ..., "speed_m_per_s", "kinetic_J".
-std::string_view name_of(Quantity quantity);
+string_view name_of(Quantity quantity);
 /// A phrase: "x coordinate of the centre".
-std::string_view meaning_of(Quantity quantity);
+string_view meaning_of(Quantity quantity);
 
 /// The name of a measure is invalid. The text describes the fault and suggests a near name, if there is one.
 struct MeasureError : std::runtime_error {
   using std::runtime_error::runtime_error;
-  MeasureError(const std::string& text, TextSpan where) : runtime_error(text), span(where) {}
+  MeasureError(const string& text, TextSpan where) : runtime_error(text), span(where) {}
   TextSpan span{};  // in the text of the measure
 };
 
-enum class MeasureForm : std::uint8_t {
+enum class MeasureForm : uint8_t {
   column,         // a number of summary.csv
   at_end,         // a quantity of a body at the end
   greatest,       // max(...)
@@ -57,23 +52,23 @@ enum class MeasureForm : std::uint8_t {
   expression      // '= ...'
 };
 
-enum class Relation : std::uint8_t { less, at_most, greater, at_least };
+enum class Relation : uint8_t { less, at_most, greater, at_least };
 
 struct Measure {
-  std::string name;
+  string name;
   MeasureForm form = MeasureForm::column;
   const SummaryColumn* column = nullptr;
   /// Of at_end, extremes and count: "balls", "bodies" or "groups", and a name as in trajectory.csv: "red", "gas.17".
   /// Both empty: all bodies.
-  std::string kind, body;
+  string kind, body;
   Quantity quantity = Quantity::x;
   /// Of hits and first_hit: one or two names. Of a region, a value of `let` or a measure of the scene: its name.
-  std::vector<std::string> things{};
+  vector<string> things{};
   Relation relation = Relation::less;
   /// Of count: what the quantity is compared with. Of an expression: the whole. Both are expressions in which `m0`,
   /// `m1`, ... stand for `parts`.
-  std::string formula{};
-  std::vector<Measure> parts{};
+  string formula{};
+  vector<Measure> parts{};
   /// Of a part: where it stands in the text of the whole.
   TextSpan span{};
 
@@ -83,31 +78,31 @@ struct Measure {
 };
 
 /// Parses a measure by its grammar alone. `own`: the names of measures that scenes define. Throws MeasureError.
-Measure parse_measure(std::string_view name, std::span<const std::string> own = {});
+Measure parse_measure(string_view name, span<const string> own = {});
 /// The same, and all that it names must exist in the scene.
-Measure parse_measure(std::string_view name, const Scene& scene);
+Measure parse_measure(string_view name, const Scene& scene);
 /// The measures that the scene defines, each with its name. Throws MeasureError.
-std::vector<Measure> own_measures(const Scene& scene);
+vector<Measure> own_measures(const Scene& scene);
 /// The fault of one of them; an empty text: none. For LoadOptions.
 TextFault measure_fault(const Scene& scene, const OwnMeasure& measure);
 
 /// The value of a measure's formula with these values of its parts. NaN: undefined, as with a part that is, or where a
 /// division by zero occurs.
-double formula_value(const Measure& measure, std::span<const double> parts);
+double formula_value(const Measure& measure, span<const double> parts);
 
 bool compares(double value, Relation relation, double limit);
 
 /// Whether a collision is one of hits(a, b), or of hits(a) for one name. has(number, first): whether the name of this
 /// number has the first of the two that collided, or the second.
 template <typename Has>
-bool meet(std::size_t names, const Has& has) {
+bool meet(size_t names, const Has& has) {
   if (names == 1) return has(0, true) || has(0, false);
   return (has(0, true) && has(1, false)) || (has(0, false) && has(1, true));
 }
 
 /// A readable label: "energy lost (J)", "balls.red speed (m/s)".
-std::string label_of(std::string_view column);
+string label_of(string_view column);
 /// The unit at the end of a column's or measure's name: "J", "m/s". Empty: a pure number or text.
-std::string_view unit_of(std::string_view column);
+string_view unit_of(string_view column);
 
 }  // namespace carom

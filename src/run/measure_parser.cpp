@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -11,13 +10,14 @@
 #include "run/measure.h"
 #include "run/measure_scope.h"
 #include "scene/formula.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t longest = 4096;  // letters of a measure
+constexpr size_t longest = 4096;  // letters of a measure
 
 bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -29,73 +29,73 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-std::string_view trimmed(std::string_view text) {
+string_view trimmed(string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
 }
 
 struct Call {
-  std::string_view name;
+  string_view name;
   MeasureForm form;
-  std::string_view example;
+  string_view example;
 };
 
-constexpr std::array<Call, 7> calls = {{{"max", MeasureForm::greatest, "max(balls.NAME.y_m)"},
-                                        {"min", MeasureForm::least, "min(balls.NAME.y_m)"},
-                                        {"time_of_max", MeasureForm::greatest_time, "time_of_max(balls.NAME.y_m)"},
-                                        {"time_of_min", MeasureForm::least_time, "time_of_min(balls.NAME.y_m)"},
-                                        {"first", MeasureForm::first_hit, "first(red, blue)"},
-                                        {"hits", MeasureForm::hits, "hits(red, blue)"},
-                                        {"count", MeasureForm::count, "count(y_m < 0)"}}};
+constexpr array<Call, 7> calls = {{{"max", MeasureForm::greatest, "max(balls.NAME.y_m)"},
+                                   {"min", MeasureForm::least, "min(balls.NAME.y_m)"},
+                                   {"time_of_max", MeasureForm::greatest_time, "time_of_max(balls.NAME.y_m)"},
+                                   {"time_of_min", MeasureForm::least_time, "time_of_min(balls.NAME.y_m)"},
+                                   {"first", MeasureForm::first_hit, "first(red, blue)"},
+                                   {"hits", MeasureForm::hits, "hits(red, blue)"},
+                                   {"count", MeasureForm::count, "count(y_m < 0)"}}};
 
 struct RegionText {
-  std::string_view name;
+  string_view name;
   MeasureForm form;
 };
 
-constexpr std::array<RegionText, 4> of_regions = {{{"entries", MeasureForm::entries},
-                                                   {"inside", MeasureForm::inside},
-                                                   {"first_s", MeasureForm::first_entry},
-                                                   {"first", MeasureForm::first_entrant}}};
+constexpr array<RegionText, 4> of_regions = {{{"entries", MeasureForm::entries},
+                                              {"inside", MeasureForm::inside},
+                                              {"first_s", MeasureForm::first_entry},
+                                              {"first", MeasureForm::first_entrant}}};
 
 struct RelationText {
-  std::string_view sign;
+  string_view sign;
   Relation relation;
 };
 
 // A longer sign comes before its beginning.
-constexpr std::array<RelationText, 4> relations = {
+constexpr array<RelationText, 4> relations = {
     {{"<=", Relation::at_most}, {">=", Relation::at_least}, {"<", Relation::less}, {">", Relation::greater}}};
 
-const Call* find_call(std::string_view name) {
-  const auto found = std::find_if(calls.begin(), calls.end(), [&](const Call& call) { return call.name == name; });
+const Call* find_call(string_view name) {
+  const auto found = std::ranges::find_if(calls, [&](const Call& call) { return call.name == name; });
   return found == calls.end() ? nullptr : &*found;
 }
 
-bool is_kind(std::string_view word) {
+bool is_kind(string_view word) {
   return word == "balls" || word == "bodies" || word == "groups";
 }
 
-std::optional<Quantity> find_quantity(std::string_view name) {
+optional<Quantity> find_quantity(string_view name) {
   for (int k = 0; k <= static_cast<int>(Quantity::kinetic); ++k)
     if (name_of(static_cast<Quantity>(k)) == name) return static_cast<Quantity>(k);
-  return std::nullopt;
+  return nullopt;
 }
 
-Quantity quantity_named(std::string_view name, std::string_view whole) {
+Quantity quantity_named(string_view name, string_view whole) {
   if (const auto quantity = find_quantity(name)) return *quantity;
-  std::vector<std::string_view> names;
+  vector<string_view> names;
   for (int k = 0; k <= static_cast<int>(Quantity::kinetic); ++k) names.push_back(name_of(static_cast<Quantity>(k)));
-  const std::string near = near_name(name, names);
+  const string near = near_name(name, names);
   throw MeasureError(fmt::format("{}: no quantity {}{}", in_backticks(whole), in_backticks(name),
                                  near.empty() ? fmt::format("; the quantities are {}", joined(names, ", ")) : near));
 }
 
 /// "balls.red.y_m" into the measure, or "y_m" for all bodies. `one`: it must be one body.
-void read_quantity(std::string_view text, bool one, Measure& measure) {
-  const std::size_t first = text.find('.'), last = text.rfind('.');
-  if (first == std::string_view::npos && !one) {
+void read_quantity(string_view text, bool one, Measure& measure) {
+  const size_t first = text.find('.'), last = text.rfind('.');
+  if (first == string_view::npos && !one) {
     measure.quantity = quantity_named(text, measure.name);
     return;
   }
@@ -110,11 +110,11 @@ void read_quantity(std::string_view text, bool one, Measure& measure) {
   measure.quantity = quantity_named(text.substr(last + 1), measure.name);
 }
 
-std::vector<std::string_view> arguments_of(std::string_view text) {
-  std::vector<std::string_view> parts;
+vector<string_view> arguments_of(string_view text) {
+  vector<string_view> parts;
   int depth = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  size_t begin = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
     depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
     if (text[i] != ',' || depth != 0) continue;
     parts.push_back(trimmed(text.substr(begin, i - begin)));
@@ -125,9 +125,9 @@ std::vector<std::string_view> arguments_of(std::string_view text) {
 }
 
 /// The end of what opens at `open`, a parenthesis: the place of the one that closes it.
-std::size_t closing_of(std::string_view text, std::size_t open) {
+size_t closing_of(string_view text, size_t open) {
   int depth = 0;
-  for (std::size_t i = open; i < text.size(); ++i) {
+  for (size_t i = open; i < text.size(); ++i) {
     depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
     if (depth == 0) return i;
   }
@@ -139,7 +139,7 @@ std::size_t closing_of(std::string_view text, std::size_t open) {
 class FormulaParts {
  public:
   /// `from`: bytes before the expression in the text of the measure.
-  FormulaParts(std::string_view text, std::size_t from, std::span<const std::string> own, Measure& measure)
+  FormulaParts(string_view text, size_t from, span<const string> own, Measure& measure)
       : text_(text), from_(from), own_(own), measure_(measure) {}
 
   void read() {
@@ -155,31 +155,31 @@ class FormulaParts {
 
   /// Where a span of the formula stands in the text of the measure.
   TextSpan place(const TextSpan& span) const {
-    const std::size_t begin = std::min(span.at, places_.size() - 1),
-                      last = std::min(span.at + std::max<std::size_t>(span.length, 1), places_.size()) - 1;
+    const size_t begin = std::min(span.at, places_.size() - 1),
+                 last = std::min(span.at + std::max<size_t>(span.length, 1), places_.size()) - 1;
     return {places_[begin].at, places_[last].at + places_[last].length - places_[begin].at};
   }
 
  private:
   /// Copies the text up to here into the formula.
-  void take(std::size_t end) {
+  void take(size_t end) {
     for (; at_ < end; ++at_) {
       measure_.formula += text_[at_];
       places_.push_back({from_ + at_, 1});
     }
   }
 
-  std::size_t end_of_word(std::size_t from) const {
+  size_t end_of_word(size_t from) const {
     while (from < text_.size() && (is_letter(text_[from]) || is_digit(text_[from]))) ++from;
     return from;
   }
 
   /// Digits, so that the e of 1e3 is no name.
   void number() {
-    std::size_t end = at_;
+    size_t end = at_;
     while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '.')) ++end;
     if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
-      std::size_t after = end + 1;
+      size_t after = end + 1;
       if (after < text_.size() && (text_[after] == '+' || text_[after] == '-')) ++after;
       if (after < text_.size() && is_digit(text_[after])) end = end_of_word(after);
     }
@@ -187,18 +187,18 @@ class FormulaParts {
   }
 
   void word() {
-    const std::size_t end = end_of_word(at_);
-    const std::string_view word = text_.substr(at_, end - at_);
+    const size_t end = end_of_word(at_);
+    const string_view word = text_.substr(at_, end - at_);
     if (end < text_.size() && text_[end] == '.') return part(end_of_path(end));
-    std::size_t open = end;
+    size_t open = end;
     while (open < text_.size() && is_blank(text_[open])) ++open;
     if (open < text_.size() && text_[open] == '(' && find_call(word) != nullptr) {
-      const std::size_t close = closing_of(text_, open);
+      const size_t close = closing_of(text_, open);
       const auto arguments = arguments_of(text_.substr(open + 1, close - open - 1));
       const bool arithmetic = (word == "max" || word == "min") &&
-                              (arguments.size() > 1 || arguments.front().find('(') != std::string_view::npos);
+                              (arguments.size() > 1 || arguments.front().find('(') != string_view::npos);
       if (!arithmetic) return part(close + 1);
-    } else if (find_summary_column(word) != nullptr || std::find(own_.begin(), own_.end(), word) != own_.end()) {
+    } else if (find_summary_column(word) != nullptr || std::ranges::find(own_, word) != own_.end()) {
       return part(end);
     }
     take(end);
@@ -206,8 +206,8 @@ class FormulaParts {
 
   /// The end of "balls.red.y_m", "groups.gas.17.x_m", "regions.left-pocket.entries", "let.h". Names may have hyphens,
   /// the last word has none.
-  std::size_t end_of_path(std::size_t dot) const {
-    std::size_t end = dot + 1;
+  size_t end_of_path(size_t dot) const {
+    size_t end = dot + 1;
     if (text_.substr(at_, dot - at_) != "let")
       while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '-')) ++end;
     else
@@ -216,7 +216,7 @@ class FormulaParts {
     return end;
   }
 
-  void part(std::size_t end) {
+  void part(size_t end) {
     const TextSpan span{from_ + at_, end - at_};
     Measure part;
     try {
@@ -234,23 +234,23 @@ class FormulaParts {
     at_ = end;
   }
 
-  std::string_view text_;
-  std::size_t from_;
-  std::span<const std::string> own_;
+  string_view text_;
+  size_t from_;
+  span<const string> own_;
   Measure& measure_;
-  std::size_t at_ = 0;
-  std::vector<TextSpan> places_;  // by byte of the formula
+  size_t at_ = 0;
+  vector<TextSpan> places_;  // by byte of the formula
 };
 
 /// "m0", "m1", ...
-std::vector<std::string> names_of_parts(const Measure& measure) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < measure.parts.size(); ++k) names.push_back(fmt::format("m{}", k));
+vector<string> names_of_parts(const Measure& measure) {
+  vector<string> names;
+  for (size_t k = 0; k < measure.parts.size(); ++k) names.push_back(fmt::format("m{}", k));
   return names;
 }
 
 /// `from`: bytes before it in the text of the measure.
-void read_formula(std::string_view text, std::size_t from, std::span<const std::string> own, Measure& measure) {
+void read_formula(string_view text, size_t from, span<const string> own, Measure& measure) {
   FormulaParts parts(text, from, own, measure);
   parts.read();
   try {
@@ -263,16 +263,15 @@ void read_formula(std::string_view text, std::size_t from, std::span<const std::
 }
 
 /// `whole`: the text of the measure, of which `inside` is a part.
-void read_count(std::string_view inside, std::string_view whole, std::span<const std::string> own, Measure& measure) {
+void read_count(string_view inside, string_view whole, span<const string> own, Measure& measure) {
   for (const RelationText& text : relations) {
-    const std::size_t at = inside.find(text.sign);
-    if (at == std::string_view::npos) continue;
-    const std::string_view quantity = trimmed(inside.substr(0, at)),
-                           limit = trimmed(inside.substr(at + text.sign.size()));
+    const size_t at = inside.find(text.sign);
+    if (at == string_view::npos) continue;
+    const string_view quantity = trimmed(inside.substr(0, at)), limit = trimmed(inside.substr(at + text.sign.size()));
     measure.relation = text.relation;
     read_quantity(quantity, false, measure);
     if (limit.empty()) break;
-    read_formula(limit, static_cast<std::size_t>(limit.data() - whole.data()), own, measure);
+    read_formula(limit, static_cast<size_t>(limit.data() - whole.data()), own, measure);
     measure.name = fmt::format("count({} {} {})", quantity, text.sign, limit);
     return;
   }
@@ -280,14 +279,12 @@ void read_count(std::string_view inside, std::string_view whole, std::span<const
 }
 
 /// `whole`: the text of the measure, of which `inside` is a part.
-void read_call(const Call& call, std::string_view inside, std::string_view whole, std::span<const std::string> own,
-               Measure& measure) {
+void read_call(const Call& call, string_view inside, string_view whole, span<const string> own, Measure& measure) {
   measure.form = call.form;
   if (call.form == MeasureForm::count) return read_count(trimmed(inside), whole, own, measure);
   const auto arguments = arguments_of(inside);
   const bool of_things = call.form == MeasureForm::first_hit || call.form == MeasureForm::hits;
-  const bool empty =
-      std::any_of(arguments.begin(), arguments.end(), [](std::string_view text) { return text.empty(); });
+  const bool empty = std::ranges::any_of(arguments, [](string_view text) { return text.empty(); });
   if (empty || arguments.size() > (of_things ? 2 : 1))
     throw MeasureError(fmt::format("{}: expected {}, such as {}", in_backticks(measure.name),
                                    of_things ? "one or two names" : "one quantity", call.example));
@@ -296,28 +293,27 @@ void read_call(const Call& call, std::string_view inside, std::string_view whole
   measure.things.assign(arguments.begin(), arguments.end());
 }
 
-void read_region(std::string_view text, Measure& measure) {
-  const std::size_t last = text.rfind('.');
-  const std::string_view word = text.substr(last + 1);
-  const auto found =
-      std::find_if(of_regions.begin(), of_regions.end(), [&](const auto& of) { return of.name == word; });
-  constexpr std::string_view begin = "regions.";
+void read_region(string_view text, Measure& measure) {
+  const size_t last = text.rfind('.');
+  const string_view word = text.substr(last + 1);
+  const auto found = std::ranges::find_if(of_regions, [&](const auto& of) { return of.name == word; });
+  constexpr string_view begin = "regions.";
   if (found == of_regions.end() || last < begin.size()) {
-    std::vector<std::string_view> names;
+    vector<string_view> names;
     for (const RegionText& of : of_regions) names.push_back(of.name);
     throw MeasureError(fmt::format("{}: of a region there are {}, such as regions.NAME.entries", in_backticks(text),
                                    joined(names, ", ")));
   }
   measure.form = found->form;
-  measure.things = {std::string(text.substr(begin.size(), last - begin.size()))};
+  measure.things = {string(text.substr(begin.size(), last - begin.size()))};
 }
 
-[[noreturn]] void refuse_name(std::string_view name, std::span<const std::string> own) {
-  std::vector<std::string_view> names(own.begin(), own.end());
+[[noreturn]] void refuse_name(string_view name, span<const string> own) {
+  vector<string_view> names(own.begin(), own.end());
   for (const SummaryColumn& column : summary_columns())
     if (column.number != nullptr) names.push_back(column.name);
   for (const Call& call : calls) names.push_back(call.name);
-  const std::string near = near_name(name, names);
+  const string near = near_name(name, names);
   throw MeasureError(fmt::format(
       "no measure {}{}", in_backticks(name),
       near.empty() ? "; a measure is a numeric column of summary.csv, a quantity such as balls.NAME.speed_m_per_s, an "
@@ -327,9 +323,9 @@ void read_region(std::string_view text, Measure& measure) {
 
 }  // namespace
 
-double formula_value(const Measure& measure, std::span<const double> parts) {
+double formula_value(const Measure& measure, span<const double> parts) {
   constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-  if (!std::all_of(parts.begin(), parts.end(), [](double value) { return std::isfinite(value); })) return undefined;
+  if (!std::ranges::all_of(parts, [](double value) { return std::isfinite(value); })) return undefined;
   try {
     return Formula(measure.formula, names_of_parts(measure)).value(parts);
   } catch (const FormulaError&) {
@@ -337,15 +333,15 @@ double formula_value(const Measure& measure, std::span<const double> parts) {
   }
 }
 
-Measure parse_measure(std::string_view text, std::span<const std::string> own) {
-  const std::string_view name = trimmed(text);
+Measure parse_measure(string_view text, span<const string> own) {
+  const string_view name = trimmed(text);
   if (name.size() > longest) throw MeasureError(fmt::format("a measure has at most {} letters", longest));
   Measure measure;
   measure.name = name;
   if (name.starts_with('=')) {
     measure.form = MeasureForm::expression;
-    const std::string_view formula = trimmed(name.substr(1));
-    read_formula(formula, static_cast<std::size_t>(formula.data() - text.data()), own, measure);
+    const string_view formula = trimmed(name.substr(1));
+    read_formula(formula, static_cast<size_t>(formula.data() - text.data()), own, measure);
     return measure;
   }
   measure.column = find_summary_column(name);
@@ -354,11 +350,11 @@ Measure parse_measure(std::string_view text, std::span<const std::string> own) {
       throw MeasureError(fmt::format("{} of summary.csv is text, not a measure", in_backticks(name)));
     return measure;
   }
-  const std::size_t open = name.find('(');
-  if (open != std::string_view::npos) {
+  const size_t open = name.find('(');
+  if (open != string_view::npos) {
     const Call* call = find_call(trimmed(name.substr(0, open)));
     if (call == nullptr) refuse_name(name, own);
-    const std::size_t close = closing_of(name, open);
+    const size_t close = closing_of(name, open);
     if (close + 1 != name.size())
       throw MeasureError(fmt::format("{}: arithmetic begins with `=`, such as '= {}'", in_backticks(name), name));
     read_call(*call, name.substr(open + 1, close - open - 1), text, own, measure);
@@ -368,17 +364,17 @@ Measure parse_measure(std::string_view text, std::span<const std::string> own) {
     read_region(name, measure);
     return measure;
   }
-  if (name.starts_with("let.") && name.find('.', 4) == std::string_view::npos && name.size() > 4) {
+  if (name.starts_with("let.") && name.find('.', 4) == string_view::npos && name.size() > 4) {
     measure.form = MeasureForm::given;
-    measure.things = {std::string(name.substr(4))};
+    measure.things = {string(name.substr(4))};
     return measure;
   }
-  if (std::find(own.begin(), own.end(), name) != own.end()) {
+  if (std::ranges::find(own, name) != own.end()) {
     measure.form = MeasureForm::own;
-    measure.things = {std::string(name)};
+    measure.things = {string(name)};
     return measure;
   }
-  if (!is_kind(name.substr(0, name.find('.'))) || name.find('.') == std::string_view::npos) refuse_name(name, own);
+  if (!is_kind(name.substr(0, name.find('.'))) || name.find('.') == string_view::npos) refuse_name(name, own);
   measure.form = MeasureForm::at_end;
   read_quantity(name, true, measure);
   return measure;

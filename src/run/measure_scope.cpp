@@ -5,32 +5,31 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 
 #include "scene/formula.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 
 namespace carom {
 namespace {
 
-const BodyRange* find_range(const Scene& scene, std::string_view name) {
+const BodyRange* find_range(const Scene& scene, string_view name) {
   const auto& bodies = scene.roster.bodies;
-  const auto found =
-      std::find_if(bodies.begin(), bodies.end(), [&](const BodyRange& range) { return range.name == name; });
+  const auto found = std::ranges::find_if(bodies, [&](const BodyRange& range) { return range.name == name; });
   return found == bodies.end() ? nullptr : &*found;
 }
 
 /// Whether a thing of this name has no members, and `fits`(the key that it stands under).
 template <typename Fits>
-bool is_empty(const Scene& scene, std::string_view name, const Fits& fits) {
+bool is_empty(const Scene& scene, string_view name, const Fits& fits) {
   const auto& empty = scene.roster.empty;
-  return std::any_of(empty.begin(), empty.end(), [&](const EmptyFamily& e) { return e.name == name && fits(e.of); });
+  return std::ranges::any_of(empty, [&](const EmptyFamily& e) { return e.name == name && fits(e.of); });
 }
 
 /// The member "17" of a group. Throws MeasureError.
-EntityRange member_of(const BodyRange& range, std::string_view number, const Measure& measure) {
+EntityRange member_of(const BodyRange& range, string_view number, const Measure& measure) {
   Entity member = 0;
   const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), member);
   if (error != std::errc() || stop != number.data() + number.size() || member >= range.count)
@@ -46,22 +45,22 @@ TextSpan within(const TextSpan& part, const TextSpan& span) {
   return span.length == 0 ? part : TextSpan{part.at + span.at, span.length};
 }
 
-std::string near_name(std::string_view word, const std::vector<std::string_view>& names) {
-  const std::string near = nearest(word, names);
+string near_name(string_view word, const vector<string_view>& names) {
+  const string near = nearest(word, names);
   return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
 }
 
 namespace {
 
 /// For names of things of the scene.
-std::string other_names(std::string_view name, const std::vector<std::string_view>& names) {
-  const std::string suggestion = suggest_name(name, names);
+string other_names(string_view name, const vector<string_view>& names) {
+  const string suggestion = suggest_name(name, names);
   return suggestion.empty() ? "" : "; " + suggestion;
 }
 
 }  // namespace
 
-bool is_named(std::string_view thing, std::string_view name) {
+bool is_named(string_view thing, string_view name) {
   return thing == name || (thing.size() > name.size() && thing.starts_with(name) && thing[name.size()] == '.');
 }
 
@@ -78,13 +77,13 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
     found = true;
     bodies.count += range.count;
   }
-  const std::size_t dot = measure.body.rfind('.');
-  if (!found && groups && dot != std::string::npos)
+  const size_t dot = measure.body.rfind('.');
+  if (!found && groups && dot != string::npos)
     if (const BodyRange* range = find_range(scene, measure.body.substr(0, dot)); range != nullptr && range->group)
-      return member_of(*range, std::string_view(measure.body).substr(dot + 1), measure);
-  const auto is_kind = [&](std::string_view of) { return groups ? of == "groups" : of == "balls" || of == "bodies"; };
+      return member_of(*range, string_view(measure.body).substr(dot + 1), measure);
+  const auto is_kind = [&](string_view of) { return groups ? of == "groups" : of == "balls" || of == "bodies"; };
   if (!found && !is_empty(scene, measure.body, is_kind)) {
-    std::vector<std::string_view> names;
+    vector<string_view> names;
     for (const BodyRange& range : scene.roster.bodies)
       if (range.group == groups) names.push_back(range.name);
     throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind,
@@ -97,41 +96,41 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
   return bodies;
 }
 
-std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene) {
-  std::vector<EntityRange> things;
-  std::vector<std::string_view> names;
+vector<EntityRange> things_named(string_view name, const Measure& measure, const Scene& scene) {
+  vector<EntityRange> things;
+  vector<string_view> names;
   for (const BodyRange& range : scene.roster.bodies) {
     names.push_back(range.name);
     if (is_named(range.name, name)) things.push_back({range.first, range.count});
   }
-  for (std::size_t k = 0; k < scene.roster.fixed.size(); ++k) {
-    const std::string_view fixed = scene.roster.fixed[k].name;
+  for (size_t k = 0; k < scene.roster.fixed.size(); ++k) {
+    const string_view fixed = scene.roster.fixed[k].name;
     names.push_back(fixed);
     if (is_named(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
   }
-  for (std::size_t k = 0; k < scene.roster.strings.size(); ++k) {
+  for (size_t k = 0; k < scene.roster.strings.size(); ++k) {
     names.push_back(scene.roster.strings[k]);
     if (is_named(scene.roster.strings[k], name)) things.push_back({scene.world.string_number(k), 1});
   }
-  const auto is_thing = [](std::string_view of) { return of != "regions"; };
+  const auto is_thing = [](string_view of) { return of != "regions"; };
   if (!things.empty() || is_empty(scene, name, is_thing)) return things;
-  const std::size_t dot = name.rfind('.');
-  if (dot != std::string_view::npos)
+  const size_t dot = name.rfind('.');
+  if (dot != string_view::npos)
     if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
       return {member_of(*range, name.substr(dot + 1), measure)};
   throw MeasureError(fmt::format("{}: nothing is named {}{}", in_backticks(measure.name), in_backticks(name),
                                  other_names(name, names)));
 }
 
-std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene) {
-  const std::string& name = measure.things[0];
-  std::vector<std::uint32_t> regions;
-  std::vector<std::string_view> names;
-  for (std::uint32_t r = 0; r < scene.roster.regions.size(); ++r) {
+vector<uint32_t> regions_named(const Measure& measure, const Scene& scene) {
+  const string& name = measure.things[0];
+  vector<uint32_t> regions;
+  vector<string_view> names;
+  for (uint32_t r = 0; r < scene.roster.regions.size(); ++r) {
     names.push_back(scene.roster.regions[r]);
     if (is_named(scene.roster.regions[r], name)) regions.push_back(r);
   }
-  if (regions.empty() && !is_empty(scene, name, [](std::string_view of) { return of == "regions"; }))
+  if (regions.empty() && !is_empty(scene, name, [](string_view of) { return of == "regions"; }))
     throw MeasureError(fmt::format("{}: no region is named {}{}", in_backticks(measure.name), in_backticks(name),
                                    other_names(name, names)));
   return regions;
@@ -139,16 +138,15 @@ std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& sc
 
 namespace {
 
-std::vector<std::string> own_names(const Scene& scene) {
-  std::vector<std::string> names;
+vector<string> own_names(const Scene& scene) {
+  vector<string> names;
   for (const OwnMeasure& own : scene.measures.own) names.push_back(own.name);
   return names;
 }
 
 /// The scene's own measure of this name.
-Measure defined(const std::string& name, const Scene& scene) {
-  const auto found = std::find_if(scene.measures.own.begin(), scene.measures.own.end(),
-                                  [&](const OwnMeasure& own) { return own.name == name; });
+Measure defined(const string& name, const Scene& scene) {
+  const auto found = std::ranges::find_if(scene.measures.own, [&](const OwnMeasure& own) { return own.name == name; });
   Measure measure = parse_measure(found->text, own_names(scene));
   measure.name = name;
   return measure;
@@ -156,7 +154,7 @@ Measure defined(const std::string& name, const Scene& scene) {
 
 /// Throws MeasureError unless the scene has all that the measure names. `above`: the scene's own measures of which it
 /// is a part.
-void check(const Measure& measure, const Scene& scene, std::vector<std::string>& above) {
+void check(const Measure& measure, const Scene& scene, vector<string>& above) {
   for (const Measure& part : measure.parts) {
     try {
       check(part, scene, above);
@@ -175,7 +173,7 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
       return;
     case MeasureForm::first_hit:
     case MeasureForm::hits:
-      for (const std::string& name : measure.things) things_named(name, measure, scene);
+      for (const string& name : measure.things) things_named(name, measure, scene);
       return;
     case MeasureForm::entries:
     case MeasureForm::inside:
@@ -185,14 +183,14 @@ void check(const Measure& measure, const Scene& scene, std::vector<std::string>&
       return;
     case MeasureForm::given:
       if (!scene.measures.numbers.contains(measure.things[0])) {
-        std::vector<std::string_view> names;
+        vector<string_view> names;
         for (const auto& [name, number] : scene.measures.numbers) names.push_back(name);
         throw MeasureError(
             fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), other_names(measure.things[0], names)));
       }
       return;
     case MeasureForm::own: {
-      if (std::find(above.begin(), above.end(), measure.things[0]) != above.end())
+      if (std::ranges::find(above, measure.things[0]) != above.end())
         throw MeasureError(
             fmt::format("{} is defined by itself: {}", in_backticks(measure.things[0]), joined(above, ", ")));
       above.push_back(measure.things[0]);
@@ -214,7 +212,7 @@ Measure own_measure(const OwnMeasure& own, const Scene& scene) {
   if (find_summary_column(own.name) != nullptr || is_formula_word(own.name))
     throw MeasureError(fmt::format("{} is already a {}; give the measure another name", in_backticks(own.name),
                                    is_formula_word(own.name) ? "function" : "column of summary.csv"));
-  std::vector<std::string> above = {own.name};
+  vector<string> above = {own.name};
   Measure measure = defined(own.name, scene);
   check(measure, scene, above);
   return measure;
@@ -222,19 +220,19 @@ Measure own_measure(const OwnMeasure& own, const Scene& scene) {
 
 }  // namespace
 
-Measure parse_measure(std::string_view name, const Scene& scene) {
+Measure parse_measure(string_view name, const Scene& scene) {
   Measure measure = parse_measure(name, own_names(scene));
   check_names(measure, scene);
   return measure;
 }
 
 void check_names(const Measure& measure, const Scene& scene) {
-  std::vector<std::string> above;
+  vector<string> above;
   check(measure, scene, above);
 }
 
-std::vector<Measure> own_measures(const Scene& scene) {
-  std::vector<Measure> measures;
+vector<Measure> own_measures(const Scene& scene) {
+  vector<Measure> measures;
   for (const OwnMeasure& own : scene.measures.own) measures.push_back(own_measure(own, scene));
   return measures;
 }

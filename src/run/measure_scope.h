@@ -1,11 +1,9 @@
 #pragma once
 // The names in measures to the bodies, fixed things and strings of a scene.
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "physics/entity.h"
 #include "run/measure.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,10 +18,10 @@ struct EntityRange {
 TextSpan within(const TextSpan& part, const TextSpan& span);
 
 /// "; did you mean `red`?", or empty.
-std::string near_name(std::string_view word, const std::vector<std::string_view>& names);
+string near_name(string_view word, const vector<string_view>& names);
 
 /// Whether a thing has this name, or is one of several that have it: gas.3, room.x_min, posts.2.
-bool is_named(std::string_view thing, std::string_view name);
+bool is_named(string_view thing, string_view name);
 
 /// The bodies of a measure of a quantity: one, the members of a group, or all; none of `repeat: 0`. Throws
 /// MeasureError.
@@ -31,11 +29,11 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene);
 
 /// What a measure's name stands for: bodies, members of a group, fixed things, the room or one of its sides, strings.
 /// Empty: a thing with `repeat: 0`. Throws MeasureError.
-std::vector<EntityRange> things_named(std::string_view name, const Measure& measure, const Scene& scene);
+vector<EntityRange> things_named(string_view name, const Measure& measure, const Scene& scene);
 
 /// The regions of a measure of regions: one, or all members of a repeated one, perhaps none; ascending. Throws
 /// MeasureError.
-std::vector<std::uint32_t> regions_named(const Measure& measure, const Scene& scene);
+vector<uint32_t> regions_named(const Measure& measure, const Scene& scene);
 
 /// Throws MeasureError unless the scene has all that the measure names.
 void check_names(const Measure& measure, const Scene& scene);

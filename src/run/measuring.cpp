@@ -7,14 +7,15 @@
 
 #include "physics/body_now.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-bool any_has(const std::vector<EntityRange>& ranges, Entity e) {
-  return std::any_of(ranges.begin(), ranges.end(), [&](const EntityRange& range) { return range.has(e); });
+bool any_has(const vector<EntityRange>& ranges, Entity e) {
+  return std::ranges::any_of(ranges, [&](const EntityRange& range) { return range.has(e); });
 }
 
 bool is_extreme(MeasureForm form) {
@@ -34,8 +35,7 @@ WatchedQuantity watched_by(const Measure& measure, const Scene& scene) {
 
 }  // namespace
 
-Measuring::Measuring(const Scene& scene, std::vector<Measure> measures)
-    : scene_(scene), measures_(std::move(measures)) {
+Measuring::Measuring(const Scene& scene, vector<Measure> measures) : scene_(scene), measures_(std::move(measures)) {
   for (const Measure& measure : measures_) {
     try {
       prepare(measure);
@@ -51,21 +51,19 @@ void Measuring::prepare(const Measure& measure) {
   check_names(measure, scene_);
   if (is_extreme(measure.form)) {
     const WatchedQuantity watched = watched_by(measure, scene_);
-    if (std::find(watched_.begin(), watched_.end(), watched) == watched_.end()) watched_.push_back(watched);
+    if (std::ranges::find(watched_, watched) == watched_.end()) watched_.push_back(watched);
   }
-  if (is_of_region(measure.form) && std::none_of(visits_.begin(), visits_.end(), [&](const Visits& visits) {
-        return visits.name == measure.things[0];
-      }))
+  if (is_of_region(measure.form) &&
+      std::ranges::none_of(visits_, [&](const Visits& visits) { return visits.name == measure.things[0]; }))
     visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
   if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
-  if (std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return m.things == measure.things; }))
-    return;
+  if (std::ranges::any_of(meetings_, [&](const Meeting& m) { return m.things == measure.things; })) return;
   Meeting meeting{measure.things, things_named(measure.things[0], measure, scene_), {}, 0, undefined};
   if (measure.things.size() > 1) meeting.b = things_named(measure.things[1], measure, scene_);
   meetings_.push_back(std::move(meeting));
 }
 
-void Measuring::record(std::span<const Collision> collisions, std::span<const RegionCrossing> crossings) {
+void Measuring::record(span<const Collision> collisions, span<const RegionCrossing> crossings) {
   for (Visits& visits : visits_) {
     for (const RegionCrossing& c : crossings) {
       if (!std::binary_search(visits.regions.begin(), visits.regions.end(), c.region)) continue;
@@ -78,10 +76,10 @@ void Measuring::record(std::span<const Collision> collisions, std::span<const Re
   for (Meeting& meeting : meetings_) {
     for (const Collision& c : collisions) {
       if (c.kind == CollisionKind::rest) continue;
-      const auto has = [&](std::size_t name, bool first) {
-        const std::vector<EntityRange>& named = name == 0 ? meeting.a : meeting.b;
+      const auto has = [&](size_t name, bool first) {
+        const vector<EntityRange>& named = name == 0 ? meeting.a : meeting.b;
         // A string that goes taut pulls at both of its bodies.
-        const bool is_other = first && c.kind == CollisionKind::string && any_has(named, scene_.world.second_body(c.b));
+        const bool is_other = first && c.kind == CollisionKind::taut && any_has(named, scene_.world.second_body(c.b));
         return is_other || any_has(named, first ? c.a : c.b);
       };
       if (!meet(meeting.things.size(), has)) continue;
@@ -91,9 +89,9 @@ void Measuring::record(std::span<const Collision> collisions, std::span<const Re
   }
 }
 
-std::vector<Measured> Measuring::values(const MeasuredRun& run) const {
-  std::vector<Measured> values;
-  for (std::size_t k = 0; k < measures_.size(); ++k) {
+vector<Measured> Measuring::values(const MeasuredRun& run) const {
+  vector<Measured> values;
+  for (size_t k = 0; k < measures_.size(); ++k) {
     const Measure& measure = measures_[k];
     Measured& measured = values.emplace_back();
     measured.name = measure.name;
@@ -110,7 +108,7 @@ double Measuring::at_end(const Measure& measure, Entity body, const State& end) 
 }
 
 double Measuring::evaluated(const Measure& measure, const MeasuredRun& run) const {
-  std::vector<double> values;
+  vector<double> values;
   for (const Measure& part : measure.parts) values.push_back(value(part, run));
   return formula_value(measure, values);
 }
@@ -125,8 +123,8 @@ double Measuring::counted(const Measure& measure, const MeasuredRun& run) const 
 }
 
 const Extremes& Measuring::extremes(const Measure& measure, const MeasuredRun& run) const {
-  const auto found = std::find(watched_.begin(), watched_.end(), watched_by(measure, scene_));
-  return run.extremes[static_cast<std::size_t>(found - watched_.begin())];
+  const auto found = std::ranges::find(watched_, watched_by(measure, scene_));
+  return run.extremes[static_cast<size_t>(found - watched_.begin())];
 }
 
 /// Bodies inside a region that are still in the world.
@@ -136,19 +134,17 @@ double Measuring::inside(const Visits& visits, const State& end) const {
   return count;
 }
 
-std::string Measuring::first_entrant(const Measure& measure) const {
-  const auto found =
-      std::find_if(visits_.begin(), visits_.end(), [&](const Visits& v) { return v.name == measure.things[0]; });
-  return found->entrant == no_entity ? std::string() : scene_.roster.name(found->entrant);
+string Measuring::first_entrant(const Measure& measure) const {
+  const auto found = std::ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
+  return found->entrant == no_entity ? string() : scene_.roster.name(found->entrant);
 }
 
 double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
   const auto visits = [&]() -> const Visits& {
-    return *std::find_if(visits_.begin(), visits_.end(), [&](const Visits& v) { return v.name == measure.things[0]; });
+    return *std::ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
   };
   const auto meeting = [&]() -> const Meeting& {
-    return *std::find_if(meetings_.begin(), meetings_.end(),
-                         [&](const Meeting& m) { return m.things == measure.things; });
+    return *std::ranges::find_if(meetings_, [&](const Meeting& m) { return m.things == measure.things; });
   };
   switch (measure.form) {
     case MeasureForm::column:
@@ -180,9 +176,8 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
     case MeasureForm::given:
       return scene_.measures.numbers.at(measure.things[0]);
     case MeasureForm::own:
-      return value(*std::find_if(measures_.begin(), measures_.end(),
-                                 [&](const Measure& other) { return other.name == measure.things[0]; }),
-                   run);
+      return value(
+          *std::ranges::find_if(measures_, [&](const Measure& other) { return other.name == measure.things[0]; }), run);
     default:
       return undefined;
   }

@@ -1,15 +1,14 @@
 #pragma once
 // The measures of a run, taken as it goes on.
 #include <map>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "physics/collision.h"
 #include "physics/extremes.h"
 #include "physics/state.h"
 #include "physics/world_region.h"
 #include "run/measure_scope.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,30 +16,30 @@ namespace carom {
 struct MeasuredRun {
   const State& state;  // the last one
   const Summary& summary;
-  std::span<const Extremes> extremes;  // by Measuring::watched()
+  span<const Extremes> extremes;  // by Measuring::watched()
 };
 
 class Measuring {
  public:
   /// `scene` must outlive this object. A measure that names what the scene does not have is undefined.
-  Measuring(const Scene& scene, std::vector<Measure> measures);
+  Measuring(const Scene& scene, vector<Measure> measures);
 
   /// Whether a measure counts collisions.
   bool needs_collisions() const { return !meetings_.empty(); }
   /// The quantities with extremes, which the simulator has to watch.
-  const std::vector<WatchedQuantity>& watched() const { return watched_; }
+  const vector<WatchedQuantity>& watched() const { return watched_; }
   /// Takes collisions and crossings of regions, each in order.
-  void record(std::span<const Collision> collisions, std::span<const RegionCrossing> crossings);
+  void record(span<const Collision> collisions, span<const RegionCrossing> crossings);
   /// The values of the measures, in their order.
-  std::vector<Measured> values(const MeasuredRun& run) const;
+  vector<Measured> values(const MeasuredRun& run) const;
 
   void keep(auto& archive) { archive.sized(meetings_, visits_); }
 
  private:
   /// The collisions between two things, or of one thing with anything.
   struct Meeting {
-    std::vector<std::string> things;
-    std::vector<EntityRange> a, b;  // of the names in `things`
+    vector<string> things;
+    vector<EntityRange> a, b;  // of the names in `things`
     double count = 0;
     double first;  // s, NaN: none
 
@@ -49,18 +48,18 @@ class Measuring {
 
   /// The crossings of one region, or of all members of a repeated one.
   struct Visits {
-    std::string name;
-    std::vector<std::uint32_t> regions;  // ascending
+    string name;
+    vector<uint32_t> regions;  // ascending
     double entries = 0;
     double first;  // s, of the first entry; NaN: none
     Entity entrant = no_entity;
-    std::map<std::pair<std::uint32_t, Entity>, bool> inside{};  // by region and body
+    std::map<std::pair<uint32_t, Entity>, bool> inside{};  // by region and body
 
     void keep(auto& archive) { archive(entries, first, entrant, inside); }
   };
 
   double inside(const Visits& visits, const State& end) const;
-  std::string first_entrant(const Measure& measure) const;
+  string first_entrant(const Measure& measure) const;
   void prepare(const Measure& measure);
   double value(const Measure& measure, const MeasuredRun& run) const;
   double at_end(const Measure& measure, Entity body, const State& end) const;
@@ -69,11 +68,11 @@ class Measuring {
   const Extremes& extremes(const Measure& measure, const MeasuredRun& run) const;
 
   const Scene& scene_;
-  const std::vector<Measure> measures_;
-  std::vector<bool> known_;  // by measure: the scene has all that it names
-  std::vector<Meeting> meetings_;
-  std::vector<Visits> visits_;
-  std::vector<WatchedQuantity> watched_;
+  const vector<Measure> measures_;
+  vector<bool> known_;  // by measure: the scene has all that it names
+  vector<Meeting> meetings_;
+  vector<Visits> visits_;
+  vector<WatchedQuantity> watched_;
 };
 
 }  // namespace carom

@@ -1,12 +1,11 @@
 #pragma once
 // A motion simulated once, into a record that can be followed more than once.
-#include <functional>
-#include <memory>
 #include <utility>
 
 #include "files/part_file.h"
 #include "run/engine.h"
 #include "run/motion_sink.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,7 +14,7 @@ class FlightsFile;
 /// Passes the record of a motion on, until `end` (s).
 class RecordSink final : public MotionSink {
  public:
-  RecordSink(double end, std::function<void(const Simulator&)> put) : end_(end), put_(std::move(put)) {}
+  RecordSink(double end, function<void(const Simulator&)> put) : end_(end), put_(std::move(put)) {}
 
   bool more() const override { return more_; }
   double time() override { return end_; }
@@ -25,7 +24,7 @@ class RecordSink final : public MotionSink {
 
  private:
   double end_;
-  std::function<void(const Simulator&)> put_;
+  function<void(const Simulator&)> put_;
   bool more_ = true;
 };
 
@@ -35,8 +34,7 @@ RecordSink record_into(FlightsFile& file, double end);
 /// Simulates the scene to its end, with settled steps, and returns a function that makes followers of its record. The
 /// record is a file without a name in this place. `scene` must outlive all. Throws SimulationError, ExportError, and
 /// what `stop_check` throws.
-std::function<std::unique_ptr<Simulator>()> recorded_motion(const Scene& scene, const EngineChoice& engine,
-                                                            const FilePlace& place,
-                                                            const std::function<void()>& stop_check);
+function<unique_ptr<Simulator>()> recorded_motion(const Scene& scene, const EngineChoice& engine,
+                                                  const FilePlace& place, const function<void()>& stop_check);
 
 }  // namespace carom

@@ -4,25 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "run/stopwatch.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 class Carrying {
  public:
-  Carrying(Simulator& simulator, std::span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
+  Carrying(Simulator& simulator, span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
            const CarryWatch& watch)
       : simulator_(simulator), sinks_(sinks.begin(), sinks.end()), duration_(duration), guard_(guard), watch_(watch) {}
 
   void go() {
     if (!watch_.goes_on) record();
-    while (const std::optional<double> time = next_instant()) {
+    while (const optional<double> time = next_instant()) {
       carry_to(*time);
-      if (const std::optional<RunEnd>& end = simulator_.tally().end; end && !ended_ && !(*time < end->time)) {
+      if (const optional<RunEnd>& end = simulator_.tally().end; end && !ended_ && !(*time < end->time)) {
         ended_ = true;
         each([&](MotionSink& sink) { sink.end_at(end->time); });
         continue;
@@ -36,11 +35,11 @@ class Carrying {
  private:
   template <typename Work>
   void each(const Work& work) const {
-    for (std::size_t i = 0; i < sinks_.size(); ++i) guard_(i, [&] { work(*sinks_[i]); });
+    for (size_t i = 0; i < sinks_.size(); ++i) guard_(i, [&] { work(*sinks_[i]); });
   }
 
-  std::optional<double> next_instant() const {
-    std::optional<double> next;
+  optional<double> next_instant() const {
+    optional<double> next;
     each([&](MotionSink& sink) {
       if (sink.more()) next = std::min(next.value_or(sink.time()), sink.time());
     });
@@ -52,7 +51,7 @@ class Carrying {
     watch_.stop_check();
     while (simulator_.time() < time && !is_over()) {
       const double before = simulator_.time();
-      const std::uint64_t collisions_before = simulator_.tally().collisions();
+      const uint64_t collisions_before = simulator_.tally().collisions();
 
       // Multiples of the slice, so that round instants stay round.
       double slices = std::floor(before / slice) + 1;
@@ -76,7 +75,7 @@ class Carrying {
 
   /// Whether the run has ended before its duration.
   bool is_over() const {
-    const std::optional<RunEnd>& end = simulator_.tally().end;
+    const optional<RunEnd>& end = simulator_.tally().end;
     return end && !(simulator_.time() < end->time);
   }
 
@@ -88,7 +87,7 @@ class Carrying {
   }
 
   Simulator& simulator_;
-  const std::vector<MotionSink*> sinks_;
+  const vector<MotionSink*> sinks_;
   const double duration_;
   const SinkGuard& guard_;
   const CarryWatch& watch_;
@@ -97,7 +96,7 @@ class Carrying {
 
 }  // namespace
 
-void carry_through(Simulator& simulator, std::span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
+void carry_through(Simulator& simulator, span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
                    const CarryWatch& watch) {
   Carrying(simulator, sinks, duration, guard, watch).go();
 }

@@ -1,10 +1,8 @@
 #pragma once
 // What takes a motion as it goes: the record of all that happens, and the state at instants of its own.
-#include <cstddef>
-#include <functional>
-#include <span>
 
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
@@ -25,24 +23,24 @@ class MotionSink {
 
 /// Functions called between advances of a simulator. `stop_check` may throw.
 struct CarryWatch {
-  std::function<void()> stop_check;
-  std::function<void()> advanced = [] {};
+  function<void()> stop_check;
+  function<void()> advanced = [] {};
   double* advance_s = nullptr;  // wall time of advances is added to it
   bool goes_on = false;         // the sinks have taken what the simulator has recorded so far
 };
 
 /// Calls a function for a sink, by its number, and does what a failure means. It may leave sinks out.
-using SinkGuard = std::function<void(std::size_t sink, const std::function<void()>& work)>;
+using SinkGuard = function<void(size_t sink, const function<void()>& work)>;
 
 /// The guard of sinks whose failures are not told apart.
-inline void unguarded(std::size_t, const std::function<void()>& work) {
+inline void unguarded(size_t, const function<void()>& work) {
   work();
 }
 
 /// Carries a simulator, which is at time 0 unless it goes on, through all instants of these sinks.
 /// `duration`: of the motion (s). Throws SimulationError, also if the simulator makes no progress, and what the
 /// functions throw.
-void carry_through(Simulator& simulator, std::span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
+void carry_through(Simulator& simulator, span<MotionSink* const> sinks, double duration, const SinkGuard& guard,
                    const CarryWatch& watch);
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -14,13 +15,13 @@ namespace {
 State later(const State& state, double time) {
   State moved = state;
   moved.time += time;
-  for (std::size_t i = 0; i < moved.position.size(); ++i) moved.position[i] += time * moved.velocity[i];
+  for (size_t i = 0; i < moved.position.size(); ++i) moved.position[i] += time * moved.velocity[i];
   return moved;
 }
 
 }  // namespace
 
-PictureSeries::PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, std::string run)
+PictureSeries::PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, string run)
     : scene_(scene),
       stream_(stream),
       history_(history),
@@ -28,12 +29,12 @@ PictureSeries::PictureSeries(const Scene& scene, const PictureStream& stream, co
       camera_(scene, stream.size),
       shutter_(scene.overlay.shutter * stream.interval) {}
 
-void PictureSeries::aim(std::optional<double> picture) {
+void PictureSeries::aim(optional<double> picture) {
   if (shutter_.is_used() && picture) shutter_.aim(*picture);
 }
 
 const Image& PictureSeries::draw(const State& state) {
-  if (!renderer_) renderer_ = std::make_unique<Renderer>(scene_, stream_.size, stream_.samples);
+  if (!renderer_) renderer_ = make_unique<Renderer>(scene_, stream_.size, stream_.samples);
   if (!maker_) maker_.emplace(scene_, history_, stream_.size, stream_.speed);
   return renderer_->draw(state, maker_->at(state, camera_.at(state)));
 }
@@ -63,7 +64,7 @@ const Image& PictureSeries::light(const State& state) {
 const Image& PictureSeries::picture(const State& state, const Tally& tally) {
   const bool several = exposed_ > 0;
   const Image& image = light(state);
-  const std::uint64_t drawn = renderer_->drawn();
+  const uint64_t drawn = renderer_->drawn();
   repeated_ = alone_ && !several && drawn == shown_;
   alone_ = !several;
   shown_ = drawn;

@@ -1,8 +1,5 @@
 #pragma once
 // The pictures of one stream: draws each from one instant, or from several for motion blur, and writes text onto it.
-#include <memory>
-#include <optional>
-#include <string>
 
 #include "export/picture_streams.h"
 #include "overlay/drawing_maker.h"
@@ -13,18 +10,19 @@
 #include "physics/tally.h"
 #include "render/moving_camera.h"
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom {
 
 class PictureSeries {
  public:
   /// `run`: the name of the run's folder. `scene` and `history` must outlive this object.
-  PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, std::string run);
+  PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, string run);
 
   MovingCamera& camera() { return camera_; }
 
   /// Sets the time (s) of the next picture, also repeatedly. None: there is no further one.
-  void aim(std::optional<double> picture);
+  void aim(optional<double> picture);
   /// The next time (s) before that of the picture at which a state is needed. Infinity: none.
   double next_instant() const { return shutter_.next(); }
   /// Takes the state of that time.
@@ -42,19 +40,19 @@ class PictureSeries {
   const Scene& scene_;
   PictureStream stream_;
   const History& history_;
-  std::string run_;
+  string run_;
   MovingCamera camera_;
   Shutter shutter_;
   // Made for the first picture. A scene without pictures needs no renderer and reads no mesh.
-  std::unique_ptr<Renderer> renderer_;
-  std::optional<DrawingMaker> maker_;
-  std::optional<Inscription> inscription_;
+  unique_ptr<Renderer> renderer_;
+  optional<DrawingMaker> maker_;
+  optional<Inscription> inscription_;
   LightMean mean_;
   int exposed_ = 0;  // instants of the picture in the making
   Image image_;      // with text
   CaptionValues values_;
   // The drawings of the renderer that the last picture shows, and whether it is of one alone.
-  std::uint64_t shown_ = 0;
+  uint64_t shown_ = 0;
   bool alone_ = false, repeated_ = false;
 };
 

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 
-#include <optional>
 #include <utility>
 
 #include "files/manifest.h"
@@ -14,24 +13,25 @@
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 /// Bytes. A title is one line.
-constexpr std::uint64_t largest_summary = 1 << 20;
+constexpr uint64_t largest_summary = 1 << 20;
 
 /// A text file of the run.
-std::string text_of_run(const FormerRun& former, const char* name, std::uint64_t most) {
+string text_of_run(const FormerRun& former, const char* name, uint64_t most) {
   const Descriptor folder = open_folder(AT_FDCWD, former.folder, true);
-  const auto text = folder ? read_text(folder.get(), name, most) : std::nullopt;
+  const auto text = folder ? read_text(folder.get(), name, most) : nullopt;
   if (!text) throw ExportError(former.folder + "/" + name + " is missing or too large");
   return *text;
 }
 
 /// The end of the cell that begins at `from`.
-std::size_t cell_end(const std::string& text, std::size_t from) {
+size_t cell_end(const string& text, size_t from) {
   bool quoted = false;
   for (; from < text.size(); ++from) {
     if (text[from] == '"') quoted = !quoted;
@@ -41,10 +41,10 @@ std::size_t cell_end(const std::string& text, std::size_t from) {
 }
 
 /// summary.csv of a run without pictures.
-std::string without_pictures(std::string summary) {
-  std::size_t head = 0, row = summary.find('\n') + 1;
+string without_pictures(string summary) {
+  size_t head = 0, row = summary.find('\n') + 1;
   while (head < summary.size()) {
-    const std::size_t head_end = cell_end(summary, head), row_end = cell_end(summary, row);
+    const size_t head_end = cell_end(summary, head), row_end = cell_end(summary, row);
     if (summary.compare(head, head_end - head, "frames") == 0) return summary.replace(row, row_end - row, "0");
     head = head_end + 1;
     row = row_end + 1;
@@ -68,13 +68,12 @@ class RunPlotter {
   }
 
  private:
-  void write(const std::vector<ChartFile>& drawn) {
+  void write(const vector<ChartFile>& drawn) {
     OpenFolder folder(request_.folder);
-    std::vector<FileRecord> records =
-        in_place_ ? kept_files() : folder.begin(*request_.scene, read_meshes(*request_.scene));
+    vector<FileRecord> records = in_place_ ? kept_files() : folder.begin(*request_.scene, read_meshes(*request_.scene));
     if (in_place_) folder.renew(*request_.scene, {});
-    std::optional<OutputFile> summary;
-    std::vector<PartFile*> files;
+    optional<OutputFile> summary;
+    vector<PartFile*> files;
     if (!in_place_) {
       summary.emplace(folder.place(), "summary.csv");
       summary->write(without_pictures(text_of_run(former_, "summary.csv", largest_summary)));
@@ -84,7 +83,7 @@ class RunPlotter {
     }
     Series series(folder, plot_files);
     for (const ChartFile& file : drawn) series.put(file.name, file.bytes);
-    const std::vector<FileRecord> charts = series.records();
+    const vector<FileRecord> charts = series.records();
     records.insert(records.end(), charts.begin(), charts.end());
     OutputFile manifest(folder.place(), manifest_name);
     manifest.write(changed_manifest(text_of_run(former_, manifest_name, largest_manifest), *request_.scene, records));
@@ -93,8 +92,8 @@ class RunPlotter {
   }
 
   /// All files of the run except those that are drawn now.
-  std::vector<FileRecord> kept_files() const {
-    std::vector<FileRecord> files = former_.manifest.files;
+  vector<FileRecord> kept_files() const {
+    vector<FileRecord> files = former_.manifest.files;
     std::erase_if(files, [&](const FileRecord& file) { return is_drawn_by(possible_, file.name); });
     return files;
   }

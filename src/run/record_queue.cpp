@@ -2,11 +2,13 @@
 
 #include <utility>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
 /// On the way, unless a single batch has more: some 20 MB.
-constexpr std::size_t most_parts = 65536;
+constexpr size_t most_parts = 65536;
 
 }  // namespace
 

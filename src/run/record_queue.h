@@ -1,13 +1,12 @@
 #pragma once
 // Passes a record from the thread that simulates to the one that draws. A bounded number of parts is on the way.
 #include <condition_variable>
-#include <cstddef>
 #include <deque>
 #include <mutex>
-#include <vector>
 
 #include "physics/recorded.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,18 +25,18 @@ class RecordQueue {
   bool next(Recorded& recorded);
 
  private:
-  using Batch = std::vector<Recorded>;
+  using Batch = vector<Recorded>;
   enum class State { open, whole, abandoned };
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Batch> batches_;
-  std::size_t parts_ = 0;  // in them
+  size_t parts_ = 0;  // in them
   State state_ = State::open;
   bool left_ = false;
   // Of the reader.
   Batch reading_;
-  std::size_t read_ = 0;
+  size_t read_ = 0;
 };
 
 }  // namespace carom

@@ -12,12 +12,13 @@
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/path/flight.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t path_buffer = 4096;
+constexpr size_t path_buffer = 4096;
 
 Instant instant(const DoubleDouble& time) {
   return {time.hi, time.lo};
@@ -32,7 +33,7 @@ Replay::Replay(const World& world, NextRecorded next, const Tally& tally, bool c
   more_ = next_(coming_);
 
   // The state at time 0 is before whatever happens then: each body is on its first piece.
-  for (std::size_t begun = 0; more_ && begun < now_.size(); ++begun) take_coming();
+  for (size_t begun = 0; more_ && begun < now_.size(); ++begun) take_coming();
 }
 
 void Replay::take_coming() {
@@ -103,7 +104,7 @@ Vec3 Replay::force_at(Entity body, double time, const Vec3& x, const Vec3& v) co
 }
 
 /// Computes the state of a body at an instant of its present piece.
-void Replay::place(std::size_t body, const Instant& at) {
+void Replay::place(size_t body, const Instant& at) {
   const PathPiece& piece = now_[body];
   const Entity i = static_cast<Entity>(body);
   const Instant start = instant(piece.start);
@@ -139,7 +140,7 @@ const State& Replay::state() {
   state_.position.resize(now_.size());
   state_.velocity.resize(now_.size());
   const Instant at{state_.time, 0};
-  for (std::size_t i = 0; i < now_.size(); ++i) place(i, at);
+  for (size_t i = 0; i < now_.size(); ++i) place(i, at);
   if (!part_of_.empty()) {
     state_.mass = mass_;
     state_.radius = radius_;
@@ -151,9 +152,9 @@ const State& Replay::state() {
   return state_;
 }
 
-std::unique_ptr<Simulator> replay_from(std::unique_ptr<FlightsReader> reader, const World& world) {
+unique_ptr<Simulator> replay_from(unique_ptr<FlightsReader> reader, const World& world) {
   const std::shared_ptr<FlightsReader> shared = std::move(reader);
-  return std::make_unique<Replay>(
+  return make_unique<Replay>(
       world, [shared](Recorded& recorded) { return shared->next(recorded); }, shared->tally(),
       shared->has_collisions());
 }

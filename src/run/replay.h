@@ -1,14 +1,11 @@
 #pragma once
 // Repeats a run from its recorded paths: the same states, bit for bit, without simulating.
-#include <functional>
-#include <memory>
-#include <optional>
-#include <vector>
 
 #include "physics/closed_motion.h"
 #include "physics/recorded.h"
 #include "simulate/path/instant.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
@@ -16,7 +13,7 @@ class FlightsReader;
 struct World;
 
 /// Reads the next part of a record, in order. False: the end. May throw.
-using NextRecorded = std::function<bool(Recorded&)>;
+using NextRecorded = function<bool(Recorded&)>;
 
 /// A Simulator that follows recorded paths. It has no contact forces. Of collisions it knows time, kind and bodies, if
 /// they are recorded.
@@ -29,8 +26,8 @@ class Replay final : public Simulator {
   void advance_to(double time) override;  // never backwards
   double time() const override { return time_; }
   const State& state() override;
-  std::span<const Collision> collisions() const override { return collisions_; }
-  std::span<const PathPiece> paths() const override { return passed_; }
+  span<const Collision> collisions() const override { return collisions_; }
+  span<const PathPiece> paths() const override { return passed_; }
   /// Of the whole run, apart from counts, and the end, which is there once it is reached.
   const Tally& tally() const override { return tally_; }
 
@@ -39,30 +36,30 @@ class Replay final : public Simulator {
   void take(const PathPiece& piece);
   void take_joint(const PathPiece& piece);
   Vec3 force_at(Entity body, double time, const Vec3& x, const Vec3& v) const;
-  void place(std::size_t body, const Instant& at);
+  void place(size_t body, const Instant& at);
 
   const World& world_;
   NextRecorded next_;
   Tally tally_;
-  std::optional<RunEnd> end_;
-  std::vector<PathPiece> now_;                       // the present piece, by body
-  std::vector<std::optional<ClosedMotion>> closed_;  // by body; empty: no piece has been one
+  optional<RunEnd> end_;
+  vector<PathPiece> now_;                  // the present piece, by body
+  vector<optional<ClosedMotion>> closed_;  // by body; empty: no piece has been one
   // Since the last advance_to.
-  std::vector<PathPiece> passed_;
-  std::vector<Collision> collisions_;
+  vector<PathPiece> passed_;
+  vector<Collision> collisions_;
   Recorded coming_;
   bool more_ = false;
   double time_ = 0;  // s
   State state_;
   bool fresh_ = false;
   // Once bodies have merged; empty before.
-  std::vector<double> mass_, radius_;
-  std::vector<Volume> volume_;
-  std::vector<Entity> part_of_;
+  vector<double> mass_, radius_;
+  vector<Volume> volume_;
+  vector<Entity> part_of_;
 };
 
 /// The motion of a record in a file. `world` is that of its run and must outlive the simulator, which throws
 /// ExportError while it advances.
-std::unique_ptr<Simulator> replay_from(std::unique_ptr<FlightsReader> reader, const World& world);
+unique_ptr<Simulator> replay_from(unique_ptr<FlightsReader> reader, const World& world);
 
 }  // namespace carom

@@ -2,25 +2,23 @@
 // of textures alone would not show a damaged one.
 #include "run/requirements.h"
 
-#include <functional>
-#include <optional>
 #include <set>
 #include <stdexcept>
-#include <vector>
 
 #include "export/film_file.h"
 #include "export/plot.h"
 #include "overlay/inscription.h"
 #include "render/mesh.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// The mesh files that pictures show in colours of their own.
-std::set<std::string> painted_meshes(const Scene& scene) {
-  std::set<std::string> files;
-  const auto add = [&](const std::optional<MeshUse>& mesh) {
+std::set<string> painted_meshes(const Scene& scene) {
+  std::set<string> files;
+  const auto add = [&](const optional<MeshUse>& mesh) {
     if (mesh && mesh->own_colors) files.insert(mesh->file);
   };
   for (const BodyRange& range : scene.roster.bodies) add(range.mesh);
@@ -29,7 +27,7 @@ std::set<std::string> painted_meshes(const Scene& scene) {
   return files;
 }
 
-std::string fault_of(const std::function<void()>& find) {
+string fault_of(const function<void()>& find) {
   try {
     find();
   } catch (const std::runtime_error& error) {
@@ -40,22 +38,22 @@ std::string fault_of(const std::function<void()>& find) {
 
 }  // namespace
 
-const std::string& Requirements::fault_of_colors(const std::string& mesh) {
+const string& Requirements::fault_of_colors(const string& mesh) {
   const auto known = faults_.find(mesh);
   if (known != faults_.end()) return known->second;
   return faults_[mesh] = fault_of([&] { read_painted_mesh(mesh); });
 }
 
 void Requirements::check(const SceneFile& file, const Scene& scene, const Output& outputs) {
-  std::vector<SceneFault> faults;
-  const auto add = [&](const std::optional<Place>& place, const std::string& text) {
+  vector<SceneFault> faults;
+  const auto add = [&](const optional<Place>& place, const string& text) {
     if (text.empty()) return;
     const TextRemedy parts = fault_and_remedy(text);
     faults.push_back({place, parts.fault, parts.remedy});
   };
 
   if (outputs.pictures() || outputs.gltf) {
-    const std::set<std::string> painted = painted_meshes(scene);
+    const std::set<string> painted = painted_meshes(scene);
     for (const MeshFile& mesh : scene.meshes)
       if (painted.contains(mesh.file)) add(mesh.uncolored, fault_of_colors(mesh.file));
   }

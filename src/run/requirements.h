@@ -1,9 +1,9 @@
 #pragma once
 // What the outputs of a scene need of this machine besides carom: programs, a font, and the textures of meshes.
 #include <map>
-#include <string>
 
 #include "scene/load.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,9 +19,9 @@ class Requirements {
   void check(const SceneFile& file, const Scene& scene, const Output& outputs);
 
  private:
-  const std::string& fault_of_colors(const std::string& mesh);
+  const string& fault_of_colors(const string& mesh);
 
-  std::map<std::string, std::string> faults_;  // by mesh; empty: its colours can be read
+  std::map<string, string> faults_;  // by mesh; empty: its colours can be read
 };
 
 }  // namespace carom

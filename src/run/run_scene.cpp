@@ -12,10 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "export/flights_file.h"
@@ -29,13 +25,14 @@
 #include "run/stopwatch.h"
 #include "run/survey.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 class Run {
  public:
-  Run(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch)
+  Run(span<const Show> shows, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch)
       : scene_(*shows.front().scene),
         settings_(settings),
         watch_(watch),
@@ -61,7 +58,7 @@ class Run {
     draw_by([this] { return settings_.replay(scene_); }, false);
   }
 
-  std::vector<RunResult> finish() {
+  vector<RunResult> finish() {
     report_progress(RunProgress::Phase::writing);
     return stages_.finish(simulated_);
   }
@@ -69,7 +66,7 @@ class Run {
  private:
   const Tally& tally() const { return simulated_.simulator->tally(); }
 
-  std::unique_ptr<Simulator> simulator_by(const StepChoice& steps) {
+  unique_ptr<Simulator> simulator_by(const StepChoice& steps) {
     return settings_.replay ? settings_.replay(scene_) : settings_.simulator(scene_, stages_.recording(), steps);
   }
 
@@ -89,7 +86,7 @@ class Run {
   /// Opens the record that drawings follow: the flights of the only folder, or a file of its own. It has a name where
   /// the run goes on by it after an interrupt.
   void open_record() {
-    const std::vector<Stages::Standing> standing = stages_.standing();
+    const vector<Stages::Standing> standing = stages_.standing();
     const Exports& exports = standing.front().stage->exports;
     if (standing.size() == 1) record_ = standing.front().stage->exports.flights();
     if (record_ != nullptr) return;
@@ -104,15 +101,15 @@ class Run {
 
   /// Advances the simulator through the whole run. `others` also take the motion. `check` is called often.
   void simulate(
-      std::vector<MotionSink*> others, const std::function<void()>& check = [] {}) {
-    std::optional<RecordSink> own;
+      vector<MotionSink*> others, const function<void()>& check = [] {}) {
+    optional<RecordSink> own;
     if (own_record_) others.push_back(&own.emplace(record_into(*own_record_, scene_.simulate.duration)));
-    const std::vector<Stages::Standing> standing = stages_.standing();
-    std::vector<MotionSink*> sinks;
+    const vector<Stages::Standing> standing = stages_.standing();
+    vector<MotionSink*> sinks;
     for (const Stages::Standing& each : standing) sinks.push_back(&each.stage->tables);
     sinks.insert(sinks.end(), others.begin(), others.end());
 
-    const SinkGuard guard = [&](std::size_t sink, const std::function<void()>& work) {
+    const SinkGuard guard = [&](size_t sink, const function<void()>& work) {
       sink < standing.size() ? stages_.guarded(standing[sink].show, work) : work();
     };
     const auto stop_check = [&] {
@@ -179,10 +176,10 @@ class Run {
   /// Draws once the whole motion is recorded.
   void simulate_then_draw() {
     record_->keep_whole();
-    std::vector<MotionSink*> sinks;
+    vector<MotionSink*> sinks;
 
     // Where the end is not awaited, the instants of the pictures are known, and cameras frame them on the way.
-    std::optional<Framing> framing;
+    optional<Framing> framing;
     if (!may_stop(scene_) && !checkpoints_.goes_on()) {
       stages_.begin_drawings();
       framing.emplace(drawings_.framing_cameras());
@@ -193,7 +190,7 @@ class Run {
     if (framing) framing->finish();
     stages_.take_end(tally().end);
     const auto motion = [this] {
-      return replay_from(std::make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
+      return replay_from(make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
     };
     draw_by(motion, framing && framing->any());
   }
@@ -227,17 +224,17 @@ class Run {
   Stages stages_;
   Checkpoints checkpoints_;
   Drawings drawings_;
-  std::optional<FlightsFile> own_record_;
+  optional<FlightsFile> own_record_;
   FlightsFile* record_ = nullptr;
 };
 
 }  // namespace
 
-std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
-                                 const RunWatch& watch) {
+vector<RunResult> run_shows(span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
+                            const RunWatch& watch) {
   double wall_s = 0;
   double before_s = 0;
-  std::vector<RunResult> results;
+  vector<RunResult> results;
   const auto run_all = [&] {
     Run run(shows, engine, settings, watch);
     before_s = run.before_s();

@@ -1,18 +1,14 @@
 #pragma once
 // What a run is asked for besides its scene, how it reports, and what it returns.
-#include <cstdint>
 #include <exception>
-#include <functional>
-#include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "files/publication.h"
 #include "files/summary.h"
 #include "run/engine.h"
 #include "run/measure.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,19 +19,19 @@ struct RunProgress {
   /// settling: short runs find the steps for a tolerance.
   enum class Phase { settling, simulating, drawing, writing };
   Phase phase = Phase::simulating;
-  double time = 0;               // s, simulated
-  std::uint64_t collisions = 0;  // so far
-  std::uint64_t pictures = 0;    // drawn, of all shows
-  double begun_at = 0;           // s, simulated by the interrupted run that this one continues
+  double time = 0;          // s, simulated
+  uint64_t collisions = 0;  // so far
+  uint64_t pictures = 0;    // drawn, of all shows
+  double begun_at = 0;      // s, simulated by the interrupted run that this one continues
 };
 
 struct RunWatch {
   /// Called often, by any thread. May throw.
-  std::function<void()> stop_check;
+  function<void()> stop_check;
   /// Called often by the caller's thread.
-  std::function<void(const RunProgress&)> report_progress;
+  function<void(const RunProgress&)> report_progress;
   /// Called with what is worth knowing before the end.
-  std::function<void(const std::string&)> remark = [](const std::string&) {};
+  function<void(const string&)> remark = [](const string&) {};
 };
 
 struct RunSettings {
@@ -43,13 +39,13 @@ struct RunSettings {
   /// A run is kept so often (s, wall time), so that an interrupted one goes on from there. 0: never.
   double checkpoint_s = 60;
   /// Measures for the manifest, besides those of the scenes.
-  std::vector<Measure> measures{};
+  vector<Measure> measures{};
   /// The manifest of a former run with this motion, which supplies warnings and measures. Null: there is none.
   const Manifest* former = nullptr;
   /// Makes simulators of a recorded motion, in place of a simulation. May be unset.
-  std::function<std::unique_ptr<Simulator>(const Scene&)> replay{};
+  function<unique_ptr<Simulator>(const Scene&)> replay{};
   /// Makes the simulator of a simulation.
-  std::function<std::unique_ptr<Simulator>(const Scene&, Recording, const StepChoice&)> simulator =
+  function<unique_ptr<Simulator>(const Scene&, Recording, const StepChoice&)> simulator =
       [](const Scene& scene, Recording recording, const StepChoice& steps) {
         return make_simulator(scene, std::move(recording), steps);
       };

@@ -12,6 +12,7 @@
 #include "render/still_things.h"
 #include "run/stopwatch.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -40,13 +41,13 @@ void TableSink::sample(Simulator& simulator) {
   if (part_.needs_state()) {
     const State& state = simulator.state();
     const Stopwatch stopwatch(export_s_);
-    part_.sample(state, part_.needs_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
+    part_.sample(state, part_.needs_contacts() ? simulator.contacts() : span<const ContactForce>{});
   }
   more_ = part_.timeline().advance();
 }
 
-DrawingSink::DrawingSink(const Scene& scene, Exports& exports, const std::string& run, MovingCamera& of_model,
-                         std::function<void()> stop_check)
+DrawingSink::DrawingSink(const Scene& scene, Exports& exports, const string& run, MovingCamera& of_model,
+                         function<void()> stop_check)
     : scene_(scene),
       exports_(exports),
       of_model_(of_model),
@@ -58,11 +59,11 @@ DrawingSink::DrawingSink(const Scene& scene, Exports& exports, const std::string
 }
 
 void DrawingSink::aim() {
-  for (std::size_t i = 0; i < series_.size(); ++i)
+  for (size_t i = 0; i < series_.size(); ++i)
     series_[i].aim(part().timeline().next(exports_.pictures()[i].timeline_stream));
 }
 
-bool DrawingSink::is_picture_due(std::size_t stream) {
+bool DrawingSink::is_picture_due(size_t stream) {
   return part().timeline().due(exports_.pictures()[stream].timeline_stream).has_value();
 }
 
@@ -94,8 +95,8 @@ bool DrawingSink::needs_state(double time) {
          std::ranges::any_of(series_, [&](const PictureSeries& series) { return series.next_instant() <= time; });
 }
 
-std::vector<MovingCamera*> DrawingSink::cameras() {
-  std::vector<MovingCamera*> cameras;
+vector<MovingCamera*> DrawingSink::cameras() {
+  vector<MovingCamera*> cameras;
   for (PictureSeries& series : series_) cameras.push_back(&series.camera());
   if (scene_.output.gltf) cameras.push_back(&of_model_);
   return cameras;
@@ -111,7 +112,7 @@ void DrawingSink::sample(Simulator& simulator) {
       const Stopwatch stopwatch(export_s_);
       part().sample(state);
     }
-    for (std::size_t i = 0; i < series_.size(); ++i) {
+    for (size_t i = 0; i < series_.size(); ++i) {
       if (on_timeline && is_picture_due(i))
         draw(i, simulator);
       else if (series_[i].next_instant() <= time)
@@ -124,13 +125,13 @@ void DrawingSink::sample(Simulator& simulator) {
   aim();
 }
 
-void DrawingSink::expose(std::size_t stream, const State& state) {
+void DrawingSink::expose(size_t stream, const State& state) {
   stop_check_();
   const Stopwatch stopwatch(render_s_);
   series_[stream].expose(state);
 }
 
-void DrawingSink::draw(std::size_t stream, Simulator& simulator) {
+void DrawingSink::draw(size_t stream, Simulator& simulator) {
   stop_check_();
   const Image* image = nullptr;
   {
@@ -141,8 +142,7 @@ void DrawingSink::draw(std::size_t stream, Simulator& simulator) {
   exports_.picture(stream, *image, series_[stream].is_repeated());
 }
 
-Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measures,
-             std::function<std::string()> request)
+Stage::Stage(const Show& show, Durability durability, vector<Measure> measures, function<string()> request)
     : scene(with_font(*show.scene)),
       run(name_of_folder(show.folder)),
       of_model(scene, picture_size(scene.output)),
@@ -156,7 +156,7 @@ Stage::Stage(const Show& show, Durability durability, std::vector<Measure> measu
   loaded.origin = show.origin;
 }
 
-void Stage::begin_drawings(std::function<void()> stop_check) {
+void Stage::begin_drawings(function<void()> stop_check) {
   exports.begin_drawings();
   drawings.emplace(scene, exports, run, of_model, std::move(stop_check));
 }

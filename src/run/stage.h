@@ -1,9 +1,5 @@
 #pragma once
 // One output folder during a run: its exports, and the two sinks of the motion that fill them.
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "export/exports.h"
 #include "overlay/history.h"
@@ -11,6 +7,7 @@
 #include "run/measuring.h"
 #include "run/motion_sink.h"
 #include "run/picture_series.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,7 +18,7 @@ struct Scene;
 /// Scenes that share a motion differ only in their pictures and outputs.
 struct Show {
   const Scene* scene = nullptr;
-  std::string folder;
+  string folder;
   /// Wall time of loading the scene, for the manifest.
   double load_s = 0;
   /// The manifest of the run in the folder, if only its pictures are replaced (exports.h).
@@ -56,13 +53,13 @@ class DrawingSink final : public MotionSink {
  public:
   /// Opens the drawings of `exports`. `run`: the name of the folder. All must outlive this object. `stop_check` is
   /// called between pictures, and may throw.
-  DrawingSink(const Scene& scene, Exports& exports, const std::string& run, MovingCamera& of_model,
-              std::function<void()> stop_check);
+  DrawingSink(const Scene& scene, Exports& exports, const string& run, MovingCamera& of_model,
+              function<void()> stop_check);
   DrawingSink(const DrawingSink&) = delete;
   DrawingSink& operator=(const DrawingSink&) = delete;
 
   /// The cameras of what is drawn. Those that frame the motion must have been given it before the first sample.
-  std::vector<MovingCamera*> cameras();
+  vector<MovingCamera*> cameras();
 
   bool more() const override { return more_; }
   double time() override;
@@ -76,44 +73,43 @@ class DrawingSink final : public MotionSink {
  private:
   OutputPart& part() { return exports_.drawings(); }
   void aim();
-  bool is_picture_due(std::size_t stream);
+  bool is_picture_due(size_t stream);
   bool needs_state(double time);
-  void expose(std::size_t stream, const State& state);
-  void draw(std::size_t stream, Simulator& simulator);
+  void expose(size_t stream, const State& state);
+  void draw(size_t stream, Simulator& simulator);
 
   const Scene& scene_;
   Exports& exports_;
   MovingCamera& of_model_;
-  const std::function<void()> stop_check_;
+  const function<void()> stop_check_;
   History history_;
-  std::vector<PictureSeries> series_;  // by picture stream
-  bool more_ = false;                  // whether a next instant exists
+  vector<PictureSeries> series_;  // by picture stream
+  bool more_ = false;             // whether a next instant exists
   double render_s_ = 0, export_s_ = 0;
 };
 
 struct Stage {
   /// Opens the folder, and takes these measures. `request`: as for Exports. Throws ExportError, RenderError,
   /// ArchiveError.
-  Stage(const Show& show, Durability durability, std::vector<Measure> measures,
-        std::function<std::string()> request = {});
+  Stage(const Show& show, Durability durability, vector<Measure> measures, function<string()> request = {});
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
   /// Opens what is drawn, now that all is known that it waits for.
-  void begin_drawings(std::function<void()> stop_check);
+  void begin_drawings(function<void()> stop_check);
   RunFacts facts() const;
 
   /// What is written and measured so far.
   void keep(auto& archive) { archive(exports.tables(), measuring, tables); }
 
   const Scene& scene;
-  const std::string run;  // the folder's name
+  const string run;       // the folder's name
   RunFacts loaded;        // what is known before the run
   MovingCamera of_model;  // of gltf
   Measuring measuring;
   Exports exports;
   TableSink tables;
-  std::optional<DrawingSink> drawings;
+  optional<DrawingSink> drawings;
 };
 
 }  // namespace carom

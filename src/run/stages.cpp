@@ -11,14 +11,15 @@
 #include "physics/archive.h"
 #include "run/warnings.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::uint64_t peak_memory() {
+uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 /// Whether something that the scene requests is spread over the whole run, which may end early.
@@ -28,8 +29,8 @@ bool needs_end(const Scene& scene) {
 }
 
 /// What tells runs apart.
-std::string request_of(const Scene& scene, const std::vector<Measure>& measures) {
-  std::string text = scene.resolved + outputs_text(scene.output);
+string request_of(const Scene& scene, const vector<Measure>& measures) {
+  string text = scene.resolved + outputs_text(scene.output);
   for (const Measure& measure : measures) text += measure.name + "\n";
 
   // They may come from another run, and from meshes.
@@ -47,13 +48,13 @@ bool draws_after_motion(const Scene& scene) {
   return may_stop(scene) || frames_motion(scene);
 }
 
-Stages::Stages(std::span<const Show> shows, const RunSettings& settings, std::function<void()> stop_check)
+Stages::Stages(span<const Show> shows, const RunSettings& settings, function<void()> stop_check)
     : shows_(shows.begin(), shows.end()),
       settings_(settings),
       stop_check_(std::move(stop_check)),
       stages_(shows.size()),
       failures_(shows.size()) {
-  for (std::size_t i = 0; i < shows_.size(); ++i) guarded(i, [&] { open(i); });
+  for (size_t i = 0; i < shows_.size(); ++i) guarded(i, [&] { open(i); });
 }
 
 bool Stages::may_last() const {
@@ -65,30 +66,30 @@ Stage* Stages::lasting() {
 }
 
 /// Opens the folder of a show. The end of its run may become known later.
-void Stages::open(std::size_t i) {
+void Stages::open(size_t i) {
   Show& show = shows_[i];
   check_flights(*show.scene);
   if (needs_end(*show.scene)) show.scene = &ending_.emplace_back(*show.scene);
-  const std::vector<Measure> measures = measures_of(*show.scene);
-  std::function<std::string()> request;
+  const vector<Measure> measures = measures_of(*show.scene);
+  function<string()> request;
   if (may_last()) request = [&scene = *show.scene, measures] { return request_of(scene, measures); };
-  stages_[i] = std::make_unique<Stage>(show, settings_.durability, measures, request);
+  stages_[i] = make_unique<Stage>(show, settings_.durability, measures, request);
 }
 
 /// The measures of a scene and those of the settings, unless a former run has them.
-std::vector<Measure> Stages::measures_of(const Scene& scene) const {
+vector<Measure> Stages::measures_of(const Scene& scene) const {
   if (settings_.former != nullptr) return {};
-  std::vector<Measure> measures = own_measures(scene);
+  vector<Measure> measures = own_measures(scene);
   measures.insert(measures.end(), settings_.measures.begin(), settings_.measures.end());
   return measures;
 }
 
-bool Stages::has_failed(std::size_t i) {
+bool Stages::has_failed(size_t i) {
   const std::lock_guard lock(failing_);
   return failures_[i] != nullptr;
 }
 
-void Stages::guarded(std::size_t i, const std::function<void()>& work) {
+void Stages::guarded(size_t i, const function<void()>& work) {
   if (has_failed(i)) return;
   try {
     work();
@@ -101,13 +102,13 @@ void Stages::guarded(std::size_t i, const std::function<void()>& work) {
   }
 }
 
-void Stages::each(const std::function<void(Stage&)>& work) {
-  for (std::size_t i = 0; i < stages_.size(); ++i) guarded(i, [&] { work(*stages_[i]); });
+void Stages::each(const function<void(Stage&)>& work) {
+  for (size_t i = 0; i < stages_.size(); ++i) guarded(i, [&] { work(*stages_[i]); });
 }
 
-std::vector<Stages::Standing> Stages::standing() {
-  std::vector<Standing> standing;
-  for (std::size_t i = 0; i < stages_.size(); ++i)
+vector<Stages::Standing> Stages::standing() {
+  vector<Standing> standing;
+  for (size_t i = 0; i < stages_.size(); ++i)
     if (!has_failed(i)) standing.push_back({stages_[i].get(), i});
   return standing;
 }
@@ -121,7 +122,7 @@ Recording Stages::recording() const {
     recording.paths = recording.paths || paths;
     recording.collisions = recording.collisions || scene.output.needs_collisions() ||
                            stage->measuring.needs_collisions() || (paths && drawings_show_collisions(scene));
-    const std::vector<WatchedQuantity>& watched = stage->measuring.watched();
+    const vector<WatchedQuantity>& watched = stage->measuring.watched();
     recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
   }
   return recording;
@@ -135,7 +136,7 @@ bool Stages::draw_after_motion() const {
   return std::ranges::any_of(shows_, [](const Show& show) { return draws_after_motion(*show.scene); });
 }
 
-void Stages::take_end(const std::optional<RunEnd>& end) {
+void Stages::take_end(const optional<RunEnd>& end) {
   if (!end) return;
   for (Scene& scene : ending_)
     if (end->time < scene.simulate.duration) scene.ends_at = end->time;
@@ -147,23 +148,23 @@ void Stages::begin_drawings() {
   });
 }
 
-std::uint64_t Stages::pictures() const {
-  std::uint64_t pictures = 0;
+uint64_t Stages::pictures() const {
+  uint64_t pictures = 0;
   for (const auto& stage : stages_)
     if (stage) pictures += stage->exports.frames();
   return pictures;
 }
 
-std::vector<RunResult> Stages::finish(const Simulated& done) {
-  std::vector<RunResult> results(shows_.size());
-  for (std::size_t i = 0; i < shows_.size(); ++i) {
+vector<RunResult> Stages::finish(const Simulated& done) {
+  vector<RunResult> results(shows_.size());
+  for (size_t i = 0; i < shows_.size(); ++i) {
     guarded(i, [&] { finish(i, done, results[i]); });
     results[i].failure = failures_[i];
   }
   return results;
 }
 
-void Stages::finish(std::size_t i, const Simulated& done, RunResult& result) {
+void Stages::finish(size_t i, const Simulated& done, RunResult& result) {
   Stage& stage = *stages_[i];
   const State& end = done.simulator->state();
   const Tally& tally = done.simulator->tally();
@@ -183,7 +184,7 @@ void Stages::finish(std::size_t i, const Simulated& done, RunResult& result) {
   stage.exports.finish(result.summary, result.facts);
 }
 
-void Stages::take_measures(std::size_t i, const Simulated& done, RunResult& result) const {
+void Stages::take_measures(size_t i, const Simulated& done, RunResult& result) const {
   const Stage& stage = *stages_[i];
   if (const Manifest* former = settings_.former; former != nullptr) {
     if (result.summary.collisions != former->collisions)
@@ -191,11 +192,11 @@ void Stages::take_measures(std::size_t i, const Simulated& done, RunResult& resu
           fmt::format("the motion differs: {} collisions, not {}", result.summary.collisions, former->collisions));
     result.facts.measures = former->measures;
   } else {
-    std::size_t first = 0;
-    for (std::size_t k = 0; k < i; ++k)
+    size_t first = 0;
+    for (size_t k = 0; k < i; ++k)
       if (stages_[k]) first += stages_[k]->measuring.watched().size();
-    const std::vector<Extremes> all = done.simulator->extremes();
-    const auto own = std::span(all).subspan(first, stage.measuring.watched().size());
+    const vector<Extremes> all = done.simulator->extremes();
+    const auto own = span(all).subspan(first, stage.measuring.watched().size());
     result.facts.measures = stage.measuring.values({done.simulator->state(), result.summary, own});
   }
 

@@ -2,16 +2,12 @@
 // The folders of one run, by show. All shows have the same motion. One that fails leaves the others as they are.
 #include <deque>
 #include <exception>
-#include <functional>
-#include <memory>
 #include <mutex>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "run/account.h"
 #include "run/run_settings.h"
 #include "run/stage.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,7 +18,7 @@ bool draws_after_motion(const Scene& scene);
 struct Simulated {
   EngineChoice engine{};  // with its steps settled
   StoredEnergy start{};   // at time 0
-  std::unique_ptr<Simulator> simulator{};
+  unique_ptr<Simulator> simulator{};
   double simulate_s = 0;  // wall time
 
   /// All but the simulator.
@@ -32,19 +28,19 @@ struct Simulated {
 class Stages {
  public:
   /// Opens the folder of each show. Throws the failure of a single one, and what `stop_check` throws.
-  Stages(std::span<const Show> shows, const RunSettings& settings, std::function<void()> stop_check);
+  Stages(span<const Show> shows, const RunSettings& settings, function<void()> stop_check);
 
   /// Does some work for a show. Its failure is thrown if the show is the only one. Otherwise the show is left out from
   /// here on. Any thread may call it.
-  void guarded(std::size_t show, const std::function<void()>& work);
+  void guarded(size_t show, const function<void()>& work);
   /// The same for each show that has not failed.
-  void each(const std::function<void(Stage&)>& work);
+  void each(const function<void(Stage&)>& work);
   /// The stages that have not failed, and their shows.
   struct Standing {
     Stage* stage;
-    std::size_t show;
+    size_t show;
   };
-  std::vector<Standing> standing();
+  vector<Standing> standing();
   /// The only one, if it may go on after an interrupt. Null: there are several, or its motion is not simulated.
   Stage* lasting();
 
@@ -55,30 +51,30 @@ class Stages {
   /// Whether any of them draws when the motion is over.
   bool draw_after_motion() const;
   /// What is known of the run's end when the motion is over.
-  void take_end(const std::optional<RunEnd>& end);
+  void take_end(const optional<RunEnd>& end);
   void begin_drawings();
 
   /// The pictures of all so far.
-  std::uint64_t pictures() const;
+  uint64_t pictures() const;
   /// Finishes the folders. Results are in the order of the shows.
-  std::vector<RunResult> finish(const Simulated& done);
+  vector<RunResult> finish(const Simulated& done);
 
  private:
   bool may_last() const;
-  void open(std::size_t show);
-  bool has_failed(std::size_t show);
-  std::vector<Measure> measures_of(const Scene& scene) const;
-  void finish(std::size_t show, const Simulated& done, RunResult& result);
-  void take_measures(std::size_t show, const Simulated& done, RunResult& result) const;
+  void open(size_t show);
+  bool has_failed(size_t show);
+  vector<Measure> measures_of(const Scene& scene) const;
+  void finish(size_t show, const Simulated& done, RunResult& result);
+  void take_measures(size_t show, const Simulated& done, RunResult& result) const;
 
-  std::vector<Show> shows_;
+  vector<Show> shows_;
   const RunSettings& settings_;
-  const std::function<void()> stop_check_;
+  const function<void()> stop_check_;
   std::deque<Scene> ending_;  // those of shows that wait for the run's end
   // By show. It is null, or not used any more, where the show has failed.
-  std::vector<std::unique_ptr<Stage>> stages_;
+  vector<unique_ptr<Stage>> stages_;
   std::mutex failing_;
-  std::vector<std::exception_ptr> failures_;  // by show
+  vector<std::exception_ptr> failures_;  // by show
 };
 
 }  // namespace carom

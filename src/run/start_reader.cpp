@@ -6,10 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "export/flights_file.h"
 #include "files/failed_run.h"
@@ -24,6 +21,7 @@
 #include "scene/scene.h"
 #include "simulate/simulator.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
 
@@ -32,13 +30,13 @@ namespace {
 
 constexpr const char* table_name = "trajectory.csv";
 
-std::string_view states_file(const FormerRun& run) {
+string_view states_file(const FormerRun& run) {
   return run.has_flights() ? flights_name : table_name;
 }
 
 /// A former run that stands ready to be read.
-FormerRun opened(const std::string& folder, const LoadOptions& options) {
-  if (const std::string failure = stored_failure(folder); !failure.empty())
+FormerRun opened(const string& folder, const LoadOptions& options) {
+  if (const string failure = stored_failure(folder); !failure.empty())
     throw StartError("it has failed: " + failure.substr(0, failure.find('\n')),
                      "name the folder of a run that is done");
   settle_folder(folder);
@@ -48,32 +46,32 @@ FormerRun opened(const std::string& folder, const LoadOptions& options) {
   load.chooses_outputs = true;
   load.mesh_points = options.mesh_points;
   SceneFile file(former_scene_file(folder), load);
-  return read_former_run(folder, file, [](const FormerRun& run, std::string_view name) {
+  return read_former_run(folder, file, [](const FormerRun& run, string_view name) {
     return name != states_file(run) && name != "summary.csv";
   });
 }
 
-std::string without_slash(std::string path) {
+string without_slash(string path) {
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
   return path;
 }
 
 /// What of an error's text is the fault, and what the remedy: its first line, and the others.
-StartError in_parts(const std::string& text) {
-  const std::size_t line = std::min(text.find('\n'), text.size());
-  std::string remedy = text.substr(std::min(line + 1, text.size()));
+StartError in_parts(const string& text) {
+  const size_t line = std::min(text.find('\n'), text.size());
+  string remedy = text.substr(std::min(line + 1, text.size()));
   remedy.erase(0, std::min(remedy.find_first_not_of(' '), remedy.size()));
   return {text.substr(0, line), remedy};
 }
 
 /// Times of a table on both sides of one, in s.
 struct Nearest {
-  std::optional<double> before, after;
+  optional<double> before, after;
 };
 
 [[noreturn]] void refuse_time(double at, const Nearest& near) {
-  std::vector<std::string> times;
-  for (const std::optional<double>& time : {near.before, near.after})
+  vector<string> times;
+  for (const optional<double>& time : {near.before, near.after})
     if (time) times.push_back(shortest(*time));
   throw StartError(
       fmt::format("it has no flights, and its {} has no rows at {} s", table_name, shortest(at)),
@@ -86,7 +84,7 @@ struct Nearest {
 /// The rows of a trajectory at one time, in either layout.
 class TableState {
  public:
-  TableState(Descriptor file, const std::vector<std::string>& names)
+  TableState(Descriptor file, const vector<string>& names)
       : table_(std::move(file)), names_(names), wide_(!table_.find("body")) {
     state_.position.assign(names.size(), Vec3::Zero());
     state_.velocity.assign(names.size(), Vec3::Zero());
@@ -96,7 +94,7 @@ class TableState {
   State at(double time) {
     Nearest near;
     for (row_ = table_.next(); row_ != nullptr; row_ = table_.next()) {
-      const std::optional<double> now = number_in(row_->front());
+      const optional<double> now = number_in(row_->front());
       if (!now) refuse_row();
       if (*now == time) {
         take();
@@ -117,15 +115,15 @@ class TableState {
   }
 
   void take() {
-    constexpr std::size_t cells = 6;  // of a motion
+    constexpr size_t cells = 6;  // of a motion
     state_.time = *number_in(row_->front());
     if (wide_) {
       if (row_->size() != 1 + cells * names_.size()) refuse_row();
-      for (std::size_t body = 0; body < names_.size(); ++body) take_body(body, 1 + cells * body);
+      for (size_t body = 0; body < names_.size(); ++body) take_body(body, 1 + cells * body);
     } else {
       // Rows are in the order of the bodies. Those that are gone have none.
-      const std::string instant(row_->front());
-      for (std::size_t body = 0; row_ != nullptr && row_->front() == instant; row_ = table_.next(), ++body) {
+      const string instant(row_->front());
+      for (size_t body = 0; row_ != nullptr && row_->front() == instant; row_ = table_.next(), ++body) {
         if (row_->size() != 2 + cells) refuse_row();
         while (body < names_.size() && names_[body] != (*row_)[1]) ++body;
         if (body == names_.size()) refuse_row();
@@ -137,7 +135,7 @@ class TableState {
     if (!gone) state_.part_of.clear();
   }
 
-  void take_body(std::size_t body, std::size_t first) {
+  void take_body(size_t body, size_t first) {
     if (read_motion(*row_, first, state_.position[body], state_.velocity[body]))
       state_.part_of[body] = static_cast<Entity>(body);
     else if (!(*row_)[first].empty())
@@ -145,19 +143,19 @@ class TableState {
   }
 
   StoredTable table_;
-  const std::vector<std::string>& names_;
+  const vector<string>& names_;
   bool wide_;  // a row for each instant, and none for each body
-  const std::vector<std::string_view>* row_ = nullptr;
+  const vector<string_view>* row_ = nullptr;
   State state_;
 };
 
 State state_in_flights(const FormerRun& run, double at) {
-  const std::unique_ptr<Simulator> replay = run.motion(run.scene);
+  const unique_ptr<Simulator> replay = run.motion(run.scene);
   while (replay->time() < at) replay->advance_to(at);
   return replay->state();
 }
 
-State state_in_table(const FormerRun& run, double at, const std::vector<std::string>& names) {
+State state_in_table(const FormerRun& run, double at, const vector<string>& names) {
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   Descriptor file = folder ? open_stored(folder.get(), table_name) : Descriptor();
   if (!file) throw StartError(fmt::format("{} is missing", table_name), "run it again");
@@ -171,14 +169,14 @@ bool lacks_impulses(const Scene& scene, double at) {
 }
 
 /// Throws StartError, and what reading files throws.
-FormerState state_of(const FormerRun& run, std::optional<double> at) {
+FormerState state_of(const FormerRun& run, optional<double> at) {
   const double end = run.end();
   if (at && !(*at >= 0 && *at <= end))
     throw StartError(fmt::format("it ended at {} s, before {} s", shortest(end), shortest(*at)),
                      fmt::format("expected `at` from 0 to {} s", shortest(end)), true);
   if (lacks_impulses(run.scene, at.value_or(end)))
     throw StartError("the book's engine had not yet applied the impulses then", "expected a later `at`", true);
-  const std::string file(states_file(run));
+  const string file(states_file(run));
   if (!run.has(file))
     throw StartError("it has neither flights nor a trajectory",
                      "run it with `output.flights: true`, or with `output.trajectory`");
@@ -187,7 +185,7 @@ FormerState state_of(const FormerRun& run, std::optional<double> at) {
     former.names.push_back(run.scene.roster.name(body));
   former.state =
       run.has_flights() ? state_in_flights(run, at.value_or(end)) : state_in_table(run, at.value_or(end), former.names);
-  const std::vector<Entity>& part_of = former.state.part_of;
+  const vector<Entity>& part_of = former.state.part_of;
   bool gone = false;
   for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
   former.has_merged = gone && run.scene.simulate.contact.merge;
@@ -200,19 +198,18 @@ FormerState state_of(const FormerRun& run, std::optional<double> at) {
 
 /// The run and the state that were read last. A scene is often loaded several times.
 struct LastRead {
-  std::string folder;
-  std::optional<FormerRun> run{};
-  std::optional<double> at{};
-  std::optional<FormerState> state{};
+  string folder;
+  optional<FormerRun> run{};
+  optional<double> at{};
+  optional<FormerState> state{};
 };
 
 }  // namespace
 
-std::function<FormerState(const std::string& folder, std::optional<double> at)> start_reader(
-    const LoadOptions& options) {
+function<FormerState(const string& folder, optional<double> at)> start_reader(const LoadOptions& options) {
   const auto last = std::make_shared<LastRead>();
-  return [last, options](const std::string& folder, std::optional<double> at) {
-    const std::string path = without_slash(folder);
+  return [last, options](const string& folder, optional<double> at) {
+    const string path = without_slash(folder);
     try {
       if (!last->run || last->folder != path) {
         *last = {path};

@@ -7,11 +7,12 @@
 #include "run/picture_series.h"
 #include "run/survey.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
-Image draw_still(const Scene& scene, const std::string& run, double time,
-                 const std::function<std::unique_ptr<Simulator>()>& motion, const std::function<void()>& stop_check) {
+Image draw_still(const Scene& scene, const string& run, double time, const function<unique_ptr<Simulator>()>& motion,
+                 const function<void()>& stop_check) {
   const PictureStream stream = still_stream(scene, time);
   History history(scene, picture_needs(scene));
   PictureSeries series(scene, stream, history, run);

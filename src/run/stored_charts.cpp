@@ -15,6 +15,7 @@
 #include "run/stored_trajectory.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,7 +23,7 @@ namespace {
 
 /// What a chart is made from.
 struct ChartSource {
-  std::string_view chart, table, key;
+  string_view chart, table, key;
   /// Whether flights suffice too.
   bool follows_paths;
 };
@@ -32,7 +33,7 @@ constexpr ChartSource chart_sources[] = {{"energy", "energy.csv", "energy", true
                                          {"collisions", "collisions.csv", "collisions", false}};
 
 /// Rows between two calls of the watch.
-constexpr std::uint64_t rows_between = 1000;
+constexpr uint64_t rows_between = 1000;
 
 class ChartReader {
  public:
@@ -50,7 +51,7 @@ class ChartReader {
 
  private:
   void paths() {
-    const std::unique_ptr<Simulator> motion = former_.motion(scene_);
+    const unique_ptr<Simulator> motion = former_.motion(scene_);
     Timeline timeline(end_of(scene_));
     for (const Ticks& ticks : {charts_.ticks.energy, charts_.ticks.heights}) timeline.add(ticks);
     while (timeline.advance()) {
@@ -70,8 +71,8 @@ class ChartReader {
 
   void energy() {
     StoredTable table = open("energy.csv");
-    const std::size_t time = column(table, "time_s"), kinetic = column(table, "kinetic_J"),
-                      potential = column(table, "potential_J");
+    const size_t time = column(table, "time_s"), kinetic = column(table, "kinetic_J"),
+                 potential = column(table, "potential_J");
     while (const auto* row = table.next()) {
       watch_now_and_then(number(*row, time));
       charts_.energy.add(number(*row, time), number(*row, kinetic), number(*row, potential));
@@ -83,7 +84,7 @@ class ChartReader {
     while (trajectory.next()) {
       watch_(share(trajectory.time()));
       charts_.heights.add(trajectory.time(), trajectory.heights());
-      for (std::size_t body = 0; body < trajectory.velocities().size(); ++body)
+      for (size_t body = 0; body < trajectory.velocities().size(); ++body)
         if (std::isfinite(trajectory.heights()[body]))
           charts_.speeds.add(scene_.world.mass[body], trajectory.velocities()[body]);
     }
@@ -91,7 +92,7 @@ class ChartReader {
 
   void collisions() {
     StoredTable table = open("collisions.csv");
-    const std::size_t time = column(table, "time_s"), kind = column(table, "kind");
+    const size_t time = column(table, "time_s"), kind = column(table, "kind");
     while (const auto* row = table.next()) {
       watch_now_and_then(number(*row, time));
       if (const auto known = collision_kind_named(cell(*row, kind))) charts_.collisions.add(number(*row, time), *known);
@@ -106,7 +107,7 @@ class ChartReader {
   }
   StoredTable open(const char* name) const { return StoredTable(file(name)); }
 
-  static std::size_t column(const StoredTable& table, std::string_view name) {
+  static size_t column(const StoredTable& table, string_view name) {
     const auto found = table.find(name);
     if (!found) throw ExportError(fmt::format("a table has no column {}", name));
     return *found;
@@ -116,10 +117,10 @@ class ChartReader {
     if (rows_++ % rows_between == 0) watch_(share(time));
   }
 
-  static std::string_view cell(const std::vector<std::string_view>& row, std::size_t column) {
-    return column < row.size() ? row[column] : std::string_view();
+  static string_view cell(const vector<string_view>& row, size_t column) {
+    return column < row.size() ? row[column] : string_view();
   }
-  static double number(const std::vector<std::string_view>& row, std::size_t column) {
+  static double number(const vector<string_view>& row, size_t column) {
     const auto value = number_in(cell(row, column));
     if (!value) throw ExportError(fmt::format("a table has {} where a number is expected", cell(row, column)));
     return *value;
@@ -130,7 +131,7 @@ class ChartReader {
   RunCharts& charts_;
   const ReadingWatch& watch_;
   double parts_done_ = 0;
-  std::uint64_t rows_ = 0;
+  uint64_t rows_ = 0;
 };
 
 }  // namespace
@@ -141,18 +142,17 @@ PossibleCharts possible_charts(const FormerRun& former) {
     if (former.has(source.table) || (source.follows_paths && former.has_flights()))
       charts.names.push_back(source.chart);
     else
-      charts.missing.push_back(
-          {std::string(source.chart),
-           fmt::format("the run has no {}, which the key output.{} gives", source.table, source.key)});
+      charts.missing.push_back({string(source.chart), fmt::format("the run has no {}, which the key output.{} gives",
+                                                                  source.table, source.key)});
   }
   return charts;
 }
 
-bool is_drawn_by(const PossibleCharts& charts, std::string_view file) {
-  const std::size_t slash = file.find('/');
-  if (slash == std::string_view::npos || file.substr(0, slash) != plot_files.folder) return false;
-  const std::string_view name = file.substr(slash + 1, file.rfind('.') - slash - 1);
-  return std::find(charts.names.begin(), charts.names.end(), name) != charts.names.end();
+bool is_drawn_by(const PossibleCharts& charts, string_view file) {
+  const size_t slash = file.find('/');
+  if (slash == string_view::npos || file.substr(0, slash) != plot_files.folder) return false;
+  const string_view name = file.substr(slash + 1, file.rfind('.') - slash - 1);
+  return std::ranges::find(charts.names, name) != charts.names.end();
 }
 
 void read_charts(const FormerRun& former, const Scene& scene, RunCharts& charts, const ReadingWatch& watch) {

@@ -6,12 +6,13 @@
 
 #include "files/run_folder.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t motion_cells = 6;
+constexpr size_t motion_cells = 6;
 constexpr double merged = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse_table() {
@@ -20,9 +21,9 @@ constexpr double merged = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-bool read_motion(const std::vector<std::string_view>& cells, std::size_t first, Vec3& position, Vec3& velocity) {
+bool read_motion(const vector<string_view>& cells, size_t first, Vec3& position, Vec3& velocity) {
   if (first + motion_cells > cells.size()) return false;
-  for (std::size_t k = 0; k < motion_cells; ++k) {
+  for (size_t k = 0; k < motion_cells; ++k) {
     const auto number = number_in(cells[first + k]);
     if (!number) return false;
     (k < 3 ? position : velocity)[static_cast<int>(k % 3)] = *number;
@@ -46,7 +47,7 @@ bool StoredTrajectory::next() {
     read_long();
     return true;
   }
-  for (std::size_t body = 0; body < heights_.size(); ++body) read_body(body, 1 + motion_cells * body);
+  for (size_t body = 0; body < heights_.size(); ++body) read_body(body, 1 + motion_cells * body);
   row_ = table_.next();
   return true;
 }
@@ -55,14 +56,14 @@ void StoredTrajectory::begin_instant() {
   const auto time = number_in(row_->front());
   if (!time) refuse_table();
   time_ = *time;
-  std::fill(heights_.begin(), heights_.end(), merged);
+  std::ranges::fill(heights_, merged);
   velocities_.clear();
   if (time_ >= end_of(scene_)) velocities_.resize(heights_.size());
 }
 
 void StoredTrajectory::read_long() {
-  const std::string instant(row_->front());
-  for (std::size_t body = 0; row_ != nullptr && row_->front() == instant; row_ = table_.next(), ++body) {
+  const string instant(row_->front());
+  for (size_t body = 0; row_ != nullptr && row_->front() == instant; row_ = table_.next(), ++body) {
     if (row_->size() < 2 + motion_cells) refuse_table();
     while (body < names_.size() && names_[body] != (*row_)[1]) ++body;
     if (body == names_.size()) refuse_table();
@@ -70,7 +71,7 @@ void StoredTrajectory::read_long() {
   }
 }
 
-void StoredTrajectory::read_body(std::size_t body, std::size_t first) {
+void StoredTrajectory::read_body(size_t body, size_t first) {
   if (first + motion_cells > row_->size()) refuse_table();
   // Heights alone are needed before the end, and reading numbers takes most of the time.
   heights_[body] = number_in((*row_)[first + 1]).value_or(merged);

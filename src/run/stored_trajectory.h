@@ -1,12 +1,9 @@
 #pragma once
 // trajectory.csv of a finished run, instant by instant, in either layout. One instant is in memory.
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "files/stored_table.h"
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,7 +11,7 @@ struct Scene;
 
 /// Reads the six numbers of a motion from cell `first` on; m, m/s.
 /// False: a cell is empty, because the body has merged into another.
-bool read_motion(const std::vector<std::string_view>& cells, std::size_t first, Vec3& position, Vec3& velocity);
+bool read_motion(const vector<string_view>& cells, size_t first, Vec3& position, Vec3& velocity);
 
 class StoredTrajectory {
  public:
@@ -24,24 +21,24 @@ class StoredTrajectory {
   bool next();
   double time() const { return time_; }  // s
   /// y of the centres in m, by body. NaN: the body has merged into another.
-  std::span<const double> heights() const { return heights_; }
+  span<const double> heights() const { return heights_; }
   /// In m/s, by body, and only at the end of the run; empty before.
-  std::span<const Vec3> velocities() const { return velocities_; }
+  span<const Vec3> velocities() const { return velocities_; }
 
  private:
   void begin_instant();
   void read_long();
-  void read_body(std::size_t body, std::size_t first);
+  void read_body(size_t body, size_t first);
 
   const Scene& scene_;
   StoredTable table_;
   bool wide_;
-  std::vector<std::string> names_;  // by body; of the long layout
+  vector<string> names_;  // by body; of the long layout
   /// The row that follows, which may belong to another instant. Null: none.
-  const std::vector<std::string_view>* row_ = nullptr;
+  const vector<string_view>* row_ = nullptr;
   double time_ = 0;
-  std::vector<double> heights_;
-  std::vector<Vec3> velocities_;
+  vector<double> heights_;
+  vector<Vec3> velocities_;
 };
 
 }  // namespace carom

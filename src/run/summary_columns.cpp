@@ -3,7 +3,8 @@
 #include "run/summary_columns.h"
 
 #include <algorithm>
-#include <array>
+
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,7 +19,7 @@ double energy_of(const Summary& summary) {
   return summary.energy.*Member;
 }
 
-constexpr std::array<SummaryColumn, 26> columns = {{
+constexpr array<SummaryColumn, 26> columns = {{
     {"run", "the run's name"},
     {"title", "the scene's title"},
     {"engine", "the simulator: exact, stepped or book"},
@@ -57,13 +58,12 @@ constexpr std::array<SummaryColumn, 26> columns = {{
 
 }  // namespace
 
-std::span<const SummaryColumn> summary_columns() {
+span<const SummaryColumn> summary_columns() {
   return columns;
 }
 
-const SummaryColumn* find_summary_column(std::string_view name) {
-  const auto found =
-      std::find_if(columns.begin(), columns.end(), [&](const SummaryColumn& column) { return column.name == name; });
+const SummaryColumn* find_summary_column(string_view name) {
+  const auto found = std::ranges::find_if(columns, [&](const SummaryColumn& column) { return column.name == name; });
   return found == columns.end() ? nullptr : &*found;
 }
 

@@ -7,17 +7,18 @@
 
 #include "export/picture_streams.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-double duration_of(std::span<MovingCamera* const> cameras) {
+double duration_of(span<MovingCamera* const> cameras) {
   return cameras.empty() ? 0 : cameras.front()->scene().simulate.duration;
 }
 
 }  // namespace
 
-Framing::Framing(std::span<MovingCamera* const> cameras) : timeline_(duration_of(cameras)) {
+Framing::Framing(span<MovingCamera* const> cameras) : timeline_(duration_of(cameras)) {
   for (MovingCamera* camera : cameras) {
     if (!camera->frames_motion()) continue;
     Framed& framed = framed_.emplace_back(Framed{camera, CameraFit(camera->scene(), camera->size()), {}});
@@ -36,7 +37,7 @@ void Framing::advance() {
 void Framing::sample(Simulator& simulator) {
   for (Framed& framed : framed_) {
     const auto is_due = [&](int stream) { return timeline_.due(stream).has_value(); };
-    if (std::any_of(framed.streams.begin(), framed.streams.end(), is_due)) framed.fit.add(simulator.state());
+    if (std::ranges::any_of(framed.streams, is_due)) framed.fit.add(simulator.state());
   }
   advance();
 }
@@ -45,7 +46,7 @@ void Framing::finish() {
   for (Framed& framed : framed_) framed.camera->frame(framed.fit.camera());
 }
 
-void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check) {
+void survey(span<MovingCamera* const> cameras, Simulator& simulator, const function<void()>& stop_check) {
   Framing framing(cameras);
   MotionSink* const sinks[] = {&framing};
   try {

@@ -1,13 +1,11 @@
 #pragma once
 // A motion seen by the cameras that frame it, before anything is drawn.
-#include <functional>
-#include <span>
-#include <vector>
 
 #include "export/timeline.h"
 #include "render/camera_fit.h"
 #include "render/moving_camera.h"
 #include "run/motion_sink.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,7 +13,7 @@ namespace carom {
 class Framing final : public MotionSink {
  public:
   /// All scenes have the motion. The cameras must outlive this object.
-  explicit Framing(std::span<MovingCamera* const> cameras);
+  explicit Framing(span<MovingCamera* const> cameras);
 
   bool any() const { return !framed_.empty(); }
   /// Gives each camera the view of what was collected.
@@ -32,11 +30,11 @@ class Framing final : public MotionSink {
   struct Framed {
     MovingCamera* camera;
     CameraFit fit;
-    std::vector<int> streams;  // of the timeline
+    vector<int> streams;  // of the timeline
   };
   void advance();
 
-  std::vector<Framed> framed_;
+  vector<Framed> framed_;
   Timeline timeline_;
   double end_ = 0;     // s: the last instant that is shown
   bool more_ = false;  // whether a next instant exists
@@ -44,6 +42,6 @@ class Framing final : public MotionSink {
 
 /// Carries the simulator, which is at time 0, over these instants, and frames the motion. A simulation that fails is
 /// framed as far as it goes: the run itself fails there again. `stop_check` is called often, and may throw.
-void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check);
+void survey(span<MovingCamera* const> cameras, Simulator& simulator, const function<void()>& stop_check);
 
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "physics/stability.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -43,7 +44,7 @@ class Warnings {
   Warnings(const Scene& scene, const EngineChoice& engine, const State& end, const Summary& summary, const Tally& tally)
       : scene_(scene), engine_(engine), end_(end), summary_(summary), tally_(tally) {}
 
-  std::vector<Warning> all() {
+  vector<Warning> all() {
     if (!engine_.shortfall.empty()) add("tolerance", engine_.shortfall);
     check_energy();
     check_steps();
@@ -55,18 +56,18 @@ class Warnings {
   }
 
  private:
-  void add(const char* code, std::string text) { all_.push_back({code, std::move(text)}); }
+  void add(const char* code, string text) { all_.push_back({code, std::move(text)}); }
 
   /// The remedy for an error of the method.
-  std::string remedy() const {
+  string remedy() const {
     if (has_fixed_steps(scene_, engine_)) return "use a shorter simulate.step, or `integrator: dop853`";
     if (engine_.engine == Engine::book) return "use `engine: exact` for true impacts, or a shorter simulate.step";
     if (summary_.stepped_contact > 0)
       return "lasting contact of many bodies was computed in steps: use a finer simulate.contact.quality, and compare "
              "dependent figures across several seeds";
-    const std::vector<Force>& forces = scene_.world.forces;
-    const bool attracts = std::any_of(forces.begin(), forces.end(),
-                                      [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
+    const vector<Force>& forces = scene_.world.forces;
+    const bool attracts =
+        std::ranges::any_of(forces, [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
     return attracts ? "shorten simulate.duration, or soften the attractor" : "shorten simulate.duration";
   }
 
@@ -88,8 +89,8 @@ class Warnings {
     const Integrator method = scene_.simulate.integrator;
     LinearMode mode;
     const double stable = stable_step(method, force_jacobian(scene_.world, step.body, step.time, step.x, step.v), mode);
-    std::string text = fmt::format("forces turned by {:.3g} rad in a step of {:.3g} s", step.phase, step.length);
-    if (const std::string stiff = stiffest_force(step); !stiff.empty())
+    string text = fmt::format("forces turned by {:.3g} rad in a step of {:.3g} s", step.phase, step.length);
+    if (const string stiff = stiffest_force(step); !stiff.empty())
       text += fmt::format(", most by {} on `{}`", stiff, scene_.roster.name(step.body));
     const double left = growth(method, mode, step.length);
     if (step.length > stable)
@@ -102,11 +103,11 @@ class Warnings {
   }
 
   /// The path in the scene of the force that changes fastest in a step; empty: none acts.
-  std::string stiffest_force(const StiffStep& step) const {
+  string stiffest_force(const StiffStep& step) const {
     const World& world = scene_.world;
     double greatest = 0;
-    std::string name;
-    for (std::size_t k = 0; k < world.forces.size(); ++k) {
+    string name;
+    for (size_t k = 0; k < world.forces.size(); ++k) {
       if (!acts(world.forces[k], step.body, step.time)) continue;
       const double rate = std::visit(
           [&](const auto& law) {
@@ -172,13 +173,13 @@ class Warnings {
   const State& end_;
   const Summary& summary_;
   const Tally& tally_;
-  std::vector<Warning> all_;
+  vector<Warning> all_;
 };
 
 }  // namespace
 
-std::vector<Warning> warnings_of(const Scene& scene, const EngineChoice& engine, const State& end,
-                                 const Summary& summary, const Tally& tally) {
+vector<Warning> warnings_of(const Scene& scene, const EngineChoice& engine, const State& end, const Summary& summary,
+                            const Tally& tally) {
   return Warnings(scene, engine, end, summary, tally).all();
 }
 

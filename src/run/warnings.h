@@ -1,18 +1,18 @@
 #pragma once
 // The warnings of a run with doubtful results.
-#include <vector>
 
 #include "files/summary.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "run/engine.h"
+#include "std.h"
 
 namespace carom {
 
 struct Scene;
 
 /// The warnings of a run with this end and these sums. With any, its status is `doubtful`.
-std::vector<Warning> warnings_of(const Scene& scene, const EngineChoice& engine, const State& end,
-                                 const Summary& summary, const Tally& tally);
+vector<Warning> warnings_of(const Scene& scene, const EngineChoice& engine, const State& end, const Summary& summary,
+                            const Tally& tally);
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -176,25 +177,25 @@ constexpr AbsentWord all_words[] = {
 
 }  // namespace
 
-std::span<const AbsentWord> absent_words() {
+span<const AbsentWord> absent_words() {
   return all_words;
 }
 
-const AbsentWord* find_absent_word(std::string_view word) {
-  std::string plain;
+const AbsentWord* find_absent_word(string_view word) {
+  string plain;
   for (const char c : word) plain += c == '_' || c == '-' ? ' ' : c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  const std::string single = plain.ends_with('s') ? plain.substr(0, plain.size() - 1) : plain;
-  for (const std::string& form : {plain, single})
+  const string single = plain.ends_with('s') ? plain.substr(0, plain.size() - 1) : plain;
+  for (const string& form : {plain, single})
     for (const AbsentWord& row : all_words) {
-      const std::vector<std::string_view> words = parts_of(row.words);
-      if (std::find(words.begin(), words.end(), form) != words.end()) return &row;
+      const vector<string_view> words = parts_of(row.words);
+      if (std::ranges::find(words, form) != words.end()) return &row;
     }
   return nullptr;
 }
 
-std::string commands_of(const AbsentWord& word) {
-  std::string text;
-  for (const std::string_view key : parts_of(word.see))
+string commands_of(const AbsentWord& word) {
+  string text;
+  for (const string_view key : parts_of(word.see))
     text += fmt::format("{}carom explain {}", text.empty() ? "" : ", ", key);
   return text;
 }

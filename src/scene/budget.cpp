@@ -11,31 +11,32 @@
 #include "scene/engines.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 Budget Budget::without_outputs() const {
   Budget budget = *this;
-  budget.frames = budget.rows = budget.keys = budget.files = std::numeric_limits<std::uint64_t>::max();
+  budget.frames = budget.rows = budget.keys = budget.files = std::numeric_limits<uint64_t>::max();
   return budget;
 }
 
-std::optional<double> steps_of(const Scene& scene) {
+optional<double> steps_of(const Scene& scene) {
   const Simulate& simulate = scene.simulate;
-  if (engine_of(scene.world, simulate) == Engine::exact || simulate.duration == 0) return std::nullopt;
+  if (engine_of(scene.world, simulate) == Engine::exact || simulate.duration == 0) return nullopt;
   if (simulate.step) return std::ceil(simulate.duration / *simulate.step);
   const double fine = default_step(scene.world, scene.initial);
   return std::ceil(simulate.duration / (simulate.tolerance ? 64 * fine : fine));
 }
 
-std::vector<Excess> excesses(const Output& output, double duration, double bodies, const Budget& budget) {
-  std::vector<Excess> found;
+vector<Excess> excesses(const Output& output, double duration, double bodies, const Budget& budget) {
+  vector<Excess> found;
   for (const OutputKind& kind : output_kinds()) {
     if (kind.rows.empty() || !kind.asked(output)) continue;
     const double instants = std::ceil(duration / kind.every(output)) + 1, rows = instants * bodies;
-    const std::uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
+    const uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
     if (rows > static_cast<double>(most_rows)) {
-      found.push_back({&kind, rows, std::string(kind.rows), most_rows});
+      found.push_back({&kind, rows, string(kind.rows), most_rows});
     } else if (!kind.series.folder.empty() && instants > static_cast<double>(budget.files)) {
       found.push_back({&kind, instants, fmt::format("files in {}/", kind.series.folder), budget.files});
     }

@@ -13,6 +13,7 @@
 #include "scene/check_values.h"
 #include "scene/scene.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/lookalikes.h"
 #include "yaml/other_case.h"
@@ -23,10 +24,10 @@ namespace carom {
 namespace {
 
 // Beyond this number of errors, which exceeds those shown, no time is spent on near names.
-constexpr std::size_t most_suggestions = 200;
+constexpr size_t most_suggestions = 200;
 
-std::vector<std::string_view> keys_of(const Kind& kind) {
-  std::vector<std::string_view> keys;
+vector<string_view> keys_of(const Kind& kind) {
+  vector<string_view> keys;
   for (const Field& field : kind.fields) {
     keys.push_back(field.key);
   }
@@ -40,17 +41,17 @@ bool is_before(const Place& a, const Place& b) {
 
 class Checker : ValueChecker {
  public:
-  Checker(const Node& root, const std::string& folder, Diagnostics& diagnostics)
+  Checker(const Node& root, const string& folder, Diagnostics& diagnostics)
       : ValueChecker(diagnostics), root_(root), folder_(folder) {}
 
   /// Checks a map of `kind`. `what` is its name in messages, `where` its key. `partial`: no key has to be present.
-  void map(Node& node, const Kind& kind, const std::string& what, Place where, bool partial) {
+  void map(Node& node, const Kind& kind, const string& what, Place where, bool partial) {
     if (!node.is(Node::Kind::map)) {
       wrong_type(node, what, "expected a map of keys");
       return;
     }
     if (!kind.defaults.empty()) mark_cancelled(node, kind);
-    for (std::size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
+    for (size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
     if (partial) return;
     const Node* defaults = defaults_for(root_, kind);
     needed(node, defaults, kind, what, where);
@@ -67,7 +68,7 @@ class Checker : ValueChecker {
   }
 
  private:
-  void needed(Node& node, const Node* defaults, const Kind& kind, const std::string& what, Place where) {
+  void needed(Node& node, const Node* defaults, const Kind& kind, const string& what, Place where) {
     for (const Field& field : kind.fields) {
       if (!field.needed || has_any(node, defaults, field)) continue;
       node.bad = true;
@@ -76,16 +77,14 @@ class Checker : ValueChecker {
   }
 
   /// Checks Field::with.
-  void needed_beside(const View& view, Node& node, const std::string& what) {
+  void needed_beside(const View& view, Node& node, const string& what) {
     for (const Field& field : view.kind().fields) {
       if (field.with.empty() || view.given(field.key) == nullptr || view.given(field.with) != nullptr) continue;
       // A map without a needed key has an error about that already.
       const Field& with = *find_field(view.kind(), field.with);
-      const std::vector<std::string_view> sparing = parts_of(field.spared_by), others = substitutes(with);
-      if (with.needed &&
-          std::none_of(others.begin(), others.end(), [&](auto key) { return view.given(key) != nullptr; }))
-        continue;
-      if (std::any_of(sparing.begin(), sparing.end(), [&](auto key) { return view.given(key) != nullptr; })) continue;
+      const vector<string_view> sparing = parts_of(field.spared_by), others = substitutes(with);
+      if (with.needed && std::ranges::none_of(others, [&](auto key) { return view.given(key) != nullptr; })) continue;
+      if (std::ranges::any_of(sparing, [&](auto key) { return view.given(key) != nullptr; })) continue;
       const Key* key = node.find_key(field.key);
       node.bad = true;
       diagnostics_.add(key == nullptr ? view.where() : key->place,
@@ -95,12 +94,11 @@ class Checker : ValueChecker {
   }
 
   /// Checks Kind::any_of.
-  void one_of_any(Node& node, const Kind& kind, const std::string& what, Place where) {
-    const std::vector<std::string_view> keys = parts_of(kind.any_of);
-    if (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](auto key) { return node.find_key(key) != nullptr; }))
-      return;
-    std::string message = what + " has", remedy = "expected ";
-    for (const std::string_view key : keys) {
+  void one_of_any(Node& node, const Kind& kind, const string& what, Place where) {
+    const vector<string_view> keys = parts_of(kind.any_of);
+    if (keys.empty() || std::ranges::any_of(keys, [&](auto key) { return node.find_key(key) != nullptr; })) return;
+    string message = what + " has", remedy = "expected ";
+    for (const string_view key : keys) {
       const bool first = key == keys.front();
       message += fmt::format("{} no {}", first ? "" : " and", in_backticks(key));
       remedy += fmt::format("{}{} ({})", first ? "" : ", ", in_backticks(key), find_field(kind, key)->unit);
@@ -111,59 +109,57 @@ class Checker : ValueChecker {
 
   /// Whether an unknown key of the map is probably this field misspelt. Then one error covers both.
   static bool is_misspelt_in(const Node& node, const Kind& kind, const Field& field) {
-    for (std::size_t i = 0; i < std::min(node.keys.size(), most_suggestions); ++i) {
+    for (size_t i = 0; i < std::min(node.keys.size(), most_suggestions); ++i) {
       const Key& key = node.keys[i];
       if (find_field(kind, key.text) != nullptr) continue;
-      const std::string near = meant(key.text, kind);
-      const std::vector<std::string_view> others = substitutes(field);
-      if (near == field.key || std::find(others.begin(), others.end(), near) != others.end()) return true;
+      const string near = meant(key.text, kind);
+      const vector<string_view> others = substitutes(field);
+      if (near == field.key || std::ranges::find(others, near) != others.end()) return true;
     }
     return false;
   }
-  static std::string meant(std::string_view key, const Kind& kind) {
-    const std::string_view head = key.substr(0, key.find_first_of(": "));
-    return find_field(kind, head) != nullptr ? std::string(head) : nearest(key, keys_of(kind));
+  static string meant(string_view key, const Kind& kind) {
+    const string_view head = key.substr(0, key.find_first_of(": "));
+    return find_field(kind, head) != nullptr ? string(head) : nearest(key, keys_of(kind));
   }
 
   /// The word none cancels a default, except where it is a value itself.
   static void mark_cancelled(Node& node, const Kind& kind) {
-    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    for (size_t i = 0; i < node.keys.size(); ++i) {
       Node& value = node.items[i];
       if (value.text != "none" || !value.is(Node::Kind::scalar)) continue;
       const Field* field = find_field(kind, node.keys[i].text);
       if (field == nullptr || field->type == Type::text || field->type == Type::color_or_none || field->own) continue;
       // A file may have this name, in quotes.
       if (field->type == Type::file && value.quoted) continue;
-      const std::vector<std::string_view> all =
-          field->type == Type::choice ? choices(*field) : std::vector<std::string_view>();
-      value.cancels = std::find(all.begin(), all.end(), "none") == all.end();
+      const vector<string_view> all = field->type == Type::choice ? choices(*field) : vector<string_view>();
+      value.cancels = std::ranges::find(all, "none") == all.end();
     }
   }
 
-  static bool has(const Node& node, const Node* defaults, std::string_view key) {
+  static bool has(const Node& node, const Node* defaults, string_view key) {
     if (const Node* own = node.find(key)) return !own->cancels;
     const Node* given = defaults == nullptr ? nullptr : defaults->find(key);
     return given != nullptr && !given->cancels;
   }
   static bool has_any(const Node& node, const Node* defaults, const Field& field) {
-    const std::vector<std::string_view> others = substitutes(field);
-    return has(node, defaults, field.key) || std::any_of(others.begin(), others.end(), [&](std::string_view other) {
-             return has(node, defaults, other);
-           });
+    const vector<string_view> others = substitutes(field);
+    return has(node, defaults, field.key) ||
+           std::ranges::any_of(others, [&](string_view other) { return has(node, defaults, other); });
   }
 
-  void missing(const Node& node, const Node* defaults, const Kind& kind, const Field& field, const std::string& what,
+  void missing(const Node& node, const Node* defaults, const Kind& kind, const Field& field, const string& what,
                Place where) {
-    if (find_field(kind, "fit") != nullptr && field.one_of.find("fit") != std::string_view::npos &&
+    if (find_field(kind, "fit") != nullptr && field.one_of.find("fit") != string_view::npos &&
         has(node, defaults, "mesh")) {
       diagnostics_.add(
           where, fmt::format("{} has a `mesh` but no volume", what),
           fmt::format("expected `fit`: {}, the tightest one around the mesh", expected(*find_field(kind, "fit"))));
       return;
     }
-    std::string message = fmt::format("{} has no {}", what, in_backticks(field.key));
-    std::string remedy = fmt::format("expected {}: {}", in_backticks(field.key), expected(field));
-    for (const std::string_view key : substitutes(field)) {
+    string message = fmt::format("{} has no {}", what, in_backticks(field.key));
+    string remedy = fmt::format("expected {}: {}", in_backticks(field.key), expected(field));
+    for (const string_view key : substitutes(field)) {
       const Field& other = *find_field(kind, key);
       message += fmt::format(" and no {}", in_backticks(key));
       remedy += fmt::format("\nor {}: {}", in_backticks(key), expected(other));
@@ -173,12 +169,12 @@ class Checker : ValueChecker {
 
   /// A decimal comma in a flow map: `mass: 1,5` is a 1 and a key 5 without a value. Marks both as one number.
   bool decimal_comma(const Key& key, const Node& value, Node& map_node) {
-    const auto i = static_cast<std::size_t>(&key - map_node.keys.data());
+    const auto i = static_cast<size_t>(&key - map_node.keys.data());
     if (i == 0 || !value.is(Node::Kind::null)) return false;
     Node& whole = map_node.items[i - 1];
     const bool joined = whole.place.source == key.place.source &&
                         whole.place.offset + whole.place.length + 1 == key.place.offset;  // the comma
-    const std::string point = whole.text + "." + key.text;
+    const string point = whole.text + "." + key.text;
     if (!joined || !whole.is(Node::Kind::scalar) || key.text.front() < '0' || key.text.front() > '9' ||
         !parse_number(point))
       return false;
@@ -189,28 +185,28 @@ class Checker : ValueChecker {
     return true;
   }
 
-  void unknown_key(const Key& key, const Node& value, const Kind& kind, const std::string& what) {
+  void unknown_key(const Key& key, const Node& value, const Kind& kind, const string& what) {
     // In YAML, `radius 0.1` and `radius:0.1` are keys without a value.
-    const std::size_t gap = key.text.find_first_of(": ");
-    if (value.is(Node::Kind::null) && gap != std::string::npos && gap > 0) {
-      const std::string_view head = std::string_view(key.text).substr(0, gap);
-      std::size_t tail = key.text.find_first_not_of(": ", gap);
+    const size_t gap = key.text.find_first_of(": ");
+    if (value.is(Node::Kind::null) && gap != string::npos && gap > 0) {
+      const string_view head = string_view(key.text).substr(0, gap);
+      size_t tail = key.text.find_first_not_of(": ", gap);
       while (const auto found = lookalike_at(key.text, tail)) {
         char32_t code = 0;
-        tail += static_cast<std::size_t>(utf8_length(key.text, tail, code));
+        tail += static_cast<size_t>(utf8_length(key.text, tail, code));
       }
-      const std::string suggestion = find_field(kind, head) != nullptr || is_name(head) ? std::string(head) : "key";
+      const string suggestion = find_field(kind, head) != nullptr || is_name(head) ? string(head) : "key";
       diagnostics_.add(key.place, fmt::format("{} is a key without a value", in_backticks(key.text)),
                        tail >= key.text.size() ? "expected `key: value`"
                                                : fmt::format("did you mean {}? A ':' and a space part key and value",
                                                              in_backticks(suggestion + ": " + key.text.substr(tail))));
       return;
     }
-    const std::string message = fmt::format("unknown key {} in {}", in_backticks(key.text), what);
+    const string message = fmt::format("unknown key {} in {}", in_backticks(key.text), what);
     if (!diagnostics_.add_member(key.place, message)) diagnostics_.add(key.place, message, suggest_key(key.text, kind));
   }
 
-  void entry(const Key& key, Node& value, Node& map_node, const Kind& kind, const std::string& what, bool partial) {
+  void entry(const Key& key, Node& value, Node& map_node, const Kind& kind, const string& what, bool partial) {
     const Field* field = find_field(kind, key.text);
     if (field == nullptr) {
       if (!decimal_comma(key, value, map_node)) unknown_key(key, value, kind, what);
@@ -219,7 +215,7 @@ class Checker : ValueChecker {
     if (value.cancels) return;
     // Two keys that exclude one another are reported once, at the second.
     const Key* other = nullptr;
-    for (const std::string_view rival : rivals(*field)) {
+    for (const string_view rival : rivals(*field)) {
       const Key* found = map_node.find_key(rival);
       if (found != nullptr && !map_node.find(rival)->cancels &&
           is_before(found->place, other == nullptr ? key.place : other->place))
@@ -234,13 +230,13 @@ class Checker : ValueChecker {
   }
 
   void file(Node& value, const Field& field) {
-    if (!value.is(Node::Kind::scalar) || value.text.empty() || value.text.find('\n') != std::string::npos) {
+    if (!value.is(Node::Kind::scalar) || value.text.empty() || value.text.find('\n') != string::npos) {
       wrong_type(value, in_backticks(field.key), "expected " + expected(field));
       return;
     }
-    const std::string why = why_no_file(beneath(folder_, value.text));
+    const string why = why_no_file(beneath(folder_, value.text));
     if (why.empty()) return;
-    const std::string other = name_in_other_case(folder_, value.text);
+    const string other = name_in_other_case(folder_, value.text);
     refuse(value, fmt::format("{} {}", why, in_backticks(value.text)),
            other.empty() ? "paths are relative to the folder of the scene"
                          : fmt::format("did you mean {}?", in_backticks(other)));
@@ -252,18 +248,17 @@ class Checker : ValueChecker {
     const Range limits = limited_range(field);
     const auto is_good = [&](const Node& one) {
       const bool plain = one.is(Node::Kind::scalar) && !one.quoted && !one.bad;
-      const std::optional<double> number = plain ? parse_number(one.text) : std::nullopt;
+      const optional<double> number = plain ? parse_number(one.text) : nullopt;
       return number && contains(field.range, *number) && contains(limits, *number);
     };
     if (field.type == Type::number) return is_good(value);
-    return value.is(Node::Kind::sequence) && value.items.size() == 3 &&
-           std::all_of(value.items.begin(), value.items.end(), is_good);
+    return value.is(Node::Kind::sequence) && value.items.size() == 3 && std::ranges::all_of(value.items, is_good);
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
     if (value.bad || is_good_number(value, field)) return;
-    const std::string name = in_backticks(field.key);
-    const std::string required = "expected " + expected(field);
+    const string name = in_backticks(field.key);
+    const string required = "expected " + expected(field);
     switch (field.type) {
       case Type::number:
         number(value, field, name, limited_range(field));
@@ -342,19 +337,19 @@ class Checker : ValueChecker {
     return value.is(Node::Kind::scalar) && !value.quoted && (value.text == "true" || value.text == "false");
   }
 
-  void flag(Node& value, const std::string& name, const std::string& required) {
+  void flag(Node& value, const string& name, const string& required) {
     if (!is_flag(value)) wrong_type(value, name, required);
   }
 
-  void text(Node& value, const std::string& name, const std::string& required) {
+  void text(Node& value, const string& name, const string& required) {
     if (!value.is(Node::Kind::scalar)) {
       wrong_type(value, name, required);
-    } else if (value.text.find('\n') != std::string::npos) {
+    } else if (value.text.find('\n') != string::npos) {
       refuse(value, name + " has more than one line", "expected one line");
     }
   }
 
-  void direction(Node& value, const Field& field, const std::string& name, const std::string& required) {
+  void direction(Node& value, const Field& field, const string& name, const string& required) {
     if (!numbers(value, field, name, 3)) return;
     bool zero = true;
     for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
@@ -362,16 +357,16 @@ class Checker : ValueChecker {
   }
 
   /// A remedy for an entry that stands in place of a list.
-  static std::string list_of_one(const Node& value, const Field& field) {
+  static string list_of_one(const Node& value, const Field& field) {
     if (value.is(Node::Kind::map)) return field.type == Type::list ? "\na list of one map is [{...}]" : "";
-    const std::vector<std::string_view> words = parts_of(field.type == Type::list ? field.plain : field.of);
+    const vector<string_view> words = parts_of(field.type == Type::list ? field.plain : field.of);
     const bool is_name = field.type == Type::names && words.empty();
-    const bool is_entry = is_name || std::find(words.begin(), words.end(), value.text) != words.end();
+    const bool is_entry = is_name || std::ranges::find(words, value.text) != words.end();
     return value.is(Node::Kind::scalar) && is_entry ? fmt::format("\na list of one is [{}]", printable(value.text))
                                                     : "";
   }
 
-  void names(Node& value, const Field& field, const std::string& name, const std::string& required) {
+  void names(Node& value, const Field& field, const string& name, const string& required) {
     if (!value.is(Node::Kind::sequence)) {
       wrong_type(value, name, required + list_of_one(value, field));
     } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
@@ -387,32 +382,32 @@ class Checker : ValueChecker {
     }
   }
 
-  void distinct(const Node& names, const std::string& name) {
-    std::set<std::string_view> found;
+  void distinct(const Node& names, const string& name) {
+    std::set<string_view> found;
     for (const Node& item : names.items)
       if (!item.bad && !found.insert(item.text).second)
         diagnostics_.add(item.place, fmt::format("{} has {} twice", name, in_backticks(item.text)),
                          "remove one of them");
   }
 
-  void list(Node& value, const Field& field, const std::string& name, const std::string& required) {
+  void list(Node& value, const Field& field, const string& name, const string& required) {
     if (!value.is(Node::Kind::sequence)) {
       wrong_type(value, name, required + list_of_one(value, field));
       return;
     }
     if (field.needs_entries && value.items.empty())
       refuse(value, fmt::format("{} has no entries", name), "expected at least one");
-    const std::vector<std::string_view> words = parts_of(field.plain);
+    const vector<string_view> words = parts_of(field.plain);
     for (Node& item : value.items) {
       if (words.empty() || !item.is(Node::Kind::scalar))
         map(item, kind_named(field.of), "this entry of " + name, item.place, false);
-      else if (std::find(words.begin(), words.end(), item.text) == words.end())
+      else if (std::ranges::find(words, item.text) == words.end())
         refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
                fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(kind_named(field.of)))));
     }
   }
 
-  void cases(Node& value, const std::string& name, const std::string& required) {
+  void cases(Node& value, const string& name, const string& required) {
     if (!value.is(Node::Kind::sequence)) {
       wrong_type(value, name, required);
     } else if (value.items.empty()) {
@@ -427,21 +422,21 @@ class Checker : ValueChecker {
     map(value, kind, in_backticks(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
 
-  void values(Node& value, const Field& field, const std::string& name, const std::string& required) {
+  void values(Node& value, const Field& field, const string& name, const string& required) {
     if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
     Field each = field;
     each.type = Type::number;
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
-      const std::string shown = in_backticks(value.keys[i].text);
+    for (size_t i = 0; i < value.keys.size(); ++i) {
+      const string shown = in_backticks(value.keys[i].text);
       number(value.items[i], each, shown, each.range);
     }
   }
 
-  void texts(Node& value, const std::string& name, const std::string& required) {
+  void texts(Node& value, const string& name, const string& required) {
     if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
-      const std::string shown = in_backticks(value.keys[i].text);
-      if (!is_name(value.keys[i].text) || value.keys[i].text.find('-') != std::string::npos)
+    for (size_t i = 0; i < value.keys.size(); ++i) {
+      const string shown = in_backticks(value.keys[i].text);
+      if (!is_name(value.keys[i].text) || value.keys[i].text.find('-') != string::npos)
         diagnostics_.add(value.keys[i].place, shown + " is no name of a measure",
                          "a name has letters, digits and _, and begins with a letter or _");
       else
@@ -449,7 +444,7 @@ class Checker : ValueChecker {
     }
   }
 
-  bool has_entries(Node& value, const std::string& name, const std::string& required) {
+  bool has_entries(Node& value, const string& name, const string& required) {
     if (!value.is(Node::Kind::map))
       wrong_type(value, name, required);
     else if (value.items.empty())
@@ -457,18 +452,18 @@ class Checker : ValueChecker {
     return !value.bad;
   }
 
-  void settings(Node& value, const std::string& name, const std::string& required) {
+  void settings(Node& value, const string& name, const string& required) {
     if (!has_entries(value, name, required)) return;
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+    for (size_t i = 0; i < value.keys.size(); ++i) {
       if (value.items[i].is(Node::Kind::null))
         wrong_type(value.items[i], in_backticks(value.keys[i].text), "expected a value");
     }
   }
 
-  void axes(Node& value, const std::string& name, const std::string& required) {
+  void axes(Node& value, const string& name, const string& required) {
     if (!has_entries(value, name, required)) return;
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
-      const std::string path = in_backticks(value.keys[i].text);
+    for (size_t i = 0; i < value.keys.size(); ++i) {
+      const string path = in_backticks(value.keys[i].text);
       Node& values = value.items[i];
       if (values.is(Node::Kind::map)) {
         map(values, kind_named("range"), path, value.keys[i].place, false);
@@ -483,51 +478,51 @@ class Checker : ValueChecker {
     }
   }
 
-  void spans(Node& value, const Field& field, const std::string& name, const std::string& required) {
+  void spans(Node& value, const Field& field, const string& name, const string& required) {
     if (!has_entries(value, name, required)) return;
-    for (std::size_t i = 0; i < value.keys.size(); ++i)
+    for (size_t i = 0; i < value.keys.size(); ++i)
       map(value.items[i], kind_named(field.of), in_backticks(value.keys[i].text), value.keys[i].place, false);
   }
 
-  void named(Node& value, const Field& field, const std::string& name) {
+  void named(Node& value, const Field& field, const string& name) {
     if (!value.is(Node::Kind::map)) {
       wrong_type(value, name, "expected " + expected(field));
       return;
     }
     const Kind& kind = kind_named(field.of);
-    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+    for (size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
       if (kind.also != nullptr && key.text == kind.also->key) {
         color(value.items[i], in_backticks(key.text));
         continue;
       }
-      const std::string_view family = find_field(kind, "repeat") == nullptr ? "" : family_of(key.text);
+      const string_view family = find_field(kind, "repeat") == nullptr ? "" : family_of(key.text);
       if (!is_name(family.empty() ? key.text : family)) {
         diagnostics_.add(key.place, fmt::format("{} is not a name", in_backticks(key.text)),
                          "expected letters, digits, _ and -, a letter or _ first");
       } else if (!family.empty()) {
-        in_order(key, family, i == 0 ? std::string_view() : value.keys[i - 1].text);
+        in_order(key, family, i == 0 ? string_view() : value.keys[i - 1].text);
       }
       map(value.items[i], kind, fmt::format("{} {}", kind.name, in_backticks(key.text)), key.place, false);
     }
   }
 
   /// Members follow one another: name.0, name.1, ...
-  void in_order(const Key& key, std::string_view family, std::string_view before) {
-    const std::string_view number = std::string_view(key.text).substr(family.size() + 1);
-    const std::string last = number == "0" ? "" : fmt::format("{}.{}", family, *parse_index(number) - 1);
+  void in_order(const Key& key, string_view family, string_view before) {
+    const string_view number = string_view(key.text).substr(family.size() + 1);
+    const string last = number == "0" ? "" : fmt::format("{}.{}", family, *parse_index(number) - 1);
     if (number == "0" || before == last) return;
     diagnostics_.add(key.place, fmt::format("{} does not follow {}", in_backticks(key.text), in_backticks(last)),
                      fmt::format("members stand in order, {}.0 first; `repeat` makes them", family));
   }
 
   const Node& root_;
-  const std::string& folder_;
+  const string& folder_;
 };
 
 }  // namespace
 
-void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics) {
+void check_scene(Node& root, const string& folder, Diagnostics& diagnostics) {
   const Place start = root.keys.empty() ? root.place : root.keys.front().place;
   Checker(root, folder, diagnostics).map(root, kind_named("scene"), "the scene", start, false);
 }
@@ -544,27 +539,27 @@ const Node* defaults_for(const Node& root, const Kind& kind) {
   return node != nullptr && node->is(Node::Kind::map) ? node : nullptr;
 }
 
-std::string beneath(const std::string& folder, const std::string& path) {
+string beneath(const string& folder, const string& path) {
   if (path.starts_with('/') || folder.empty()) return path;
   return folder.ends_with('/') ? folder + path : folder + "/" + path;
 }
 
-std::string suggest_key(std::string_view wrong, const Kind& kind) {
-  const std::vector<std::string_view> keys = keys_of(kind);
+string suggest_key(string_view wrong, const Kind& kind) {
+  const vector<string_view> keys = keys_of(kind);
   if (const AbsentWord* word = find_absent_word(wrong))
     return fmt::format("{}\nsee {}", word->meaning, commands_of(*word));
-  const std::string known = "expected " + listed(keys);
-  std::vector<std::string_view> owners;
-  std::vector<std::string> shown;
+  const string known = "expected " + listed(keys);
+  vector<string_view> owners;
+  vector<string> shown;
   const bool of_sweep = &kind >= sweep_kinds().data() && &kind < sweep_kinds().data() + sweep_kinds().size();
   for (const Kind& other : of_sweep ? sweep_kinds() : kinds()) {
     if (other.name == kind.name || other.name == "member" || find_field(other, wrong) == nullptr) continue;
     shown.push_back(other.name == "scene" || other.name == "sweep" ? fmt::format("the {} itself", other.name)
                                                                    : in_backticks(other.name));
   }
-  for (const std::string& owner : shown) owners.push_back(owner);
+  for (const string& owner : shown) owners.push_back(owner);
   if (!owners.empty()) return fmt::format("{} is a key of {}\n{}", in_backticks(wrong), listed(owners), known);
-  const std::string near = nearest(wrong, keys);
+  const string near = nearest(wrong, keys);
   return near.empty() ? known : fmt::format("did you mean {}?", in_backticks(near));
 }
 

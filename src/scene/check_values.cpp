@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "scene/colors.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -13,17 +14,17 @@ ExpectedNumber expected_number(const Field& field) {
   return {field.key, field.unit, "expected " + expected(field)};
 }
 
-std::string wrong_count(const std::string& name, std::size_t count) {
+string wrong_count(const string& name, size_t count) {
   return fmt::format("{} has {} number{}", name, count, count == 1 ? "" : "s");
 }
 
 /// Adds what stands for a mass of 0 or infinity in other programs.
-std::string with_fixed_things(const Field& field, std::string remedy) {
+string with_fixed_things(const Field& field, string remedy) {
   if (field.key != "mass" && field.key != "density") return remedy;
   return remedy + "\nwhat no impact moves has no mass: it stands in `obstacles`, `planes` or `walls`";
 }
 
-bool means_none(std::string_view text) {
+bool means_none(string_view text) {
   for (const char* word : {"None", "NONE", "transparent", "Transparent", "clear", "no"})
     if (text == word) return true;
   return false;
@@ -31,12 +32,12 @@ bool means_none(std::string_view text) {
 
 }  // namespace
 
-void ValueChecker::refuse(Node& node, std::string message, std::string remedy) {
+void ValueChecker::refuse(Node& node, string message, string remedy) {
   node.bad = true;
   diagnostics_.add(node.place, std::move(message), std::move(remedy));
 }
 
-void ValueChecker::wrong_type(Node& node, const std::string& name, const std::string& required) {
+void ValueChecker::wrong_type(Node& node, const string& name, const string& required) {
   if (node.bad) return;
   switch (node.kind) {
     case Node::Kind::null:
@@ -54,13 +55,13 @@ void ValueChecker::wrong_type(Node& node, const std::string& name, const std::st
   }
 }
 
-bool ValueChecker::number(Node& value, const Field& field, const std::string& name, const Range& limits) {
+bool ValueChecker::number(Node& value, const Field& field, const string& name, const Range& limits) {
   if (value.bad) return false;
   if (!value.is(Node::Kind::scalar)) {
     wrong_type(value, name, "expected " + expected(field));
     return false;
   }
-  const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
+  const optional<double> parsed = value.quoted ? nullopt : parse_number(value.text);
   if (!parsed) {
     Complaint complaint = explain_number(value, expected_number(field));
     if (is_infinite(value.text)) complaint.remedy = with_fixed_things(field, std::move(complaint.remedy));
@@ -79,9 +80,9 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
   return true;
 }
 
-bool ValueChecker::whole(Node& value, const Field& field, const std::string& name) {
+bool ValueChecker::whole(Node& value, const Field& field, const string& name) {
   if (value.is(Node::Kind::scalar) && !value.quoted && !value.bad) {
-    const std::optional<std::uint64_t> parsed = parse_whole(value.text);
+    const optional<uint64_t> parsed = parse_whole(value.text);
     if (parsed && contains(field.range, static_cast<double>(*parsed))) return true;
     if (parse_number(value.text)) {
       refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
@@ -91,7 +92,7 @@ bool ValueChecker::whole(Node& value, const Field& field, const std::string& nam
   return number(value, field, name, field.range);
 }
 
-bool ValueChecker::numbers(Node& value, const Field& field, const std::string& name, std::size_t count) {
+bool ValueChecker::numbers(Node& value, const Field& field, const string& name, size_t count) {
   if (!value.is(Node::Kind::sequence)) {
     wrong_type(value, name, "expected " + expected(field));
     return false;
@@ -107,38 +108,38 @@ bool ValueChecker::numbers(Node& value, const Field& field, const std::string& n
   const Range limits = limited_range(field);
   each.type = field.type == Type::pixels ? Type::whole : Type::number;
   for (Node& item : value.items) {
-    const std::string part = "a number of " + name;
+    const string part = "a number of " + name;
     good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part, limits)) && good;
   }
   if (!good) value.bad = true;
   return good;
 }
 
-void ValueChecker::choice(Node& value, const Field& field, const std::string& name) {
-  const std::string required = "expected " + expected(field);
+void ValueChecker::choice(Node& value, const Field& field, const string& name) {
+  const string required = "expected " + expected(field);
   if (!value.is(Node::Kind::scalar)) {
     wrong_type(value, name, required);
     return;
   }
-  const std::vector<std::string_view> all = choices(field);
-  for (const std::string_view one : all) {
+  const vector<string_view> all = choices(field);
+  for (const string_view one : all) {
     if (value.text != one) continue;
     if (!value.quoted || !parse_number(value.text)) return;
     Complaint complaint = explain_number(value, expected_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return;
   }
-  const std::string near = nearest(value.text, all);
+  const string near = nearest(value.text, all);
   refuse(value, fmt::format("{} is {}", name, in_backticks(value.text)),
          near.empty() ? required : fmt::format("did you mean {}?\n{}", in_backticks(near), required));
 }
 
-void ValueChecker::color(Node& value, const std::string& name, ColorWords words) {
+void ValueChecker::color(Node& value, const string& name, ColorWords words) {
   static constexpr Field component{.key = "color", .range = {0, 1}};
   static constexpr Field plain{.key = "color", .type = Type::color},
       or_none{.key = "color", .type = Type::color_or_none};
   const bool may_be_none = words == ColorWords::colors_and_none;
-  const std::string required = "expected " + expected(may_be_none ? or_none : plain);
+  const string required = "expected " + expected(may_be_none ? or_none : plain);
   if (value.is(Node::Kind::sequence) && value.items.size() == 3) {
     numbers(value, component, name, 3);
   } else if (value.is(Node::Kind::sequence)) {
@@ -148,9 +149,9 @@ void ValueChecker::color(Node& value, const std::string& name, ColorWords words)
     wrong_type(value, name,
                value.is(Node::Kind::null) ? required + "\na colour that begins with # needs quotes" : required);
   } else if (!parse_color(value.text) && !(may_be_none && value.text == "none")) {
-    std::vector<std::string_view> all = color_names();
+    vector<string_view> all = color_names();
     if (may_be_none) all.insert(all.begin(), "none");
-    const std::string near = may_be_none && means_none(value.text) ? "none" : nearest(value.text, all);
+    const string near = may_be_none && means_none(value.text) ? "none" : nearest(value.text, all);
     const bool is_flag = value.text == "true" || value.text == "false";
     refuse(value, fmt::format("{} is not a colour", in_backticks(value.text)),
            near.empty() || is_flag ? required : fmt::format("did you mean {}?", in_backticks(near)));

@@ -9,16 +9,16 @@
 #include "scene/color_map.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
-using MapColors = std::array<std::uint32_t, 16>;
+using MapColors = array<uint32_t, 16>;
 
 // In the order of ColorMap.
-constexpr std::array<MapColors, 5> maps = {{
+constexpr array<MapColors, 5> maps = {{
     {0x440154, 0x481a6c, 0x472f7d, 0x414487, 0x39568c, 0x31688e, 0x2a788e, 0x23888e, 0x1f988b, 0x22a884, 0x35b779,
      0x54c568, 0x7ad151, 0xa5db36, 0xd2e21b, 0xfde725},
     {0x00224e, 0x002e6c, 0x1e3a6f, 0x35456c, 0x47516c, 0x575d6d, 0x666970, 0x757575, 0x848279, 0x948e77, 0xa59c74,
@@ -34,9 +34,9 @@ constexpr std::array<MapColors, 5> maps = {{
 }  // namespace
 
 Color color_in(ColorMap map, double at) {
-  const MapColors& points = maps[static_cast<std::size_t>(map)];
+  const MapColors& points = maps[static_cast<size_t>(map)];
   const double place = std::clamp(at, 0.0, 1.0) * static_cast<double>(points.size() - 1);
-  const std::size_t below = std::min(static_cast<std::size_t>(place), points.size() - 2);
+  const size_t below = std::min(static_cast<size_t>(place), points.size() - 2);
   const double part = place - static_cast<double>(below);
   const Color a = from_rgb(points[below]), b = from_rgb(points[below + 1]);
   const auto between = [part](double low, double high) { return (1 - part) * low + part * high; };

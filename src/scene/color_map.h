@@ -1,17 +1,16 @@
 #pragma once
 // Colour maps: colours along a line, for quantities.
-#include <cstdint>
-#include <string_view>
 
 #include "scene/colors.h"
+#include "std.h"
 
 namespace carom {
 
 /// Each becomes lighter from its start to its end, so that it keeps its order in print without colours.
-enum class ColorMap : std::uint8_t { viridis, cividis, magma, plasma, inferno };
+enum class ColorMap : uint8_t { viridis, cividis, magma, plasma, inferno };
 
 // In the order of ColorMap.
-inline constexpr std::string_view color_map_names = "viridis|cividis|magma|plasma|inferno";
+inline constexpr string_view color_map_names = "viridis|cividis|magma|plasma|inferno";
 
 /// The colour at `at`, from 0 to 1. Values outside have the colour of the nearer end.
 Color color_in(ColorMap map, double at);

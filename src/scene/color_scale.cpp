@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -38,7 +38,7 @@ double way_to_lowest(const World& world, const Vec3& x, const Vec3& down) {
   return way;
 }
 
-enum class Rounding : std::uint8_t { down, up };
+enum class Rounding : uint8_t { down, up };
 
 /// `value` > 0, rounded to two digits: 0.206155 up to 0.21. Two digits keep most masses and radii of authors.
 double to_two_digits(double value, Rounding rounding) {

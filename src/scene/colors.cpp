@@ -4,16 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
+
+#include "std.h"
 
 namespace carom {
 namespace {
 
 struct NamedColor {
-  std::string_view name;
-  std::uint32_t rgb;
+  string_view name;
+  uint32_t rgb;
 };
 
 // CSS Color Module Level 4, section 6.1, sorted by name.
@@ -170,41 +171,41 @@ constexpr NamedColor named_colors[] = {
 };
 // clang-format on
 
-constexpr std::array<std::uint32_t, 10> palette = {0xd1495b, 0x2e86ab, 0xedae49, 0x5b8e3e, 0x8d5fb0,
-                                                   0xef7b45, 0x1b998b, 0xe38fb0, 0x7c5c3f, 0x5c7cfa};
+constexpr array<uint32_t, 10> palette = {0xd1495b, 0x2e86ab, 0xedae49, 0x5b8e3e, 0x8d5fb0,
+                                         0xef7b45, 0x1b998b, 0xe38fb0, 0x7c5c3f, 0x5c7cfa};
 
 }  // namespace
 
-std::optional<Color> parse_color(std::string_view text) {
+optional<Color> parse_color(string_view text) {
   if (text.starts_with('#')) {
-    std::uint32_t value = 0;
+    uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size()) return nullopt;
     if (text.size() == 7) return from_rgb(value);
-    if (text.size() != 4) return std::nullopt;
+    if (text.size() != 4) return nullopt;
     return from_rgb((value >> 8) * 0x110000 + ((value >> 4) & 0xF) * 0x1100 + (value & 0xF) * 0x11);
   }
-  std::string lower(text);
+  string lower(text);
   for (char& c : lower) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   }
   const auto* found = std::lower_bound(std::begin(named_colors), std::end(named_colors), lower,
-                                       [](const NamedColor& a, const std::string& b) { return a.name < b; });
-  if (found == std::end(named_colors) || found->name != lower) return std::nullopt;
+                                       [](const NamedColor& a, const string& b) { return a.name < b; });
+  if (found == std::end(named_colors) || found->name != lower) return nullopt;
   return from_rgb(found->rgb);
 }
 
-std::vector<std::string_view> color_names() {
-  std::vector<std::string_view> names;
+vector<string_view> color_names() {
+  vector<string_view> names;
   for (const NamedColor& color : named_colors) names.push_back(color.name);
   return names;
 }
 
-Color body_color(std::size_t i) {
+Color body_color(size_t i) {
   return from_rgb(palette[i % palette.size()]);
 }
 
-std::string hex_text(const Color& color) {
+string hex_text(const Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", std::lround(color.r * 255), std::lround(color.g * 255),
                      std::lround(color.b * 255));
 }

@@ -1,10 +1,7 @@
 #pragma once
 // Colours by name, and the default colours of bodies.
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -15,20 +12,20 @@ struct Color {
 };
 
 /// 0xrrggbb
-constexpr Color from_rgb(std::uint32_t rgb) {
+constexpr Color from_rgb(uint32_t rgb) {
   return {((rgb >> 16) & 0xFF) / 255.0, ((rgb >> 8) & 0xFF) / 255.0, (rgb & 0xFF) / 255.0};
 }
 
 /// Accepts a CSS name in any case, "#rgb" or "#rrggbb".
-std::optional<Color> parse_color(std::string_view text);
+optional<Color> parse_color(string_view text);
 
 /// All 148 CSS names, in alphabetical order.
-std::vector<std::string_view> color_names();
+vector<string_view> color_names();
 
 /// The default colour of the i-th ball, body or group. Neighbours differ clearly.
-Color body_color(std::size_t i);
+Color body_color(size_t i);
 
 /// "#rrggbb"
-std::string hex_text(const Color& color);
+string hex_text(const Color& color);
 
 }  // namespace carom

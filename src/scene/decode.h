@@ -2,18 +2,14 @@
 // A checked tree to the parts of a Scene.
 // Each function adds the errors that the table of fields cannot express.
 // These are contradictory values, unknown names and overlaps.
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "scene/forms.h"
 #include "scene/load.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 
@@ -26,7 +22,7 @@ struct BodyEntry {
   const Kind* kind;
   bool group;
   Entity first = 0;
-  std::uint64_t count = 1;
+  uint64_t count = 1;
 };
 
 /// One plane, room, wall or obstacle, in the order of entities.
@@ -49,9 +45,9 @@ struct StringEntry {
 
 /// The named things of a file, in its order, and their numbers.
 struct Inventory {
-  std::vector<BodyEntry> bodies;
-  std::vector<FixedEntry> fixed;
-  std::vector<StringEntry> strings;
+  vector<BodyEntry> bodies;
+  vector<FixedEntry> fixed;
+  vector<StringEntry> strings;
   Entity body_count = 0;
   Entity fixed_count = 0;
   // False: over the budget, so nothing may be allocated for bodies.
@@ -63,11 +59,11 @@ struct Inventory {
   /// Whether it is one of the strings, which are numbered after the fixed things.
   bool is_string(const Range& range) const { return range.first >= body_count + fixed_count && range.count > 0; }
   /// "a fixed thing" or "a string", of what is no body.
-  std::string_view word_for(const Range& range) const { return is_string(range) ? "a string" : "a fixed thing"; }
+  string_view word_for(const Range& range) const { return is_string(range) ? "a string" : "a fixed thing"; }
   // Looked up only, never iterated.
-  std::unordered_map<std::string, Range> names;
+  std::unordered_map<string, Range> names;
   /// Repeated things, whose members have names in `names` too.
-  std::unordered_map<std::string, Range> families;
+  std::unordered_map<string, Range> families;
 };
 
 /// Numbers all things. Checks that names are unique and that the number of bodies is within `budget`.
@@ -107,15 +103,15 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 
 /// What a name may stand for. The message about a name that does not exist lists these things alone.
-enum class Sought : std::uint8_t { bodies, anything };
+enum class Sought : uint8_t { bodies, anything };
 /// The numbers of a named thing: a body, group, member, fixed thing, string, the room or one of its sides.
 /// A fixed thing or a string is found even where bodies are sought. None: an error was reported, here or before.
-std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
-                                           Diagnostics& diagnostics);
+optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
+                                      Diagnostics& diagnostics);
 /// The bodies in a list of names, in order. An empty list: all bodies. None: no body at all, or an error was reported.
 /// `use`: what a fixed thing or a string cannot have, such as "no force acts on it".
-std::optional<std::vector<Entity>> find_bodies(const Node* names, const Inventory& inventory, std::string_view use,
-                                               Diagnostics& diagnostics);
+optional<vector<Entity>> find_bodies(const Node* names, const Inventory& inventory, string_view use,
+                                     Diagnostics& diagnostics);
 
 /// The default direction of a wall's height: y, or z for a level wall.
 Vec3 default_up(const Vec3& unit_normal);
@@ -124,7 +120,7 @@ Vec3 default_up(const Vec3& unit_normal);
 Vec3 unit(const Vec3& v);
 
 /// A key of the scene as a View. The view is empty if the key is absent.
-View scene_part(const Node& root, std::string_view key);
+View scene_part(const Node& root, string_view key);
 
 /// A ball, a body or a group as a View, with the scene's defaults beneath. The same holds for the three below.
 View body_view(const Node& root, const BodyEntry& entry);

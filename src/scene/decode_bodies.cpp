@@ -17,6 +17,7 @@
 #include "scene/placement.h"
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
 
@@ -35,7 +36,7 @@ class Bodies {
         grid_(&scene.world) {}
 
   void run() {
-    const std::size_t n = inventory_.body_count;
+    const size_t n = inventory_.body_count;
     world_.mass.assign(n, 1);
     world_.radius.assign(n, 1);
     world_.restitution.assign(n, 1);
@@ -45,21 +46,21 @@ class Bodies {
 
     scene_.roster.bodies.reserve(inventory_.bodies.size());
     // Members of a repeated thing have a colour in common, as those of a group have.
-    std::size_t things = 0;
-    std::string_view last_family;
+    size_t things = 0;
+    string_view last_family;
     for (const BodyEntry& body : inventory_.bodies) {
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
       const auto keys = filled<BodyKeys>(each);
-      const std::optional<Form> form = forms_.of(keys, keys.color.has_value());
-      const std::string_view family = family_of(body.key->text);
+      const optional<Form> form = forms_.of(keys, keys.color.has_value());
+      const string_view family = family_of(body.key->text);
       if (family.empty() || family != last_family) ++things;
       last_family = family;
       const Color chosen = body_color(things - 1);
-      const BodyColor color = keys.color.value_or(BodyColor{chosen, std::nullopt});
+      const BodyColor color = keys.color.value_or(BodyColor{chosen, nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
-                                      color.by ? chosen : color.plain, form ? form->mesh : std::nullopt, color.by});
-      const std::optional<double> mass = form ? mass_of(keys, form->volume, each) : std::nullopt;
+                                      color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by});
+      const optional<double> mass = form ? mass_of(keys, form->volume, each) : nullopt;
       if (!mass) continue;
       common(keys, *mass, form->volume, body);
       if (!body.group) single(body.first, keys, view.place("position"));
@@ -78,7 +79,7 @@ class Bodies {
   }
 
  private:
-  std::optional<double> mass_of(const BodyKeys& body, const Volume& volume, const View& view) {
+  optional<double> mass_of(const BodyKeys& body, const Volume& volume, const View& view) {
     if (body.mass || !body.density) return body.mass;
     const double mass = *body.density * volume.size();
     const Range limits = limited_range(*find_field(view.kind(), "mass"));
@@ -86,7 +87,7 @@ class Bodies {
     diagnostics_.add(view.place("density"),
                      fmt::format("this density and a volume of {:.6g} m^3 make a mass of {} kg", volume.size(), mass),
                      limit_text(limits, "kg"));
-    return std::nullopt;
+    return nullopt;
   }
 
   /// Sets what a ball, a body and a group's balls have in common.
@@ -115,7 +116,7 @@ class Bodies {
   }
 
   /// Places the balls of a group that lists them. `velocity`: of balls without one, in m/s.
-  void members(const BodyEntry& body, const View& view, const std::optional<Vec3>& velocity) {
+  void members(const BodyEntry& body, const View& view, const optional<Vec3>& velocity) {
     const Node& list = *view.given("members");
     if (!list.is(Node::Kind::sequence)) return;
     if (list.items.size() != body.count) {
@@ -139,7 +140,7 @@ class Bodies {
   /// Groups with large members first, which makes the grid's searches cheap.
   /// The order inside a group and its random stream do not depend on that.
   void groups() {
-    std::stable_sort(groups_.begin(), groups_.end(), [&](const BodyEntry* a, const BodyEntry* b) {
+    std::ranges::stable_sort(groups_, [&](const BodyEntry* a, const BodyEntry* b) {
       return world_.radius[a->first] > world_.radius[b->first];
     });
     for (const BodyEntry* body : groups_) one_group(*body, body_view(root_, *body));
@@ -148,7 +149,7 @@ class Bodies {
   void one_group(const BodyEntry& body, const View& view) {
     const auto group = filled<GroupKeys>(view);
     const auto& [min, max] = group.in;
-    const std::optional<Arrange> arrange = group.arrange;
+    const optional<Arrange> arrange = group.arrange;
     if (!min || !max || !arrange) return;
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
@@ -171,7 +172,7 @@ class Bodies {
                                                                    : ", close-packed"));
       return;
     }
-    std::copy(placed.centers.begin(), placed.centers.end(), scene_.initial.position.begin() + body.first);
+    std::ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
     set_velocities(body, group, view);
   }
@@ -180,12 +181,12 @@ class Bodies {
     Vec3* velocity = scene_.initial.velocity.data() + body.first;
     if (group.speed) {
       Random random(scene_.seed, body.key->text + "/velocity");
-      for (std::uint64_t i = 0; i < body.count; ++i) {
+      for (uint64_t i = 0; i < body.count; ++i) {
         for (int axis = 0; axis < 3; ++axis) velocity[i][axis] = *group.speed * random.normal();
       }
       return;
     }
-    const std::optional<Vec3> common_velocity =
+    const optional<Vec3> common_velocity =
         group.velocity ? group.velocity : filled<BodyKeys>(member_view(root_, view)).velocity;
     std::fill_n(velocity, body.count, common_velocity.value_or(Vec3::Zero()));
   }
@@ -196,9 +197,9 @@ class Bodies {
   Scene& scene_;
   World& world_;
   Diagnostics& diagnostics_;
-  std::vector<SingleBody> singles_;  // those without errors, by number
+  vector<SingleBody> singles_;  // those without errors, by number
   /// Those with members and without errors in their balls.
-  std::vector<const BodyEntry*> groups_;
+  vector<const BodyEntry*> groups_;
   BodyGrid grid_;
   double default_restitution_ = 1;
 };

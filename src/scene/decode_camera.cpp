@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "numerics/monotone_path.h"
 #include "numerics/polynomial.h"
@@ -12,6 +11,7 @@
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -20,11 +20,11 @@ namespace {
 /// The sine of the smallest allowed angle between the line of sight and the up direction.
 constexpr double least_sine = 1e-9;
 
-using Cubic = std::array<double, 4>;
+using Cubic = array<double, 4>;
 
 void add_square(Polynomial& sum, const Cubic& c) {
-  for (std::size_t i = 0; i < c.size(); ++i)
-    for (std::size_t j = 0; j < c.size(); ++j) sum.c[i + j] += c[i] * c[j];
+  for (size_t i = 0; i < c.size(); ++i)
+    for (size_t j = 0; j < c.size(); ++j) sum.c[i + j] += c[i] * c[j];
 }
 
 double value(const Cubic& c, double s) {
@@ -33,29 +33,29 @@ double value(const Cubic& c, double s) {
 
 /// The part of a piece of a path, from 0 to 1, at which target less eye comes to lie along the unit vector `up`. None:
 /// it never does.
-std::optional<double> touches(const std::array<Cubic, 3>& eye, const std::array<Cubic, 3>& target, const Vec3& up) {
-  std::array<Cubic, 3> sight{}, across{};  // across: sight x up
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t power = 0; power < 4; ++power) sight[i][power] = target[i][power] - eye[i][power];
+optional<double> touches(const array<Cubic, 3>& eye, const array<Cubic, 3>& target, const Vec3& up) {
+  array<Cubic, 3> sight{}, across{};  // across: sight x up
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t power = 0; power < 4; ++power) sight[i][power] = target[i][power] - eye[i][power];
   Polynomial distance2;
   distance2.degree = 6;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    for (std::size_t power = 0; power < 4; ++power)
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    for (size_t power = 0; power < 4; ++power)
       across[i][power] = sight[j][power] * up[static_cast<int>(k)] - sight[k][power] * up[static_cast<int>(j)];
     add_square(distance2, across[i]);
   }
-  const auto at = [](const std::array<Cubic, 3>& of, double s) {
+  const auto at = [](const array<Cubic, 3>& of, double s) {
     return Vec3(value(of[0], s), value(of[1], s), value(of[2], s));
   };
   const double length = std::max(at(sight, 0).norm(), at(sight, 1).norm());
   // The distance itself from its vector: the polynomial of its square cancels.
   const Roots turning = roots_between(distance2.derivative(), 0, 1);
   for (int i = 0; i < turning.count; ++i) {
-    const double s = turning.at[static_cast<std::size_t>(i)];
+    const double s = turning.at[static_cast<size_t>(i)];
     if (!(at(across, s).norm() > least_sine * length)) return s;
   }
-  return std::nullopt;
+  return nullopt;
 }
 
 class CameraDecoder {
@@ -131,18 +131,18 @@ class CameraDecoder {
   }
 
   /// The pieces between the keyframes that `nodes` give.
-  void check_between(const std::vector<Node>& nodes) {
+  void check_between(const vector<Node>& nodes) {
     if (!diagnostics_.empty()) return;
-    std::vector<double> at;
-    std::vector<Vec3> eye, target;
+    vector<double> at;
+    vector<Vec3> eye, target;
     for (const Keyframe& key : plan_.path) {
       at.push_back(key.at);
       eye.push_back(key.eye);
       target.push_back(key.target);
     }
     const MonotonePath eyes(at, eye), targets(at, target);
-    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-      const std::optional<double> s = touches(eyes.piece(i), targets.piece(i), unit(plan_.up));
+    for (size_t i = 0; i + 1 < at.size(); ++i) {
+      const optional<double> s = touches(eyes.piece(i), targets.piece(i), unit(plan_.up));
       if (!s) continue;
       diagnostics_.add(nodes[i + 1].place,
                        fmt::format("on the way to this keyframe, at {:.4g} s, the camera looks along its up direction",

@@ -9,33 +9,34 @@
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view face_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+constexpr string_view face_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-void add_plane(const PlaneKeys& plane, const std::string& name, Scene& scene) {
+void add_plane(const PlaneKeys& plane, const string& name, Scene& scene) {
   scene.world.planes.push_back({plane.point, unit(plane.normal), plane.restitution});
   scene.roster.fixed.push_back({name, plane.color, plane.visible});
 }
 
-void add_room(const View& view, const std::string& name, Scene& scene, Diagnostics& diagnostics) {
+void add_room(const View& view, const string& name, Scene& scene, Diagnostics& diagnostics) {
   const auto room = filled<RoomKeys>(view);
   for (int axis = 0; room.min && room.max && axis < 3; ++axis) {
     if ((*room.min)[axis] < (*room.max)[axis]) continue;
     const char letter = "xyz"[axis];
-    diagnostics.add(view.place("max"), "the room's max." + std::string(1, letter) + " is not above its min." + letter,
+    diagnostics.add(view.place("max"), "the room's max." + string(1, letter) + " is not above its min." + letter,
                     "expected min below max on every axis");
   }
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
     Vec3 normal = Vec3::Zero();
     normal[axis] = side % 2 == 0 ? 1 : -1;
-    const std::optional<Vec3>& corner = side % 2 == 0 ? room.min : room.max;
+    const optional<Vec3>& corner = side % 2 == 0 ? room.min : room.max;
     scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, room.restitution});
-    scene.roster.fixed.push_back({name + "." + std::string(face_names[side]), room.color, room.visible});
+    scene.roster.fixed.push_back({name + "." + string(face_names[side]), room.color, room.visible});
   }
 }
 
@@ -44,7 +45,7 @@ bool is_parallel(const Vec3& unit_up, const Vec3& unit_normal) {
   return unit_up.cross(unit_normal).norm() <= 1e-9;
 }
 
-void add_wall(const View& view, const std::string& name, Scene& scene, Diagnostics& diagnostics) {
+void add_wall(const View& view, const string& name, Scene& scene, Diagnostics& diagnostics) {
   const auto wall = filled<WallKeys>(view);
   const Vec3 normal = unit(wall.normal);
   Vec3 up = unit(wall.up.value_or(default_up(normal)));
@@ -60,7 +61,7 @@ void add_wall(const View& view, const std::string& name, Scene& scene, Diagnosti
   scene.roster.fixed.push_back({name, wall.color, wall.visible});
 }
 
-void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene& scene) {
+void add_obstacle(const View& view, const string& name, Forms& forms, Scene& scene) {
   const auto obstacle = filled<ObstacleKeys>(view);
   // The volume of an obstacle with errors is empty.
   const Form form = forms.of(obstacle, view.find("color") != nullptr).value_or(Form{});
@@ -69,10 +70,10 @@ void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene
 }
 
 /// The legs of a thing's motion. None: it has no `motion`, or it never moves.
-std::vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
+vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
   const Node* const list = thing.find("motion");
   if (list == nullptr || !list->is(Node::Kind::sequence)) return {};
-  std::vector<MotionWindow> windows;
+  vector<MotionWindow> windows;
   for (const Node& node : list->items) {
     if (!node.is(Node::Kind::map)) continue;
     const View view(&node, kind_named("motion"), node.place);
@@ -94,8 +95,8 @@ std::vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
 }
 
 /// Stores the motion of the thing that was decoded last.
-void add_motion(const View& view, std::size_t number, Scene& scene, Diagnostics& diagnostics) {
-  std::vector<MotionLeg> legs = motion_of(view, diagnostics);
+void add_motion(const View& view, size_t number, Scene& scene, Diagnostics& diagnostics) {
+  vector<MotionLeg> legs = motion_of(view, diagnostics);
   if (legs.empty()) return;
   scene.world.motions.resize(number + 1);
   scene.world.motions[number] = std::move(legs);
@@ -115,7 +116,7 @@ Vec3 unit(const Vec3& v) {
 void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   for (const FixedEntry& entry : inventory.fixed) {
     const View view = fixed_view(root, entry);
-    const std::string& name = entry.key->text;
+    const string& name = entry.key->text;
     if (entry.kind->name != "room") add_motion(view, entry.first, scene, diagnostics);
     if (entry.kind->name == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
     if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);

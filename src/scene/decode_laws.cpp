@@ -8,6 +8,7 @@
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -56,8 +57,8 @@ bool has_effect(const Attractor& law) {
   return law.strength != 0;
 }
 
-std::optional<ForceLaw> law_of(const ForceKeys& force) {
-  std::optional<ForceLaw> law;
+optional<ForceLaw> law_of(const ForceKeys& force) {
+  optional<ForceLaw> law;
   if (force.uniform) law = UniformForce{*force.uniform};
   if (force.acceleration) law = UniformAcceleration{*force.acceleration};
   if (force.drag) law = *force.drag;
@@ -74,8 +75,8 @@ void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Di
                     fmt::format("`until` is {} but `from` is {}", shortest(force.until), shortest(force.from)),
                     "expected from < until");
   }
-  std::optional<std::vector<Entity>> on = find_bodies(force.on, inventory, "no force acts on it", diagnostics);
-  const std::optional<ForceLaw> law = law_of(force);
+  optional<vector<Entity>> on = find_bodies(force.on, inventory, "no force acts on it", diagnostics);
+  const optional<ForceLaw> law = law_of(force);
   if (!law || !on || !std::visit([](const auto& any) { return has_effect(any); }, *law)) return;
   if (!force.visible) scene.overlay.hidden_springs.push_back(scene.world.forces.size());
   scene.world.forces.push_back({*law, force.from, force.until, std::move(*on)});
@@ -85,7 +86,7 @@ void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Di
 
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const View whole(&root, kind_named("scene"), Place{});
-  if (const std::optional<Vec3> gravity = whole.vector("gravity")) scene.world.gravity = *gravity;
+  if (const optional<Vec3> gravity = whole.vector("gravity")) scene.world.gravity = *gravity;
 
   const View laws = scene_part(root, "restitution");
   scene.world.combine = filled<RestitutionKeys>(laws).combine;

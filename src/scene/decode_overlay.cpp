@@ -10,6 +10,7 @@
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -18,9 +19,9 @@ namespace {
 /// A wider trail would cover the picture, and floats would not resolve its edge.
 constexpr double widest_trail = 1000;  // largest radii
 
-void check_width(const View& part, std::optional<double> width, const World& world, Diagnostics& diagnostics) {
+void check_width(const View& part, optional<double> width, const World& world, Diagnostics& diagnostics) {
   if (!width || world.radius.empty()) return;
-  const double largest = *std::max_element(world.radius.begin(), world.radius.end());
+  const double largest = *std::ranges::max_element(world.radius);
   if (*width <= widest_trail * largest) return;
   diagnostics.add(part.place("width"),
                   fmt::format("trails of {} m are more than {:g} times as wide as the largest radius, {} m",
@@ -28,20 +29,20 @@ void check_width(const View& part, std::optional<double> width, const World& wor
                   "expected less: such a trail covers the picture");
 }
 
-std::optional<Trails> decode_trails(const View& whole, const Inventory& inventory, const World& world,
-                                    Diagnostics& diagnostics) {
-  if (!whole.wants("trails")) return std::nullopt;
+optional<Trails> decode_trails(const View& whole, const Inventory& inventory, const World& world,
+                               Diagnostics& diagnostics) {
+  if (!whole.wants("trails")) return nullopt;
   const View part = whole.part("trails", "trails");
   const auto keys = filled<TrailKeys>(part);
   check_width(part, keys.width, world, diagnostics);
-  std::optional<std::vector<Entity>> on = find_bodies(keys.on, inventory, "it has no trail", diagnostics);
-  if (!on) return std::nullopt;
+  optional<vector<Entity>> on = find_bodies(keys.on, inventory, "it has no trail", diagnostics);
+  if (!on) return nullopt;
   return Trails{keys.seconds, keys.width, std::move(*on)};
 }
 
-bool lists(const Node* names, std::string_view name) {
+bool lists(const Node* names, string_view name) {
   return names != nullptr && !names->bad &&
-         std::any_of(names->items.begin(), names->items.end(), [&](const Node& item) { return item.text == name; });
+         std::ranges::any_of(names->items, [&](const Node& item) { return item.text == name; });
 }
 
 void check_coloring(const View& body, const Coloring& coloring, const Scene& scene, Diagnostics& diagnostics) {
@@ -63,8 +64,8 @@ void check_coloring(const View& body, const Coloring& coloring, const Scene& sce
 }
 
 void check_colors(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < std::min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
-    const std::optional<Coloring>& coloring = scene.roster.bodies[i].coloring;
+  for (size_t i = 0; i < std::min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
+    const optional<Coloring>& coloring = scene.roster.bodies[i].coloring;
     if (!coloring) continue;
     const View view = body_view(root, inventory.bodies[i]);
     check_coloring(inventory.bodies[i].group ? member_view(root, view) : view, *coloring, scene, diagnostics);

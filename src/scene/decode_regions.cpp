@@ -9,26 +9,26 @@
 #include "scene/expand.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
-std::optional<Volume> volume_of(const RegionKeys& region) {
+optional<Volume> volume_of(const RegionKeys& region) {
   if (region.radius) return Volume::sphere(*region.radius);
   if (region.box) return Volume::box(*region.box);
-  if (!region.cylinder || !region.cylinder->radius || !region.cylinder->height) return std::nullopt;
+  if (!region.cylinder || !region.cylinder->radius || !region.cylinder->height) return nullopt;
   return Volume::cylinder(*region.cylinder->radius, *region.cylinder->height);
 }
 
-WorldRegion decode_region(const View& view, const std::string& name, const Inventory& inventory,
-                          Diagnostics& diagnostics) {
+WorldRegion decode_region(const View& view, const string& name, const Inventory& inventory, Diagnostics& diagnostics) {
   const auto keys = filled<RegionKeys>(view);
   WorldRegion region;
   if (keys.plane) {
     region.position = keys.plane->point;
     region.normal = unit(keys.plane->normal);
-  } else if (const std::optional<Volume> volume = volume_of(keys); volume && keys.position) {
+  } else if (const optional<Volume> volume = volume_of(keys); volume && keys.position) {
     region.position = *keys.position;
     region.volume = *volume;
     const double size = 2 * volume->half.minCoeff(), far = region.position.cwiseAbs().maxCoeff();
@@ -51,7 +51,7 @@ class Regions {
 
   void run() {
     const Node* regions = root_.find("regions");
-    for (std::size_t i = 0; regions != nullptr && regions->is(Node::Kind::map) && i < regions->keys.size(); ++i) {
+    for (size_t i = 0; regions != nullptr && regions->is(Node::Kind::map) && i < regions->keys.size(); ++i) {
       const Key& key = regions->keys[i];
       if (inventory_.names.contains(key.text))
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
@@ -76,17 +76,17 @@ class Regions {
     if (collisions)
       scene_.simulate.stop_collisions = std::min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
-    const std::vector<std::string>& names = scene_.roster.regions;
-    const std::vector<EmptyFamily>& empty = scene_.roster.empty;
-    bool found = std::any_of(empty.begin(), empty.end(), [&name = region->text](const EmptyFamily& family) {
+    const vector<string>& names = scene_.roster.regions;
+    const vector<EmptyFamily>& empty = scene_.roster.empty;
+    bool found = std::ranges::any_of(empty, [&name = region->text](const EmptyFamily& family) {
       return family.of == "regions" && family.name == name;
     });
-    for (std::size_t r = 0; r < names.size(); ++r) {
+    for (size_t r = 0; r < names.size(); ++r) {
       if (names[r] != region->text && (region->text.empty() || family_of(names[r]) != region->text)) continue;
       scene_.world.regions[r].stops = found = true;
     }
     if (found) return;
-    const std::string suggestion = suggest_name(region->text, {names.begin(), names.end()});
+    const string suggestion = suggest_name(region->text, {names.begin(), names.end()});
     diagnostics_.add(region->place, fmt::format("no region is named {}", in_backticks(region->text)),
                      suggestion.empty() ? "expected `regions` with that name" : suggestion);
   }

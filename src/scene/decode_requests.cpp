@@ -13,6 +13,7 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "scene/sheet_layout.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
 
@@ -54,7 +55,7 @@ class Requests {
   void lights() {
     const Node* node = root_.find("lights");
     if (node == nullptr || !node->is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < node->keys.size(); ++i) {
+    for (size_t i = 0; i < node->keys.size(); ++i) {
       if (node->keys[i].text == "ambient") {
         scene_.ambient = as_color(&node->items[i]);
         continue;
@@ -95,7 +96,7 @@ class Requests {
   }
 
   void flights(const View& view) {
-    const std::optional<bool> said = view.flag("flights");
+    const optional<bool> said = view.flag("flights");
     const bool parabolas = goes_along_parabolas(scene_.world, scene_.simulate);
     scene_.output.flights = parabolas && said.value_or(scene_.output.pictures());
     if (parabolas || !said.value_or(false)) return;
@@ -105,10 +106,9 @@ class Requests {
   }
 
   void check_video(const View& part, VideoOutput& video) {
-    const bool plain = std::all_of(video.file.begin(), video.file.end(), [](char c) {
-      return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
-    });
-    const std::optional<FilmFormat> format = film_format(video.file);
+    const bool plain = std::ranges::all_of(
+        video.file, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\'; });
+    const optional<FilmFormat> format = film_format(video.file);
     if (!plain || !format || video.file.size() > 200 || video.file[0] == '.' || video.file[0] == '-') {
       diagnostics_.add(part.place("file"), fmt::format("{} is not a name for a video", in_backticks(video.file)),
                        "expected a plain file name that ends in .mp4, .gif or .webp, such as animation.mp4, without "
@@ -130,14 +130,14 @@ class Requests {
     if (chooses_outputs_ || !diagnostics_.empty()) return;
     const Output& out = scene_.output;
     const Size shape = out.frames ? out.frames->size : out.video ? out.video->size : Size{};
-    if (const std::optional<SheetProblem> problem = problem_of(sheet, shape))
+    if (const optional<SheetProblem> problem = problem_of(sheet, shape))
       diagnostics_.add(sheet.size ? part.place("size") : output.place("sheet"), problem->message, problem->remedy);
   }
 
   void check_limits(const View& part, const VideoOutput& video, FilmFormat format) {
     const FilmLimits limits = limits_of(format);
     const Size size = video.size;
-    const std::string film = fmt::format("{} of {} x {} pixels", film_name(format), size.width, size.height);
+    const string film = fmt::format("{} of {} x {} pixels", film_name(format), size.width, size.height);
     if (std::max(size.width, size.height) > limits.longest_side)
       diagnostics_.add(part.place("size"), film,
                        fmt::format("expected at most {} pixels a side, the limit of this format, or a `file` ending in "
@@ -165,15 +165,15 @@ class Requests {
     if (own->bad || keeps_rate(FilmFormat::gif, video.fps)) return;
     // In the scene of a run every film has a rate. Then a setting must replace it.
     const bool by_setting = place_of(*part.given("file")).source > own->place.source;
-    const std::string rates = by_setting ? fmt::format("--set output.video.fps={}, or", shortest(gif_rate(video.fps)))
-                                         : "50, 25, 20, 12.5, 10 or";
+    const string rates = by_setting ? fmt::format("--set output.video.fps={}, or", shortest(gif_rate(video.fps)))
+                                    : "50, 25, 20, 12.5, 10 or";
     diagnostics_.add(
         own->place, fmt::format("a GIF cannot show {} pictures a second", shortest(video.fps)),
         fmt::format("expected {} another 100/n: a GIF shows each picture for whole hundredths of a second, at least 2",
                     rates));
   }
 
-  void check_window(const View& part, double from, std::optional<double>& until) {
+  void check_window(const View& part, double from, optional<double>& until) {
     const double duration = scene_.simulate.duration;
     if (!scene_part(root_, "simulate").number("duration")) return;
     if (from > duration) {
@@ -203,8 +203,7 @@ class Requests {
     const Output& out = scene_.output;
     const View view(root_.find("output"), kind_named("output"),
                     root_.find_key("output") ? root_.find_key("output")->place : Place{});
-    const auto refuse = [&](Place place, double figure, std::string_view what, std::uint64_t limit,
-                            std::string_view change) {
+    const auto refuse = [&](Place place, double figure, string_view what, uint64_t limit, string_view change) {
       diagnostics_.add(place, fmt::format("the run would write {:.15g} {}; the limit is {}", figure, what, limit),
                        fmt::format("expected {}, or --force to allow it", change));
     };
@@ -221,8 +220,8 @@ class Requests {
     }
     // Frames and a video of the same instants share their pictures.
     double total = 0, most = -1;
-    std::string_view largest = "frames";
-    const auto add = [&](double n, std::string_view key) {
+    string_view largest = "frames";
+    const auto add = [&](double n, string_view key) {
       total += n;
       if (n > most) {
         most = n;
@@ -264,7 +263,7 @@ void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics
 }
 
 void check_steps(const Node& root, const Scene& scene, const Budget& budget, Diagnostics& diagnostics) {
-  const std::optional<double> steps = steps_of(scene);
+  const optional<double> steps = steps_of(scene);
   const double bodies = scene.world.body_count();
   if (!steps) return;
   const bool many = *steps > static_cast<double>(budget.steps);
@@ -272,10 +271,9 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
   const View simulate = scene_part(root, "simulate");
   const bool said = simulate.given("step") != nullptr;
   const Key* forces = root.find_key("forces");
-  const std::string figure = many
-                                 ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
-                                 : fmt::format("{:.4g} time steps for {}; the limit is {} in all", *steps,
-                                               how_many(scene.world.body_count(), "body", "bodies"), budget.body_steps);
+  const string figure = many ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
+                             : fmt::format("{:.4g} time steps for {}; the limit is {} in all", *steps,
+                                           how_many(scene.world.body_count(), "body", "bodies"), budget.body_steps);
   diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
                   fmt::format("the run would take {}", figure),
                   said ? "expected a longer `step` or a shorter duration, or --force to allow it"

@@ -9,6 +9,7 @@
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -21,30 +22,30 @@ constexpr double rounding_of_lengths = 0x1p-48;
 /// any scene: in that of a run which began so.
 constexpr double rounding_of_runs = 1e-9;
 
-constexpr std::string_view good_end = "expected a ball, a body or a member (gas.3)";
+constexpr string_view good_end = "expected a ball, a body or a member (gas.3)";
 
 /// The body of one end. None: an error was reported, here or before.
-std::optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
+optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
   const auto range = find_range(name, inventory, Sought::bodies, diagnostics);
-  if (!range) return std::nullopt;
+  if (!range) return nullopt;
   if (range->count == 0) {
     diagnostics.add(name.place, fmt::format("{} has no balls: there is nothing to tie", in_backticks(name.text)),
-                    std::string(good_end));
-    return std::nullopt;
+                    string(good_end));
+    return nullopt;
   }
   if (range->first >= inventory.body_count) {
     diagnostics.add(
         name.place,
         fmt::format("{} is {}: no string is tied to it", in_backticks(name.text), inventory.word_for(*range)),
         fmt::format("{}; a fixed end is a point: `from: [x, y, z]`", good_end));
-    return std::nullopt;
+    return nullopt;
   }
   if (range->count > 1) {
     diagnostics.add(
         name.place,
         fmt::format("{} has {} bodies: a string has one at each end", in_backticks(name.text), range->count),
         fmt::format("expected one of them, such as {0}.0; for a string to each `repeat`, and '{0}.{{i}}'", name.text));
-    return std::nullopt;
+    return nullopt;
   }
   return range->first;
 }
@@ -60,8 +61,8 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
   const bool is_point = keys.from != nullptr && keys.from->is(Node::Kind::sequence);
   if (!good) return string;
   if (is_point) string.anchor = as_vector(keys.from).value_or(Vec3::Zero());
-  const std::optional<Entity> from = is_point ? std::nullopt : body_at(*keys.from, inventory, diagnostics);
-  const std::optional<Entity> to = body_at(*keys.to, inventory, diagnostics);
+  const optional<Entity> from = is_point ? nullopt : body_at(*keys.from, inventory, diagnostics);
+  const optional<Entity> to = body_at(*keys.to, inventory, diagnostics);
   if (!to || (!is_point && !from)) return string;
   if (from == to) {
     diagnostics.add(keys.to->place, fmt::format("{} is tied to itself", in_backticks(keys.to->text)),
@@ -85,16 +86,16 @@ class Lengths {
         bodies_are_good_(diagnostics.empty()) {}
 
   void run() {
-    for (std::size_t i = 0; i < inventory_.strings.size(); ++i)
+    for (size_t i = 0; i < inventory_.strings.size(); ++i)
       one(scene_.world.strings[i], view_of_string(root_, inventory_.strings[i]), inventory_.strings[i].key->text);
   }
 
  private:
   void one(String& string, const View& view, const std::string& name) {
     if (string.body == no_entity) return;
-    const std::optional<Vec3> a = position_of(string.body);
-    const std::optional<Vec3> b = string.other == no_entity ? string.anchor : position_of(string.other);
-    const std::optional<double> given = view.number("length");
+    const optional<Vec3> a = position_of(string.body);
+    const optional<Vec3> b = string.other == no_entity ? string.anchor : position_of(string.other);
+    const optional<double> given = view.number("length");
     string.length = given.value_or(0);
     if (!a || !b || (view.given("length") != nullptr && !given)) return;
     if (!given && scene_.made_from.start) {
@@ -154,13 +155,13 @@ class Lengths {
   }
 
   /// At time 0 (m). None: the body has an error.
-  std::optional<Vec3> position_of(Entity body) const {
+  optional<Vec3> position_of(Entity body) const {
     if (bodies_are_good_) return scene_.initial.position[body];
-    const std::vector<BodyEntry>& all = inventory_.bodies;
+    const vector<BodyEntry>& all = inventory_.bodies;
     const auto after = std::upper_bound(all.begin(), all.end(), body,
                                         [](Entity e, const BodyEntry& entry) { return e < entry.first; });
     const BodyEntry& entry = *(after - 1);
-    return entry.group ? std::nullopt : body_view(root_, entry).vector("position");
+    return entry.group ? nullopt : body_view(root_, entry).vector("position");
   }
 
   const Node& root_;

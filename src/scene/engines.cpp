@@ -10,12 +10,13 @@
 #include "physics/world.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-using Lacks = std::vector<Unsupported>;
+using Lacks = vector<Unsupported>;
 
 void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (const Force* open = force_without_closed_form(world))
@@ -55,7 +56,7 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
   if (!world.strings.empty()) lack("strings", "strings", "`engine: exact`");
   if (world.moves()) lack("engine", "fixed things that move", "`engine: exact`");
-  if (std::any_of(world.regions.begin(), world.regions.end(), [](const WorldRegion& region) { return region.removes; }))
+  if (std::ranges::any_of(world.regions, [](const WorldRegion& region) { return region.removes; }))
     lack("regions", "regions with `action: remove`", "`engine: exact`");
   if (!world.forces.empty())
     lack("forces", "forces other than gravity",
@@ -64,16 +65,16 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
 
 }  // namespace
 
-std::string_view name_of(Engine engine) {
-  return parts_of(engine_names)[static_cast<std::size_t>(engine)];
+string_view name_of(Engine engine) {
+  return parts_of(engine_names)[static_cast<size_t>(engine)];
 }
 
-std::string_view name_of(QualityLevel level) {
-  return parts_of(quality_names)[static_cast<std::size_t>(level)];
+string_view name_of(QualityLevel level) {
+  return parts_of(quality_names)[static_cast<size_t>(level)];
 }
 
-std::string_view name_of(Integrator integrator) {
-  return parts_of(integrator_names)[static_cast<std::size_t>(integrator)];
+string_view name_of(Integrator integrator) {
+  return parts_of(integrator_names)[static_cast<size_t>(integrator)];
 }
 
 Engine engine_of(const World& world, const Simulate& simulate) {
@@ -85,7 +86,7 @@ bool goes_along_parabolas(const World& world, const Simulate& simulate) {
   return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr;
 }
 
-std::string open_force_text(const Force& force) {
+string open_force_text(const Force& force) {
   if (const Spring* spring = std::get_if<Spring>(&force.law); spring != nullptr)
     if (spring->rest_length != 0 || spring->damping != 0) return "a `spring` with a rest length or damping";
   if (const Attractor* attractor = std::get_if<Attractor>(&force.law); attractor != nullptr)
@@ -98,7 +99,7 @@ Lacks unsupported(const World& world, const Simulate& simulate) {
   static constexpr void (*of_engine[])(const World&, const Simulate&, Lacks&) = {nullptr, exact_lacks, stepped_lacks,
                                                                                  book_lacks};
   Lacks lacks;
-  of_engine[static_cast<std::size_t>(engine_of(world, simulate))](world, simulate, lacks);
+  of_engine[static_cast<size_t>(engine_of(world, simulate))](world, simulate, lacks);
   return lacks;
 }
 

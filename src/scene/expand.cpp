@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "scene/expressions.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -22,23 +22,23 @@ constexpr double most_values = 6e6;
 /// Bytes of all expressions of repeated things, times their members. A second evaluates 40 million bytes of sines.
 constexpr double most_work = 2e8;
 /// Of things that are not repeated. Each is read by itself, in 10 microseconds.
-constexpr std::size_t most_expressions = 200'000;
-constexpr std::size_t most_indices = 8;
+constexpr size_t most_expressions = 200'000;
+constexpr size_t most_indices = 8;
 /// Of expressions that a manifest lists.
-constexpr std::size_t most_texts = 10'000;
+constexpr size_t most_texts = 10'000;
 
-constexpr std::string_view repeat_key = "repeat";
+constexpr string_view repeat_key = "repeat";
 
 /// Whether the tree has anything to expand.
 bool has_shorthands(const Node& node) {
   if (is_expression(node) || has_braces(node)) return true;
   for (const Key& key : node.keys)
     if (key.text == repeat_key || key.text == "let") return true;
-  return std::any_of(node.items.begin(), node.items.end(), has_shorthands);
+  return std::ranges::any_of(node.items, has_shorthands);
 }
 
-std::size_t count_values(const Node& node) {
-  std::size_t count = 1;
+size_t count_values(const Node& node) {
+  size_t count = 1;
   for (const Node& item : node.items) count += count_values(item);
   return count;
 }
@@ -56,8 +56,8 @@ bool is_text(const Field& field) {
     case Type::repeat:
       return true;
     case Type::choice: {
-      const std::vector<std::string_view> all = choices(field);
-      return std::none_of(all.begin(), all.end(), [](std::string_view one) { return parse_number(one).has_value(); });
+      const vector<string_view> all = choices(field);
+      return std::ranges::none_of(all, [](string_view one) { return parse_number(one).has_value(); });
     }
     default:
       return false;
@@ -65,23 +65,23 @@ bool is_text(const Field& field) {
 }
 
 /// The last step of the path of a number in a list of them.
-std::string step_of(const Field& field, std::size_t i) {
-  constexpr std::string_view axes[] = {"x", "y", "z"}, sides[] = {"width", "height"};
+string step_of(const Field& field, size_t i) {
+  constexpr string_view axes[] = {"x", "y", "z"}, sides[] = {"width", "height"};
   const bool is_point =
       field.type == Type::vector || field.type == Type::direction || field.type == Type::point_or_name;
-  if (is_point && i < 3) return std::string(axes[i]);
-  if ((field.type == Type::extent || field.type == Type::pixels) && i < 2) return std::string(sides[i]);
+  if (is_point && i < 3) return string(axes[i]);
+  if ((field.type == Type::extent || field.type == Type::pixels) && i < 2) return string(sides[i]);
   return std::to_string(i);
 }
 
 /// The parts of a path before and after the number of a member: "bodies.bricks" and ".mass" of "bodies.bricks.3.mass".
 /// The first is empty if the path has none.
-std::pair<std::string, std::string> without_member(std::string_view path) {
-  const std::size_t name = path.find('.'), number = path.find('.', name + 1);
-  if (name == std::string_view::npos || number == std::string_view::npos) return {};
-  const std::size_t end = std::min(path.find('.', number + 1), path.size());
+std::pair<string, string> without_member(string_view path) {
+  const size_t name = path.find('.'), number = path.find('.', name + 1);
+  if (name == string_view::npos || number == string_view::npos) return {};
+  const size_t end = std::min(path.find('.', number + 1), path.size());
   if (!parse_index(path.substr(number + 1, end - number - 1))) return {};
-  return {std::string(path.substr(0, number)), std::string(path.substr(end))};
+  return {string(path.substr(0, number)), string(path.substr(end))};
 }
 
 class Expander {
@@ -91,7 +91,7 @@ class Expander {
   ExpressionTexts run(Node& root) {
     values_ = static_cast<double>(count_values(root));
     if (Node* let = root.find("let"); let != nullptr && let->is(Node::Kind::map)) {
-      for (std::size_t i = 0; i < let->keys.size(); ++i) note("let." + let->keys[i].text, let->items[i]);
+      for (size_t i = 0; i < let->keys.size(); ++i) note("let." + let->keys[i].text, let->items[i]);
       numbers_ = read_let(*let, diagnostics_);
     }
     map(root, kind_named("scene"), "");
@@ -102,24 +102,24 @@ class Expander {
 
  private:
   /// What to do with an expression: evaluate it, add it to those of a template, or mark it so that nothing reads it.
-  enum class Mode : std::uint8_t { evaluate, collect, mark };
+  enum class Mode : uint8_t { evaluate, collect, mark };
 
   struct Counts {
-    std::vector<std::string> names;  // of indices
-    std::vector<double> counts;
+    vector<string> names;  // of indices
+    vector<double> counts;
     double members = 1;
   };
 
-  void map(Node& node, const Kind& kind, const std::string& path) {
+  void map(Node& node, const Kind& kind, const string& path) {
     if (!node.is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    for (size_t i = 0; i < node.keys.size(); ++i) {
       const Field* field = find_field(kind, node.keys[i].text);
       if (field != nullptr && !is_text(*field))
         value(node.items[i], *field, path.empty() ? node.keys[i].text : path + "." + node.keys[i].text);
     }
   }
 
-  void value(Node& node, const Field& field, const std::string& path) {
+  void value(Node& node, const Field& field, const string& path) {
     if (field.type == Type::named) return named(node, kind_named(field.of), path);
     if (field.type == Type::list) return list(node, kind_named(field.of), path);
     if (node.is(Node::Kind::map)) {
@@ -128,17 +128,17 @@ class Expander {
     }
     scalar(node, path);
     if (!node.is(Node::Kind::sequence)) return;
-    for (std::size_t i = 0; i < node.items.size(); ++i)
+    for (size_t i = 0; i < node.items.size(); ++i)
       if (is_expression(node.items[i]) || has_braces(node.items[i]))
         scalar(node.items[i], path + "." + step_of(field, i));
   }
 
-  void note(const std::string& path, const Node& node) {
+  void note(const string& path, const Node& node) {
     if (is_expression(node) && !in_list_ && texts_.size() <= most_texts) texts_.emplace(path, node.text);
   }
 
-  void note_repeat(const std::string& path, const Node& repeat) {
-    std::string text;
+  void note_repeat(const string& path, const Node& repeat) {
+    string text;
     bool any = is_expression(repeat);
     for (const Node& item : repeat.items) {
       any = any || is_expression(item);
@@ -154,10 +154,10 @@ class Expander {
       const Node* things = field.type == Type::named ? root.find(field.key) : nullptr;
       if (things == nullptr || !things->is(Node::Kind::map)) continue;
       const Kind& kind = kind_named(field.of);
-      for (std::size_t i = 0; i < things->keys.size(); ++i) {
-        const std::string_view family = family_of(things->keys[i].text);
-        const std::string path =
-            fmt::format("{}.{}", field.key, family.empty() ? std::string_view(things->keys[i].text) : family);
+      for (size_t i = 0; i < things->keys.size(); ++i) {
+        const string_view family = family_of(things->keys[i].text);
+        const string path =
+            fmt::format("{}.{}", field.key, family.empty() ? string_view(things->keys[i].text) : family);
         note_defaults_of(things->items[i], kind, path);
         for (const Field& part : kind.fields)
           if (part.type == Type::part && things->items[i].find(part.key) != nullptr)
@@ -167,20 +167,20 @@ class Expander {
     }
   }
 
-  void note_defaults_of(const Node& thing, const Kind& kind, const std::string& path) {
+  void note_defaults_of(const Node& thing, const Kind& kind, const string& path) {
     if (kind.defaults.empty()) return;
-    const std::string start = fmt::format("defaults.{}.", kind.defaults);
+    const string start = fmt::format("defaults.{}.", kind.defaults);
     for (auto text = texts_.lower_bound(start); text != texts_.end() && text->first.starts_with(start); ++text) {
-      const std::string rest = text->first.substr(start.size());
-      const Field* field = find_field(kind, std::string_view(rest).substr(0, rest.find('.')));
+      const string rest = text->first.substr(start.size());
+      const Field* field = find_field(kind, string_view(rest).substr(0, rest.find('.')));
       if (field == nullptr || thing.find_key(field->key) != nullptr || texts_.size() > most_texts) continue;
-      const std::vector<std::string_view> others = rivals(*field);
-      if (std::none_of(others.begin(), others.end(), [&](auto key) { return thing.find_key(key) != nullptr; }))
+      const vector<string_view> others = rivals(*field);
+      if (std::ranges::none_of(others, [&](auto key) { return thing.find_key(key) != nullptr; }))
         texts_.emplace(path + "." + rest, text->second);
     }
   }
 
-  void scalar(Node& node, const std::string& path) {
+  void scalar(Node& node, const string& path) {
     if (node.bad || !(is_expression(node) || has_braces(node))) return;
     if (mode_ == Mode::mark) {
       node.bad = true;
@@ -194,7 +194,7 @@ class Expander {
       node.bad = true;
       return;
     }
-    std::optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
+    optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
     if (!slot) return;
     if (mode_ == Mode::evaluate)
       slot->fill(numbers_, diagnostics_);
@@ -206,10 +206,10 @@ class Expander {
     return node.is(Node::Kind::map) && node.find_key(repeat_key) != nullptr && find_field(kind, repeat_key) != nullptr;
   }
 
-  void named(Node& node, const Kind& kind, const std::string& path) {
+  void named(Node& node, const Kind& kind, const string& path) {
     if (!node.is(Node::Kind::map)) return;
     bool repeats = false;
-    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    for (size_t i = 0; i < node.keys.size(); ++i) {
       if (kind.also != nullptr && node.keys[i].text == kind.also->key)
         value(node.items[i], *kind.also, path + "." + node.keys[i].text);
       else if (is_repeated(node.items[i], kind))
@@ -219,11 +219,11 @@ class Expander {
     }
     if (!repeats) return;
     Node whole = std::move(node);
-    std::vector<Node> made;
+    vector<Node> made;
     node = Node{};
     node.kind = whole.kind;
     node.place = whole.place;
-    for (std::size_t i = 0; i < whole.keys.size(); ++i) {
+    for (size_t i = 0; i < whole.keys.size(); ++i) {
       const Key& key = whole.keys[i];
       made.clear();
       if (!is_repeated(whole.items[i], kind) ||
@@ -232,16 +232,16 @@ class Expander {
         node.items.push_back(std::move(whole.items[i]));
         continue;
       }
-      for (std::size_t k = 0; k < made.size(); ++k) {
+      for (size_t k = 0; k < made.size(); ++k) {
         node.keys.push_back({fmt::format("{}.{}", key.text, k), key.place});
         node.items.push_back(std::move(made[k]));
       }
     }
   }
 
-  void list(Node& node, const Kind& kind, const std::string& path) {
+  void list(Node& node, const Kind& kind, const string& path) {
     if (!node.is(Node::Kind::sequence)) return;
-    std::vector<Node> made;
+    vector<Node> made;
     for (Node& item : node.items) {
       if (is_repeated(item, kind)) {
         in_list_ = true;
@@ -257,13 +257,13 @@ class Expander {
   }
 
   /// Adds the members of a repeated thing to `made`. False: it has none, and stays as it is.
-  bool members(Node& thing, Place where, const Kind& kind, const std::string& path, std::vector<Node>& made) {
-    const std::size_t errors = diagnostics_.added(), before = numbers_.names.size(), first = made.size();
+  bool members(Node& thing, Place where, const Kind& kind, const string& path, vector<Node>& made) {
+    const size_t errors = diagnostics_.added(), before = numbers_.names.size(), first = made.size();
     note_repeat(path, *thing.find(repeat_key));
-    const std::optional<Counts> counts = read_counts(*thing.find(repeat_key), where);
+    const optional<Counts> counts = read_counts(*thing.find(repeat_key), where);
     bool good = counts && counts->members > 0;
     if (good) {
-      for (const std::string& name : counts->names) numbers_.add(name, 0);
+      for (const string& name : counts->names) numbers_.add(name, 0);
       diagnostics_.mark_repeated(where);
       mark_repeated(thing);
       good = make(thing, *counts, kind, path, made) && diagnostics_.added() == errors;
@@ -285,9 +285,9 @@ class Expander {
     for (const Node& item : node.items) mark_repeated(item);
   }
 
-  bool make(Node& thing, const Counts& counts, const Kind& kind, const std::string& path, std::vector<Node>& made) {
+  bool make(Node& thing, const Counts& counts, const Kind& kind, const string& path, vector<Node>& made) {
     const auto at = thing.find_key(repeat_key) - thing.keys.data();
-    const Place where = thing.keys[static_cast<std::size_t>(at)].place;
+    const Place where = thing.keys[static_cast<size_t>(at)].place;
     Node pattern = thing;
     pattern.keys.erase(pattern.keys.begin() + at);
     pattern.items.erase(pattern.items.begin() + at);
@@ -295,7 +295,7 @@ class Expander {
     mode_ = Mode::collect;
     map(pattern, kind, path);
     mode_ = Mode::evaluate;
-    const std::size_t count_of_values = count_values(pattern);
+    const size_t count_of_values = count_values(pattern);
     double work = 0;
     for (const Slot& slot : slots_) work += static_cast<double>(slot.length()) * counts.members;
     const double values = values_ + static_cast<double>(count_of_values) * counts.members;
@@ -309,16 +309,16 @@ class Expander {
     }
     work_ += work;
     values_ = values;
-    made.reserve(made.size() + static_cast<std::size_t>(counts.members));
+    made.reserve(made.size() + static_cast<size_t>(counts.members));
     return fill(pattern, counts, made);
   }
 
-  bool fill(const Node& pattern, const Counts& counts, std::vector<Node>& made) {
-    const std::size_t indices = counts.names.size(), first = numbers_.names.size() - indices;
-    for (std::uint64_t member = 0; member < static_cast<std::uint64_t>(counts.members); ++member) {
-      std::uint64_t rest = member;
-      for (std::size_t k = indices; k-- > 0;) {
-        const auto count = static_cast<std::uint64_t>(counts.counts[k]);
+  bool fill(const Node& pattern, const Counts& counts, vector<Node>& made) {
+    const size_t indices = counts.names.size(), first = numbers_.names.size() - indices;
+    for (uint64_t member = 0; member < static_cast<uint64_t>(counts.members); ++member) {
+      uint64_t rest = member;
+      for (size_t k = indices; k-- > 0;) {
+        const auto count = static_cast<uint64_t>(counts.counts[k]);
         numbers_.values[first + k] = static_cast<double>(rest % count);
         rest /= count;
       }
@@ -330,15 +330,15 @@ class Expander {
   }
 
   /// The value of a count. None: an error was added.
-  std::optional<double> read_count(Node& node, const std::string& name) {
-    const std::size_t errors = diagnostics_.added();
+  optional<double> read_count(Node& node, const string& name) {
+    const size_t errors = diagnostics_.added();
     const Place place = node.place;
     if (is_expression(node)) {
-      std::optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
-      if (!slot || !slot->fill(numbers_, diagnostics_)) return std::nullopt;
+      optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
+      if (!slot || !slot->fill(numbers_, diagnostics_)) return nullopt;
     }
     const bool is_number = node.is(Node::Kind::scalar) && !node.quoted;
-    const std::optional<double> value = is_number ? parse_number(node.text) : std::nullopt;
+    const optional<double> value = is_number ? parse_number(node.text) : nullopt;
     if (value && *value >= 0 && std::floor(*value) == *value) return value;
     node.bad = true;
     if (diagnostics_.added() == errors)
@@ -349,21 +349,21 @@ class Expander {
                                    : node.is(Node::Kind::map)    ? "a map of keys"
                                                                  : "a list"),
                        "expected a whole number of at least 0");
-    return std::nullopt;
+    return nullopt;
   }
 
-  std::optional<Counts> read_counts(Node& node, Place where) {
+  optional<Counts> read_counts(Node& node, Place where) {
     Counts counts;
     bool good = true;
     if (node.is(Node::Kind::map)) {
       if (node.items.empty() || node.items.size() > most_indices) {
         diagnostics_.add(node.place, fmt::format("`repeat` has {} indices", node.items.size()),
                          fmt::format("expected 1 to {}, such as {{i: 6, j: 4}}", most_indices));
-        return std::nullopt;
+        return nullopt;
       }
-      for (std::size_t i = 0; i < node.keys.size(); ++i) {
+      for (size_t i = 0; i < node.keys.size(); ++i) {
         good = check_index(node.keys[i], node.keys[i].place, node) && good;
-        const std::optional<double> count = read_count(node.items[i], in_backticks(node.keys[i].text));
+        const optional<double> count = read_count(node.items[i], in_backticks(node.keys[i].text));
         good = good && count;
         counts.names.push_back(node.keys[i].text);
         counts.counts.push_back(count.value_or(0));
@@ -371,16 +371,16 @@ class Expander {
       }
     } else {
       good = check_index({"i", {}}, node.place, node);
-      const std::optional<double> count = read_count(node, "`repeat`");
+      const optional<double> count = read_count(node, "`repeat`");
       good = good && count;
       counts = {{"i"}, {count.value_or(0)}, count.value_or(0)};
     }
-    if (!good) return std::nullopt;
+    if (!good) return nullopt;
     if (budget_.enforced && counts.members > static_cast<double>(budget_.bodies)) {
       diagnostics_.add(place_of_repeat(node, where),
                        fmt::format("`repeat` makes {} members; the limit is {}", counts.members, budget_.bodies),
                        "expected a smaller `repeat`");
-      return std::nullopt;
+      return nullopt;
     }
     if (counts.members == 0) {
       const Place place = node.place;
@@ -395,16 +395,16 @@ class Expander {
   static Place place_of_repeat(const Node& node, Place where) { return node.is(Node::Kind::null) ? where : node.place; }
 
   /// A letter that is neither a name of `let` nor an index of this `repeat`.
-  std::string free_index(const Node& repeat) const {
-    for (const char c : std::string_view("kjnmabcdefghlopqrstuvwxyz"))
-      if (const std::string name(1, c); !numbers_.has(name) && repeat.find_key(name) == nullptr) return name;
+  string free_index(const Node& repeat) const {
+    for (const char c : string_view("kjnmabcdefghlopqrstuvwxyz"))
+      if (const string name(1, c); !numbers_.has(name) && repeat.find_key(name) == nullptr) return name;
     return "number";
   }
 
   /// `repeat`: the value that has the index.
   bool check_index(const Key& key, Place where, const Node& repeat) {
-    const std::string shown = in_backticks(key.text);
-    if (!is_name(key.text) || key.text.find('-') != std::string::npos) {
+    const string shown = in_backticks(key.text);
+    if (!is_name(key.text) || key.text.find('-') != string::npos) {
       diagnostics_.add(where, fmt::format("{} is not a name for an index", shown),
                        "expected letters, digits and _, a letter or _ first");
     } else if (is_formula_word(key.text)) {
@@ -424,10 +424,10 @@ class Expander {
   Diagnostics& diagnostics_;
   NamedNumbers numbers_;
   Mode mode_ = Mode::evaluate;
-  std::vector<Slot> slots_;  // of the template that is read
+  vector<Slot> slots_;  // of the template that is read
   ExpressionTexts texts_;
   bool in_list_ = false;  // in a repeated entry of a list
-  std::size_t evaluated_ = 0;
+  size_t evaluated_ = 0;
   double values_ = 0, work_ = 0;
 };
 
@@ -444,7 +444,7 @@ void write_out_balls(Node& root) {
   if (ball == nullptr || ball->keys.empty() || (common != nullptr && common->is(Node::Kind::map))) return;
 
   Node* groups = root.find("groups");
-  for (std::size_t i = 0; groups != nullptr && i < groups->keys.size(); ++i) {
+  for (size_t i = 0; groups != nullptr && i < groups->keys.size(); ++i) {
     Node& each = groups->items[i];
     if (!each.is(Node::Kind::map) || each.find("ball") != nullptr) continue;
     const Place where = groups->keys[i].place;
@@ -466,21 +466,21 @@ void write_out(Node& part, const Kind& kind) {
     Node whole;
     whole.kind = Node::Kind::map;
     whole.place = value->place;
-    whole.keys.push_back({std::string(field.plain), value->place});
+    whole.keys.push_back({string(field.plain), value->place});
     whole.items.push_back(std::move(*value));
     *value = std::move(whole);
   }
 }
 
-const std::string* expression_at(const ExpressionTexts& texts, std::string_view path) {
-  if (const auto found = texts.find(std::string(path)); found != texts.end()) return &found->second;
+const string* expression_at(const ExpressionTexts& texts, string_view path) {
+  if (const auto found = texts.find(string(path)); found != texts.end()) return &found->second;
   const auto [family, rest] = without_member(path);
   const auto found = family.empty() ? texts.end() : texts.find(family + rest);
   return found == texts.end() ? nullptr : &found->second;
 }
 
-const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path) {
-  const std::string family = without_member(path).first;
+const string* repeat_of(const ExpressionTexts& texts, string_view path) {
+  const string family = without_member(path).first;
   const auto found = family.empty() ? texts.end() : texts.find(family + ".repeat");
   return found == texts.end() ? nullptr : &found->second;
 }

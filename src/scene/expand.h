@@ -1,10 +1,9 @@
 #pragma once
 // The tree of a scene file without its shorthands: expressions become numbers, repeated things their members.
 #include <map>
-#include <string>
-#include <string_view>
 
 #include "scene/budget.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 
@@ -13,12 +12,12 @@ namespace carom {
 /// The texts of expressions, by paths as --set takes them: "balls.red.position.x". A repeated thing has one for all its
 /// members, and "bricks.repeat" for their number. A thing has those of its defaults that it uses.
 /// Expressions of repeated entries of a list, which have no name, are absent. Of very many none is kept.
-using ExpressionTexts = std::map<std::string, std::string>;
+using ExpressionTexts = std::map<string, string>;
 
 /// The text of the expression that made the value at a path of a resolved scene. Null: none did, or it is not known.
-const std::string* expression_at(const ExpressionTexts& texts, std::string_view path);
+const string* expression_at(const ExpressionTexts& texts, string_view path);
 /// The same for the number of members of the repeated thing that the path belongs to.
-const std::string* repeat_of(const ExpressionTexts& texts, std::string_view path);
+const string* repeat_of(const ExpressionTexts& texts, string_view path);
 
 /// Writes short forms out in full: `restitution: 0.3` is `restitution: {default: 0.3}`. It costs nothing to repeat.
 void write_out(Node& part, const Kind& kind);

@@ -8,15 +8,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 /// Expressions search names one by one, and circles are found by recursion.
-constexpr std::size_t most_names = 1000;
+constexpr size_t most_names = 1000;
 
-std::string hint_for(const NamedNumbers& numbers) {
+string hint_for(const NamedNumbers& numbers) {
   return numbers.names.empty()
              ? "numbers have names in `let`, such as let: {r: 0.05}, and indices in things with `repeat`"
              : "";
@@ -33,22 +34,22 @@ class LetReader {
                        fmt::format("expected at most {}", most_names));
       let_.bad = true;
     }
-    for (std::size_t i = 0; i < std::min(let_.keys.size(), most_names); ++i) {
+    for (size_t i = 0; i < std::min(let_.keys.size(), most_names); ++i) {
       check_name(let_.keys[i]);
       numbers_.add(let_.keys[i].text, 0);
       numbers_.known.back() = false;
     }
     states_.resize(numbers_.names.size(), State::fresh);
-    for (std::size_t i = 0; i < states_.size(); ++i) settle(i);
+    for (size_t i = 0; i < states_.size(); ++i) settle(i);
     return std::move(numbers_);
   }
 
  private:
-  enum class State : std::uint8_t { fresh, open, done };
+  enum class State : uint8_t { fresh, open, done };
 
   void check_name(const Key& key) {
-    const std::string shown = in_backticks(key.text);
-    if (!is_name(key.text) || key.text.find('-') != std::string::npos)
+    const string shown = in_backticks(key.text);
+    if (!is_name(key.text) || key.text.find('-') != string::npos)
       diagnostics_.add(key.place, fmt::format("{} is not a name for a number", shown),
                        "expected letters, digits and _, a letter or _ first");
     else if (is_formula_word(key.text))
@@ -57,7 +58,7 @@ class LetReader {
                        "expected another name");
   }
 
-  void settle(std::size_t i) {
+  void settle(size_t i) {
     if (states_[i] != State::fresh) return;
     states_[i] = State::open;
     path_.push_back(i);
@@ -66,17 +67,16 @@ class LetReader {
     states_[i] = State::done;
   }
 
-  void evaluate(std::size_t i) {
+  void evaluate(size_t i) {
     Node& node = let_.items[i];
     if (!is_expression(node)) {
-      const std::optional<double> value =
-          node.is(Node::Kind::scalar) && !node.quoted ? parse_number(node.text) : std::nullopt;
+      const optional<double> value = node.is(Node::Kind::scalar) && !node.quoted ? parse_number(node.text) : nullopt;
       if (value) set(i, *value);
       return;
     }
     try {
-      const Formula formula(std::string_view(node.text).substr(1), numbers_.names);
-      for (const std::size_t used : formula.used()) {
+      const Formula formula(string_view(node.text).substr(1), numbers_.names);
+      for (const size_t used : formula.used()) {
         if (states_[used] == State::open)
           throw formula.at_name(used, circle(used), "expected numbers without a circle");
         settle(used);
@@ -92,35 +92,34 @@ class LetReader {
     }
   }
 
-  void set(std::size_t i, double value) {
+  void set(size_t i, double value) {
     numbers_.values[i] = value;
     numbers_.known[i] = true;
   }
 
-  std::string circle(std::size_t from) const {
-    std::string names;
-    for (auto at = std::find(path_.begin(), path_.end(), from); at != path_.end(); ++at)
-      names += numbers_.names[*at] + " -> ";
+  string circle(size_t from) const {
+    string names;
+    for (auto at = std::ranges::find(path_, from); at != path_.end(); ++at) names += numbers_.names[*at] + " -> ";
     return fmt::format("{} depends on itself: {}{}", in_backticks(numbers_.names[from]), names, numbers_.names[from]);
   }
 
   Node& let_;
   Diagnostics& diagnostics_;
   NamedNumbers numbers_;
-  std::vector<State> states_;
-  std::vector<std::size_t> path_;  // of dependences
+  vector<State> states_;
+  vector<size_t> path_;  // of dependences
 };
 
 }  // namespace
 
-void NamedNumbers::add(std::string name, double value) {
+void NamedNumbers::add(string name, double value) {
   names.push_back(std::move(name));
   values.push_back(value);
   known.push_back(true);
 }
 
-bool NamedNumbers::has(std::string_view name) const {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool NamedNumbers::has(string_view name) const {
+  return std::ranges::find(names, name) != names.end();
 }
 
 bool is_expression(const Node& node) {
@@ -128,79 +127,79 @@ bool is_expression(const Node& node) {
 }
 
 bool has_braces(const Node& node) {
-  return node.is(Node::Kind::scalar) && node.text.find('{') != std::string::npos;
+  return node.is(Node::Kind::scalar) && node.text.find('{') != string::npos;
 }
 
 NamedNumbers read_let(Node& let, Diagnostics& diagnostics) {
   return LetReader(let, diagnostics).run();
 }
 
-Place place_in(const Node& node, std::size_t at, const FormulaError& error) {
+Place place_in(const Node& node, size_t at, const FormulaError& error) {
   // An escaped or folded text has no place for each character.
-  const std::size_t quotes = node.quoted ? 2 : 0;
+  const size_t quotes = node.quoted ? 2 : 0;
   if (node.place.length != node.text.size() + quotes) return node.place;
   // What is missing at the end of a text is shown at its last character.
-  const std::size_t offset = std::min(at + error.offset, std::max<std::size_t>(node.text.size(), 1) - 1);
-  return {node.place.source, static_cast<std::uint32_t>(node.place.offset + quotes / 2 + offset),
-          static_cast<std::uint32_t>(error.length)};
+  const size_t offset = std::min(at + error.offset, std::max<size_t>(node.text.size(), 1) - 1);
+  return {node.place.source, static_cast<uint32_t>(node.place.offset + quotes / 2 + offset),
+          static_cast<uint32_t>(error.length)};
 }
 
-std::optional<Slot> Slot::of(Node& node, const NamedNumbers& numbers, Diagnostics& diagnostics) {
+optional<Slot> Slot::of(Node& node, const NamedNumbers& numbers, Diagnostics& diagnostics) {
   Slot slot(node);
-  std::size_t at = 0;
+  size_t at = 0;
   try {
-    const std::string_view text = node.text;
-    const std::string hint = hint_for(numbers);
+    const string_view text = node.text;
+    const string hint = hint_for(numbers);
     if (is_expression(node)) {
       at = 1;
       slot.pieces_.push_back({"", at, Formula(text.substr(at), numbers.names, hint)});
       return slot;
     }
     slot.is_name_ = true;
-    for (std::size_t i = 0; i < text.size();) {
-      const std::size_t open = text.find('{', i), close = text.find('}', i);
-      if (open == std::string_view::npos) {
-        slot.pieces_.push_back({std::string(text.substr(i)), 0, std::nullopt});
+    for (size_t i = 0; i < text.size();) {
+      const size_t open = text.find('{', i), close = text.find('}', i);
+      if (open == string_view::npos) {
+        slot.pieces_.push_back({string(text.substr(i)), 0, nullopt});
         break;
       }
       at = open + 1;
-      if (close == std::string_view::npos || close < open)
+      if (close == string_view::npos || close < open)
         throw FormulaError{0, 1, "this brace is not closed", "expected an expression in braces, as in ball.{i}"};
       slot.pieces_.push_back(
-          {std::string(text.substr(i, open - i)), at, Formula(text.substr(at, close - at), numbers.names, hint)});
+          {string(text.substr(i, open - i)), at, Formula(text.substr(at, close - at), numbers.names, hint)});
       i = close + 1;
     }
     return slot;
   } catch (const FormulaError& error) {
     diagnostics.add(place_in(node, at, error), error.message, error.remedy);
     node.bad = true;
-    return std::nullopt;
+    return nullopt;
   }
 }
 
-std::size_t Slot::length() const {
+size_t Slot::length() const {
   return node_->text.size();
 }
 
-std::optional<double> Slot::evaluate(const Piece& piece, const NamedNumbers& numbers, Diagnostics& diagnostics) {
-  for (const std::size_t used : piece.formula->used())
-    if (!numbers.known[used]) return std::nullopt;  // its error was reported
+optional<double> Slot::evaluate(const Piece& piece, const NamedNumbers& numbers, Diagnostics& diagnostics) {
+  for (const size_t used : piece.formula->used())
+    if (!numbers.known[used]) return nullopt;  // its error was reported
   try {
     const double value = piece.formula->value(numbers.values);
     if (!is_name_ || (std::floor(value) == value && std::abs(value) < 1e15)) return value;
     throw FormulaError{0, 1, fmt::format("the number in this name is {}", shortest(value)), "expected a whole number"};
   } catch (const FormulaError& error) {
     diagnostics.add(place_in(original_, piece.at, error), error.message, error.remedy);
-    return std::nullopt;
+    return nullopt;
   }
 }
 
 bool Slot::fill(const NamedNumbers& numbers, Diagnostics& diagnostics) {
-  std::string text;
+  string text;
   for (const Piece& piece : pieces_) {
     text += piece.before;
     if (!piece.formula) continue;
-    const std::optional<double> value = evaluate(piece, numbers, diagnostics);
+    const optional<double> value = evaluate(piece, numbers, diagnostics);
     if (!value) {
       node_->bad = true;
       return false;

@@ -1,11 +1,8 @@
 #pragma once
 // Expressions in the tree of a scene file: `let`, numbers that are texts beginning with `=`, and names with `{i}`.
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "scene/formula.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 
@@ -13,12 +10,12 @@ namespace carom {
 
 /// Numbers with names. A number without a value was reported as wrong.
 struct NamedNumbers {
-  std::vector<std::string> names;
-  std::vector<double> values;
-  std::vector<bool> known;
+  vector<string> names;
+  vector<double> values;
+  vector<bool> known;
 
-  void add(std::string name, double value);
-  bool has(std::string_view name) const;
+  void add(string name, double value);
+  bool has(string_view name) const;
 };
 
 /// Whether a value is an expression: it begins with `=`.
@@ -34,31 +31,31 @@ NamedNumbers read_let(Node& let, Diagnostics& diagnostics);
 class Slot {
  public:
   /// None: an error was added, and the value is marked bad. `node` must outlive the slot.
-  static std::optional<Slot> of(Node& node, const NamedNumbers& numbers, Diagnostics& diagnostics);
+  static optional<Slot> of(Node& node, const NamedNumbers& numbers, Diagnostics& diagnostics);
 
   /// Writes the value into the node. Returns false after an error.
   bool fill(const NamedNumbers& numbers, Diagnostics& diagnostics);
   /// Bytes of its expressions.
-  std::size_t length() const;
+  size_t length() const;
 
  private:
   explicit Slot(Node& node) : node_(&node), original_(node) {}
 
   /// A text, and the number after it.
   struct Piece {
-    std::string before;
-    std::size_t at;  // bytes from the start of the value's text to the expression
-    std::optional<Formula> formula;
+    string before;
+    size_t at;  // bytes from the start of the value's text to the expression
+    optional<Formula> formula;
   };
-  std::optional<double> evaluate(const Piece& piece, const NamedNumbers& numbers, Diagnostics& diagnostics);
+  optional<double> evaluate(const Piece& piece, const NamedNumbers& numbers, Diagnostics& diagnostics);
 
   Node* node_;
   Node original_;
   bool is_name_ = false;
-  std::vector<Piece> pieces_;
+  vector<Piece> pieces_;
 };
 
 /// The place of an error inside a scalar whose expression begins `at` bytes after the start of its text.
-Place place_in(const Node& node, std::size_t at, const FormulaError& error);
+Place place_in(const Node& node, size_t at, const FormulaError& error);
 
 }  // namespace carom

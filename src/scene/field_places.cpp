@@ -9,6 +9,7 @@
 
 #include "scene/absent_words.h"
 #include "scene/check.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
@@ -16,12 +17,12 @@
 namespace carom {
 namespace {
 
-constexpr std::string_view any_name = "NAME", any_entry = "N";
+constexpr string_view any_name = "NAME", any_entry = "N";
 
 struct Spot {
   const Kind* kind;
   const Field* field;
-  std::vector<std::string_view> steps;
+  vector<string_view> steps;
 };
 
 /// Whether its value is a map from names or paths to maps.
@@ -30,11 +31,11 @@ bool has_names(const Field& field) {
 }
 
 /// Collects every place of every key of a map of `kind`, in the order of the table. `steps`: the path of the map.
-void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::vector<Spot>& found) {
+void collect(const Kind& kind, const vector<string_view>& steps, vector<Spot>& found) {
   for (const Field& field : kind.fields) {
     // Defaults are those of each member.
     if (field.type == Type::repeat && !steps.empty() && steps.front() == "defaults") continue;
-    std::vector<std::string_view> here = steps;
+    vector<string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
     if (field.type == Type::values || field.type == Type::texts) {
@@ -53,26 +54,26 @@ void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::
   }
 }
 
-const std::vector<Spot>& all_spots() {
-  static const std::vector<Spot> all = [] {
-    std::vector<Spot> found;
-    for (const std::span<const Kind> family : families()) collect(family.front(), {}, found);
+const vector<Spot>& all_spots() {
+  static const vector<Spot> all = [] {
+    vector<Spot> found;
+    for (const span<const Kind> family : families()) collect(family.front(), {}, found);
     return found;
   }();
   return all;
 }
 
-std::vector<std::string_view> steps_of(std::string_view path) {
-  std::vector<std::string_view> steps;
-  for (std::size_t i = 0; i <= path.size();) {
-    const std::size_t end = std::min(path.find('.', i), path.size());
+vector<string_view> steps_of(string_view path) {
+  vector<string_view> steps;
+  for (size_t i = 0; i <= path.size();) {
+    const size_t end = std::min(path.find('.', i), path.size());
     steps.push_back(path.substr(i, end - i));
     i = end + 1;
   }
   return steps;
 }
 
-using Steps = std::span<const std::string_view>;
+using Steps = span<const string_view>;
 
 /// Whether `given` is the path `steps`. Names and numbers may be omitted.
 bool is_path(Steps given, Steps steps) {
@@ -87,7 +88,7 @@ bool is_path(Steps given, Steps steps) {
 
 /// Whether `given` is the end of the path.
 bool is_end(Steps given, Steps steps) {
-  for (std::size_t i = 1; i < steps.size(); ++i) {
+  for (size_t i = 1; i < steps.size(); ++i) {
     if (steps[i] != any_name && steps[i] != any_entry && is_path(given, steps.subspan(i))) return true;
   }
   return false;
@@ -105,38 +106,38 @@ bool are_equal(const Field& a, const Field& b) {
          a.of == b.of && a.one_of == b.one_of && a.needed == b.needed && a.doc == b.doc && a.example == b.example;
 }
 
-std::string path_text(const std::vector<std::string_view>& steps) {
+string path_text(const vector<string_view>& steps) {
   return joined(steps, ".");
 }
 
 /// The paths as texts, each once.
-std::vector<std::string> texts_of(const std::vector<Spot>& spots) {
-  std::vector<std::string> texts;
+vector<string> texts_of(const vector<Spot>& spots) {
+  vector<string> texts;
   for (const Spot& spot : spots) {
-    std::string text = path_text(spot.steps);
-    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(std::move(text));
+    string text = path_text(spot.steps);
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
   }
   return texts;
 }
 
 template <typename Fits>
-std::vector<FieldPlaces> select(const Fits& fits) {
-  std::vector<FieldPlaces> found;
+vector<FieldPlaces> select(const Fits& fits) {
+  vector<FieldPlaces> found;
   for (const Spot& spot : all_spots()) {
     if (!fits(spot)) continue;
-    auto row = std::find_if(found.begin(), found.end(),
-                            [&](const FieldPlaces& other) { return are_equal(*other.field, *spot.field); });
+    auto row =
+        std::ranges::find_if(found, [&](const FieldPlaces& other) { return are_equal(*other.field, *spot.field); });
     if (row == found.end()) row = found.insert(found.end(), {spot.field, {}, {}});
-    if (std::find(row->kinds.begin(), row->kinds.end(), spot.kind) == row->kinds.end()) row->kinds.push_back(spot.kind);
+    if (std::ranges::find(row->kinds, spot.kind) == row->kinds.end()) row->kinds.push_back(spot.kind);
     row->paths.push_back(path_text(spot.steps));
   }
   return found;
 }
 
-std::vector<FieldPlaces> find_steps(Steps given) {
+vector<FieldPlaces> find_steps(Steps given) {
   // A single word matches at every place.
   const bool bare = given.size() == 1;
-  std::vector<FieldPlaces> found;
+  vector<FieldPlaces> found;
   if (!bare) found = select([&](const Spot& spot) { return is_path(given, spot.steps); });
   if (found.empty())
     found = select([&](const Spot& spot) {
@@ -146,7 +147,7 @@ std::vector<FieldPlaces> find_steps(Steps given) {
 }
 
 /// Whether `step` is a component of a list of numbers.
-bool is_component(std::string_view step, Type type) {
+bool is_component(string_view step, Type type) {
   if (type == Type::vector || type == Type::direction || type == Type::point_or_name)
     return step == "x" || step == "y" || step == "z";
   return (type == Type::extent || type == Type::pixels) && (step == "width" || step == "height");
@@ -154,9 +155,9 @@ bool is_component(std::string_view step, Type type) {
 
 }  // namespace
 
-std::vector<FieldPlaces> find_places(std::string_view key) {
-  const std::vector<std::string_view> given = steps_of(key);
-  std::vector<FieldPlaces> found = find_steps(given);
+vector<FieldPlaces> find_places(string_view key) {
+  const vector<string_view> given = steps_of(key);
+  vector<FieldPlaces> found = find_steps(given);
   if (!found.empty() || given.size() < 2) return found;
   // A component such as in balls.red.position.x.
   found = find_steps(Steps(given).first(given.size() - 1));
@@ -164,30 +165,29 @@ std::vector<FieldPlaces> find_places(std::string_view key) {
   return found;
 }
 
-std::vector<std::string> plain_paths() {
-  std::vector<Spot> spots;
+vector<string> plain_paths() {
+  vector<Spot> spots;
   collect(families().front().front(), {}, spots);
   for (Spot& spot : spots)
-    std::erase_if(spot.steps, [](std::string_view step) { return step == any_name || step == any_entry; });
+    std::erase_if(spot.steps, [](string_view step) { return step == any_name || step == any_entry; });
   return texts_of(spots);
 }
 
-std::vector<std::string> settable_paths() {
-  std::vector<Spot> spots;
+vector<string> settable_paths() {
+  vector<Spot> spots;
   collect(families().front().front(), {}, spots);
   std::erase_if(spots, [](const Spot& spot) {
-    return held_kind(*spot.field) != nullptr || std::any_of(spot.steps.begin(), spot.steps.end(), [](auto step) {
-             return step == any_name || step == any_entry;
-           });
+    return held_kind(*spot.field) != nullptr ||
+           std::ranges::any_of(spot.steps, [](auto step) { return step == any_name || step == any_entry; });
   });
   return texts_of(spots);
 }
 
-std::vector<std::string> paths_of(const Kind& kind) {
-  std::vector<std::string> paths;
+vector<string> paths_of(const Kind& kind) {
+  vector<string> paths;
   for (const Spot& spot : all_spots()) {
     if (held_kind(*spot.field) != &kind) continue;
-    std::string path = path_text(spot.steps);
+    string path = path_text(spot.steps);
     if (has_names(*spot.field)) path += fmt::format(".{}", any_name);
     if (spot.field->type == Type::list) path += fmt::format(".{}", any_entry);
     paths.push_back(std::move(path));
@@ -195,31 +195,31 @@ std::vector<std::string> paths_of(const Kind& kind) {
   return paths;
 }
 
-const Kind* find_kind(std::string_view name) {
-  for (const std::span<const Kind> family : families()) {
+const Kind* find_kind(string_view name) {
+  for (const span<const Kind> family : families()) {
     for (const Kind& kind : family)
       if (kind.name == name) return &kind;
   }
   return nullptr;
 }
 
-std::string suggest_place(std::string_view key) {
-  const std::vector<std::string_view> given = steps_of(key);
+string suggest_place(string_view key) {
+  const vector<string_view> given = steps_of(key);
   // The longest valid start of the path determines the kind that lacks the next step.
-  for (std::size_t count = given.size() - 1; count > 0; --count) {
-    const std::vector<FieldPlaces> found = find_steps(Steps(given).first(count));
+  for (size_t count = given.size() - 1; count > 0; --count) {
+    const vector<FieldPlaces> found = find_steps(Steps(given).first(count));
     const Kind* held = found.empty() ? nullptr : held_kind(*found.front().field);
     if (held == nullptr) continue;
     return fmt::format("in {}: {}", in_backticks(held->name), suggest_key(given[count], *held));
   }
-  std::vector<std::string_view> known;
+  vector<string_view> known;
   for (const Spot& spot : all_spots()) known.push_back(spot.field->key);
-  for (const std::span<const Kind> family : families()) {
+  for (const span<const Kind> family : families()) {
     for (const Kind& kind : family) known.push_back(kind.name);
   }
   for (const AbsentWord& word : absent_words())
-    for (const std::string_view name : parts_of(word.words)) known.push_back(name);
-  const std::string near = nearest(given.front(), known);
+    for (const string_view name : parts_of(word.words)) known.push_back(name);
+  const string near = nearest(given.front(), known);
   return near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near));
 }
 

@@ -1,10 +1,8 @@
 #pragma once
 // The places in a file where a field can stand, and the fields that a path or key may mean.
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom {
 
@@ -12,28 +10,28 @@ namespace carom {
 /// Equal rows of several kinds count as one.
 struct FieldPlaces {
   const Field* field = nullptr;
-  std::vector<const Kind*> kinds;
-  std::vector<std::string> paths;
+  vector<const Kind*> kinds;
+  vector<string> paths;
 };
 
 /// The places that `key` may mean. Empty: none. `key` is one of three:
 /// - a whole path as in `--set`, with or without names and numbers of entries (balls.red.mass, balls.mass);
 /// - the end of a path (rest_speed, restitution.combine);
 /// - a key of a kind (ball.mass).
-std::vector<FieldPlaces> find_places(std::string_view key);
+vector<FieldPlaces> find_places(string_view key);
 
 /// Every path of a scene, each once, without names and numbers of entries: "simulate.duration", "balls.mass".
-std::vector<std::string> plain_paths();
+vector<string> plain_paths();
 /// The plain paths that contain no names or numbers, so that `--set` accepts them unchanged.
-std::vector<std::string> settable_paths();
+vector<string> settable_paths();
 
 /// The places in a file of maps of this kind: "balls.NAME", "defaults.ball".
-std::vector<std::string> paths_of(const Kind& kind);
+vector<string> paths_of(const Kind& kind);
 
 /// The kind with this name, else null.
-const Kind* find_kind(std::string_view name);
+const Kind* find_kind(string_view name);
 
 /// A suggestion for an unknown key: "did you mean `x`?", or empty.
-std::string suggest_place(std::string_view key);
+string suggest_place(string_view key);
 
 }  // namespace carom

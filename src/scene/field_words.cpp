@@ -8,17 +8,18 @@
 #include <iterator>
 
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::string capital(std::string text) {
+string capital(string text) {
   if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
   return text;
 }
 
 /// Without an exponent: 0.000001.
-std::string plain(double value) {
+string plain(double value) {
   char buffer[400];
   return {buffer, std::to_chars(buffer, std::end(buffer), value, std::chars_format::fixed).ptr};
 }
@@ -34,7 +35,7 @@ bool holds_whole_numbers(const Field& field) {
   return field.type == Type::whole || field.type == Type::repeat || field.type == Type::pixels;
 }
 
-std::span<const UnitLimit> unit_limits() {
+span<const UnitLimit> unit_limits() {
   static constexpr UnitLimit limits[] = {
       {"", 1e-90, 1e90},         {"m", 1e-30, 1e30},     {"s", 1e-30, 1e30},       {"1/s", 1e-30, 1e30},
       {"m/s", 1e-30, 1e30},      {"m/s^2", 1e-30, 1e30}, {"m^3/s^2", 1e-90, 1e90}, {"kg", 1e-60, 1e60},
@@ -58,12 +59,12 @@ Range limited_range(const Field& field) {
   return range;
 }
 
-std::string limit_text(const Range& limits, std::string_view unit) {
+string limit_text(const Range& limits, string_view unit) {
   return fmt::format("a run takes numbers from {} to {}{}", limits.min, limits.max,
                      unit.empty() ? "" : fmt::format(" {}", unit));
 }
 
-std::string describe(const Range& range) {
+string describe(const Range& range) {
   if (range.min == range.max) return plain(range.min);
   const bool low = range.min > Range{}.min, high = range.max < Range{}.max;
   if (low && high) {
@@ -77,65 +78,65 @@ std::string describe(const Range& range) {
   return {};
 }
 
-std::vector<std::string_view> parts_of(std::string_view text) {
-  std::vector<std::string_view> out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find('|', i), text.size());
+vector<string_view> parts_of(string_view text) {
+  vector<string_view> out;
+  for (size_t i = 0; i < text.size();) {
+    const size_t end = std::min(text.find('|', i), text.size());
     out.push_back(text.substr(i, end - i));
     i = end + 1;
   }
   return out;
 }
 
-std::vector<std::string_view> rivals(const Field& field) {
-  std::vector<std::string_view> out = parts_of(field.one_of);
+vector<string_view> rivals(const Field& field) {
+  vector<string_view> out = parts_of(field.one_of);
   std::erase(out, field.key);
   return out;
 }
 
-std::vector<std::string_view> substitutes(const Field& field) {
-  std::vector<std::string_view> out = rivals(field);
-  for (const std::string_view key : parts_of(field.spared_by)) out.push_back(key);
+vector<string_view> substitutes(const Field& field) {
+  vector<string_view> out = rivals(field);
+  for (const string_view key : parts_of(field.spared_by)) out.push_back(key);
   return out;
 }
 
-std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
-  std::vector<std::vector<std::string_view>> needs;
+vector<vector<string_view>> needs_of(const Kind& kind) {
+  vector<vector<string_view>> needs;
   for (const Field& field : kind.fields) {
     if (!field.needed) continue;
-    std::vector<std::string_view>& keys = needs.emplace_back(parts_of(field.one_of));
+    vector<string_view>& keys = needs.emplace_back(parts_of(field.one_of));
     if (keys.empty()) keys.push_back(field.key);
-    for (const std::string_view key : parts_of(field.spared_by)) keys.push_back(key);
+    for (const string_view key : parts_of(field.spared_by)) keys.push_back(key);
   }
   return needs;
 }
 
-std::vector<std::string_view> need_with(const Kind& kind, const Field& field) {
-  for (const std::vector<std::string_view>& keys : needs_of(kind))
-    if (std::find(keys.begin(), keys.end(), field.key) != keys.end()) return keys;
+vector<string_view> need_with(const Kind& kind, const Field& field) {
+  for (const vector<string_view>& keys : needs_of(kind))
+    if (std::ranges::find(keys, field.key) != keys.end()) return keys;
   return {};
 }
 
-std::vector<std::string_view> choices(const Field& field) {
+vector<string_view> choices(const Field& field) {
   return parts_of(field.of);
 }
 
-std::string title_of(const Field& field) {
-  std::string title(field.title.empty() ? field.key : field.title);
+string title_of(const Field& field) {
+  string title(field.title.empty() ? field.key : field.title);
   for (char& c : title) c = c == '_' ? ' ' : c;
   return capital(std::move(title));
 }
 
-std::string condition_text(const Field& field) {
+string condition_text(const Field& field) {
   if (field.with.empty()) return {};
   if (field.spared_by.empty()) return fmt::format("Only with `{}`.", field.with);
-  std::vector<std::string> sparing;
-  for (const std::string_view key : parts_of(field.spared_by)) sparing.push_back(fmt::format("`{}`", key));
+  vector<string> sparing;
+  for (const string_view key : parts_of(field.spared_by)) sparing.push_back(fmt::format("`{}`", key));
   return fmt::format("Only with `{}` or {}.", field.with, listed({sparing.begin(), sparing.end()}));
 }
 
-std::string described(const Field& field) {
-  std::string text(field.doc);
+string described(const Field& field) {
+  string text(field.doc);
   if (field.type == Type::choice) {
     text += fmt::format(" One of {}.", expected(field));
   } else if (field.range.min == field.range.max) {
@@ -144,8 +145,8 @@ std::string described(const Field& field) {
     text += fmt::format(" {}.", capital(expected(field)));
   }
   if (!field.initial.empty()) text += fmt::format(" Default: {}.", field.initial);
-  std::vector<std::string> others;
-  for (const std::string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
+  vector<string> others;
+  for (const string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
   if (!others.empty()) text += fmt::format(" Not with {}.", listed({others.begin(), others.end()}));
   if (!field.with.empty()) text += " " + condition_text(field);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
@@ -172,19 +173,19 @@ bool holds_map(const Field& field) {
   return field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::color_or_part;
 }
 
-std::string listed(const std::vector<std::string_view>& words) {
-  std::string out;
-  for (std::size_t i = 0; i < words.size(); ++i) {
+string listed(const vector<string_view>& words) {
+  string out;
+  for (size_t i = 0; i < words.size(); ++i) {
     if (i > 0) out += i + 1 == words.size() ? " or " : ", ";
     out += words[i];
   }
   return out;
 }
 
-std::string expected(const Field& field) {
-  const std::string range = describe(field.range);
-  const std::string limits = range.empty() ? "" : " " + range;
-  const std::string unit = field.unit.empty() ? "" : fmt::format(" in {}", field.unit);
+string expected(const Field& field) {
+  const string range = describe(field.range);
+  const string limits = range.empty() ? "" : " " + range;
+  const string unit = field.unit.empty() ? "" : fmt::format(" in {}", field.unit);
   switch (field.type) {
     case Type::number:
       return fmt::format("a number{}{}", limits, unit);

@@ -11,6 +11,7 @@
 #include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -61,7 +62,7 @@ constexpr Field restitution_fields[] = {
 };
 
 // A name, a group's member, or a side of the room.
-constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
+constexpr string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
 
 constexpr Field pair_fields[] = {
     {.key = "between", .type = Type::two_names, .needed = true,
@@ -98,7 +99,7 @@ constexpr Field ball_fields[] = {
     ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh, repeat,
 };
 
-constexpr std::string_view volumes = "radius|cylinder|box|fit";
+constexpr string_view volumes = "radius|cylinder|box|fit";
 
 // A body's volume is one of these four keys. A mesh with `fit` is the volume itself.
 // A mesh beside one of the other three is drawn in its place.
@@ -195,7 +196,7 @@ constexpr Field string_fields[] = {
     visible<StringKeys>, repeat,
 };
 
-constexpr std::string_view region_shapes = "radius|cylinder|box|plane";
+constexpr string_view region_shapes = "radius|cylinder|box|plane";
 
 constexpr Field region_fields[] = {
     {.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = region_shapes, .needed = true, .doc = "Radius of a sphere.", .example = "0.3", .member = fills<RegionKeys, &RegionKeys::radius>},
@@ -213,7 +214,7 @@ constexpr Field side_fields[] = {
     {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the side that is the region; any length.", .example = "[0, -1, 0]", .member = fills<SideKeys, &SideKeys::normal>},
 };
 
-constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";
+constexpr string_view forces = "uniform|acceleration|drag|spring|attractor";
 
 constexpr Field force_fields[] = {
     {.key = "uniform", .type = Type::vector, .unit = "N", .one_of = forces, .needed = true, .doc = "The same force on each body.", .example = "[2, 0, 0]", .member = fills<ForceKeys, &ForceKeys::uniform>},
@@ -358,7 +359,7 @@ constexpr Kind kinds_of_scenes[] = {
 Field row_of(const OutputKind& kind) {
   return {.key = kind.name,
           .type = kind.keys.empty() ? Type::flag : Type::part_or_flag,
-          .of = kind.keys.empty() ? std::string_view() : kind.name,
+          .of = kind.keys.empty() ? string_view() : kind.name,
           .doc = kind.doc,
           .example = kind.example,
           .member = kind.member.key};
@@ -369,7 +370,7 @@ class FormatTable {
  public:
   FormatTable() {
     for (const Kind& kind : kinds_of_scenes) add(kind);
-    std::vector<Field> of_output;
+    vector<Field> of_output;
     for (const OutputKind& kind : output_kinds()) of_output.push_back(row_of(kind));
     add({"output", "", "What the run writes; an output that is absent is not written.", of_output});
     for (const OutputKind& kind : output_kinds()) {
@@ -380,11 +381,11 @@ class FormatTable {
     }
   }
 
-  std::span<const Kind> kinds() const { return kinds_; }
+  span<const Kind> kinds() const { return kinds_; }
 
  private:
   void add(Kind kind) {
-    std::vector<Field>& fields = fields_.emplace_back(kind.fields.begin(), kind.fields.end());
+    vector<Field>& fields = fields_.emplace_back(kind.fields.begin(), kind.fields.end());
     for (Field& field : fields)
       if (field.member.initial != nullptr) field.initial = texts_.emplace_back(field.member.initial(field));
     kind.fields = fields;
@@ -392,24 +393,24 @@ class FormatTable {
   }
 
   /// The texts that the rows refer to.
-  std::deque<std::string> texts_;
-  std::deque<std::vector<Field>> fields_;  // by kind
-  std::vector<Kind> kinds_;
+  std::deque<string> texts_;
+  std::deque<vector<Field>> fields_;  // by kind
+  vector<Kind> kinds_;
 };
 
 }  // namespace
 
-std::span<const Kind> kinds() {
+span<const Kind> kinds() {
   static const FormatTable table;
   return table.kinds();
 }
 
-std::vector<std::span<const Kind>> families() {
+vector<span<const Kind>> families() {
   return {kinds(), sweep_kinds()};
 }
 
-const Kind& kind_named(std::string_view name) {
-  for (const std::span<const Kind> family : {kinds(), sweep_kinds()}) {
+const Kind& kind_named(string_view name) {
+  for (const span<const Kind> family : {kinds(), sweep_kinds()}) {
     for (const Kind& kind : family)
       if (kind.name == name) return kind;
   }
@@ -417,7 +418,7 @@ const Kind& kind_named(std::string_view name) {
   std::abort();
 }
 
-const Field* find_field(const Kind& kind, std::string_view key) {
+const Field* find_field(const Kind& kind, string_view key) {
   for (const Field& field : kind.fields) {
     if (field.key == key) return &field;
   }

@@ -3,17 +3,14 @@
 // This one table is the source of the decoder, the messages about wrong keys and values, the resolved scene, and --set.
 // The schema, the page of the format and `carom explain` come from it too.
 // A key is a row here. Where maps of its kind fill a struct, it is also a member of that struct (member.h).
-#include <cstdint>
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
-enum class Type : std::uint8_t {
+enum class Type : uint8_t {
   number,         // finite
   whole,          // >= 0
   flag,           // true or false
@@ -66,37 +63,37 @@ struct Member {
   /// Fills the member if the view has a value.
   void (*fill)(void* settings, const View& view, const Field& field) = nullptr;
   /// The member of a new struct, as YAML. Empty: absent unless given.
-  std::string (*initial)(const Field& field) = nullptr;
+  string (*initial)(const Field& field) = nullptr;
   nlohmann::ordered_json (*json)(const void* settings, const Field& field) = nullptr;
 };
 
 struct Field {
-  std::string_view key;
+  string_view key;
   Type type = Type::number;
-  std::string_view unit = {};
+  string_view unit = {};
   Range range = {};
   /// The default as YAML. Empty: absent unless given. A row with a member takes the member's default.
-  std::string_view initial = {};
-  std::string_view of = {};  // kind, or choices
+  string_view initial = {};
+  string_view of = {};  // kind, or choices
   /// Keys of the kind that exclude one another, including this one, separated by |.
-  std::string_view one_of = {};
+  string_view one_of = {};
   /// Whether this key, or another of `one_of` or `spared_by`, must be present.
   bool needed = false;
   /// Keys of the kind beside which this one is not needed, and does not need `with`; separated by |.
-  std::string_view spared_by = {};
-  std::string_view doc = {};
-  std::string_view example = {};  // a value as YAML
+  string_view spared_by = {};
+  string_view doc = {};
+  string_view example = {};  // a value as YAML
   /// Empty: derived from the key.
-  std::string_view title = {};
+  string_view title = {};
   /// A key of the kind that must stand beside this one, unless one of `spared_by` does.
-  std::string_view with = {};
+  string_view with = {};
   /// Engines that accept a value other than `initial`, separated by |. Empty: all.
-  std::string_view engines = {};
+  string_view engines = {};
   /// A regular expression for the schema, for a text or for names.
-  std::string_view pattern = {};
+  string_view pattern = {};
   /// What may stand in place of a map. For a map: a plain value, that of this key. For the maps of a list: these words,
   /// separated by |.
-  std::string_view plain = {};
+  string_view plain = {};
   bool needs_entries = false;  // a list must not be empty
   bool own = false;            // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
@@ -106,19 +103,19 @@ struct Field {
 };
 
 struct Kind {
-  std::string_view name;  // as Field::of has it
+  string_view name;  // as Field::of has it
   /// For messages: "a", "an", or "" before a name that is the key itself.
-  std::string_view article;
-  std::string_view doc;
-  std::span<const Field> fields;
+  string_view article;
+  string_view doc;
+  span<const Field> fields;
   /// A colour that may stand beside the names of such maps (lights: ambient).
   const Field* also = nullptr;
   /// The key of `defaults` that supplies values missing in maps of this kind.
-  std::string_view defaults = {};
+  string_view defaults = {};
   /// Keys of which at least one must be present, separated by |.
-  std::string_view any_of = {};
+  string_view any_of = {};
   /// The neighbouring kind that supplies values missing in maps of this kind.
-  std::string_view beneath = {};
+  string_view beneath = {};
 };
 
 /// Fills a struct from a map. Members without a value keep theirs. `settings`: the struct of the view's kind.
@@ -127,16 +124,16 @@ void fill(void* settings, const View& view);
 nlohmann::ordered_json json_of(const Kind& kind, const void* settings);
 
 /// Every kind of a scene file, "scene" first.
-std::span<const Kind> kinds();
+span<const Kind> kinds();
 /// Every kind of a sweep file, "sweep" first.
-std::span<const Kind> sweep_kinds();
+span<const Kind> sweep_kinds();
 /// The kinds of each sort of file. The file itself is a map of the first of them.
-std::vector<std::span<const Kind>> families();
-const Kind& kind_named(std::string_view name);  // must exist
-const Field* find_field(const Kind& kind, std::string_view key);
+vector<span<const Kind>> families();
+const Kind& kind_named(string_view name);  // must exist
+const Field* find_field(const Kind& kind, string_view key);
 
 /// A phrase for use after a noun: "above 0", "from 1 to 8", "of at least 0". Empty: any number.
-std::string describe(const Range& range);
+string describe(const Range& range);
 bool contains(const Range& range, double value);
 /// Whether each number of a value of this field, or in it, is a whole number.
 bool holds_whole_numbers(const Field& field);
@@ -145,46 +142,46 @@ bool holds_whole_numbers(const Field& field);
 /// Within these limits doubles hold every energy, distance to the eighth power, and quotient of two of them.
 /// Floats hold every length that grids and pictures use.
 struct UnitLimit {
-  std::string_view unit;
+  string_view unit;
   double smallest, largest;
 };
-std::span<const UnitLimit> unit_limits();
+span<const UnitLimit> unit_limits();
 
 /// The field's range, within the limits of its unit.
 Range limited_range(const Field& field);
 
 /// "a run computes with numbers from 1e-30 to 1e+30 m": the message for a number beyond limited_range().
-std::string limit_text(const Range& limits, std::string_view unit);
+string limit_text(const Range& limits, string_view unit);
 
 /// The form of a value of this field: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
-std::string expected(const Field& field);
+string expected(const Field& field);
 
 /// "Only with `mesh`.": the key that must stand beside this one. Empty: none.
-std::string condition_text(const Field& field);
+string condition_text(const Field& field);
 
 /// The field in sentences: its doc, the form of a value, its default, the keys that it excludes.
-std::string described(const Field& field);
+string described(const Field& field);
 
 /// The parts of "a|b|c".
-std::vector<std::string_view> parts_of(std::string_view text);
+vector<string_view> parts_of(string_view text);
 
 /// The keys that exclude this one.
-std::vector<std::string_view> rivals(const Field& field);
+vector<string_view> rivals(const Field& field);
 
 /// The other keys that may stand in place of a needed one: those that exclude it, and those that spare it.
-std::vector<std::string_view> substitutes(const Field& field);
+vector<string_view> substitutes(const Field& field);
 
 /// For each needed field, the keys of which one must be present.
-std::vector<std::vector<std::string_view>> needs_of(const Kind& kind);
+vector<vector<string_view>> needs_of(const Kind& kind);
 
 /// The first of these that holds the field's key. Empty: the field is not needed.
-std::vector<std::string_view> need_with(const Kind& kind, const Field& field);
+vector<string_view> need_with(const Kind& kind, const Field& field);
 
 /// The choices of a field, as separate words.
-std::vector<std::string_view> choices(const Field& field);
+vector<string_view> choices(const Field& field);
 
 /// The title, or one derived from the key: "Rest speed".
-std::string title_of(const Field& field);
+string title_of(const Field& field);
 
 /// The kind of the map, or of the maps in a list or named map. Null: the value holds none.
 const Kind* held_kind(const Field& field);
@@ -192,6 +189,6 @@ const Kind* held_kind(const Field& field);
 bool holds_map(const Field& field);
 
 /// "a", "a or b", "a, b or c"
-std::string listed(const std::vector<std::string_view>& words);
+string listed(const vector<string_view>& words);
 
 }  // namespace carom

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -12,16 +13,16 @@ constexpr double least_hundredths = 2, most_hundredths = 65535;
 
 }  // namespace
 
-std::optional<FilmFormat> film_format(std::string_view file) {
+optional<FilmFormat> film_format(string_view file) {
   if (file.ends_with(".mp4")) return FilmFormat::mp4;
   if (file.ends_with(".gif")) return FilmFormat::gif;
   if (file.ends_with(".webp")) return FilmFormat::webp;
-  return std::nullopt;
+  return nullopt;
 }
 
-std::string_view film_name(FilmFormat format) {
-  constexpr std::string_view names[] = {"an MP4", "a GIF", "a WebP"};
-  return names[static_cast<std::size_t>(format)];
+string_view film_name(FilmFormat format) {
+  constexpr string_view names[] = {"an MP4", "a GIF", "a WebP"};
+  return names[static_cast<size_t>(format)];
 }
 
 bool keeps_rate(FilmFormat format, double fps) {
@@ -53,7 +54,7 @@ FilmLimits limits_of(FilmFormat format) {
 }
 
 bool fits_ffmpeg(const Size& size) {
-  return (std::int64_t{size.width} + 128) * (std::int64_t{size.height} + 128) < std::int64_t{1} << 28;
+  return (int64_t{size.width} + 128) * (int64_t{size.height} + 128) < int64_t{1} << 28;
 }
 
 }  // namespace carom

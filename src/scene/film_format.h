@@ -1,20 +1,18 @@
 #pragma once
 // The formats of films, which the ending of a film's name chooses.
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
 enum class FilmFormat : unsigned char { mp4, gif, webp };
 
 /// By the ending: .mp4, .gif or .webp. None: another one.
-std::optional<FilmFormat> film_format(std::string_view file);
+optional<FilmFormat> film_format(string_view file);
 
 /// "an MP4", "a GIF" or "a WebP".
-std::string_view film_name(FilmFormat format);
+string_view film_name(FilmFormat format);
 
 /// Whether the format can show each picture for exactly 1/fps. A GIF stores whole hundredths of a second, at least 2:
 /// shorter ones are shown as 10 by most viewers. The times of a WebP are rounded to 1/1000 s, which is accepted here.
@@ -25,10 +23,10 @@ double gif_rate(double fps);
 
 /// What a format and ffmpeg's encoder of it can hold.
 struct FilmLimits {
-  int longest_side;             // pixels
-  double lowest_fps;            // 1/s
-  double highest_fps;           // 1/s
-  std::string_view why_of_fps;  // what the rates follow from
+  int longest_side;        // pixels
+  double lowest_fps;       // 1/s
+  double highest_fps;      // 1/s
+  string_view why_of_fps;  // what the rates follow from
 };
 
 FilmLimits limits_of(FilmFormat format);

@@ -5,13 +5,14 @@
 
 #include "scene/decode.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 /// The number of members of a repeated thing. A repeated group has more bodies than members.
-Entity members_of(const Inventory& inventory, const std::string& family) {
+Entity members_of(const Inventory& inventory, const string& family) {
   Entity count = 0;
   while (inventory.names.contains(fmt::format("{}.{}", family, count))) ++count;
   return count;
@@ -19,43 +20,42 @@ Entity members_of(const Inventory& inventory, const std::string& family) {
 
 }  // namespace
 
-std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
-                                           Diagnostics& diagnostics) {
-  if (name.bad || !name.is(Node::Kind::scalar)) return std::nullopt;
+optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
+                                      Diagnostics& diagnostics) {
+  if (name.bad || !name.is(Node::Kind::scalar)) return nullopt;
   if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
   // A group's member such as gas.3.
-  const std::size_t dot = name.text.rfind('.');
-  if (dot != std::string::npos) {
-    const std::string group = name.text.substr(0, dot);
-    const auto it = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
-                                 [&](const BodyEntry& b) { return b.group && b.key->text == group; });
-    const std::optional<std::uint64_t> member = parse_index(std::string_view(name.text).substr(dot + 1));
+  const size_t dot = name.text.rfind('.');
+  if (dot != string::npos) {
+    const string group = name.text.substr(0, dot);
+    const auto it =
+        std::ranges::find_if(inventory.bodies, [&](const BodyEntry& b) { return b.group && b.key->text == group; });
+    const optional<uint64_t> member = parse_index(string_view(name.text).substr(dot + 1));
     if (it != inventory.bodies.end()) {
       if (member && *member < it->count) return Inventory::Range{it->first + static_cast<Entity>(*member), 1};
       diagnostics.add(
           name.place,
           fmt::format("the group {} has no member {}", in_backticks(group), in_backticks(name.text.substr(dot + 1))),
           it->count == 0 ? "it has none" : fmt::format("expected {}.0 to {}.{}", group, group, it->count - 1));
-      return std::nullopt;
+      return nullopt;
     }
   }
-  if (const auto family = inventory.families.find(std::string(family_of(name.text)));
-      family != inventory.families.end()) {
+  if (const auto family = inventory.families.find(string(family_of(name.text))); family != inventory.families.end()) {
     const Entity count = members_of(inventory, family->first);
-    if (count == 0 && !diagnostics.empty()) return std::nullopt;  // perhaps its `repeat` is wrong
+    if (count == 0 && !diagnostics.empty()) return nullopt;  // perhaps its `repeat` is wrong
     diagnostics.add(
         name.place,
         fmt::format("there is no {}: {} has {} member{}", in_backticks(name.text), in_backticks(family->first), count,
                     count == 1 ? "" : "s"),
         count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
-    return std::nullopt;
+    return nullopt;
   }
-  const std::string message = fmt::format("nothing is named {}", in_backticks(name.text));
-  if (diagnostics.add_member(name.place, message)) return std::nullopt;
-  std::vector<std::string> all;
-  const auto add = [&](const std::string& thing) {
-    const std::string_view family = family_of(thing);
-    const std::string_view shown = family.empty() ? std::string_view(thing) : family;
+  const string message = fmt::format("nothing is named {}", in_backticks(name.text));
+  if (diagnostics.add_member(name.place, message)) return nullopt;
+  vector<string> all;
+  const auto add = [&](const string& thing) {
+    const string_view family = family_of(thing);
+    const string_view shown = family.empty() ? string_view(thing) : family;
     if (all.empty() || all.back() != shown) all.emplace_back(shown);
   };
   for (const BodyEntry& body : inventory.bodies) add(body.key->text);
@@ -67,22 +67,21 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
       if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
     }
   }
-  const std::string suggestion = suggest_name(name.text, {all.begin(), all.end()});
-  const std::string kinds = bodies_alone
-                                ? "expected a ball, body, group or member (gas.3)"
-                                : "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min";
+  const string suggestion = suggest_name(name.text, {all.begin(), all.end()});
+  const string kinds = bodies_alone ? "expected a ball, body, group or member (gas.3)"
+                                    : "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min";
   diagnostics.add(name.place, message,
                   suggestion.starts_with("did") ? suggestion
                   : suggestion.empty()          ? kinds
                                                 : fmt::format("{}\n{}", kinds, suggestion));
-  return std::nullopt;
+  return nullopt;
 }
 
-std::optional<std::vector<Entity>> find_bodies(const Node* on, const Inventory& inventory, std::string_view use,
-                                               Diagnostics& diagnostics) {
-  if (on == nullptr) return std::vector<Entity>{};
-  if (on->bad) return std::nullopt;
-  std::vector<Entity> bodies;
+optional<vector<Entity>> find_bodies(const Node* on, const Inventory& inventory, string_view use,
+                                     Diagnostics& diagnostics) {
+  if (on == nullptr) return vector<Entity>{};
+  if (on->bad) return nullopt;
+  vector<Entity> bodies;
   bool good = true;
   for (const Node& item : on->items) {
     const auto range = find_range(item, inventory, Sought::bodies, diagnostics);
@@ -96,9 +95,9 @@ std::optional<std::vector<Entity>> find_bodies(const Node* on, const Inventory& 
     }
     for (Entity i = 0; i < range->count; ++i) bodies.push_back(range->first + i);
   }
-  std::sort(bodies.begin(), bodies.end());
+  std::ranges::sort(bodies);
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  return good && !bodies.empty() ? std::optional(std::move(bodies)) : std::nullopt;
+  return good && !bodies.empty() ? optional(std::move(bodies)) : nullopt;
 }
 
 }  // namespace carom

@@ -7,11 +7,12 @@
 #include "scene/budget.h"
 #include "scene/field_places.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view introduction =
+constexpr string_view introduction =
     R"(# The format of scene and sweep files
 
 This page is made from the loader's table of keys. `carom explain KEY` prints one key, `carom schema` the table as a
@@ -35,17 +36,17 @@ In paths NAME stands for a name, and N for the index of a list's entry, from 0. 
 
 )";
 
-std::string quoted_list(const std::vector<std::string_view>& keys) {
-  std::vector<std::string> marked;
-  for (const std::string_view key : keys) marked.push_back(fmt::format("`{}`", key));
+string quoted_list(const vector<string_view>& keys) {
+  vector<string> marked;
+  for (const string_view key : keys) marked.push_back(fmt::format("`{}`", key));
   return listed({marked.begin(), marked.end()});
 }
 
-std::string value_text(const Field& field) {
+string value_text(const Field& field) {
   if (field.type == Type::choice) return quoted_list(choices(field));
   const Kind* held = held_kind(field);
   if (held == nullptr) return expected(field);
-  const std::string link = fmt::format("[{}](#{})", held->name, held->name);
+  const string link = fmt::format("[{}](#{})", held->name, held->name);
   switch (field.type) {
     case Type::part:
       return "a map: " + link;
@@ -63,23 +64,23 @@ std::string value_text(const Field& field) {
   }
 }
 
-std::string meaning(const Field& field) {
-  std::string text(field.doc);
+string meaning(const Field& field) {
+  string text(field.doc);
   if (!rivals(field).empty()) text += fmt::format(" Not with {}.", quoted_list(rivals(field)));
   if (!field.with.empty()) text += " " + condition_text(field);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;
 }
 
-std::string code(std::string_view text) {
+string code(string_view text) {
   return text.empty() ? "" : fmt::format("`{}`", text);
 }
 
-std::string section(const Kind& kind, bool is_file) {
-  std::string text = fmt::format("## {}\n\n{}\n\n", kind.name, kind.doc);
+string section(const Kind& kind, bool is_file) {
+  string text = fmt::format("## {}\n\n{}\n\n", kind.name, kind.doc);
   if (!is_file) {
-    std::string paths;
-    for (const std::string& path : paths_of(kind)) paths += fmt::format("{}`{}`", paths.empty() ? "" : ", ", path);
+    string paths;
+    for (const string& path : paths_of(kind)) paths += fmt::format("{}`{}`", paths.empty() ? "" : ", ", path);
     text += fmt::format("At {}.", paths);
     if (!kind.defaults.empty())
       text += fmt::format(" A key left out takes its value from `defaults.{}`.", kind.defaults);
@@ -87,8 +88,8 @@ std::string section(const Kind& kind, bool is_file) {
     text += "\n\n";
   }
   text += "| key | value | default | example | meaning |\n| --- | --- | --- | --- | --- |\n";
-  const auto row = [&](const Field& field, std::string_view more) {
-    const std::string_view bold = !need_with(kind, field).empty() ? "**" : "";
+  const auto row = [&](const Field& field, string_view more) {
+    const string_view bold = !need_with(kind, field).empty() ? "**" : "";
     text += fmt::format("| {}`{}`{} | {} | {} | {} | {}{} |\n", bold, field.key, bold, value_text(field),
                         code(field.initial), code(field.example), meaning(field), more);
   };
@@ -98,9 +99,9 @@ std::string section(const Kind& kind, bool is_file) {
 }
 
 /// The section on limits of numbers, distances and runs.
-std::string limits() {
+string limits() {
   const Budget budget;
-  std::string text =
+  string text =
       "## Limits\n\n"
       "The limits keep energies, distances and their powers within the range of doubles.\n\n"
       "| unit | smallest, if it must be above 0 | largest |\n| --- | --- | --- |\n";
@@ -124,10 +125,10 @@ std::string limits() {
 
 }  // namespace
 
-std::string format_page() {
-  std::string page(introduction);
+string format_page() {
+  string page(introduction);
   page += limits();
-  for (const std::span<const Kind> family : families()) {
+  for (const span<const Kind> family : families()) {
     for (const Kind& kind : family) page += section(kind, &kind == &family.front());
   }
   page.pop_back();

@@ -15,15 +15,16 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view shape_names[] = {"sphere", "cylinder", "box"};
+constexpr string_view shape_names[] = {"sphere", "cylinder", "box"};
 
 /// Whether a run may write a file of this name besides the copies of meshes.
-bool is_taken(const std::string& name, const std::string& film) {
+bool is_taken(const string& name, const string& film) {
   return is_reserved(name) || name == VideoOutput{}.file || name == film;
 }
 
@@ -40,88 +41,88 @@ double as_written(double value) {
   return decimal;
 }
 
-std::optional<Volume> given_volume(const VolumeKeys& thing) {
+optional<Volume> given_volume(const VolumeKeys& thing) {
   if (thing.radius) return Volume::sphere(*thing.radius);
   if (thing.box) return Volume::box(*thing.box);
-  if (!thing.cylinder || !thing.cylinder->radius || !thing.cylinder->height) return std::nullopt;
+  if (!thing.cylinder || !thing.cylinder->radius || !thing.cylinder->height) return nullopt;
   return Volume::cylinder(*thing.cylinder->radius, *thing.cylinder->height);
 }
 
 /// Whether a line of a Wavefront file names a file of materials.
 bool names_materials(const std::filesystem::path& file) {
   std::ifstream in(file);
-  std::string line;
+  string line;
   while (std::getline(in, line)) {
-    const std::size_t start = line.find_first_not_of(" \t");
-    if (start != std::string::npos && line.compare(start, 6, "mtllib") == 0) return true;
+    const size_t start = line.find_first_not_of(" \t");
+    if (start != string::npos && line.compare(start, 6, "mtllib") == 0) return true;
   }
   return false;
 }
 
 /// A .gltf, or an .obj with materials, refers to files beside it, which would have to be copied too.
 bool has_further_files(const std::filesystem::path& file, bool own_colors) {
-  std::string ending = file.extension().string();
+  string ending = file.extension().string();
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
   return ending == ".gltf" || (ending == ".obj" && own_colors && names_materials(file));
 }
 
 }  // namespace
 
-std::optional<Form> Forms::of(const VolumeKeys& thing, bool colored) {
-  std::optional<Form> form = plain(thing);
+optional<Form> Forms::of(const VolumeKeys& thing, bool colored) {
+  optional<Form> form = plain(thing);
   if (!form || !form->mesh || colored) return form;
   form->mesh->own_colors = true;
   own_colors_.emplace(form->mesh->file, place_of(*thing.mesh));
   return form;
 }
 
-std::optional<Form> Forms::plain(const VolumeKeys& thing) {
+optional<Form> Forms::plain(const VolumeKeys& thing) {
   const Node* mesh = thing.mesh;
-  if (mesh != nullptr && mesh->bad) return std::nullopt;
-  if (thing.fit) return mesh == nullptr ? std::nullopt : fitted(*thing.fit, *mesh);
-  const std::optional<Volume> volume = given_volume(thing);
-  if (!volume || mesh == nullptr) return volume ? std::optional(Form{*volume, std::nullopt}) : std::nullopt;
+  if (mesh != nullptr && mesh->bad) return nullopt;
+  if (thing.fit) return mesh == nullptr ? nullopt : fitted(*thing.fit, *mesh);
+  const optional<Volume> volume = given_volume(thing);
+  if (!volume || mesh == nullptr) return volume ? optional(Form{*volume, nullopt}) : nullopt;
   return drawn(*volume, *mesh);
 }
 
 /// The volume is the tightest one around the mesh. The mesh keeps its size.
-std::optional<Form> Forms::fitted(Shape shape, const Node& mesh) {
-  const std::optional<Fit> tight = fit(shape, mesh);
-  if (!tight) return std::nullopt;
+optional<Form> Forms::fitted(Shape shape, const Node& mesh) {
+  const optional<Fit> tight = fit(shape, mesh);
+  if (!tight) return nullopt;
   return Form{tight->volume, MeshUse{path_of(mesh), tight->center, 1}};
 }
 
 /// The mesh is scaled so that its tightest volume of that shape lies in the given volume, with equal centres.
-std::optional<Form> Forms::drawn(const Volume& volume, const Node& mesh) {
-  const std::optional<Fit> tight = fit(volume.shape, mesh);
-  if (!tight) return std::nullopt;
+optional<Form> Forms::drawn(const Volume& volume, const Node& mesh) {
+  const optional<Fit> tight = fit(volume.shape, mesh);
+  if (!tight) return nullopt;
   const double scale = (volume.half.array() / tight->volume.half.array()).minCoeff();
   return Form{volume, MeshUse{path_of(mesh), tight->center, scale}};
 }
 
-std::optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
-  const std::vector<Vec3>* vertices = points(mesh);
-  if (vertices == nullptr) return std::nullopt;
+optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
+  const vector<Vec3>* vertices = points(mesh);
+  if (vertices == nullptr) return nullopt;
   const auto key = std::pair(path_of(mesh), shape);
   if (const auto known = fits_.find(key); known != fits_.end()) return known->second;
-  std::optional<Fit> tight;
+  optional<Fit> tight;
   try {
     tight = tightest(shape, *vertices);
   } catch (const std::invalid_argument&) {
     diagnostics_.add(place_of(mesh),
                      fmt::format("the mesh {} is flat: its tightest {} has no volume", in_backticks(mesh.text),
-                                 shape_names[static_cast<std::size_t>(shape)]),
+                                 shape_names[static_cast<size_t>(shape)]),
                      "expected a mesh with width, height and depth");
   }
   return fits_.emplace(key, tight).first->second;
 }
 
-const std::vector<Vec3>* Forms::points(const Node& mesh) {
-  const std::string path = path_of(mesh);
+const vector<Vec3>* Forms::points(const Node& mesh) {
+  const string path = path_of(mesh);
   const auto [entry, is_new] = points_.try_emplace(path);
   if (!is_new) return entry->second.empty() ? nullptr : &entry->second;
   order_.push_back(path);
-  const auto refuse = [&](const std::string& what) {
+  const auto refuse = [&](const string& what) {
     const TextRemedy parts = fault_and_remedy(what);
     diagnostics_.add(place_of(mesh),
                      fmt::format("the mesh {} cannot be used: {}", in_backticks(mesh.text), parts.fault),
@@ -129,14 +130,14 @@ const std::vector<Vec3>* Forms::points(const Node& mesh) {
     return nullptr;
   };
   if (!options_.mesh_points) return refuse("there is no reader of meshes here");
-  std::vector<Vec3> vertices;
+  vector<Vec3> vertices;
   try {
     vertices = options_.mesh_points(path);
   } catch (const std::runtime_error& error) {
     return refuse(error.what());
   }
   if (vertices.empty()) return refuse("it has no vertices");
-  if (!std::all_of(vertices.begin(), vertices.end(), [](const Vec3& v) { return (v * 4).allFinite(); })) {
+  if (!std::ranges::all_of(vertices, [](const Vec3& v) { return (v * 4).allFinite(); })) {
     return refuse("it has a vertex that is not finite");
   }
   for (Vec3& vertex : vertices) {
@@ -146,27 +147,27 @@ const std::vector<Vec3>* Forms::points(const Node& mesh) {
   return &entry->second;
 }
 
-std::string Forms::path_of(const Node& mesh) const {
+string Forms::path_of(const Node& mesh) const {
   return std::filesystem::path(beneath(folder_, mesh.text)).lexically_normal().string();
 }
 
-std::vector<MeshFile> Forms::files(const std::string& film) const {
-  std::vector<MeshFile> out;
-  std::set<std::string> used;
-  for (const std::string& path : order_) {
+vector<MeshFile> Forms::files(const string& film) const {
+  vector<MeshFile> out;
+  std::set<string> used;
+  for (const string& path : order_) {
     const std::filesystem::path name = std::filesystem::path(path).filename();
     const auto use = own_colors_.find(path);
-    const std::optional<Place> uncolored = use == own_colors_.end() ? std::nullopt : std::optional(use->second);
+    const optional<Place> uncolored = use == own_colors_.end() ? nullopt : optional(use->second);
     if (has_further_files(path, uncolored.has_value())) {
       out.push_back({path, "", uncolored});
       continue;
     }
     // The name must not be hidden, look like an option, contain a path of another system, or exceed the length limit.
-    std::string stem = name.stem().string();
-    if (stem.starts_with('.') || stem.starts_with('-') || stem.find('\\') != std::string::npos || stem.size() > 150) {
+    string stem = name.stem().string();
+    if (stem.starts_with('.') || stem.starts_with('-') || stem.find('\\') != string::npos || stem.size() > 150) {
       stem = "mesh";
     }
-    std::string copy = stem + name.extension().string();
+    string copy = stem + name.extension().string();
     for (int i = 2; is_taken(copy, film) || used.contains(copy); ++i) {
       copy = fmt::format("{}-{}{}", stem, i, name.extension().string());
     }

@@ -16,6 +16,7 @@
 #include "numerics/degrees.h"
 #include "numerics/power.h"
 #include "scene/fields.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 #include "yaml/values.h"
@@ -23,25 +24,25 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t deepest = 64;  // parentheses in one another
-constexpr std::string_view operators = "+-*/^%";
+constexpr size_t deepest = 64;  // parentheses in one another
+constexpr string_view operators = "+-*/^%";
 
 /// Thrown through muParser by a function that has no value.
 struct NoValue {
-  std::string message, remedy;
+  string message, remedy;
 };
 
 /// The number of functions and operators called in this evaluation.
-thread_local std::size_t calls = 0;
+thread_local size_t calls = 0;
 
-double finite(double value, std::string_view what) {
+double finite(double value, string_view what) {
   ++calls;
   if (!std::isfinite(value))
     throw NoValue{fmt::format("{} makes a number too large for a double", what), "the largest is about 1.8e308"};
   return value;
 }
 
-[[noreturn]] void refuse(std::string message, std::string remedy = {}) {
+[[noreturn]] void refuse(string message, string remedy = {}) {
   ++calls;
   throw NoValue{std::move(message), std::move(remedy)};
 }
@@ -118,13 +119,13 @@ double greatest(const double* values, int count) {
 }
 
 struct Function {
-  std::string_view name;
-  std::size_t arguments;  // 0: one or more
-  void (*define)(mu::ParserBase& parser, const std::string& name);
+  string_view name;
+  size_t arguments;  // 0: one or more
+  void (*define)(mu::ParserBase& parser, const string& name);
 };
 
 template <auto function>
-void define(mu::ParserBase& parser, const std::string& name) {
+void define(mu::ParserBase& parser, const string& name) {
   parser.DefineFun(name, function, false);
 }
 
@@ -135,7 +136,7 @@ constexpr Function functions[] = {
     {"acos", 1, define<arc_cosine>},     {"atan2", 2, define<arc_tangent_of>},
 };
 
-const Function* find_function(std::string_view name) {
+const Function* find_function(string_view name) {
   const auto found =
       std::find_if(std::begin(functions), std::end(functions), [&](const Function& f) { return f.name == name; });
   return found == std::end(functions) ? nullptr : found;
@@ -149,21 +150,21 @@ bool is_name_character(char c) {
 }
 
 /// The number at the start of a text, and its length. Length 0: there is none, or it is beyond the doubles.
-std::size_t read_number(std::string_view text, double& value) {
+size_t read_number(string_view text, double& value) {
   if (text.empty() || !(is_digit(text[0]) || (text[0] == '.' && text.size() > 1 && is_digit(text[1])))) return 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() ? static_cast<std::size_t>(end - text.data()) : 0;
+  return error == std::errc() ? static_cast<size_t>(end - text.data()) : 0;
 }
 
 /// The number at the start of a text as it stands there, also beyond the doubles.
-std::string_view number_text(std::string_view text) {
+string_view number_text(string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return text.substr(0, static_cast<std::size_t>(end - text.data()));
+  return text.substr(0, static_cast<size_t>(end - text.data()));
 }
 
 int take_number(const char* text, int* position, double* value) {
-  const std::size_t length = read_number(text, *value);
+  const size_t length = read_number(text, *value);
   *position += static_cast<int>(length);
   return length > 0 ? 1 : 0;
 }
@@ -184,7 +185,7 @@ class Parser : public mu::ParserBase {
     DefineOprt("^", raise, mu::prPOW, mu::oaRIGHT);
     DefineInfixOprt("-", negative, mu::prMUL_DIV, false);
     DefineInfixOprt("+", same, mu::prMUL_DIV, false);
-    for (const Function& function : functions) function.define(*this, std::string(function.name));
+    for (const Function& function : functions) function.define(*this, string(function.name));
     DefineConst("pi", std::numbers::pi);
   }
 
@@ -199,16 +200,15 @@ class Parser : public mu::ParserBase {
 };
 
 struct Token {
-  enum class Sort : std::uint8_t { number, name, sign, open, close, comma, end };
+  enum class Sort : uint8_t { number, name, sign, open, close, comma, end };
   Sort sort;
-  std::size_t at, length;
+  size_t at, length;
 };
 
 /// Checks an expression, and notes the order in which its operators and functions are called.
 class Reader {
  public:
-  Reader(std::string_view text, std::span<const std::string> names, std::string_view hint)
-      : text_(text), names_(names), hint_(hint) {}
+  Reader(string_view text, span<const string> names, string_view hint) : text_(text), names_(names), hint_(hint) {}
 
   void run() {
     if (text_.size() > longest_formula)
@@ -223,31 +223,30 @@ class Reader {
   }
 
   /// Names of the text, by index, with their first places.
-  std::vector<std::pair<std::size_t, Token>> used;
-  std::vector<Token> calls;  // in the order of evaluation
+  vector<std::pair<size_t, Token>> used;
+  vector<Token> calls;  // in the order of evaluation
 
  private:
   /// An operator or function that waits for its operands, or an open parenthesis.
   struct Waiting {
-    enum class Sort : std::uint8_t { binary, prefix, function, open };
+    enum class Sort : uint8_t { binary, prefix, function, open };
     Sort sort;
     int precedence;
     Token token;
-    std::size_t commas = 0;  // of a parenthesis
+    size_t commas = 0;  // of a parenthesis
   };
 
-  std::string_view of(const Token& token) const { return text_.substr(token.at, token.length); }
+  string_view of(const Token& token) const { return text_.substr(token.at, token.length); }
 
-  [[noreturn]] static void fail(const Token& token, std::string message, std::string remedy) {
-    throw FormulaError{token.at, std::max<std::size_t>(token.length, 1), std::move(message), std::move(remedy)};
+  [[noreturn]] static void fail(const Token& token, string message, string remedy) {
+    throw FormulaError{token.at, std::max<size_t>(token.length, 1), std::move(message), std::move(remedy)};
   }
 
   Token next() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
-    const std::size_t at = at_;
+    const size_t at = at_;
     // The end of the expression is shown at its last character.
-    if (at == text_.size())
-      return {Token::Sort::end, std::max<std::size_t>(text_.find_last_not_of(" \n") + 1, 1) - 1, 1};
+    if (at == text_.size()) return {Token::Sort::end, std::max<size_t>(text_.find_last_not_of(" \n") + 1, 1) - 1, 1};
     const char c = text_[at];
     if (is_digit(c) || (c == '.' && at + 1 < text_.size() && is_digit(text_[at + 1]))) return number();
     if (is_name_character(c) && c != '.') {
@@ -258,10 +257,10 @@ class Reader {
     if (c == '(') return {Token::Sort::open, at, 1};
     if (c == ')') return {Token::Sort::close, at, 1};
     if (c == ',') return {Token::Sort::comma, at, 1};
-    if (operators.find(c) != std::string_view::npos) return {Token::Sort::sign, at, 1};
+    if (operators.find(c) != string_view::npos) return {Token::Sort::sign, at, 1};
     while (at_ < text_.size() && (text_[at_] & 0xC0) == 0x80) ++at_;  // the rest of a character
     const Token token{Token::Sort::end, at, at_ - at};
-    const bool compares = std::string_view("<>=!&|?:").find(c) != std::string_view::npos;
+    const bool compares = string_view("<>=!&|?:").find(c) != string_view::npos;
     fail(token, fmt::format("{} in an expression", in_backticks(of(token))),
          compares ? "expressions have no comparisons and no assignments"
                   : "expected numbers, names, + - * / ^ %, parentheses and functions");
@@ -269,8 +268,8 @@ class Reader {
 
   Token number() {
     double value = 0;
-    const std::size_t at = at_, length = read_number(text_.substr(at), value);
-    const Token token{Token::Sort::number, at, std::max<std::size_t>(length, 1)};
+    const size_t at = at_, length = read_number(text_.substr(at), value);
+    const Token token{Token::Sort::number, at, std::max<size_t>(length, 1)};
     if (length == 0) fail_beyond(at);
     if (text_[at] == '0' && length > 1 && is_digit(text_[at + 1]))
       fail(token, fmt::format("{} has a leading zero", in_backticks(of(token))), "write it without");
@@ -278,7 +277,7 @@ class Reader {
     return token;
   }
 
-  [[noreturn]] void fail_beyond(std::size_t at) const {
+  [[noreturn]] void fail_beyond(size_t at) const {
     Node number;
     number.kind = Node::Kind::scalar;
     number.text = number_text(text_.substr(at));
@@ -308,7 +307,7 @@ class Reader {
       default:
         break;
     }
-    if (token.sort == Token::Sort::end && text_.find_first_not_of(" \n") == std::string_view::npos)
+    if (token.sort == Token::Sort::end && text_.find_first_not_of(" \n") == string_view::npos)
       fail({token.sort, 0, 1}, "an empty expression", "expected a number or a name after `=`");
     if (token.sort == Token::Sort::end)
       fail(token, "the expression ends too early", "expected a number or a name after it");
@@ -356,7 +355,7 @@ class Reader {
   }
 
   void name(const Token& token) {
-    const std::string_view name = of(token);
+    const string_view name = of(token);
     if (find_function(name) != nullptr) {
       const Token after = next();
       if (after.sort != Token::Sort::open)
@@ -366,26 +365,26 @@ class Reader {
     }
     expects_operand_ = false;
     if (name == "pi") return;
-    const std::string_view plain = name.starts_with("let.") ? name.substr(4) : name;
-    const auto found = std::find(names_.begin(), names_.end(), plain);
+    const string_view plain = name.starts_with("let.") ? name.substr(4) : name;
+    const auto found = std::ranges::find(names_, plain);
     if (found == names_.end()) unknown(token, plain);
-    const auto index = static_cast<std::size_t>(found - names_.begin());
-    if (std::none_of(used.begin(), used.end(), [&](const auto& use) { return use.first == index; }))
+    const auto index = static_cast<size_t>(found - names_.begin());
+    if (std::ranges::none_of(used, [&](const auto& use) { return use.first == index; }))
       used.emplace_back(index, token);
   }
 
-  [[noreturn]] void unknown(const Token& token, std::string_view name) const {
-    const std::size_t after = text_.find_first_not_of(' ', token.at + token.length);
+  [[noreturn]] void unknown(const Token& token, string_view name) const {
+    const size_t after = text_.find_first_not_of(' ', token.at + token.length);
     const bool is_call = after < text_.size() && text_[after] == '(';
-    std::vector<std::string_view> known = formula_functions();
+    vector<string_view> known = formula_functions();
     if (!is_call) {
       known.assign(names_.begin(), names_.end());
       if (name.size() > 1) known.emplace_back("pi");
     }
-    const std::string near = nearest(name, known);
-    const std::string any = !is_call && !hint_.empty() ? std::string(hint_)
-                            : known.empty()            ? "expected pi"
-                                                       : "expected " + listed(known);
+    const string near = nearest(name, known);
+    const string any = !is_call && !hint_.empty() ? string(hint_)
+                       : known.empty()            ? "expected pi"
+                                                  : "expected " + listed(known);
     fail(token, fmt::format("no {} is named {}", is_call ? "function" : "number", in_backticks(name)),
          near.empty() ? any : fmt::format("did you mean {}?", in_backticks(near)));
   }
@@ -396,7 +395,7 @@ class Reader {
            "expected fewer: give names to parts in `let`");
     waiting_.push_back({Waiting::Sort::open, 0, token});
     expects_operand_ = true;
-    const std::size_t after = text_.find_first_not_of(" \n", at_);
+    const size_t after = text_.find_first_not_of(" \n", at_);
     if (after >= text_.size() || text_[after] != ')') return;
     if (is_argument_list())
       fail(waiting_[waiting_.size() - 2].token,
@@ -423,11 +422,11 @@ class Reader {
     if (waiting_.empty()) fail(token, "this parenthesis was not opened", "remove it");
     --depth_;
     const bool is_call = is_argument_list();
-    const std::size_t arguments = waiting_.back().commas + 1;
+    const size_t arguments = waiting_.back().commas + 1;
     waiting_.pop_back();
     if (!is_call) return;
     const Token call = waiting_.back().token;
-    const std::size_t takes = find_function(of(call))->arguments;
+    const size_t takes = find_function(of(call))->arguments;
     if (takes != 0 && takes != arguments)
       fail(call, fmt::format("{} has {} argument{}", in_backticks(of(call)), arguments, arguments == 1 ? "" : "s"),
            fmt::format("expected {}", takes == 1 ? "one" : "two"));
@@ -435,53 +434,52 @@ class Reader {
     waiting_.pop_back();
   }
 
-  std::string_view text_;
-  std::span<const std::string> names_;
-  std::string_view hint_;
-  std::size_t at_ = 0, depth_ = 0;
+  string_view text_;
+  span<const string> names_;
+  string_view hint_;
+  size_t at_ = 0, depth_ = 0;
   bool expects_operand_ = true;
-  std::vector<Waiting> waiting_;
+  vector<Waiting> waiting_;
 };
 
 }  // namespace
 
 struct Formula::Parts {
   Parser parser;
-  std::vector<std::size_t> used;
-  std::vector<Token> uses, calls;
-  std::vector<double> values;  // of used names, where the parser reads them
+  vector<size_t> used;
+  vector<Token> uses, calls;
+  vector<double> values;  // of used names, where the parser reads them
 };
 
-Formula::Formula(std::string_view text, std::span<const std::string> names, std::string_view hint)
-    : parts_(std::make_unique<Parts>()) {
+Formula::Formula(string_view text, span<const string> names, string_view hint) : parts_(make_unique<Parts>()) {
   Reader reader(text, names, hint);
   reader.run();
   parts_->calls = std::move(reader.calls);
   parts_->values.resize(reader.used.size());
-  for (std::size_t k = 0; k < reader.used.size(); ++k) {
+  for (size_t k = 0; k < reader.used.size(); ++k) {
     const auto& [index, token] = reader.used[k];
     parts_->used.push_back(index);
     parts_->uses.push_back(token);
     for (const char* start : {"", "let."}) parts_->parser.DefineVar(start + names[index], &parts_->values[k]);
   }
-  parts_->parser.SetExpr(std::string(text));
+  parts_->parser.SetExpr(string(text));
 }
 
 Formula::~Formula() = default;
 Formula::Formula(Formula&&) noexcept = default;
 
-const std::vector<std::size_t>& Formula::used() const {
+const vector<size_t>& Formula::used() const {
   return parts_->used;
 }
 
-FormulaError Formula::at_name(std::size_t name, std::string message, std::string remedy) const {
-  const auto found = std::find(parts_->used.begin(), parts_->used.end(), name);
-  const Token& token = parts_->uses[static_cast<std::size_t>(found - parts_->used.begin())];
+FormulaError Formula::at_name(size_t name, string message, string remedy) const {
+  const auto found = std::ranges::find(parts_->used, name);
+  const Token& token = parts_->uses[static_cast<size_t>(found - parts_->used.begin())];
   return {token.at, token.length, std::move(message), std::move(remedy)};
 }
 
-double Formula::value(std::span<const double> values) const {
-  for (std::size_t k = 0; k < parts_->used.size(); ++k) parts_->values[k] = values[parts_->used[k]];
+double Formula::value(span<const double> values) const {
+  for (size_t k = 0; k < parts_->used.size(); ++k) parts_->values[k] = values[parts_->used[k]];
   calls = 0;
   try {
     return parts_->parser.Eval();
@@ -493,13 +491,13 @@ double Formula::value(std::span<const double> values) const {
   }
 }
 
-std::vector<std::string_view> formula_functions() {
-  std::vector<std::string_view> names;
+vector<string_view> formula_functions() {
+  vector<string_view> names;
   for (const Function& function : functions) names.push_back(function.name);
   return names;
 }
 
-bool is_formula_word(std::string_view name) {
+bool is_formula_word(string_view name) {
   return name == "pi" || find_function(name) != nullptr;
 }
 

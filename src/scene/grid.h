@@ -1,13 +1,10 @@
 #pragma once
 // A spatial grid that finds overlaps among a million bodies of any size without testing all pairs.
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -38,12 +35,12 @@ class BodyGrid {
   /// Without a world all members are balls.
   explicit BodyGrid(const World* world = nullptr) : world_(world) {}
 
-  void reserve(std::size_t members);
+  void reserve(size_t members);
   void insert(const Member& member);
   /// A member that overlaps this body beyond the tolerance of touching, if there is one.
-  std::optional<Overlap> find_overlap(const Member& body, double relative = tight) const;
+  optional<Overlap> find_overlap(const Member& body, double relative = tight) const;
   /// All such members, some of them more than once.
-  std::vector<Overlap> all_overlaps(const Member& body, double relative) const;
+  vector<Overlap> all_overlaps(const Member& body, double relative) const;
   /// Prefetches the memory that find_overlap will read: first the cells, later the members in them.
   enum class Prefetch { cells, members };
   void prefetch(const Member& body, Prefetch what) const;
@@ -54,38 +51,38 @@ class BodyGrid {
     int exponent;
     double cell;     // m, the diameter of the first member
     double largest;  // m, the largest diameter
-    std::vector<std::uint32_t> members;
+    vector<uint32_t> members;
   };
   struct Cells {
-    std::int64_t low[3], high[3];
+    int64_t low[3], high[3];
     double count = 1;
   };
   Cells cells_about(const Level& level, const Member& body) const;
   template <typename Visit>
-  void each_bucket(std::uint32_t level, const Cells& cells, Visit visit) const;
-  std::size_t bucket(std::uint32_t level, std::int64_t x, std::int64_t y, std::int64_t z) const;
-  std::size_t bucket(std::uint32_t level, const Vec3& center) const;
-  void link(std::uint32_t member);
-  std::optional<Overlap> overlap_with(const Member& member, const Member& body, double relative) const;
-  std::optional<Overlap> overlap_in_chain(std::uint32_t head, const Member& body, double relative) const;
+  void each_bucket(uint32_t level, const Cells& cells, Visit visit) const;
+  size_t bucket(uint32_t level, int64_t x, int64_t y, int64_t z) const;
+  size_t bucket(uint32_t level, const Vec3& center) const;
+  void link(uint32_t member);
+  optional<Overlap> overlap_with(const Member& member, const Member& body, double relative) const;
+  optional<Overlap> overlap_in_chain(uint32_t head, const Member& body, double relative) const;
   bool is_ball(Entity entity) const { return world_ == nullptr || world_->volume_of(entity).shape == Shape::sphere; }
 
   const World* world_;
   struct Link {
     Member member;
     /// Next in the chain of its bucket.
-    std::uint32_t next;
+    uint32_t next;
   };
-  std::vector<Link> members_;
-  std::vector<std::uint32_t> level_;  // index into levels_, by member
-  std::vector<std::uint32_t> heads_;  // by bucket
-  std::vector<Level> levels_;
+  vector<Link> members_;
+  vector<uint32_t> level_;  // index into levels_, by member
+  vector<uint32_t> heads_;  // by bucket
+  vector<Level> levels_;
 };
 
 /// The depth, in m, to which a body at `center` overlaps a plane or wall (by number) beyond touching.
 /// None: there is no overlap.
-std::optional<double> overlap_depth(const World& world, Entity body, const Vec3& center, Entity surface,
-                                    double relative = tight);
+optional<double> overlap_depth(const World& world, Entity body, const Vec3& center, Entity surface,
+                               double relative = tight);
 bool touches_no_surface(const World& world, Entity body, const Vec3& center);
 
 }  // namespace carom

@@ -6,27 +6,28 @@
 #include <algorithm>
 
 #include "scene/resolve.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 struct GridWord {
-  std::string path, values;
+  string path, values;
   /// The parts of from:to, from:to:count or from:to:log. Empty: a list of values.
-  std::vector<std::string> parts{};
+  vector<string> parts{};
 
   bool is_log() const { return parts.size() == 3 && parts[2] == "log"; }
   bool is_open() const { return parts.size() == 2 || is_log(); }
 };
 
-GridWord grid_word(const std::string& word) {
-  const std::size_t equals = word.find('=');
-  GridWord out{word.substr(0, equals), equals == std::string::npos ? "" : word.substr(equals + 1)};
-  const std::string& values = out.values;
-  const std::size_t first = values.find(':');
-  if (first == std::string::npos || !parse_number(values.substr(0, first))) return out;
-  const std::size_t second = std::min(values.find(':', first + 1), values.size());
+GridWord grid_word(const string& word) {
+  const size_t equals = word.find('=');
+  GridWord out{word.substr(0, equals), equals == string::npos ? "" : word.substr(equals + 1)};
+  const string& values = out.values;
+  const size_t first = values.find(':');
+  if (first == string::npos || !parse_number(values.substr(0, first))) return out;
+  const size_t second = std::min(values.find(':', first + 1), values.size());
   out.parts = {values.substr(0, first), values.substr(first + 1, second - first - 1)};
   if (second < values.size()) out.parts.push_back(values.substr(second + 1));
   return out;
@@ -34,13 +35,13 @@ GridWord grid_word(const std::string& word) {
 
 }  // namespace
 
-bool is_open_range(const std::string& grid) {
+bool is_open_range(const string& grid) {
   return grid_word(grid).is_open();
 }
 
-std::string grid_text(const std::string& base, const std::vector<std::string>& grids, const SweepOptions& options) {
-  std::string grid, over;
-  for (const std::string& word : grids) {
+string grid_text(const string& base, const vector<string>& grids, const SweepOptions& options) {
+  string grid, over;
+  for (const string& word : grids) {
     const GridWord one = grid_word(word);
     if (one.is_open())
       over += fmt::format("  {}: {{from: {}, to: {}{}}}\n", one.path, one.parts[0], one.parts[1],
@@ -51,7 +52,7 @@ std::string grid_text(const std::string& base, const std::vector<std::string>& g
     else
       grid += fmt::format("  {}: [{}]\n", one.path, one.values);
   }
-  std::string text = fmt::format("sweep: 1\nbase: {}\n", in_quotes(base));
+  string text = fmt::format("sweep: 1\nbase: {}\n", in_quotes(base));
   if (!grid.empty()) text += "grid:\n" + grid;
   if (options.random) text += fmt::format("random: {}\n", *options.random);
   if (options.latin) text += fmt::format("latin: {}\n", *options.latin);

@@ -6,12 +6,13 @@
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
-constexpr std::uint64_t most_bodies =
+constexpr uint64_t most_bodies =
     // An Entity has 32 bits, and fixed things and strings are numbered after the bodies.
     4'000'000'000;
 
@@ -20,8 +21,8 @@ class Census {
   Census(const Node& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
 
   Inventory run(const Budget& budget) {
-    for (std::size_t i = 0; i < root_.keys.size(); ++i) {
-      const std::string& key = root_.keys[i].text;
+    for (size_t i = 0; i < root_.keys.size(); ++i) {
+      const string& key = root_.keys[i].text;
       if (key == "balls") bodies(root_.items[i], kind_named("ball"));
       if (key == "bodies") bodies(root_.items[i], kind_named("body"));
       if (key == "groups") bodies(root_.items[i], kind_named("group"));
@@ -34,7 +35,7 @@ class Census {
 
     if (const Node* strings = root_.find("strings")) add_strings(*strings);
 
-    std::uint64_t total = 0;
+    uint64_t total = 0;
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
       body.first = static_cast<Entity>(total);
@@ -57,13 +58,13 @@ class Census {
   /// Claims a thing's name, and that of the repeated thing with its first member. False: it is repeated no time.
   bool claim_thing(const Key& key, const Node& node) {
     claim(key);
-    if (key.text.ends_with(".0")) claim({std::string(family_of(key.text)), key.place});
+    if (key.text.ends_with(".0")) claim({string(family_of(key.text)), key.place});
     return !node.is(Node::Kind::map) || node.find_key("repeat") == nullptr;
   }
 
   void bodies(const Node& node, const Kind& kind) {
     if (!node.is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    for (size_t i = 0; i < node.keys.size(); ++i) {
       if (!claim_thing(node.keys[i], node.items[i])) {
         empty_.push_back({&node.keys[i], inventory_.bodies.size(), true});
         continue;
@@ -74,7 +75,7 @@ class Census {
 
   void fixed(const Node& node, const Kind& kind) {
     if (!node.is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < node.keys.size(); ++i) add_fixed(node.keys[i], node.items[i], kind);
+    for (size_t i = 0; i < node.keys.size(); ++i) add_fixed(node.keys[i], node.items[i], kind);
   }
 
   void add_fixed(const Key& key, const Node& node, const Kind& kind) {
@@ -89,7 +90,7 @@ class Census {
 
   void add_strings(const Node& node) {
     if (!node.is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    for (size_t i = 0; i < node.keys.size(); ++i) {
       if (claim_thing(node.keys[i], node.items[i]))
         inventory_.strings.push_back({&node.keys[i], &node.items[i]});
       else
@@ -97,20 +98,20 @@ class Census {
     }
   }
 
-  void check(std::uint64_t total, const BodyEntry* most, const Budget& budget) {
-    const std::uint64_t limit = budget.enforced ? std::min(budget.bodies, most_bodies) : most_bodies;
+  void check(uint64_t total, const BodyEntry* most, const Budget& budget) {
+    const uint64_t limit = budget.enforced ? std::min(budget.bodies, most_bodies) : most_bodies;
     if (total <= limit) return;
     inventory_.fits = false;
     const bool by_group = most->group;
     const View view = body_view(root_, *most);
-    const std::string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : std::to_string(total);
+    const string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : std::to_string(total);
     diagnostics_.add(by_group ? view.place("count") : most->key->place,
                      fmt::format("the scene has {} bodies; the limit is {}", figure, limit),
                      fmt::format("expected {}{}", by_group ? "a smaller `count`" : "fewer",
                                  limit == most_bodies ? "" : ", or --force if this machine has the memory"));
   }
 
-  void number(std::uint64_t total) {
+  void number(uint64_t total) {
     inventory_.body_count = static_cast<Entity>(total);
     inventory_.fixed_count = fixed_count_;
     inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size() + inventory_.strings.size());
@@ -123,7 +124,7 @@ class Census {
         inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
       }
     }
-    for (std::size_t i = 0; i < inventory_.strings.size(); ++i)
+    for (size_t i = 0; i < inventory_.strings.size(); ++i)
       add(inventory_.strings[i].key->text, {inventory_.body_count + fixed_count_ + static_cast<Entity>(i), 1});
     for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
     for (const Empty& none : empty_) {
@@ -136,25 +137,25 @@ class Census {
   }
 
   /// A thing by its name, and as a member of a repeated thing.
-  void add(const std::string& name, Inventory::Range range) {
+  void add(const string& name, Inventory::Range range) {
     inventory_.names[name] = range;
-    const std::string_view family = family_of(name);
+    const string_view family = family_of(name);
     if (family.empty()) return;
-    const auto [whole, fresh] = inventory_.families.try_emplace(std::string(family), range);
+    const auto [whole, fresh] = inventory_.families.try_emplace(string(family), range);
     if (!fresh) whole->second.count += range.count;
   }
 
   /// A thing that is repeated no time.
   struct Empty {
     const Key* key;
-    std::size_t before;  // entries, or fixed things and strings, before it
+    size_t before;  // entries, or fixed things and strings, before it
     bool is_body;
   };
 
   const Node& root_;
   Diagnostics& diagnostics_;
   Inventory inventory_;
-  std::vector<Empty> empty_;
+  vector<Empty> empty_;
   Entity fixed_count_ = 0;
 };
 
@@ -164,7 +165,7 @@ Inventory take_inventory(const Node& root, const Budget& budget, Diagnostics& di
   return Census(root, diagnostics).run(budget);
 }
 
-View scene_part(const Node& root, std::string_view key) {
+View scene_part(const Node& root, string_view key) {
   const Node* node = root.find(key);
   const Key* name = root.find_key(key);
   return View(node, kind_named(key), name == nullptr ? Place{} : name->place);

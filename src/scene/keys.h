@@ -2,10 +2,7 @@
 // The keys of bodies, groups, fixed things, pairs, forces and the camera, with their defaults. fields.cpp joins each to
 // its row. Decoding fills these structs, and makes World, State and Roster from them. An optional member is empty if
 // the file gives no value, or a wrong one. A Node is a name or a file together with its place, for messages about it.
-#include <cstdint>
 #include <limits>
-#include <optional>
-#include <string>
 
 #include "numerics/vec3.h"
 #include "physics/attractor.h"
@@ -16,78 +13,79 @@
 #include "scene/colors.h"
 #include "scene/overlay.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/document.h"
 
 namespace carom {
 
 struct CylinderKeys {
-  std::optional<double> radius;  // m
-  std::optional<double> height;  // m, along y
+  optional<double> radius;  // m
+  optional<double> height;  // m, along y
 };
 
 /// A volume is one of the first four. A mesh is drawn in its place, or `fit` is the volume around the mesh.
 struct VolumeKeys {
-  std::optional<double> radius;  // m
-  std::optional<CylinderKeys> cylinder;
-  std::optional<Vec3> box;  // m, full edge lengths
-  std::optional<Shape> fit;
+  optional<double> radius;  // m
+  optional<CylinderKeys> cylinder;
+  optional<Vec3> box;  // m, full edge lengths
+  optional<Shape> fit;
   const Node* mesh = nullptr;  // a file
 };
 
 /// A colour, or the rule that makes one from a quantity.
 struct BodyColor {
   Color plain;
-  std::optional<Coloring> by;
+  optional<Coloring> by;
 };
 
 /// A ball, a body or the ball of a group.
 struct BodyKeys : VolumeKeys {
-  std::optional<double> mass;                    // kg
-  std::optional<double> density;                 // kg/m^3
-  std::optional<Vec3> position;                  // m
-  std::optional<Vec3> velocity = Vec3(0, 0, 0);  // m/s; none: a wrong value
-  std::optional<double> restitution;             // none: that of the scene
-  Vec3 impulse = Vec3(0, 0, 0);                  // N s
-  std::optional<BodyColor> color;                // none: by its place in the file
+  optional<double> mass;                    // kg
+  optional<double> density;                 // kg/m^3
+  optional<Vec3> position;                  // m
+  optional<Vec3> velocity = Vec3(0, 0, 0);  // m/s; none: a wrong value
+  optional<double> restitution;             // none: that of the scene
+  Vec3 impulse = Vec3(0, 0, 0);             // N s
+  optional<BodyColor> color;                // none: by its place in the file
 };
 
 struct BoxKeys {
-  std::optional<Vec3> min, max;  // m
+  optional<Vec3> min, max;  // m
 };
 
-enum class Arrange : std::uint8_t { random, lattice, hexagonal };
+enum class Arrange : uint8_t { random, lattice, hexagonal };
 
 /// A ball of a group that lists its balls.
 struct PlacedKeys {
-  std::optional<Vec3> position;  // m
-  std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
+  optional<Vec3> position;  // m
+  optional<Vec3> velocity;  // m/s; none: that of the group's ball
 };
 
 /// The former run from which bodies begin.
 struct StartKeys {
-  std::optional<std::string> run;  // a folder
-  std::optional<double> at;        // s of that run; none: its end
+  optional<string> run;  // a folder
+  optional<double> at;   // s of that run; none: its end
 };
 
 struct GroupKeys {
-  std::uint64_t count = 0;
+  uint64_t count = 0;
   BoxKeys in;
-  std::optional<Arrange> arrange = Arrange::random;
-  std::optional<double> speed;   // m/s, standard deviation of a component
-  std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
+  optional<Arrange> arrange = Arrange::random;
+  optional<double> speed;   // m/s, standard deviation of a component
+  optional<Vec3> velocity;  // m/s; none: that of the group's ball
 };
 
 /// A window of time in which a fixed thing moves.
 struct MotionKeys {
   double from = 0;                                         // s
   double until = std::numeric_limits<double>::infinity();  // s
-  std::optional<Vec3> velocity;                            // m/s
+  optional<Vec3> velocity;                                 // m/s
 };
 
 /// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
-template <std::uint32_t rgb>
+template <uint32_t rgb>
 struct FixedKeys {
-  std::optional<double> restitution;  // none: the moving body's
+  optional<double> restitution;  // none: the moving body's
   Color color = from_rgb(rgb);
   bool visible = true;
 };
@@ -108,7 +106,7 @@ struct WallKeys : FixedKeys<0x9aa3ad> {
   Vec3 center = Vec3(0, 0, 0);  // m
   Vec3 normal = Vec3(0, 0, 1);  // any length
   Rectangle size;
-  std::optional<Vec3> up;  // any length; none: default_up()
+  optional<Vec3> up;  // any length; none: default_up()
 };
 
 struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
@@ -116,10 +114,10 @@ struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
 };
 
 struct StringKeys {
-  const Node* from = nullptr;    // a point (m) or a name
-  const Node* to = nullptr;      // a name
-  std::optional<double> length;  // m; none: the distance of its ends at time 0
-  double restitution = 0;        // of the impact where it goes taut
+  const Node* from = nullptr;  // a point (m) or a name
+  const Node* to = nullptr;    // a name
+  optional<double> length;     // m; none: the distance of its ends at time 0
+  double restitution = 0;      // of the impact where it goes taut
   bool rod = false;
   bool visible = true;
 };
@@ -131,16 +129,16 @@ struct RestitutionKeys {
 
 struct PairKeys {
   const Node* between = nullptr;  // two names
-  std::optional<double> value;
+  optional<double> value;
 };
 
 /// One law, in a window of time.
 struct ForceKeys {
-  std::optional<Vec3> uniform;       // N
-  std::optional<Vec3> acceleration;  // m/s^2
-  std::optional<Drag> drag;
-  std::optional<Spring> spring;
-  std::optional<Attractor> attractor;
+  optional<Vec3> uniform;       // N
+  optional<Vec3> acceleration;  // m/s^2
+  optional<Drag> drag;
+  optional<Spring> spring;
+  optional<Attractor> attractor;
   const Node* on = nullptr;                                // names; null: all bodies
   double from = 0;                                         // s
   double until = std::numeric_limits<double>::infinity();  // s
@@ -154,43 +152,43 @@ struct SideKeys {
 };
 
 /// What a region does to a body that enters it.
-enum class RegionAction : std::uint8_t { none, remove, stop };
+enum class RegionAction : uint8_t { none, remove, stop };
 
 /// One of the first four is its shape.
 struct RegionKeys {
-  std::optional<double> radius;  // m
-  std::optional<CylinderKeys> cylinder;
-  std::optional<Vec3> box;  // m, full edge lengths
-  std::optional<SideKeys> plane;
-  std::optional<Vec3> position;  // m; of a plane: none
-  const Node* on = nullptr;      // names; null: all bodies
-  std::optional<RegionAction> action = RegionAction::none;
+  optional<double> radius;  // m
+  optional<CylinderKeys> cylinder;
+  optional<Vec3> box;  // m, full edge lengths
+  optional<SideKeys> plane;
+  optional<Vec3> position;   // m; of a plane: none
+  const Node* on = nullptr;  // names; null: all bodies
+  optional<RegionAction> action = RegionAction::none;
 };
 
 /// An entry of `simulate.stop`.
 struct StopKeys {
-  std::optional<std::uint64_t> collisions;
+  optional<uint64_t> collisions;
   const Node* region = nullptr;  // a name
 };
 
 struct TrailKeys {
   double seconds = 1;
-  std::optional<double> width;  // m; none: half a body's radius
-  const Node* on = nullptr;     // names; null: all bodies
+  optional<double> width;    // m; none: half a body's radius
+  const Node* on = nullptr;  // names; null: all bodies
 };
 
-enum class FitTo : std::uint8_t { motion };
+enum class FitTo : uint8_t { motion };
 
 /// Eye and target may be missing, depending on the keys here.
 struct CameraKeys : Camera {
-  std::optional<FitTo> fit;
+  optional<FitTo> fit;
   const Node* follow = nullptr;  // a name
 };
 
 struct KeyframeKeys {
-  double at = 0;                    // s
-  std::optional<Vec3> eye, target;  // m
-  std::optional<double> fov;        // degrees; none: that of the camera
+  double at = 0;               // s
+  optional<Vec3> eye, target;  // m
+  optional<double> fov;        // degrees; none: that of the camera
 };
 
 }  // namespace carom

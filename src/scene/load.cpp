@@ -16,6 +16,7 @@
 #include "scene/scene.h"
 #include "scene/settings.h"
 #include "scene/start.h"
+#include "std.h"
 #include "yaml/document.h"
 #include "yaml/values.h"
 
@@ -36,9 +37,9 @@ void check_length(const Inventory& inventory, const Scene& scene, const Key* sta
                                        scene.resolved.size(), max_source_bytes),
                            "expected fewer bodies");
   if (inventory.families.empty()) return;
-  std::optional<Place> where;
+  optional<Place> where;
   const auto look = [&](const auto& entries) {
-    for (std::size_t i = 0; i < entries.size() && !where; ++i)
+    for (size_t i = 0; i < entries.size() && !where; ++i)
       if (!family_of(entries[i].key->text).empty()) where = entries[i].key->place;
   };
   look(inventory.bodies);
@@ -50,17 +51,17 @@ void check_length(const Inventory& inventory, const Scene& scene, const Key* sta
       "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
 }
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "" : slash == 0 ? "/" : path.substr(0, slash);
+string folder_of(const string& path) {
+  const size_t slash = path.rfind('/');
+  return slash == string::npos ? "" : slash == 0 ? "/" : path.substr(0, slash);
 }
 
 }  // namespace
 
 struct SceneFile::Impl {
-  Impl(const std::string& the_path, const LoadOptions& the_options)
+  Impl(const string& the_path, const LoadOptions& the_options)
       : path(the_path), options(the_options), sources(1), parsing(sources) {
-    std::optional<Node> tree;
+    optional<Node> tree;
     if (read_source(path, sources[0], parsing) && check_text(sources[0], 0, parsing)) {
       tree = parse_document(sources, 0, 0, parsing);
     }
@@ -79,14 +80,14 @@ struct SceneFile::Impl {
     write_out(root, kind_named("scene"));
   }
 
-  Scene scene(const std::vector<Setting>& settings) {
+  Scene scene(const vector<Setting>& settings) {
     sources.resize(1);
-    for (const std::string& set : options.set) sources.push_back({"--set " + set, set, true});
+    for (const string& set : options.set) sources.push_back({"--set " + set, set, true});
     for (const Setting& setting : settings)
       sources.push_back({setting.where.empty() ? "--set " + setting.text : setting.where, setting.text, true});
     Diagnostics diagnostics = parsing;
     Node tree = root;
-    for (std::uint32_t i = 1; i < sources.size(); ++i) {
+    for (uint32_t i = 1; i < sources.size(); ++i) {
       apply_setting(tree, sources, i, diagnostics);
       write_out(tree, kind_named("scene"));
     }
@@ -94,7 +95,7 @@ struct SceneFile::Impl {
   }
 
   Scene resolve(Node& tree, Diagnostics& diagnostics) const {
-    const std::string folder = folder_of(path);
+    const string folder = folder_of(path);
     Scene scene;
     scene.made_from.expressions = expand(tree, options.budget, diagnostics);
     check_scene(tree, folder, diagnostics);
@@ -128,12 +129,12 @@ struct SceneFile::Impl {
   }
 
   /// The things that expand() has left in place because they have no members.
-  static std::vector<EmptyFamily> empty_families(const Node& tree) {
-    std::vector<EmptyFamily> families;
+  static vector<EmptyFamily> empty_families(const Node& tree) {
+    vector<EmptyFamily> families;
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? tree.find(field.key) : nullptr;
       if (things == nullptr || !things->is(Node::Kind::map) || !find_field(kind_named(field.of), "repeat")) continue;
-      for (std::size_t i = 0; i < things->keys.size(); ++i)
+      for (size_t i = 0; i < things->keys.size(); ++i)
         if (things->items[i].is(Node::Kind::map) && things->items[i].find_key("repeat") != nullptr)
           families.push_back({field.key, things->keys[i].text});
     }
@@ -143,27 +144,27 @@ struct SceneFile::Impl {
   /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
   void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
     if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
-      for (std::size_t i = 0; i < let->items.size(); ++i)
+      for (size_t i = 0; i < let->items.size(); ++i)
         if (const auto number = parse_number(let->items[i].text)) scene.measures.numbers[let->keys[i].text] = *number;
     const Node* measures = tree.find("measures");
     if (measures == nullptr || !measures->is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < measures->items.size(); ++i)
+    for (size_t i = 0; i < measures->items.size(); ++i)
       if (!measures->items[i].bad) scene.measures.own.push_back({measures->keys[i].text, measures->items[i].text});
     if (!diagnostics.empty() || !options.measure_fault) return;
-    for (std::size_t i = 0; i < measures->items.size(); ++i) {
+    for (size_t i = 0; i < measures->items.size(); ++i) {
       const auto [fault, span] = options.measure_fault(scene, scene.measures.own[i]);
-      const std::size_t remedy = std::min(fault.find("; "), fault.size());
+      const size_t remedy = std::min(fault.find("; "), fault.size());
       const Node& node = measures->items[i];
       if (!fault.empty())
         diagnostics.add(span.length == 0 ? node.place : place_in(node, 0, {span.at, span.length, "", ""}),
-                        fault.substr(0, remedy), remedy < fault.size() ? fault.substr(remedy + 2) : std::string());
+                        fault.substr(0, remedy), remedy < fault.size() ? fault.substr(remedy + 2) : string());
     }
   }
 
-  std::string path;
+  string path;
   LoadOptions options;
   // The file, then one for each setting.
-  std::vector<Source> sources;
+  vector<Source> sources;
   /// Errors of the text after which parsing could continue.
   Diagnostics parsing;
   Node root;
@@ -173,7 +174,7 @@ namespace {
 
 /// Runs `work`. Running out of memory becomes an error of the scene.
 template <typename Work>
-auto within_memory(const std::string& path, const Work& work) {
+auto within_memory(const string& path, const Work& work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
@@ -184,16 +185,16 @@ auto within_memory(const std::string& path, const Work& work) {
 
 }  // namespace
 
-SceneFile::SceneFile(const std::string& path, const LoadOptions& options)
-    : impl_(within_memory(path, [&] { return std::make_unique<Impl>(path, options); })) {}
+SceneFile::SceneFile(const string& path, const LoadOptions& options)
+    : impl_(within_memory(path, [&] { return make_unique<Impl>(path, options); })) {}
 SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&&) noexcept = default;
 
-Scene SceneFile::scene(const std::vector<Setting>& settings) {
+Scene SceneFile::scene(const vector<Setting>& settings) {
   return within_memory(impl_->path, [&] { return impl_->scene(settings); });
 }
 
-SceneError SceneFile::error(const std::vector<SceneFault>& faults) const {
+SceneError SceneFile::error(const vector<SceneFault>& faults) const {
   Diagnostics diagnostics(impl_->sources);
   for (const SceneFault& fault : faults) {
     if (fault.place)
@@ -204,11 +205,11 @@ SceneError SceneFile::error(const std::vector<SceneFault>& faults) const {
   return {diagnostics, impl_->options.color};
 }
 
-const std::string& SceneFile::text() const {
+const string& SceneFile::text() const {
   return impl_->sources.front().text;
 }
 
-Scene load_scene(const std::string& path, const LoadOptions& options) {
+Scene load_scene(const string& path, const LoadOptions& options) {
   return SceneFile(path, options).scene();
 }
 

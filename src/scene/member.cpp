@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "std.h"
 #include "yaml/value_json.h"
 #include "yaml/values.h"
 
@@ -14,7 +15,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 template <typename T>
-bool put(const std::optional<T>& found, T& value) {
+bool put(const optional<T>& found, T& value) {
   if (found) value = *found;
   return found.has_value();
 }
@@ -25,24 +26,24 @@ bool take(const View& view, const Field& field, double& value) {
   return put(as_number(view.find(field)), value);
 }
 
-bool take(const View& view, const Field& field, std::uint64_t& value) {
+bool take(const View& view, const Field& field, uint64_t& value) {
   return put(as_whole(view.find(field)), value);
 }
 
 bool take(const View& view, const Field& field, int& value) {
-  const std::optional<std::uint64_t> whole = as_whole(view.find(field));
-  if (whole) value = static_cast<int>(std::min<std::uint64_t>(*whole, 1 << 30));
+  const optional<uint64_t> whole = as_whole(view.find(field));
+  if (whole) value = static_cast<int>(std::min<uint64_t>(*whole, 1 << 30));
   return whole.has_value();
 }
 
 bool take(const View& view, const Field& field, bool& value) {
   if (field.type == Type::flag) return put(as_flag(view.find(field)), value);
-  const std::optional<std::size_t> choice = choice_of(view, field);
+  const optional<size_t> choice = choice_of(view, field);
   if (choice) value = *choice == 1;
   return choice.has_value();
 }
 
-bool take(const View& view, const Field& field, std::string& value) {
+bool take(const View& view, const Field& field, string& value) {
   return put(as_text(view.find(field)), value);
 }
 
@@ -52,19 +53,19 @@ bool take(const View& view, const Field& field, Vec3& value) {
 
 bool take(const View& view, const Field& field, Size& value) {
   const Node* node = view.find(field);
-  if (const std::optional<std::string> name = as_text(node)) return put(size_named(*name), value);
+  if (const optional<string> name = as_text(node)) return put(size_named(*name), value);
   if (node == nullptr || node->bad || node->items.size() != 2) return false;
-  const std::optional<std::uint64_t> width = as_whole(&node->items[0]), height = as_whole(&node->items[1]);
+  const optional<uint64_t> width = as_whole(&node->items[0]), height = as_whole(&node->items[1]);
   if (!width || !height) return false;
-  value = {static_cast<int>(std::min<std::uint64_t>(*width, 1 << 30)),
-           static_cast<int>(std::min<std::uint64_t>(*height, 1 << 30))};
+  value = {static_cast<int>(std::min<uint64_t>(*width, 1 << 30)),
+           static_cast<int>(std::min<uint64_t>(*height, 1 << 30))};
   return true;
 }
 
 bool take(const View& view, const Field& field, Rectangle& value) {
   const Node* node = view.find(field);
   if (node == nullptr || node->bad || node->items.size() != 2) return false;
-  const std::optional<double> width = as_number(&node->items[0]), height = as_number(&node->items[1]);
+  const optional<double> width = as_number(&node->items[0]), height = as_number(&node->items[1]);
   return put(width, value.width) && put(height, value.height);
 }
 
@@ -84,15 +85,15 @@ bool take(const View& view, const Field& field, BodyColor& value) {
   return !node->bad;
 }
 
-std::optional<std::size_t> choice_of(const View& view, const Field& field) {
-  const std::optional<std::string> text = as_text(view.find(field));
-  const std::vector<std::string_view> all = choices(field);
-  const auto at = text ? std::find(all.begin(), all.end(), *text) : all.end();
-  return at == all.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - all.begin()));
+optional<size_t> choice_of(const View& view, const Field& field) {
+  const optional<string> text = as_text(view.find(field));
+  const vector<string_view> all = choices(field);
+  const auto at = text ? std::ranges::find(all, *text) : all.end();
+  return at == all.end() ? nullopt : optional(static_cast<size_t>(at - all.begin()));
 }
 
 Json json_value(const Field& field, bool value) {
-  return field.type == Type::flag ? Json(value) : Json(std::string(choices(field)[value ? 1 : 0]));
+  return field.type == Type::flag ? Json(value) : Json(string(choices(field)[value ? 1 : 0]));
 }
 
 Json json_value(const Field&, const Vec3& value) {
@@ -119,17 +120,17 @@ Json json_value(const Field& field, const BodyColor& value) {
   return value.by ? json_of(kind_named(field.of), &*value.by) : json_value(field, value.plain);
 }
 
-std::string yaml_of(double value) {
+string yaml_of(double value) {
   return shortest(value);
 }
 
-std::string yaml_of(const Vec3& value) {
+string yaml_of(const Vec3& value) {
   return fmt::format("[{}, {}, {}]", shortest(value.x()), shortest(value.y()), shortest(value.z()));
 }
 
-std::string yaml_of(const Color& value) {
-  for (const std::string_view name : color_names())
-    if (*parse_color(name) == value) return std::string(name);
+string yaml_of(const Color& value) {
+  for (const string_view name : color_names())
+    if (*parse_color(name) == value) return string(name);
   return fmt::format("[{}, {}, {}]", shortest(value.r), shortest(value.g), shortest(value.b));
 }
 
@@ -141,7 +142,7 @@ void fill(void* settings, const View& view) {
 Json json_of(const Kind& kind, const void* settings) {
   Json json = Json::object();
   for (const Field& field : kind.fields)
-    if (field.member.json != nullptr) json[std::string(field.key)] = field.member.json(settings, field);
+    if (field.member.json != nullptr) json[string(field.key)] = field.member.json(settings, field);
   return json;
 }
 

@@ -1,10 +1,7 @@
 #pragma once
 // Joins a row of the table of fields with the struct member that its key fills.
 // The member's default is the key's default. The member's type determines how the value is read and written.
-#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
 #include <type_traits>
 
 #include "numerics/vec3.h"
@@ -13,6 +10,7 @@
 #include "scene/keys.h"
 #include "scene/output.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -20,12 +18,12 @@ namespace carom {
 // Reading. Each returns false if the map has no value or a bad one.
 // Then the member keeps its value, but an optional one becomes empty.
 bool take(const View& view, const Field& field, double& value);
-bool take(const View& view, const Field& field, std::uint64_t& value);
+bool take(const View& view, const Field& field, uint64_t& value);
 // Accepts a whole number, or a choice of whole numbers.
 bool take(const View& view, const Field& field, int& value);
 // Accepts a flag, or two choices of which the second is true.
 bool take(const View& view, const Field& field, bool& value);
-bool take(const View& view, const Field& field, std::string& value);
+bool take(const View& view, const Field& field, string& value);
 bool take(const View& view, const Field& field, Vec3& value);
 bool take(const View& view, const Field& field, Size& value);
 bool take(const View& view, const Field& field, Rectangle& value);
@@ -34,7 +32,7 @@ bool take(const View& view, const Field& field, BodyColor& value);
 /// The value with its place, bad or not: names, a file.
 bool take(const View& view, const Field& field, const Node*& value);
 /// The index of a choice.
-std::optional<std::size_t> choice_of(const View& view, const Field& field);
+optional<size_t> choice_of(const View& view, const Field& field);
 
 // Writing, as JSON and as YAML.
 nlohmann::ordered_json json_value(const Field& field, bool value);
@@ -44,14 +42,14 @@ nlohmann::ordered_json json_value(const Field& field, const Rectangle& value);
 nlohmann::ordered_json json_value(const Field& field, const Color& value);
 nlohmann::ordered_json json_value(const Field& field, const BodyColor& value);
 nlohmann::ordered_json json_value(const Field& field, const Node* value);
-std::string yaml_of(double value);
-std::string yaml_of(const Vec3& value);
-std::string yaml_of(const Color& value);
+string yaml_of(double value);
+string yaml_of(const Vec3& value);
+string yaml_of(const Color& value);
 
 template <typename T>
 inline constexpr bool is_optional = false;
 template <typename T>
-inline constexpr bool is_optional<std::optional<T>> = true;
+inline constexpr bool is_optional<optional<T>> = true;
 
 /// Whether T is a struct that a nested map fills.
 template <typename T>
@@ -64,14 +62,14 @@ bool take_any(const View& view, const Field& field, T& value) {
   if constexpr (is_optional<T>) {
     typename T::value_type inner{};
     const bool good = take_any(view, field, inner);
-    value = good ? std::optional(inner) : std::nullopt;
+    value = good ? optional(inner) : nullopt;
     return good;
   } else if constexpr (is_settings<T>) {
     if (!view.wants(field.key)) return false;
     fill(&value, view.part(field.key, field.of));
     return true;
   } else if constexpr (std::is_enum_v<T>) {
-    const std::optional<std::size_t> choice = choice_of(view, field);
+    const optional<size_t> choice = choice_of(view, field);
     if (choice) value = static_cast<T>(*choice);
     return choice.has_value();
   } else {
@@ -86,9 +84,9 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
   } else if constexpr (is_settings<T>) {
     return json_of(kind_named(field.of), &value);
   } else if constexpr (std::is_enum_v<T>) {
-    return std::string(choices(field)[static_cast<std::size_t>(value)]);
+    return string(choices(field)[static_cast<size_t>(value)]);
   } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T> || std::is_pointer_v<T>) {
-    if constexpr (std::is_same_v<T, std::string>)
+    if constexpr (std::is_same_v<T, string>)
       return value;
     else
       return json_value(field, value);
@@ -98,19 +96,19 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
 }
 
 template <typename T>
-std::string yaml_any(const Field& field, const T& value) {
+string yaml_any(const Field& field, const T& value) {
   if constexpr (is_optional<T>) {
     return value ? yaml_any(field, *value) : "";
   } else if constexpr (std::is_pointer_v<T>) {
     return "";
   } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec3> || std::is_same_v<T, Color>) {
     return yaml_of(value);
-  } else if constexpr (std::is_same_v<T, std::string>) {
+  } else if constexpr (std::is_same_v<T, string>) {
     return value;
   } else {
     const nlohmann::ordered_json json = json_any(field, value);
-    if (json.is_string()) return json.get<std::string>();
-    std::string text = text_of_json(json);
+    if (json.is_string()) return json.get<string>();
+    string text = text_of_json(json);
     if (json.is_array()) text.replace(text.find(','), 1, ", ");
     return text;
   }
@@ -122,7 +120,7 @@ inline constexpr Member fills = {
     [](void* settings, const View& view, const Field& field) {
       take_any(view, field, static_cast<Owner*>(settings)->*pointer);
     },
-    [](const Field& field) { return field.needed ? std::string() : yaml_any(field, Owner{}.*pointer); },
+    [](const Field& field) { return field.needed ? string() : yaml_any(field, Owner{}.*pointer); },
     [](const void* settings, const Field& field) {
       return json_any(field, static_cast<const Owner*>(settings)->*pointer);
     }};

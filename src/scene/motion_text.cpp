@@ -10,6 +10,7 @@
 #include "scene/engines.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -19,14 +20,14 @@ class MotionText {
  public:
   explicit MotionText(const Scene& scene) : scene_(scene) {}
 
-  std::string run() {
+  string run() {
     simulate();
     const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
                  combine, pairs, regions, strings] = scene_.world;
     line("gravity", gravity, "combine", static_cast<int>(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
       line("pair", a_first, a_count, b_first, b_count, value);
-    for (std::size_t i = 0; i < mass.size(); ++i) {
+    for (size_t i = 0; i < mass.size(); ++i) {
       line("body", mass[i], radius[i], restitution[i], scene_.initial.position[i], scene_.initial.velocity[i]);
       if (!volume.empty()) line("volume", volume[i]);
       if (!impulse.empty()) line("impulse", impulse[i]);
@@ -35,7 +36,7 @@ class MotionText {
     for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
       line("wall", center, normal, right, up, half_width, half_height, own);
     for (const auto& [center, shape, own] : obstacles) line("obstacle", center, shape, own);
-    for (std::size_t fixed = 0; fixed < motions.size(); ++fixed)
+    for (size_t fixed = 0; fixed < motions.size(); ++fixed)
       for (const auto& [from, velocity, start, start_low] : motions[fixed])
         line("motion", fixed, from, velocity, start, start_low);
     for (const Force& force : forces) write(force);
@@ -74,11 +75,11 @@ class MotionText {
 
   // The values, each followed by a blank.
   template <typename T>
-  requires(std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string_view>) void write(const T& value) {
+  requires(std::is_arithmetic_v<T> || std::is_convertible_v<T, string_view>) void write(const T& value) {
     text_ += fmt::format("{} ", value);
   }
   template <typename T>
-  void write(const std::optional<T>& value) {
+  void write(const optional<T>& value) {
     value ? write(*value) : write("-");
   }
   void write(const Vec3& v) {
@@ -112,12 +113,12 @@ class MotionText {
   }
 
   const Scene& scene_;
-  std::string text_;
+  string text_;
 };
 
 }  // namespace
 
-std::string motion_text(const Scene& scene) {
+string motion_text(const Scene& scene) {
   return MotionText(scene).run();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The part of a scene that determines its motion.
-#include <string>
+
+#include "std.h"
 
 namespace carom {
 
@@ -10,6 +11,6 @@ struct Scene;
 /// Scenes with the same text move alike, bit for bit.
 /// It excludes names, title, colours, meshes, camera, lights, background and output.
 /// It excludes the way a number was written, and whether `auto` chose the engine.
-std::string motion_text(const Scene& scene);
+string motion_text(const Scene& scene);
 
 }  // namespace carom

@@ -1,8 +1,7 @@
 #pragma once
 // The keys of `output`: what a scene requests a run to write. Their rows are in output_kinds.cpp.
-#include <optional>
-#include <string>
-#include <string_view>
+
+#include "std.h"
 
 namespace carom {
 
@@ -12,9 +11,9 @@ struct Size {
 };
 
 /// The sizes that have names in the format, separated by |.
-inline constexpr std::string_view size_names = "720p|1080p|4k|square";
+inline constexpr string_view size_names = "720p|1080p|4k|square";
 /// 1280 x 720, 1920 x 1080, 3840 x 2160, 1080 x 1080. None: no such name.
-std::optional<Size> size_named(std::string_view name);
+optional<Size> size_named(string_view name);
 
 struct TrajectoryOutput {
   double every = 1.0 / 30;  // s
@@ -31,14 +30,14 @@ struct ContactsOutput {
 struct PictureOutput {
   double fps = 30;
   Size size;
-  int samples = 4;              // per pixel
-  double from = 0;              // s
-  std::optional<double> until;  // s; none: the duration
+  int samples = 4;         // per pixel
+  double from = 0;         // s
+  optional<double> until;  // s; none: the duration
   friend bool operator==(const PictureOutput&, const PictureOutput&) = default;
 };
 struct FramesOutput : PictureOutput {};
 struct VideoOutput : PictureOutput {
-  std::string file = "animation.mp4";  // a plain file name; its ending chooses the format (film_format.h)
+  string file = "animation.mp4";  // a plain file name; its ending chooses the format (film_format.h)
   int crf = 18;
   /// Seconds of motion a second of film. Picture i shows the time from + i * speed / fps.
   double speed = 1;
@@ -46,9 +45,9 @@ struct VideoOutput : PictureOutput {
 
 struct SheetOutput {
   int columns = 4, rows = 3;
-  std::optional<Size> size{};     // of the whole sheet; none: by the columns
-  double from = 0;                // s, of the first picture
-  std::optional<double> until{};  // s, of the last picture; none: the duration
+  optional<Size> size{};     // of the whole sheet; none: by the columns
+  double from = 0;           // s, of the first picture
+  optional<double> until{};  // s, of the last picture; none: the duration
 };
 struct VtkOutput {
   double every = 1.0 / 30;  // s
@@ -62,23 +61,23 @@ struct GltfOutput {
 
 /// The intervals of the tables of which `plots` shows the rows, in s. None: the scene lists no such table.
 struct PlotIntervals {
-  std::optional<double> energy, trajectory;
+  optional<double> energy, trajectory;
 };
 
 /// The outputs of a run. An absent one is not written, and nothing is constructed for it.
 /// summary, manifest and scene.yaml are always written.
 struct Output {
-  std::optional<TrajectoryOutput> trajectory;
+  optional<TrajectoryOutput> trajectory;
   bool collisions = false;
-  std::optional<EnergyOutput> energy;
-  std::optional<ContactsOutput> contacts;
+  optional<EnergyOutput> energy;
+  optional<ContactsOutput> contacts;
   bool regions = false;
-  std::optional<FramesOutput> frames;
-  std::optional<VideoOutput> video;
-  std::optional<SheetOutput> sheet;
-  std::optional<VtkOutput> vtk;
-  std::optional<XyzOutput> xyz;
-  std::optional<GltfOutput> gltf;
+  optional<FramesOutput> frames;
+  optional<VideoOutput> video;
+  optional<SheetOutput> sheet;
+  optional<VtkOutput> vtk;
+  optional<XyzOutput> xyz;
+  optional<GltfOutput> gltf;
   /// Only of an engine that moves bodies along parabolas.
   bool flights = false;
   bool plots = false;

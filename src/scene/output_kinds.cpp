@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/member.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -255,50 +256,50 @@ constexpr Size named_sizes[] = {{1280, 720}, {1920, 1080}, {3840, 2160}, {1080, 
 
 }  // namespace
 
-std::optional<Size> size_named(std::string_view name) {
-  const std::vector<std::string_view> names = parts_of(size_names);
-  const auto at = std::find(names.begin(), names.end(), name);
-  return at == names.end() ? std::nullopt : std::optional(named_sizes[at - names.begin()]);
+optional<Size> size_named(string_view name) {
+  const vector<string_view> names = parts_of(size_names);
+  const auto at = std::ranges::find(names, name);
+  return at == names.end() ? nullopt : optional(named_sizes[at - names.begin()]);
 }
 
-std::string FileSeries::name(std::int64_t number) const {
+string FileSeries::name(int64_t number) const {
   return fmt::format("{}{:05}{}", stem, number, ending);
 }
 
-bool FileSeries::has(std::string_view name) const {
+bool FileSeries::has(string_view name) const {
   if (!names.empty()) {
-    const std::vector<std::string_view> all = parts_of(names);
-    return std::find(all.begin(), all.end(), name) != all.end();
+    const vector<string_view> all = parts_of(names);
+    return std::ranges::find(all, name) != all.end();
   }
-  constexpr std::size_t digits = 5;
+  constexpr size_t digits = 5;
   if (!name.starts_with(stem) || !name.ends_with(ending) || name.size() < stem.size() + digits + ending.size())
     return false;
-  const std::string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
-  return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
+  return std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 nlohmann::ordered_json OutputKind::settings(const Output& output) const {
   return member.key.json(&output, *find_field(kind_named("output"), name));
 }
 
-bool OutputKind::has_file(std::string_view file) const {
-  const std::vector<std::string_view> all = parts_of(files);
-  return std::find(all.begin(), all.end(), file) != all.end();
+bool OutputKind::has_file(string_view file) const {
+  const vector<string_view> all = parts_of(files);
+  return std::ranges::find(all, file) != all.end();
 }
 
-std::span<const OutputKind> output_kinds() {
+span<const OutputKind> output_kinds() {
   return all_kinds;
 }
 
-Output restricted(const Output& requested, const std::vector<std::string>& only) {
+Output restricted(const Output& requested, const vector<string>& only) {
   Output output;
   for (const OutputKind& kind : all_kinds)
-    if (std::find(only.begin(), only.end(), kind.name) != only.end()) kind.member.add(output, requested);
+    if (std::ranges::find(only, kind.name) != only.end()) kind.member.add(output, requested);
   return output;
 }
 
-bool holds_all(const Output& requested, const std::vector<std::string>& only) {
-  return std::all_of(only.begin(), only.end(), [&](const std::string& name) {
+bool holds_all(const Output& requested, const vector<string>& only) {
+  return std::ranges::all_of(only, [&](const string& name) {
     return std::any_of(std::begin(all_kinds), std::end(all_kinds),
                        [&](const OutputKind& kind) { return kind.name == name && kind.asked(requested); });
   });
@@ -317,18 +318,18 @@ PlotIntervals plot_intervals(const Output& output) {
   return intervals;
 }
 
-std::vector<std::string> output_files(const Output& output) {
-  std::vector<std::string> names;
+vector<string> output_files(const Output& output) {
+  vector<string> names;
   for (const OutputKind& kind : all_kinds) {
     if (!kind.asked(output)) continue;
-    for (const std::string_view name : parts_of(kind.files)) names.emplace_back(name);
+    for (const string_view name : parts_of(kind.files)) names.emplace_back(name);
     if (kind.named) names.push_back(kind.named(output));
   }
   return names;
 }
 
-bool is_reserved(std::string_view name) {
-  for (const std::string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
+bool is_reserved(string_view name) {
+  for (const string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
     if (name == always) return true;
   return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
     return kind.has_file(name) || (!kind.series.folder.empty() && kind.series.folder == name);

@@ -1,30 +1,26 @@
 #pragma once
 // The table of outputs: one row for each, with all but how it is written. That is in export/writer.cpp.
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "scene/fields.h"
 #include "scene/output.h"
+#include "std.h"
 
 namespace carom {
 
 /// Files in a folder of their own: numbered ones, <folder>/<stem>00000<ending>, five digits or more, or those of
 /// `names`.
 struct FileSeries {
-  std::string_view folder, stem, ending;
+  string_view folder, stem, ending;
   /// The words for one file and for several: "picture", "pictures".
-  std::string_view what, whats;
+  string_view what, whats;
   /// Separated by |. Empty: the files are numbered.
-  std::string_view names = {};
+  string_view names = {};
 
   /// "frame_00012.png".
-  std::string name(std::int64_t number) const;
+  string name(int64_t number) const;
   /// Whether name() can produce this name, or `names` has it.
-  bool has(std::string_view name) const;
+  bool has(string_view name) const;
 };
 
 inline constexpr FileSeries frame_files{"frames", "frame_", ".png", "picture", "pictures"};
@@ -46,23 +42,23 @@ struct OutputMember {
 
 struct OutputKind {
   /// The key in `output` and the name for --only.
-  std::string_view name;
-  std::string_view doc;
-  std::string_view example;  // a value, as YAML
+  string_view name;
+  string_view doc;
+  string_view example;  // a value, as YAML
   /// Keys of its map. Empty: a flag.
-  std::span<const Field> keys = {};
-  std::string_view keys_doc = {};  // describes the map
+  span<const Field> keys = {};
+  string_view keys_doc = {};  // describes the map
   /// The output that supplies values missing in the map of this one.
-  std::string_view beneath = {};
+  string_view beneath = {};
   OutputMember member = {};
   /// The file name that the scene gives to this output.
-  std::string (*named)(const Output& output) = nullptr;
+  string (*named)(const Output& output) = nullptr;
   /// Names of the other files, separated by |.
-  std::string_view files = {};
+  string_view files = {};
   FileSeries series = {};
   /// What it holds of every body at every instant, and in which file. Empty: nothing of the kind.
-  std::string_view rows = {};
-  std::string_view spacing = {};  // the key of the interval
+  string_view rows = {};
+  string_view spacing = {};  // the key of the interval
   /// All rows are held in memory until the run's end.
   bool in_memory = false;
 
@@ -73,19 +69,19 @@ struct OutputKind {
   bool is_sampled() const { return member.every != nullptr; }
   double every(const Output& output) const { return member.every(output); }  // s; only if is_sampled()
   nlohmann::ordered_json settings(const Output& output) const;               // only if asked()
-  bool has_file(std::string_view name) const;                                // whether it is among `files`
+  bool has_file(string_view name) const;                                     // whether it is among `files`
 };
 
 /// Every output, in the order of the scene's keys, of --only and of the manifest.
-std::span<const OutputKind> output_kinds();
+span<const OutputKind> output_kinds();
 
 /// The outputs named in `only`, with the scene's settings. An output that the scene lacks gets default settings.
 /// Frames and video take each other's rate, size and samples.
 /// The scene's resolved text stays unchanged, so that runs with different outputs are recognised as runs of one scene.
-Output restricted(const Output& requested, const std::vector<std::string>& only);
+Output restricted(const Output& requested, const vector<string>& only);
 
 /// Whether every output named in `only` is among those requested.
-bool holds_all(const Output& requested, const std::vector<std::string>& only);
+bool holds_all(const Output& requested, const vector<string>& only);
 
 /// All outputs: requested ones with their settings, the others with default ones.
 Output with_all(const Output& requested);
@@ -94,10 +90,10 @@ Output with_all(const Output& requested);
 PlotIntervals plot_intervals(const Output& output);
 
 /// The files of these outputs, without series.
-std::vector<std::string> output_files(const Output& output);
+vector<string> output_files(const Output& output);
 
 /// Whether a run may write a file or folder of this name, whatever the scene.
 /// The file of a film and the copy of a mesh must not have such a name.
-bool is_reserved(std::string_view name);
+bool is_reserved(string_view name);
 
 }  // namespace carom

@@ -11,14 +11,15 @@
 
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// More overlaps are one error.
-constexpr std::size_t most_shown_singly = 4;
+constexpr size_t most_shown_singly = 4;
 // Then bodies that overlap leave the grid. A heap of bodies in one place must not cost n^2.
-constexpr std::size_t max_overlaps_kept = 100'000;
+constexpr size_t max_overlaps_kept = 100'000;
 // A share of the smaller reach. Places are decimals that were rounded by hand.
 constexpr double rounding_of_places = 1e-9;
 
@@ -34,13 +35,12 @@ class Overlaps {
   Overlaps(const Scene& scene, Diagnostics& diagnostics)
       : scene_(scene), world_(scene.world), diagnostics_(diagnostics) {}
 
-  std::size_t size() const { return found_.size(); }
+  size_t size() const { return found_.size(); }
   void add(const Found& found) { found_.push_back(found); }
 
   void report() {
-    std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
-      return std::tie(a.later, a.other) < std::tie(b.later, b.other);
-    });
+    std::ranges::stable_sort(
+        found_, [](const Found& a, const Found& b) { return std::tie(a.later, a.other) < std::tie(b.later, b.other); });
     if (found_.size() > most_shown_singly) return report_deepest();
     for (const Found& found : found_)
       diagnostics_.add(found.place, message(found),
@@ -54,24 +54,23 @@ class Overlaps {
            found.depth > 2 * world_.volume_of(found.later).support(world_.plane(found.other).normal);
   }
 
-  std::string message(const Found& found) const {
-    const std::string a = in_backticks(scene_.roster.name(found.later));
-    const std::string b = in_backticks(scene_.roster.name(found.other));
+  string message(const Found& found) const {
+    const string a = in_backticks(scene_.roster.name(found.later));
+    const string b = in_backticks(scene_.roster.name(found.other));
     return is_behind(found) ? fmt::format("{} is behind {} at the start", a, b)
                             : fmt::format("{} overlaps {} by {:.6g} m at the start", a, b, found.depth);
   }
 
   /// One error for all, at the deepest.
   void report_deepest() {
-    const Found& deepest = *std::max_element(found_.begin(), found_.end(),
-                                             [](const Found& a, const Found& b) { return a.depth < b.depth; });
+    const Found& deepest =
+        *std::ranges::max_element(found_, [](const Found& a, const Found& b) { return a.depth < b.depth; });
     std::set<Entity> bodies;
     for (const Found& found : found_)
       for (const Entity entity : {found.later, found.other})
         if (entity < world_.body_count()) bodies.insert(entity);
     const bool some_left_out = found_.size() > max_overlaps_kept;
-    std::string remedy =
-        fmt::format("expected bodies apart, or just touching to {} of the smaller one", rounding_of_places);
+    string remedy = fmt::format("expected bodies apart, or just touching to {} of the smaller one", rounding_of_places);
     if (const double share = common_share(); share < 1) {
       // Rounded up to two digits, so that radii with these digits do.
       const double digit = std::pow(10, std::floor(std::log10(share)) - 1);
@@ -100,30 +99,29 @@ class Overlaps {
   const Scene& scene_;
   const World& world_;
   Diagnostics& diagnostics_;
-  std::vector<Found> found_;
+  vector<Found> found_;
 };
 
 }  // namespace
 
-void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics) {
+void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics) {
   const World& world = scene.world;
   const auto member = [&](Entity body) {
     return BodyGrid::Member{scene.initial.position[body], world.radius[body], body};
   };
-  const std::vector<SingleBody> by_number = singles;
+  const vector<SingleBody> by_number = singles;
   const auto place_of = [&](Entity body) {
     return std::lower_bound(by_number.begin(), by_number.end(), body,
                             [](const SingleBody& single, Entity e) { return single.body < e; })
         ->position;
   };
-  std::stable_sort(singles.begin(), singles.end(), [&](const SingleBody& a, const SingleBody& b) {
-    return world.radius[a.body] > world.radius[b.body];
-  });
+  std::ranges::stable_sort(
+      singles, [&](const SingleBody& a, const SingleBody& b) { return world.radius[a.body] > world.radius[b.body]; });
   Overlaps found(scene, diagnostics);
   for (const SingleBody& single : singles) {
     if (const auto first = grid.find_overlap(member(single.body), rounding_of_places)) {
       const bool too_many = found.size() > max_overlaps_kept;
-      std::vector<BodyGrid::Overlap> all{*first};
+      vector<BodyGrid::Overlap> all{*first};
       if (!too_many) all = grid.all_overlaps(member(single.body), rounding_of_places);
       std::set<Entity> others;
       for (const BodyGrid::Overlap& overlap : all) {
@@ -139,16 +137,16 @@ void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGri
 
   // Obstacles may stand in one another. One with an error has no volume.
   BodyGrid obstacles(&world);
-  std::vector<BodyGrid::Member> members;
+  vector<BodyGrid::Member> members;
   const auto surfaces = static_cast<Entity>(world.planes.size() + world.walls.size());
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+  for (size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     if (!(obstacle.volume.reach() > 0)) continue;
     members.push_back(
         {obstacle.center, obstacle.volume.reach(), world.body_count() + surfaces + static_cast<Entity>(i)});
   }
-  std::stable_sort(members.begin(), members.end(),
-                   [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
+  std::ranges::stable_sort(members,
+                           [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
   for (const BodyGrid::Member& obstacle : members) obstacles.insert(obstacle);
   for (const SingleBody& single : singles) {
     if (const auto overlap = obstacles.find_overlap(member(single.body), rounding_of_places)) {

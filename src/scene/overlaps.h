@@ -1,9 +1,9 @@
 #pragma once
 // Overlaps of bodies with one another or with fixed things at the start.
-#include <vector>
 
 #include "physics/entity.h"
 #include "scene/grid.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -21,6 +21,6 @@ struct SingleBody {
 /// deepest overlap.
 /// The tolerance is 1e-9 of the smaller one's reach. Then the bodies and the obstacles are inserted into `grid`.
 /// `singles`: in the order of their numbers. Their part of the world and of the initial state must be decoded.
-void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics);
+void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics);
 
 }  // namespace carom

@@ -1,27 +1,22 @@
 #pragma once
 // What pictures show besides the bodies: colours by a quantity, text, trails, arrows. Types only.
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "physics/entity.h"
 #include "scene/color_map.h"
+#include "std.h"
 
 namespace carom {
 
-enum class ColorQuantity : std::uint8_t { speed, kinetic, collisions, mass, radius, group };
+enum class ColorQuantity : uint8_t { speed, kinetic, collisions, mass, radius, group };
 
 // In the order of ColorQuantity.
-inline constexpr std::string_view quantity_names = "speed|kinetic|collisions|mass|radius|group";
+inline constexpr string_view quantity_names = "speed|kinetic|collisions|mass|radius|group";
 
 /// Colours of bodies by a quantity, in its SI unit. Bodies with equal colourings share one scale and one legend.
 struct Coloring {
-  std::optional<ColorQuantity> by;  // none: a wrong value
+  optional<ColorQuantity> by;  // none: a wrong value
   /// The ends of the map. None: from the scene at time 0 (color_scale.h).
-  std::optional<double> min, max;
+  optional<double> min, max;
   ColorMap map = ColorMap::viridis;
   friend bool operator==(const Coloring&, const Coloring&) = default;
 };
@@ -29,22 +24,22 @@ struct Coloring {
 /// The paths of bodies during the last seconds.
 struct Trails {
   double seconds = 1;
-  std::optional<double> width;  // m; none: half a body's radius
-  std::vector<Entity> on{};     // ascending; empty: all bodies
+  optional<double> width;  // m; none: half a body's radius
+  vector<Entity> on{};     // ascending; empty: all bodies
 };
 
 struct Overlay {
   /// A template (caption.h) without paths into the scene. Empty: none.
-  std::string caption;
-  std::optional<Trails> trails;
+  string caption;
+  optional<Trails> trails;
   bool flash = false;  // of bodies that collide
   bool velocity_arrows = false, force_arrows = false;
   /// The part of the interval between pictures in which the shutter is open, 0 to 1.
   double shutter = 0;
   /// Numbers of forces in World::forces. Their springs are not drawn.
-  std::vector<std::size_t> hidden_springs;
+  vector<size_t> hidden_springs;
   /// Numbers of strings in World::strings that are not drawn, ascending.
-  std::vector<std::size_t> hidden_strings;
+  vector<size_t> hidden_strings;
 };
 
 }  // namespace carom

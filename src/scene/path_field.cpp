@@ -3,21 +3,22 @@
 #include "scene/path_field.h"
 
 #include <algorithm>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 /// The fields along the path. Empty: no such field.
-std::vector<const Field*> fields_along(std::string_view path) {
-  std::vector<const Field*> fields;
+vector<const Field*> fields_along(string_view path) {
+  vector<const Field*> fields;
   const Kind* kind = &kind_named("scene");
   // The next word is a name or a number, not a key.
   bool name_next = false;
-  for (std::size_t i = 0; i <= path.size();) {
-    const std::size_t end = std::min(path.find('.', i), path.size());
-    const std::string_view word = path.substr(i, end - i);
+  for (size_t i = 0; i <= path.size();) {
+    const size_t end = std::min(path.find('.', i), path.size());
+    const string_view word = path.substr(i, end - i);
     i = end + 1;
     if (name_next) {
       name_next = false;
@@ -35,14 +36,14 @@ std::vector<const Field*> fields_along(std::string_view path) {
 
 }  // namespace
 
-const Field* field_at(std::string_view path) {
-  const std::vector<const Field*> fields = fields_along(path);
+const Field* field_at(string_view path) {
+  const vector<const Field*> fields = fields_along(path);
   return fields.empty() ? nullptr : fields.back();
 }
 
-bool is_drawn(std::string_view path) {
-  const std::vector<const Field*> fields = fields_along(path);
-  return std::any_of(fields.begin(), fields.end(), [](const Field* field) { return field->drawn; });
+bool is_drawn(string_view path) {
+  const vector<const Field*> fields = fields_along(path);
+  return std::ranges::any_of(fields, [](const Field* field) { return field->drawn; });
 }
 
 }  // namespace carom

@@ -5,10 +5,10 @@
 #include "scene/placement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -66,7 +66,7 @@ struct Hexagonal {
     columns[1] = room.x() * (1 + 1e-12) < s / 2 ? 0 : steps_in(room.x() - s / 2, s) + 1;
   }
   /// 1 if row k of layer j is shifted by half a step, else 0.
-  static int shifted(std::int64_t j, std::int64_t k) { return static_cast<int>((j + k) & 1); }
+  static int shifted(int64_t j, int64_t k) { return static_cast<int>((j + k) & 1); }
 
   double capacity() const {
     double total = 0;
@@ -87,11 +87,11 @@ struct Hexagonal {
                  layers > 1 && rows[1] > 0 ? spacing / (2 * root3) + (rows[1] - 1) * spacing * root3 / 2 : 0.0);
     const double in_y = (layers - 1) * spacing * std::sqrt(2.0 / 3);
     const Vec3 start((edge.x() - in_x) / 2, (edge.y() - in_y) / 2, (edge.z() - in_z) / 2);
-    for (std::int64_t j = 0; j < static_cast<std::int64_t>(layers); ++j) {
+    for (int64_t j = 0; j < static_cast<int64_t>(layers); ++j) {
       const int odd = static_cast<int>(j & 1);
-      for (std::int64_t k = 0; k < static_cast<std::int64_t>(rows[odd]); ++k) {
+      for (int64_t k = 0; k < static_cast<int64_t>(rows[odd]); ++k) {
         const int half = shifted(j, k);
-        for (std::int64_t i = 0; i < static_cast<std::int64_t>(columns[half]); ++i) {
+        for (int64_t i = 0; i < static_cast<int64_t>(columns[half]); ++i) {
           const Vec3 site((static_cast<double>(i) + 0.5 * half) * spacing,
                           static_cast<double>(j) * spacing * std::sqrt(2.0 / 3),
                           static_cast<double>(k) * spacing * root3 / 2 + (odd ? spacing / (2 * root3) : 0.0));
@@ -130,7 +130,7 @@ class Placer {
     if (balls > 0.36 * volume && p_.count > 8) return {};
     const Vec3 low = p_.min.array() + p_.radius;
     const Vec3 free = (edge_.array() - 2 * p_.radius).max(0.0);
-    std::uint64_t tries = 10'000 + 40 * p_.count;
+    uint64_t tries = 10'000 + 40 * p_.count;
     BodyGrid grid;
     grid.reserve(p_.count);
     Placed placed;
@@ -142,11 +142,11 @@ class Placer {
       return center;
     };
     // Most of the time is spent waiting for memory. A copy of the random stream runs ahead and prefetches.
-    constexpr std::uint64_t far = 16, near = 8;
+    constexpr uint64_t far = 16, near = 8;
     Random ahead = random_;
-    std::array<Vec3, far> coming;
+    array<Vec3, far> coming;
     for (Vec3& center : coming) center = draw(ahead);
-    for (std::uint64_t next = 0; placed.centers.size() < p_.count; ++next) {
+    for (uint64_t next = 0; placed.centers.size() < p_.count; ++next) {
       if (tries-- == 0) return {};
       const Vec3 center = draw(random_);
       coming[next % far] = draw(ahead);
@@ -161,7 +161,7 @@ class Placer {
 
   /// The free sites of the widest spacing that has `count` of them. Fewer if even the tightest spacing has not enough.
   template <typename Sites>
-  std::vector<Vec3> free_sites(double& spacing) const {
+  vector<Vec3> free_sites(double& spacing) const {
     // Find the widest spacing by bisection, ignoring obstructions.
     const double closest = 2 * p_.radius;
     const auto count = static_cast<double>(p_.count);
@@ -175,9 +175,9 @@ class Placer {
     }
     // Then narrow it while sites are obstructed.
     const double most_sites = 64 * count + 1e6;
-    std::vector<Vec3> best;
+    vector<Vec3> best;
     for (double s = spacing;;) {
-      std::vector<Vec3> sites;
+      vector<Vec3> sites;
       Sites(edge_, s).each([&](const Vec3& site) {
         const Vec3 center = p_.min + site;
         if (is_free(center)) sites.push_back(center);
@@ -199,16 +199,16 @@ class Placer {
   template <typename Sites>
   Placed thin() const {
     double spacing = 0;
-    const std::vector<Vec3> sites = free_sites<Sites>(spacing);
+    const vector<Vec3> sites = free_sites<Sites>(spacing);
     Placed placed;
     if (sites.size() < p_.count) {
       placed.fit = sites.size();
       return placed;
     }
     // The k-th ball takes site floor(k * sites / count), computed without overflow.
-    const std::uint64_t whole = sites.size() / p_.count, rest = sites.size() % p_.count;
+    const uint64_t whole = sites.size() / p_.count, rest = sites.size() % p_.count;
     placed.centers.reserve(p_.count);
-    for (std::uint64_t k = 0; k < p_.count; ++k) placed.centers.push_back(sites[k * whole + k * rest / p_.count]);
+    for (uint64_t k = 0; k < p_.count; ++k) placed.centers.push_back(sites[k * whole + k * rest / p_.count]);
     return placed;
   }
 
@@ -216,7 +216,7 @@ class Placer {
   /// Each ball is displaced within the part of its site that no neighbour reaches.
   Placed jittered() const {
     double spacing = 0;
-    std::vector<Vec3> sites = free_sites<Hexagonal>(spacing);
+    vector<Vec3> sites = free_sites<Hexagonal>(spacing);
     Placed placed;
     if (sites.size() < p_.count) {
       placed.fit = sites.size();
@@ -226,7 +226,7 @@ class Placer {
     // Two neighbours that move towards one another then stay apart.
     const double half = std::max(0.0, (spacing / 2 - p_.radius) / root3 * (1 - 1e-9));
     const Vec3 low = p_.min.array() + p_.radius, high = p_.max.array() - p_.radius;
-    for (std::uint64_t k = 0; k < p_.count; ++k) {
+    for (uint64_t k = 0; k < p_.count; ++k) {
       std::swap(sites[k], sites[k + random_.below(sites.size() - k)]);
       Vec3 moved = sites[k];
       for (int axis = 0; axis < 3; ++axis) {

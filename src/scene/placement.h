@@ -1,17 +1,16 @@
 #pragma once
 // Places the balls of a group.
-#include <cstdint>
-#include <vector>
 
 #include "physics/entity.h"
 #include "scene/grid.h"
 #include "scene/keys.h"
 #include "scene/random.h"
+#include "std.h"
 
 namespace carom {
 
 struct Placing {
-  std::uint64_t count = 0;
+  uint64_t count = 0;
   /// First ball of the group. All are alike.
   Entity first = 0;
   double radius = 0;  // m
@@ -20,9 +19,9 @@ struct Placing {
 };
 
 struct Placed {
-  std::vector<Vec3> centers;  // m; as many as requested, or none
+  vector<Vec3> centers;  // m; as many as requested, or none
   /// If `centers` is empty: the number that would fit.
-  std::uint64_t fit = 0;
+  uint64_t fit = 0;
 };
 
 /// Places balls clear of one another, of `others` (bodies and obstacles) and of the world's planes and walls.

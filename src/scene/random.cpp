@@ -3,10 +3,12 @@
 // The logarithm is a series in basic arithmetic, because the library's differs between processors.
 #include "scene/random.h"
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
-std::uint64_t mix(std::uint64_t z) {
+uint64_t mix(uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
   return z ^ (z >> 31);
@@ -14,23 +16,23 @@ std::uint64_t mix(std::uint64_t z) {
 
 }  // namespace
 
-Random::Random(std::uint64_t seed, std::string_view stream) {
+Random::Random(uint64_t seed, string_view stream) {
   // FNV-1a of the name.
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
+  uint64_t hash = 0xCBF29CE484222325ULL;
   for (const char c : stream) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
   state_ = mix(mix(seed + 0x9E3779B97F4A7C15ULL) ^ hash);
 }
 
-std::uint64_t Random::bits() {
+uint64_t Random::bits() {
   state_ += 0x9E3779B97F4A7C15ULL;
   return mix(state_);
 }
 
-std::uint64_t Random::below(std::uint64_t n) {
+uint64_t Random::below(uint64_t n) {
   // Values from the last, incomplete run of n are rejected.
-  const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % n + 1) % n;
+  const uint64_t limit = ~uint64_t{0} - (~uint64_t{0} % n + 1) % n;
   for (;;) {
-    const std::uint64_t value = bits();
+    const uint64_t value = bits();
     if (value <= limit) return value % n;
   }
 }

@@ -2,8 +2,8 @@
 // Random numbers that are the same on every machine. They use only integers, + - * / and sqrt.
 // The standard library's distributions differ between implementations, and glibc's log, sin and cos between processors.
 #include <cmath>
-#include <cstdint>
-#include <string_view>
+
+#include "std.h"
 
 namespace carom {
 
@@ -11,18 +11,18 @@ namespace carom {
 class Random {
  public:
   /// Streams with different names are independent of one another.
-  Random(std::uint64_t seed, std::string_view stream);
+  Random(uint64_t seed, string_view stream);
 
-  std::uint64_t bits();
+  uint64_t bits();
   /// Uniform: 0 <= u < 1, a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   /// Uniform over 0 .. n - 1. n > 0.
-  std::uint64_t below(std::uint64_t n);
+  uint64_t below(uint64_t n);
   /// Normal deviate, mean 0 and standard deviation 1 (Marsaglia's polar method).
   double normal();
 
  private:
-  std::uint64_t state_;
+  uint64_t state_;
   double spare_ = 0;
   bool has_spare_ = false;
 };

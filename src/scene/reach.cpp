@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -48,9 +49,9 @@ class Reach {
   void check_members(const BodyEntry& body, const View& view) {
     const View each = member_view(root_, view);
     const Node& list = *view.given("members");
-    for (std::size_t i = 0; i < list.items.size(); ++i) {
+    for (size_t i = 0; i < list.items.size(); ++i) {
       const View entry(&list.items[i], kind_named("placed"), list.items[i].place);
-      const std::string name = fmt::format("{}.{}", body.key->text, i);
+      const string name = fmt::format("{}.{}", body.key->text, i);
       check_places(entry, name);
       const View& giver = entry.given("velocity") == nullptr ? each : entry;
       check_speed(name, giver.vector("velocity").value_or(Vec3::Zero()).norm() + kick_of(body).norm(),
@@ -59,14 +60,14 @@ class Reach {
   }
 
   /// `view`: a body, a fixed thing, a string, a group's box or one of its balls.
-  void check_places(const View& view, const std::string& name) {
-    for (const std::string_view key : {"position", "point", "center", "min", "max", "from"}) {
+  void check_places(const View& view, const string& name) {
+    for (const string_view key : {"position", "point", "center", "min", "max", "from"}) {
       if (find_field(view.kind(), key) == nullptr) continue;
-      const std::optional<Vec3> at = view.vector(key);
+      const optional<Vec3> at = view.vector(key);
       if (at)
         check_length(at->cwiseAbs().maxCoeff(), view.place(key), "{} is {} m from the origin", name, "bring it nearer");
     }
-    for (const std::string_view key : {"radius", "cylinder", "box", "size", "length"}) {
+    for (const string_view key : {"radius", "cylinder", "box", "size", "length"}) {
       if (find_field(view.kind(), key) == nullptr || view.find(key) == nullptr) continue;
       check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m in size", name, "make it smaller");
     }
@@ -89,8 +90,7 @@ class Reach {
     return largest;
   }
 
-  void check_length(double length, Place place, std::string_view message, const std::string& name,
-                    std::string_view change) {
+  void check_length(double length, Place place, string_view message, const string& name, string_view change) {
     if (length <= farthest_) return;
     diagnostics_.add(
         place,
@@ -106,17 +106,17 @@ class Reach {
 
   void check_speed(const BodyEntry& body, const View& view) {
     const View each = body.group ? member_view(root_, view) : view;
-    const std::optional<double> deviation = body.group ? view.number("speed") : std::nullopt;
+    const optional<double> deviation = body.group ? view.number("speed") : nullopt;
     const bool common = body.group && view.given("velocity") != nullptr;
     const Vec3 velocity = (common ? view : each).vector("velocity").value_or(Vec3::Zero());
     const Vec3 kick = kick_of(body);
-    const std::string_view key = !kick.isZero(0) ? "impulse" : deviation ? "speed" : "velocity";
+    const string_view key = !kick.isZero(0) ? "impulse" : deviation ? "speed" : "velocity";
     const Place place = (key == "speed" || (common && key == "velocity") ? view : each).place(key);
     check_speed(body.key->text, deviation.value_or(velocity.norm()) + kick.norm(), place);
   }
 
   /// `speed`: at time 0, in m/s. `place`: of the value that gives it.
-  void check_speed(const std::string& name, double speed, Place place) {
+  void check_speed(const string& name, double speed, Place place) {
     if (!(speed <= largest_speed)) {
       diagnostics_.add(place, fmt::format("{} starts at {} m/s", in_backticks(name), shortest(speed)),
                        fmt::format("expected at most {:g} m/s", largest_speed));

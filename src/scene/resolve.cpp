@@ -14,18 +14,19 @@
 #include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 /// Texts that replace the values of a View, by key. An empty text leaves the key out.
-using Overrides = std::map<std::string_view, std::string>;
+using Overrides = std::map<string_view, string>;
 
-std::string flow(const View& view, const Overrides& overrides = {}) {
-  std::string out;
+string flow(const View& view, const Overrides& overrides = {}) {
+  string out;
   for (const Field& field : view.kind().fields) {
-    std::string text;
+    string text;
     if (const auto it = overrides.find(field.key); it != overrides.end()) {
       text = it->second;
     } else if (const Node* node = view.find(field.key)) {
@@ -40,10 +41,10 @@ std::string flow(const View& view, const Overrides& overrides = {}) {
 
 class Resolver {
  public:
-  Resolver(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder)
+  Resolver(const Node& root, const Inventory& inventory, const Scene& scene, const string& folder)
       : root_(root), inventory_(inventory), scene_(scene), folder_(folder) {}
 
-  std::string run() {
+  string run() {
     const Kind& kind = kind_named("scene");
     const View whole(&root_, kind, Place{});
     line("scene", "1");
@@ -77,33 +78,32 @@ class Resolver {
   }
 
  private:
-  void line(std::string_view key, std::string_view text) { out_ += fmt::format("{}: {}\n", key, text); }
-  void entry(std::string_view key, std::string_view text) { out_ += fmt::format("  {}: {}\n", key, text); }
+  void line(string_view key, string_view text) { out_ += fmt::format("{}: {}\n", key, text); }
+  void entry(string_view key, string_view text) { out_ += fmt::format("  {}: {}\n", key, text); }
 
   /// Writes `key:` for entries to follow, or `key: {}`.
-  void heading(std::string_view key, bool empty) {
+  void heading(string_view key, bool empty) {
     out_ += empty ? fmt::format("{}: {{}}\n", key) : fmt::format("{}:\n", key);
   }
 
-  std::string default_restitution() const { return flow_text(*scene_part(root_, "restitution").find("default")); }
+  string default_restitution() const { return flow_text(*scene_part(root_, "restitution").find("default")); }
 
   /// Writes the colour that was chosen. With one, a mesh would not have the colours of its file.
-  static void add_color(const View& view, const Color& chosen, const std::optional<MeshUse>& mesh,
-                        Overrides& overrides) {
+  static void add_color(const View& view, const Color& chosen, const optional<MeshUse>& mesh, Overrides& overrides) {
     if (view.find("color") == nullptr && !mesh) overrides["color"] = in_quotes(hex_text(chosen));
   }
 
   /// Sets the key `mesh` to the copy in the run's folder, or to the absolute path of a file without a copy.
-  void name_copy(const std::optional<MeshUse>& mesh, Overrides& overrides) const {
+  void name_copy(const optional<MeshUse>& mesh, Overrides& overrides) const {
     for (const MeshFile& file : scene_.meshes) {
       if (!mesh || mesh->file != file.file) continue;
       overrides["mesh"] = in_quotes(file.copy.empty() ? std::filesystem::absolute(file.file).string() : file.copy);
     }
   }
 
-  void bodies(std::string_view key, std::string_view kind) {
+  void bodies(string_view key, string_view kind) {
     heading(key, root_.find(key)->items.empty());
-    for (std::size_t i = 0; i < inventory_.bodies.size(); ++i) {
+    for (size_t i = 0; i < inventory_.bodies.size(); ++i) {
       const BodyEntry& body = inventory_.bodies[i];
       if (body.kind->name != kind) continue;
       Overrides overrides;
@@ -129,10 +129,10 @@ class Resolver {
   }
 
   /// Writes the things of a map that are repeated no time. Their own expressions have no numbers, and stay.
-  void without_members(std::string_view key, std::string_view name) {
+  void without_members(string_view key, string_view name) {
     const Node& map = *root_.find(key);
     const Kind& kind = kind_named(name);
-    for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    for (size_t i = 0; i < map.keys.size(); ++i) {
       if (map.items[i].find_key("repeat") == nullptr) continue;
       const View view(&map.items[i], kind, map.keys[i].place, defaults_for(root_, kind));
       Overrides overrides = whole_paths(view);
@@ -156,7 +156,7 @@ class Resolver {
     return overrides;
   }
 
-  void fixed(std::string_view key, std::string_view kind) {
+  void fixed(string_view key, string_view kind) {
     heading(key, root_.find(key)->items.empty());
     for (const FixedEntry& thing : inventory_.fixed) {
       if (thing.kind->name == kind) entry(thing.key->text, fixed_text(thing));
@@ -164,7 +164,7 @@ class Resolver {
     without_members(key, kind);
   }
 
-  std::string fixed_text(const FixedEntry& thing) const {
+  string fixed_text(const FixedEntry& thing) const {
     const View view = fixed_view(root_, thing);
     const FixedName& known = scene_.roster.fixed[thing.first];
     Overrides overrides;
@@ -178,7 +178,7 @@ class Resolver {
   void strings() {
     if (root_.find("strings") == nullptr) return;
     heading("strings", root_.find("strings")->items.empty());
-    for (std::size_t i = 0; i < inventory_.strings.size(); ++i) {
+    for (size_t i = 0; i < inventory_.strings.size(); ++i) {
       const View view = view_of_string(root_, inventory_.strings[i]);
       Overrides overrides;
       if (view.find("length") == nullptr) overrides["length"] = shortest(scene_.world.strings[i].length);
@@ -191,7 +191,7 @@ class Resolver {
     const Node* node = root_.find("regions");
     if (node == nullptr) return;
     heading("regions", node->items.empty());
-    for (std::size_t i = 0; i < node->keys.size(); ++i)
+    for (size_t i = 0; i < node->keys.size(); ++i)
       entry(node->keys[i].text, flow(View(&node->items[i], kind_named("region"), Place{})));
   }
 
@@ -235,7 +235,7 @@ class Resolver {
     const Node* node = root_.find("lights");
     if (node == nullptr) return;
     heading("lights", node->items.empty());
-    for (std::size_t i = 0; i < node->keys.size(); ++i) {
+    for (size_t i = 0; i < node->keys.size(); ++i) {
       if (node->items[i].find_key("repeat") != nullptr) continue;
       const bool ambient = node->keys[i].text == "ambient";
       entry(node->keys[i].text,
@@ -270,7 +270,7 @@ class Resolver {
     return (kind.name != "plots" && kind.name != "regions") || kind.asked(scene_.output);
   }
 
-  std::string output_text(const View& view, const OutputKind& kind) const {
+  string output_text(const View& view, const OutputKind& kind) const {
     const View part = view.part(kind.name, kind.name);
     Overrides overrides;
     // Decoding may give a GIF another rate than that of frames.
@@ -287,14 +287,14 @@ class Resolver {
   const Node& root_;
   const Inventory& inventory_;
   const Scene& scene_;
-  const std::string& folder_;  // of the scene file
-  std::string out_;
+  const string& folder_;  // of the scene file
+  string out_;
 };
 
 }  // namespace
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
+string in_quotes(string_view text) {
+  string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
     out += c;
@@ -302,13 +302,13 @@ std::string in_quotes(std::string_view text) {
   return out + "\"";
 }
 
-std::string flow_text(const Node& node) {
+string flow_text(const Node& node) {
   if (node.is(Node::Kind::scalar)) {
     const bool plain = !node.quoted && (is_name(node.text) || parse_number(node.text));
     return plain ? node.text : in_quotes(node.text);
   }
-  std::string out;
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
+  string out;
+  for (size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) out += ", ";
     if (node.is(Node::Kind::map)) out += node.keys[i].text + ": ";
     out += flow_text(node.items[i]);
@@ -316,7 +316,7 @@ std::string flow_text(const Node& node) {
   return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
 }
 
-std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder) {
+string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const string& folder) {
   return Resolver(root, inventory, scene, folder).run();
 }
 

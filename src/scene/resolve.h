@@ -1,21 +1,20 @@
 #pragma once
 // A scene to the equivalent YAML text that needs no defaults.
-#include <string>
-#include <string_view>
 
 #include "scene/decode.h"
+#include "std.h"
 
 namespace carom {
 
 /// `text` as a YAML scalar that is always read as text.
-std::string in_quotes(std::string_view text);
+string in_quotes(string_view text);
 
 /// A value as YAML in one line, numbers as authored.
-std::string flow_text(const Node& node);
+string flow_text(const Node& node);
 
 /// The scene with every default written out and numbers as authored.
 /// Loading it gives the same Scene, and resolving that gives the same text.
 /// Keys stand in the order of the table, and things in the order of the file. Groups stay groups.
-std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const std::string& folder);
+string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const string& folder);
 
 }  // namespace carom

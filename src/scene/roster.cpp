@@ -4,18 +4,19 @@
 #include "scene/caption.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 
-std::string_view family_of(std::string_view name) {
-  const std::size_t dot = name.rfind('.');
-  return dot != std::string_view::npos && parse_index(name.substr(dot + 1)) ? name.substr(0, dot) : std::string_view();
+string_view family_of(string_view name) {
+  const size_t dot = name.rfind('.');
+  return dot != string_view::npos && parse_index(name.substr(dot + 1)) ? name.substr(0, dot) : string_view();
 }
 
-std::string_view BodyRange::thing() const {
-  const std::string_view family = family_of(name);
-  return family.empty() ? std::string_view(name) : family;
+string_view BodyRange::thing() const {
+  const string_view family = family_of(name);
+  return family.empty() ? string_view(name) : family;
 }
 
 const BodyRange& Roster::range_of(Entity body) const {
@@ -26,27 +27,26 @@ const BodyRange& Roster::range_of(Entity body) const {
   return *(after - 1);
 }
 
-std::string Roster::name(Entity e) const {
+string Roster::name(Entity e) const {
   if (!bodies.empty() && e < bodies.back().first + bodies.back().count) {
     const BodyRange& range = range_of(e);
     return range.group ? range.name + "." + std::to_string(e - range.first) : range.name;
   }
   const Entity body_count = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
-  const std::size_t after_bodies = e - body_count;
+  const size_t after_bodies = e - body_count;
   return after_bodies < fixed.size() ? fixed[after_bodies].name : strings.at(after_bodies - fixed.size());
 }
 
 bool may_stop(const Scene& scene) {
-  const std::vector<WorldRegion>& regions = scene.world.regions;
+  const vector<WorldRegion>& regions = scene.world.regions;
   return scene.simulate.stop_at_rest || scene.simulate.stop_collisions ||
-         std::any_of(regions.begin(), regions.end(), [](const WorldRegion& region) { return region.stops; });
+         std::ranges::any_of(regions, [](const WorldRegion& region) { return region.stops; });
 }
 
 bool colors_by_collisions(const Scene& scene) {
-  const std::vector<BodyRange>& bodies = scene.roster.bodies;
-  return std::any_of(bodies.begin(), bodies.end(), [](const BodyRange& range) {
-    return range.coloring && range.coloring->by == ColorQuantity::collisions;
-  });
+  const vector<BodyRange>& bodies = scene.roster.bodies;
+  return std::ranges::any_of(
+      bodies, [](const BodyRange& range) { return range.coloring && range.coloring->by == ColorQuantity::collisions; });
 }
 
 bool drawings_show_collisions(const Scene& scene) {

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "numerics/elementary.h"
 #include "numerics/whole.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -41,19 +41,19 @@ struct DecimalLattice {
 };
 
 /// None: the ends or the numbers need too many digits.
-std::optional<DecimalLattice> lattice_of(const SampledRange& range, Wide needed) {
+optional<DecimalLattice> lattice_of(const SampledRange& range, Wide needed) {
   const int places = std::max(range.from.places, range.to.places);
   DecimalLattice all{range.from.units * power(places - range.from.places),
                      range.to.units * power(places - range.to.places), 1, places};
   const auto largest = [&] { return std::max(all.from < 0 ? -all.from : all.from, all.to < 0 ? -all.to : all.to); };
   // Borders of parts are products by the number of parts, up to 10^6, and must not overflow.
-  if (largest() >= power(most_digits + 6)) return std::nullopt;
+  if (largest() >= power(most_digits + 6)) return nullopt;
   for (; all.to - all.from < needed; ++all.places) {
     all.from *= 10;
     all.to *= 10;
   }
   while ((all.to - all.from) / (10 * all.step) >= needed) all.step *= 10;
-  return largest() / all.step < power(most_digits) ? std::optional(all) : std::nullopt;
+  return largest() / all.step < power(most_digits) ? optional(all) : nullopt;
 }
 
 /// The least whole number that is not below a / b. b > 0.
@@ -62,18 +62,18 @@ Wide ceiling(Wide a, Wide b) {
 }
 
 /// A multiple m of the step with from + width number / count <= m < from + width (number + 1) / count.
-std::string linear(const DecimalLattice& all, const RangePart& part, Random& random) {
+string linear(const DecimalLattice& all, const RangePart& part, Random& random) {
   const auto first_beyond = [&](Wide border) {
     return ceiling(all.from * part.count + (all.to - all.from) * border, all.step * part.count);
   };
   Wide first = first_beyond(part.number);
   if (first * all.step == all.from) ++first;
-  const auto many = static_cast<std::uint64_t>(first_beyond(part.number + 1) - first);
+  const auto many = static_cast<uint64_t>(first_beyond(part.number + 1) - first);
   return to_text({(first + static_cast<Wide>(random.below(many))) * all.step, all.places});
 }
 
 /// The whole numbers may be fewer than the parts: each is then drawn for several of them.
-std::string whole(Wide from, Wide to, const RangePart& part, Random& random) {
+string whole(Wide from, Wide to, const RangePart& part, Random& random) {
   constexpr Wide shares = Wide{1} << 32;
   const Wide share = part.number * shares + static_cast<Wide>(random.below(shares));
   return to_text({from + share * (to - from + 1) / (part.count * shares), 0});
@@ -92,16 +92,16 @@ class Logarithmic {
   }
 
   /// A number of the part that is neither end of the range.
-  std::string rounded(const RangePart& part, int digits, Random& random) const {
+  string rounded(const RangePart& part, int digits, Random& random) const {
     while (true) {
-      const std::string text = fmt::format("{:.{}e}", number(part, random.uniform()), digits - 1);
+      const string text = fmt::format("{:.{}e}", number(part, random.uniform()), digits - 1);
       const double value = parse_number(text).value_or(from_);
       if (value > from_ && value < to_ && value >= number(part, 0) && value < number(part, 1)) return shortest(value);
     }
   }
 
   /// A whole number, where `to` is one more than the last of them.
-  std::string whole(const RangePart& part, Random& random) const {
+  string whole(const RangePart& part, Random& random) const {
     return to_text({whole_below(std::clamp(number(part, random.uniform()), from_, to_ - 1)), 0});
   }
 
@@ -115,29 +115,29 @@ class Logarithmic {
 };
 
 /// The parts in random order (Fisher & Yates).
-std::vector<Wide> shuffled(std::uint64_t count, Random& random) {
-  std::vector<Wide> order(count);
+vector<Wide> shuffled(uint64_t count, Random& random) {
+  vector<Wide> order(count);
   std::iota(order.begin(), order.end(), Wide{0});
-  for (std::uint64_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  for (uint64_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
   return order;
 }
 
 }  // namespace
 
-std::vector<std::string> samples(const SampledRange& range, Sampling sampling, std::uint64_t count, Random& random) {
+vector<string> samples(const SampledRange& range, Sampling sampling, uint64_t count, Random& random) {
   const bool latin = sampling == Sampling::latin;
   const Wide parts = latin ? static_cast<Wide>(count) : 1;
   const Wide needed = std::max(fewest, fewest_in_part * parts);
   const double from = parse_number(to_text(range.from)).value_or(0), to = parse_number(to_text(range.to)).value_or(0);
   const Logarithmic logarithmic(range.log ? from : 1, range.log ? to + (range.whole ? 1 : 0) : 2);
   const int digits = logarithmic.digits(needed);
-  std::optional<DecimalLattice> lattice;
+  optional<DecimalLattice> lattice;
   if (range.whole ? to >= 1e15 : range.log && digits > most_digits) return {};
   if (!range.whole && !range.log && !(lattice = lattice_of(range, needed))) return {};
-  std::vector<Wide> order;
+  vector<Wide> order;
   if (latin) order = shuffled(count, random);
-  std::vector<std::string> out;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  vector<string> out;
+  for (uint64_t i = 0; i < count; ++i) {
     const RangePart part{latin ? order[i] : 0, parts};
     if (range.whole)
       out.push_back(range.log ? logarithmic.whole(part, random)

@@ -1,10 +1,8 @@
 #pragma once
 // Numbers drawn from ranges by a seed, for sweeps: independently, or as a Latin hypercube.
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "scene/random.h"
+#include "std.h"
 #include "yaml/decimal.h"
 
 namespace carom {
@@ -16,7 +14,7 @@ struct SampledRange {
   bool whole = false;  // whole numbers, both ends included
 };
 
-enum class Sampling : std::uint8_t {
+enum class Sampling : uint8_t {
   random,  // independent of one another
   latin    // one in each of `count` equal parts of the range, in random order
 };
@@ -26,6 +24,6 @@ enum class Sampling : std::uint8_t {
 /// It is the largest that leaves 100,000 numbers in the range and 1000 in each part of a Latin hypercube.
 /// All of them are equally likely, so that the mean is that of the range. With `log` numbers have as few digits.
 /// More `random` numbers begin with those of fewer.
-std::vector<std::string> samples(const SampledRange& range, Sampling sampling, std::uint64_t count, Random& random);
+vector<string> samples(const SampledRange& range, Sampling sampling, uint64_t count, Random& random);
 
 }  // namespace carom

@@ -1,12 +1,6 @@
 #pragma once
 // The whole request of a scene file, checked and constant from here on. Types only; load.h reads files into them.
-#include <array>
-#include <cstdint>
 #include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/state.h"
@@ -16,13 +10,14 @@
 #include "scene/output.h"
 #include "scene/overlay.h"
 #include "scene/simulate_settings.h"
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
 
 /// A mesh drawn in place of a volume. A vertex p of the file is drawn at position + scale * (p - center).
 struct MeshUse {
-  std::string file;            // relative to the working folder
+  string file;                 // relative to the working folder
   Vec3 center = Vec3::Zero();  // in the file's own units
   double scale = 1;            // m per unit of the file
   bool own_colors = false;     // the scene gives no colour: those of the file, where it has any
@@ -32,54 +27,54 @@ struct MeshUse {
 /// A mesh file of the scene. The run's folder keeps a copy that the resolved text names.
 /// The folder then runs by itself.
 struct MeshFile {
-  std::string file;  // as in MeshUse
+  string file;  // as in MeshUse
   /// A plain file name, distinct from every other output's.
   /// Empty: a .gltf, or an .obj with materials, which is not copied because it refers to further files.
-  std::string copy;
+  string copy;
   /// Where a thing without a colour of its own names it, for errors of its textures. None: all have a colour.
-  std::optional<Place> uncolored = std::nullopt;
+  optional<Place> uncolored = nullopt;
 };
 
 /// The name of the repeated thing that a member belongs to: `bricks` of `bricks.3`. Empty: it is no member.
-std::string_view family_of(std::string_view name);
+string_view family_of(string_view name);
 
 /// A name of the scene file and its bodies: one ball or body, or a group's members name.0, name.1, ...
 struct BodyRange {
-  std::string name;
+  string name;
   Entity first = 0;
   Entity count = 1;
   bool group = false;
   Color color;
-  std::optional<MeshUse> mesh = std::nullopt;
-  std::optional<Coloring> coloring = std::nullopt;  // takes the place of `color` in pictures
+  optional<MeshUse> mesh = nullopt;
+  optional<Coloring> coloring = nullopt;  // takes the place of `color` in pictures
 
   /// The name in the file: that of the repeated thing of which this is a member, or its own.
-  std::string_view thing() const;
+  string_view thing() const;
 };
 
 struct FixedName {
   /// room.x_min etc. for the planes of a room.
-  std::string name;
+  string name;
   Color color;
   bool visible = true;
-  std::optional<MeshUse> mesh = std::nullopt;  // only of an obstacle
+  optional<MeshUse> mesh = nullopt;  // only of an obstacle
 };
 
 /// A thing with `repeat: 0`.
 struct EmptyFamily {
-  std::string_view of;  // the key of the scene: "balls", "strings"
-  std::string name;
+  string_view of;  // the key of the scene: "balls", "strings"
+  string name;
 };
 
 /// The names of bodies, fixed things and strings, in the order of the file. Every output has this order.
 struct Roster {
-  std::vector<BodyRange> bodies;  // ordered by first body
+  vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
-  std::vector<FixedName> fixed;
-  std::vector<std::string> strings;              // by number in World::strings
-  std::vector<std::string> regions;              // by number in World::regions
-  std::vector<EmptyFamily> empty;                // in no particular order
-  std::string name(Entity e) const;              // "red", "gas.17", "lane", "s1"
+  vector<FixedName> fixed;
+  vector<string> strings;                        // by number in World::strings
+  vector<string> regions;                        // by number in World::regions
+  vector<EmptyFamily> empty;                     // in no particular order
+  string name(Entity e) const;                   // "red", "gas.17", "lane", "s1"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
 
@@ -120,53 +115,53 @@ struct CameraPlan : Camera {
   /// It frames the motion. Eye, target, near and far come from that.
   bool fit = false;
   /// Eye and target are those of time 0, and go with these bodies.
-  std::optional<Followed> follow;
+  optional<Followed> follow;
   /// Eye, target and fov come from these. Ascending in time.
-  std::vector<Keyframe> path;
+  vector<Keyframe> path;
 };
 
 struct Light {
-  std::string name;
+  string name;
   /// The direction in which the light travels. Exactly one of `direction` and `position` is set.
-  std::optional<Vec3> direction;
-  std::optional<Vec3> position;  // m
+  optional<Vec3> direction;
+  optional<Vec3> position;  // m
   Color color;
   double intensity = 1;
 };
 
 /// A measure that the scene defines: a column of its summary.csv.
 struct OwnMeasure {
-  std::string name;
-  std::string text;  // a measure, or '=' and an expression of measures (run/measure.h)
+  string name;
+  string text;  // a measure, or '=' and an expression of measures (run/measure.h)
 };
 
 /// What the scene measures, and the numbers that measures may name.
 struct Measures {
-  std::vector<OwnMeasure> own;            // in the order of the file
-  std::map<std::string, double> numbers;  // of `let`
+  vector<OwnMeasure> own;            // in the order of the file
+  std::map<string, double> numbers;  // of `let`
 };
 
 /// Where values of the scene come from, if not from its file as numbers.
 struct MadeFrom {
   /// The texts of expressions in the file, by their paths (expand.h).
-  std::map<std::string, std::string> expressions{};
-  std::optional<StartedFrom> start{};
+  std::map<string, string> expressions{};
+  optional<StartedFrom> start{};
   /// Sentences on the start that the author may not expect.
-  std::vector<std::string> notes{};
+  vector<string> notes{};
 };
 
 struct Scene {
-  std::string file;  // as given on the command line
-  std::string title;
-  std::uint64_t seed = 0;
+  string file;  // as given on the command line
+  string title;
+  uint64_t seed = 0;
   World world;
   State initial;  // at time 0, before impulses
   Roster roster;
   Simulate simulate;
-  std::optional<CameraPlan> camera;  // none: one that frames the motion
-  std::vector<Light> lights;         // empty: the renderer's default lights
-  std::optional<Color> ambient;
-  std::optional<Color> background;
+  optional<CameraPlan> camera;  // none: one that frames the motion
+  vector<Light> lights;         // empty: the renderer's default lights
+  optional<Color> ambient;
+  optional<Color> background;
   bool transparent = false;  // there is no background
   Overlay overlay;
   Output output;
@@ -174,11 +169,11 @@ struct Scene {
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
   /// In s: where the run is known to end, if that is before its duration. The loader does not know.
-  std::optional<double> ends_at{};
-  std::vector<MeshFile> meshes;  // each file once
+  optional<double> ends_at{};
+  vector<MeshFile> meshes;  // each file once
   MadeFrom made_from;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
-  std::string resolved;
+  string resolved;
 };
 
 /// The end of the run as far as it is known (s).

@@ -2,11 +2,9 @@
 // It reads the text itself and not a decoded Scene, so that values keep their paths and places.
 #include "scene/scene_values.h"
 
-#include <array>
-#include <string_view>
-
 #include "scene/fields.h"
 #include "scene/load.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 #include "yaml/values.h"
@@ -16,11 +14,11 @@ namespace {
 
 class Flattener {
  public:
-  void map(const std::string& path, const Node& node, const Kind& kind) {
+  void map(const string& path, const Node& node, const Kind& kind) {
     if (!node.is(Node::Kind::map)) return leaf(path, node, {});
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
+    for (size_t i = 0; i < node.items.size(); ++i) {
       const Field* field = find_field(kind, node.keys[i].text);
-      const std::string below = path.empty() ? node.keys[i].text : path + "." + node.keys[i].text;
+      const string below = path.empty() ? node.keys[i].text : path + "." + node.keys[i].text;
       if (field == nullptr)
         leaf(below, node.items[i], {});
       else
@@ -28,10 +26,10 @@ class Flattener {
     }
   }
 
-  std::vector<SceneValue> found;
+  vector<SceneValue> found;
 
  private:
-  void value(const std::string& path, const Node& node, const Field& field) {
+  void value(const string& path, const Node& node, const Field& field) {
     switch (field.type) {
       case Type::part:
       case Type::part_or_flag:
@@ -39,18 +37,18 @@ class Flattener {
         return map(path, node, kind_named(field.of));
       case Type::named:
         if (!node.is(Node::Kind::map)) return leaf(path, node, {});
-        for (std::size_t i = 0; i < node.items.size(); ++i)
+        for (size_t i = 0; i < node.items.size(); ++i)
           map(path + "." + node.keys[i].text, node.items[i], kind_named(field.of));
         return;
       case Type::values:
       case Type::texts:
         if (!node.is(Node::Kind::map)) return leaf(path, node, {});
-        for (std::size_t i = 0; i < node.items.size(); ++i) leaf(path + "." + node.keys[i].text, node.items[i], {});
+        for (size_t i = 0; i < node.items.size(); ++i) leaf(path + "." + node.keys[i].text, node.items[i], {});
         return;
       case Type::list:
         if (!node.is(Node::Kind::sequence)) return leaf(path, node, {});
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-          const std::string entry = path + "." + std::to_string(i);
+        for (size_t i = 0; i < node.items.size(); ++i) {
+          const string entry = path + "." + std::to_string(i);
           node.items[i].is(Node::Kind::scalar) ? leaf(entry, node.items[i], {})
                                                : map(entry, node.items[i], kind_named(field.of));
         }
@@ -58,36 +56,35 @@ class Flattener {
       case Type::vector:
       case Type::direction:
       case Type::point_or_name:
-        return numbers(path, node, field, std::array<std::string_view, 3>{"x", "y", "z"});
+        return numbers(path, node, field, array<string_view, 3>{"x", "y", "z"});
       case Type::extent:
       case Type::pixels:
-        return numbers(path, node, field, std::array<std::string_view, 2>{"width", "height"});
+        return numbers(path, node, field, array<string_view, 2>{"width", "height"});
       default:
         return leaf(path, node, field.unit);
     }
   }
 
-  template <std::size_t Size>
-  void numbers(const std::string& path, const Node& node, const Field& field,
-               const std::array<std::string_view, Size>& names) {
+  template <size_t Size>
+  void numbers(const string& path, const Node& node, const Field& field, const array<string_view, Size>& names) {
     if (!node.is(Node::Kind::sequence) || node.items.size() != Size) return leaf(path, node, field.unit);
-    for (std::size_t i = 0; i < Size; ++i) leaf(path + "." + std::string(names[i]), node.items[i], field.unit);
+    for (size_t i = 0; i < Size; ++i) leaf(path + "." + string(names[i]), node.items[i], field.unit);
   }
 
-  void leaf(const std::string& path, const Node& node, std::string_view unit) {
-    found.push_back({path, text_of_value(node), std::string(unit), node.place.offset});
+  void leaf(const string& path, const Node& node, string_view unit) {
+    found.push_back({path, text_of_value(node), string(unit), node.place.offset});
   }
 };
 
 }  // namespace
 
-std::string text_of_value(const Node& node) {
+string text_of_value(const Node& node) {
   if (node.is(Node::Kind::scalar)) {
-    const auto number = node.quoted ? std::nullopt : parse_number(node.text);
+    const auto number = node.quoted ? nullopt : parse_number(node.text);
     return number ? shortest(*number) : node.text;
   }
-  std::string text;
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
+  string text;
+  for (size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) text += ", ";
     if (node.is(Node::Kind::map)) text += node.keys[i].text + ": ";
     text += text_of_value(node.items[i]);
@@ -96,10 +93,10 @@ std::string text_of_value(const Node& node) {
   return node.is(Node::Kind::map) ? "{" + text + "}" : text;
 }
 
-std::vector<SceneValue> scene_values(const std::string& name, const std::string& text) {
-  std::vector<Source> sources = {{name, text}};
+vector<SceneValue> scene_values(const string& name, const string& text) {
+  vector<Source> sources = {{name, text}};
   Diagnostics diagnostics(sources);
-  std::optional<Node> root;
+  optional<Node> root;
   if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
   if (!root || !diagnostics.empty()) throw SceneError(diagnostics, false);
   Flattener flattener;
@@ -107,9 +104,9 @@ std::vector<SceneValue> scene_values(const std::string& name, const std::string&
   return std::move(flattener.found);
 }
 
-std::vector<std::string> own_measure_names(const std::string& text) {
-  constexpr std::string_view start = "measures.";
-  std::vector<std::string> names;
+vector<string> own_measure_names(const string& text) {
+  constexpr string_view start = "measures.";
+  vector<string> names;
   try {
     for (const SceneValue& value : scene_values("scene.yaml", text))
       if (value.path.starts_with(start)) names.push_back(value.path.substr(start.size()));

@@ -1,30 +1,29 @@
 #pragma once
 // A scene file as a list of paths and values, for comparing two scenes.
-#include <cstddef>
-#include <string>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 struct Node;
 
 /// A number with its shortest digits, any other value as written.
-std::string text_of_value(const Node& node);
+string text_of_value(const Node& node);
 
 struct SceneValue {
-  std::string path;  // as --set takes it: "balls.red.position.z", "forces.0.acceleration.x"
+  string path;  // as --set takes it: "balls.red.position.z", "forces.0.acceleration.x"
   /// A number with its shortest digits, any other value as written.
-  std::string text;
-  std::string unit;  // "m"; empty: none
+  string text;
+  string unit;  // "m"; empty: none
   /// Bytes, from the start of the text to the value.
-  std::size_t offset = 0;
+  size_t offset = 0;
 };
 
 /// The names of the measures that a scene file's text defines. None if the text is not YAML.
-std::vector<std::string> own_measure_names(const std::string& text);
+vector<string> own_measure_names(const string& text);
 
 /// All values of a scene file's text, in its order, without defaults. `name`: the file's name, for errors.
 /// Throws SceneError if the text is not YAML.
-std::vector<SceneValue> scene_values(const std::string& name, const std::string& text);
+vector<SceneValue> scene_values(const string& name, const string& text);
 
 }  // namespace carom

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "scene/colors.h"
 #include "scene/fields.h"
 #include "scene/formula.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -22,25 +22,25 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::string_view name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
+constexpr string_view name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
 // Members of a repeated thing, as a resolved scene has them.
-constexpr std::string_view member_pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.(0|[1-9][0-9]*))?$)";
+constexpr string_view member_pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.(0|[1-9][0-9]*))?$)";
 // Of numbers that expressions contain.
-constexpr std::string_view variable_pattern = "^[A-Za-z_][A-Za-z0-9_]*$";
+constexpr string_view variable_pattern = "^[A-Za-z_][A-Za-z0-9_]*$";
 constexpr int longest_name = 200, longest_text = 10'000;
-constexpr std::string_view control_characters = R"([\u0000-\u001f\u007f-\u009f\u2028\u2029\ufeff])";
+constexpr string_view control_characters = R"([\u0000-\u001f\u007f-\u009f\u2028\u2029\ufeff])";
 
-Json reference(std::string_view definition) {
+Json reference(string_view definition) {
   return {{"$ref", fmt::format("#/definitions/{}", definition)}};
 }
 
-Json required(const std::vector<std::string_view>& keys) {
+Json required(const vector<string_view>& keys) {
   return {{"required", keys}};
 }
 
 /// The value below `key` matches `schema`.
-Json at(std::string_view key, Json schema) {
-  return {{"properties", {{std::string(key), std::move(schema)}}}};
+Json at(string_view key, Json schema) {
+  return {{"properties", {{string(key), std::move(schema)}}}};
 }
 
 /// The word none, which cancels a default.
@@ -50,17 +50,17 @@ const Json& cancelled() {
 }
 
 /// The key is present, and does not cancel its default.
-Json present(const Kind& kind, std::string_view key) {
+Json present(const Kind& kind, string_view key) {
   Json schema = required({key});
   if (!kind.defaults.empty()) schema.update(at(key, {{"not", cancelled()}}));
   return schema;
 }
 
 /// At least one of the keys is present.
-Json one_required(const Kind& kind, const std::vector<std::string_view>& keys) {
+Json one_required(const Kind& kind, const vector<string_view>& keys) {
   if (keys.size() == 1) return present(kind, keys.front());
   Json any = Json::array();
-  for (const std::string_view key : keys) any.push_back(present(kind, key));
+  for (const string_view key : keys) any.push_back(present(kind, key));
   return {{"anyOf", any}};
 }
 
@@ -76,7 +76,7 @@ Json number_schema(const Range& range) {
 }
 
 Json whole_schema(const Range& range) {
-  constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+  constexpr uint64_t largest = std::numeric_limits<uint64_t>::max();
   if (range.min == range.max) return {{"type", "integer"}, {"const", number_json(range.min)}};
   Json schema = {{"type", "integer"}, {"minimum", number_json(std::max(range.min, 0.0))}};
   schema["maximum"] = range.max < static_cast<double>(largest) ? number_json(range.max) : Json(largest);
@@ -98,9 +98,9 @@ Json text_schema(const Field& field) {
 }
 
 /// A pattern that matches the words in any case: [rR][eE][dD]|...
-std::string in_any_case(const std::vector<std::string_view>& words) {
-  std::string pattern = "^(";
-  for (const std::string_view word : words) {
+string in_any_case(const vector<string_view>& words) {
+  string pattern = "^(";
+  for (const string_view word : words) {
     if (word != words.front()) pattern += '|';
     for (const char c : word) pattern += fmt::format("[{}{}]", c, static_cast<char>(c - 32));
   }
@@ -121,7 +121,7 @@ Json named_schema(const Kind& kind) {
   const bool repeats = find_field(kind, "repeat") != nullptr;
   schema["propertyNames"] = {
       {"type", "string"}, {"pattern", repeats ? member_pattern : name_pattern}, {"maxLength", longest_name}};
-  if (kind.also != nullptr) schema["properties"] = {{std::string(kind.also->key), field_schema(*kind.also)}};
+  if (kind.also != nullptr) schema["properties"] = {{string(kind.also->key), field_schema(*kind.also)}};
   schema["additionalProperties"] = reference(kind.name);
   return schema;
 }
@@ -152,7 +152,7 @@ Json repeat_schema() {
 
 Json choice_schema(const Field& field) {
   Json all = Json::array();
-  for (const std::string_view choice : choices(field)) all.push_back(json_of_yaml(choice));
+  for (const string_view choice : choices(field)) all.push_back(json_of_yaml(choice));
   return {{"enum", all}};
 }
 
@@ -233,7 +233,7 @@ Json value_schema(const Field& field) {
 
 Json field_schema(const Field& field) {
   Json schema;
-  const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
+  const string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
   schema["title"] = title_of(field) + unit;
   schema["description"] = described(field);
   schema.update(value_schema(field));
@@ -243,7 +243,7 @@ Json field_schema(const Field& field) {
 }
 
 /// A rule for maps in which `key` is present. If the kind has defaults, its value may cancel one, and no rule holds.
-Json if_present(const Kind& kind, std::string_view key, Json rule) {
+Json if_present(const Kind& kind, string_view key, Json rule) {
   if (kind.defaults.empty()) return rule;
   return {{"if", at(key, {{"not", cancelled()}})}, {"then", std::move(rule)}};
 }
@@ -254,11 +254,11 @@ Json exclusions(const Kind& kind) {
   for (const Field& field : kind.fields) {
     Json later = Json::object();
     bool passed = false;
-    for (const std::string_view key : parts_of(field.one_of)) {
-      if (passed) later[std::string(key)] = kind.defaults.empty() ? Json(false) : cancelled();
+    for (const string_view key : parts_of(field.one_of)) {
+      if (passed) later[string(key)] = kind.defaults.empty() ? Json(false) : cancelled();
       passed = passed || key == field.key;
     }
-    if (!later.empty()) all[std::string(field.key)] = if_present(kind, field.key, {{"properties", later}});
+    if (!later.empty()) all[string(field.key)] = if_present(kind, field.key, {{"properties", later}});
   }
   return all;
 }
@@ -275,16 +275,16 @@ Json engine_rule(const Field& field, const Field* part = nullptr) {
     of_part.update(at(part->key, when));
     when = of_part;
   }
-  const std::vector<std::string_view> engines = parts_of(field.engines);
+  const vector<string_view> engines = parts_of(field.engines);
   const Field& engine = *find_field(kind_named("simulate"), "engine");
   Json then = at(engine.key, {{"enum", engines}});
-  if (std::find(engines.begin(), engines.end(), engine.initial) == engines.end()) then.update(required({engine.key}));
+  if (std::ranges::find(engines, engine.initial) == engines.end()) then.update(required({engine.key}));
   return {{"if", when}, {"then", then}};
 }
 
 /// Field::with, of a kind without defaults.
 Json beside_rule(const Kind& kind, const Field& field) {
-  std::vector<std::string_view> keys = parts_of(field.spared_by);
+  vector<string_view> keys = parts_of(field.spared_by);
   keys.insert(keys.begin(), field.with);
   return {{"if", required({field.key})}, {"then", one_required(kind, keys)}};
 }
@@ -336,9 +336,9 @@ void allow_expressions(Json& schema) {
 Json kind_schema(const Kind& kind) {
   Json schema = {{"description", kind.doc}, {"type", "object"}};
   Json properties = Json::object(), rules = Json::array();
-  std::vector<std::string_view> keys;
+  vector<string_view> keys;
   for (const Field& field : kind.fields) {
-    Json& property = properties[std::string(field.key)] = field_schema(field);
+    Json& property = properties[string(field.key)] = field_schema(field);
     if (!kind.defaults.empty() && !field.own && field.type != Type::text) property = or_none(std::move(property));
     if (!field.engines.empty() && kind.name == "simulate") rules.push_back(engine_rule(field));
     if (field.type == Type::part && kind.name == "simulate")
@@ -366,7 +366,7 @@ Json kind_schema(const Kind& kind) {
 }
 
 /// `defaults` has one of these keys for maps of this kind.
-Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
+Json has_default(const Kind& kind, const vector<string_view>& keys) {
   Json part = required({kind.defaults});
   part.update(at(kind.defaults, one_required(kind, keys)));
   Json whole = required({"defaults"});
@@ -380,7 +380,7 @@ bool is_part_with_defaults(const Field& field) {
 }
 
 /// Adds the required keys of a kind that has defaults. `each` wraps a schema of one map into one of the root.
-void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& rules) {
+void add_rules(const Kind& kind, const function<Json(Json)>& each, Json& rules) {
   for (const auto& need : needs_of(kind))
     if (!is_part_with_defaults(*find_field(kind, need.front())))
       rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(kind, need))}});
@@ -388,9 +388,9 @@ void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& ru
     if (field.with.empty()) continue;
     // The rule holds where the key is present, and where the default takes effect because no rival hides it.
     const Json beside = {
-        {"dependencies", {{std::string(field.key), if_present(kind, field.key, present(kind, field.with))}}}};
+        {"dependencies", {{string(field.key), if_present(kind, field.key, present(kind, field.with))}}}};
     rules.push_back({{"if", has_default(kind, {field.with})}, {"else", each(beside)}});
-    std::vector<std::string_view> hiding = rivals(field);
+    vector<string_view> hiding = rivals(field);
     hiding.push_back(field.with);
     Json hidden = Json::array({one_required(kind, hiding), required({field.key})});
     hidden[1].update(at(field.key, cancelled()));
@@ -401,7 +401,7 @@ void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& ru
 }
 
 /// A part with defaults of its own. It stands in the map of `owner`, or comes complete from the owner's defaults.
-void add_part_rules(const Kind& owner, const Field& field, const std::function<Json(Json)>& each, Json& rules) {
+void add_part_rules(const Kind& owner, const Field& field, const function<Json(Json)>& each, Json& rules) {
   const Kind& kind = kind_named(field.of);
   add_rules(
       kind, [&](Json schema) { return each(at(field.key, std::move(schema))); }, rules);
@@ -435,10 +435,10 @@ Json root_rules(const Kind& root) {
 }
 
 /// Collects the kinds that a map of `kind` can hold, each once, in order.
-void collect(const Kind& kind, std::vector<const Kind*>& found) {
+void collect(const Kind& kind, vector<const Kind*>& found) {
   for (const Field& field : kind.fields) {
     const Kind* held = held_kind(field);
-    if (held == nullptr || std::find(found.begin(), found.end(), held) != found.end()) continue;
+    if (held == nullptr || std::ranges::find(found, held) != found.end()) continue;
     found.push_back(held);
     collect(*held, found);
   }
@@ -446,7 +446,7 @@ void collect(const Kind& kind, std::vector<const Kind*>& found) {
 
 }  // namespace
 
-std::string json_schema(std::string_view root_name) {
+string json_schema(string_view root_name) {
   const Kind& root = kind_named(root_name);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", fmt::format("carom: {}", root.name)}};
@@ -455,10 +455,10 @@ std::string json_schema(std::string_view root_name) {
     if (!schema.contains("allOf")) schema["allOf"] = Json::array();
     for (Json& rule : rules) schema["allOf"].push_back(std::move(rule));
   }
-  std::vector<const Kind*> held;
+  vector<const Kind*> held;
   collect(root, held);
   Json definitions = {{"color", color_schema()}};
-  for (const Kind* kind : held) definitions[std::string(kind->name)] = kind_schema(*kind);
+  for (const Kind* kind : held) definitions[string(kind->name)] = kind_schema(*kind);
   if (root_name == "scene") {
     allow_expressions(schema);
     allow_expressions(definitions);

@@ -1,7 +1,7 @@
 #pragma once
 // The table of fields as a JSON Schema, with which editors and other programs complete and check scene files.
-#include <string>
-#include <string_view>
+
+#include "std.h"
 
 namespace carom {
 
@@ -9,6 +9,6 @@ namespace carom {
 /// The loader refuses all that it refuses.
 /// The loader also refuses errors that types, ranges and keys cannot express.
 /// These are unknown names, contradictory values, overlaps and missing files.
-std::string json_schema(std::string_view root);
+string json_schema(string_view root);
 
 }  // namespace carom

@@ -11,40 +11,40 @@
 #include "scene/check.h"
 #include "scene/fields.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 struct Step {
-  std::string text;
+  string text;
   Place place;
 };
 
-std::vector<Step> split_path(std::string_view path, std::uint32_t index) {
-  std::vector<Step> steps;
-  for (std::size_t i = 0; i <= path.size();) {
-    const std::size_t end = std::min(path.find('.', i), path.size());
-    const std::size_t length = end - i;
-    steps.push_back(
-        {std::string(path.substr(i, length)),
-         {index, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(std::max<std::size_t>(length, 1))}});
+vector<Step> split_path(string_view path, uint32_t index) {
+  vector<Step> steps;
+  for (size_t i = 0; i <= path.size();) {
+    const size_t end = std::min(path.find('.', i), path.size());
+    const size_t length = end - i;
+    steps.push_back({string(path.substr(i, length)),
+                     {index, static_cast<uint32_t>(i), static_cast<uint32_t>(std::max<size_t>(length, 1))}});
     i = end + 1;
   }
   return steps;
 }
 
-std::vector<std::string_view> names_in(const Node& node) {
-  std::vector<std::string_view> names;
+vector<string_view> names_in(const Node& node) {
+  vector<string_view> names;
   for (const Key& key : node.keys) names.push_back(key.text);
   return names;
 }
 
-void erase(Node& map, std::string_view key) {
-  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+void erase(Node& map, string_view key) {
+  for (size_t i = 0; i < map.keys.size(); ++i) {
     if (map.keys[i].text != key) continue;
-    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
-    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+    map.keys.erase(map.keys.begin() + static_cast<ptrdiff_t>(i));
+    map.items.erase(map.items.begin() + static_cast<ptrdiff_t>(i));
     return;
   }
 }
@@ -71,7 +71,7 @@ class Walk {
 
  private:
   /// Takes back what was changed on the way, so that the checks do not complain about it.
-  bool refuse(const Step& step, std::string message, std::string remedy) {
+  bool refuse(const Step& step, string message, string remedy) {
     if (changed_ != nullptr) {
       erase(*changed_, new_key_);
       for (auto& [key, value] : replaced_) {
@@ -101,7 +101,7 @@ class Walk {
                                 kind_->name == "scene" ? "the scene" : in_backticks(kind_->name)),
                     suggest_key(step.text, *kind_));
     }
-    for (const std::string_view rival : rivals(*field)) replace(rival, *field);
+    for (const string_view rival : rivals(*field)) replace(rival, *field);
     Node* child = node_->find(field->key);
     if (child == nullptr) {
       if (changed_ == nullptr) changed_ = node_;
@@ -122,22 +122,22 @@ class Walk {
   }
 
   /// Erases a key that `by` excludes, and those that stood beside it and have no place beside `by`.
-  void replace(std::string_view key, const Field& by) {
+  void replace(string_view key, const Field& by) {
     if (node_->find_key(key) == nullptr) return;
     take_out(key);
     for (const Field& other : kind_->fields) {
       if (other.with.empty()) continue;
-      std::vector<std::string_view> companions = parts_of(other.spared_by);
+      vector<string_view> companions = parts_of(other.spared_by);
       companions.push_back(other.with);
-      const bool stood = std::find(companions.begin(), companions.end(), key) != companions.end();
-      const bool stays = std::any_of(companions.begin(), companions.end(), [&](std::string_view companion) {
+      const bool stood = std::ranges::find(companions, key) != companions.end();
+      const bool stays = std::ranges::any_of(companions, [&](string_view companion) {
         return companion == by.key || node_->find_key(companion) != nullptr;
       });
       if (stood && !stays) take_out(other.key);
     }
   }
 
-  void take_out(std::string_view key) {
+  void take_out(string_view key) {
     if (node_->find_key(key) == nullptr) return;
     if (changed_ == nullptr) changed_ = node_;
     if (changed_ == node_) replaced_.emplace_back(*node_->find_key(key), *node_->find(key));
@@ -169,15 +169,15 @@ class Walk {
         return true;
       }
       case Type::list: {
-        const std::optional<std::uint64_t> i = parse_index(step.text);
+        const optional<uint64_t> i = parse_index(step.text);
         if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
-          const std::size_t count = node_->items.size();
+          const size_t count = node_->items.size();
           return refuse(step, fmt::format("{} has no entry {}", in_backticks(before_), in_backticks(step.text)),
                         count == 0   ? fmt::format("it has none: set all of {}", in_backticks(before_))
                         : count == 1 ? "its only entry is 0"
                                      : fmt::format("its entries are 0 to {}", count - 1));
         }
-        node_ = &node_->items[static_cast<std::size_t>(*i)];
+        node_ = &node_->items[static_cast<size_t>(*i)];
         kind_ = &kind_named(field_->of);
         return true;
       }
@@ -193,12 +193,12 @@ class Walk {
     }
   }
 
-  bool refuse_name(const Step& step, std::string message) {
-    const std::string suggestion = suggest_name(step.text, names_in(*node_));
-    constexpr std::string_view rule = "--set changes existing entries and adds none";
+  bool refuse_name(const Step& step, string message) {
+    const string suggestion = suggest_name(step.text, names_in(*node_));
+    constexpr string_view rule = "--set changes existing entries and adds none";
     return refuse(step, std::move(message),
                   suggestion.starts_with("did") ? suggestion
-                  : suggestion.empty()          ? std::string(rule)
+                  : suggestion.empty()          ? string(rule)
                                                 : fmt::format("{}\n{}", suggestion, rule));
   }
 
@@ -206,7 +206,7 @@ class Walk {
   Node* member(const Step& step) {
     if (!node_->is(Node::Kind::map)) return nullptr;
     if (!family_.empty()) {
-      const std::string name = family_ + "." + step.text;
+      const string name = family_ + "." + step.text;
       family_.clear();
       return node_->find(name);
     }
@@ -217,7 +217,7 @@ class Walk {
   bool into_named(const Step& step) {
     const Kind& kind = kind_named(field_->of);
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
-    const std::string family = family_;
+    const string family = family_;
     if (child == nullptr) child = member(step);
     if (child == nullptr && !family_.empty()) return true;
     if (child == nullptr && !family.empty())
@@ -234,8 +234,8 @@ class Walk {
     return true;
   }
 
-  bool into_numbers(const Step& step, const std::vector<std::string_view>& names) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
+  bool into_numbers(const Step& step, const vector<string_view>& names) {
+    for (size_t i = 0; i < names.size(); ++i) {
       if (step.text != names[i]) continue;
       if (!node_->is(Node::Kind::sequence) || node_->items.size() != names.size()) {
         return refuse(step, fmt::format("{} has no numbers yet", in_backticks(before_)),
@@ -254,35 +254,35 @@ class Walk {
   /// The kind of the map that node_ is. Null: node_ is a value of field_.
   const Kind* kind_;
   const Field* field_ = nullptr;
-  bool done_ = false;   // node_ has no parts
-  std::string family_;  // see member()
-  std::string before_ = "scene";
+  bool done_ = false;  // node_ has no parts
+  string family_;      // see member()
+  string before_ = "scene";
   /// The first map that a step changed, the key that it got, and those that this key replaced. Null: no step did.
   Node* changed_ = nullptr;
-  std::string new_key_;
-  std::vector<std::pair<Key, Node>> replaced_;
+  string new_key_;
+  vector<std::pair<Key, Node>> replaced_;
   Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void apply_setting(Node& root, std::vector<Source>& sources, std::uint32_t index, Diagnostics& diagnostics) {
-  const std::string& text = sources[index].text;
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    diagnostics.add({index, 0, static_cast<std::uint32_t>(std::max<std::size_t>(text.size(), 1))}, "this sets nothing",
+void apply_setting(Node& root, vector<Source>& sources, uint32_t index, Diagnostics& diagnostics) {
+  const string& text = sources[index].text;
+  const size_t equals = text.find('=');
+  if (equals == string::npos || equals == 0) {
+    diagnostics.add({index, 0, static_cast<uint32_t>(std::max<size_t>(text.size(), 1))}, "this sets nothing",
                     "expected path=value, such as simulate.duration=2");
     return;
   }
-  const Place value_place{index, static_cast<std::uint32_t>(std::min(equals + 1, text.size())), 1};
+  const Place value_place{index, static_cast<uint32_t>(std::min(equals + 1, text.size())), 1};
   if (!check_text(sources[index], index, diagnostics)) return;
-  std::optional<Node> value;
+  optional<Node> value;
   if (text.compare(equals + 1, 1, "#") == 0) {
     // In a file an unquoted # begins a comment. Here it can only begin a colour.
     value = Node{};
     value->kind = Node::Kind::scalar;
     value->text = text.substr(equals + 1);
-    value->place = {index, value_place.offset, static_cast<std::uint32_t>(value->text.size())};
+    value->place = {index, value_place.offset, static_cast<uint32_t>(value->text.size())};
   } else {
     value = parse_document(sources, index, equals + 1, diagnostics);
   }
@@ -291,9 +291,9 @@ void apply_setting(Node& root, std::vector<Source>& sources, std::uint32_t index
     diagnostics.add(value_place, "there is no value", "expected path=value");
     return;
   }
-  const std::vector<Step> steps = split_path(std::string_view(text).substr(0, equals), index);
+  const vector<Step> steps = split_path(string_view(text).substr(0, equals), index);
   Walk walk(root, diagnostics);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
+  for (size_t i = 0; i < steps.size(); ++i) {
     if (!walk.step(steps[i], i + 1 == steps.size())) return;
   }
   walk.node() = std::move(*value);

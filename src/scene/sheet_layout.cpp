@@ -7,21 +7,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
-constexpr int whole_width = 1920;                  // pixels, target
-constexpr int most_width = 480;                    // pixels, of one picture
-constexpr int least_side = 32;                     // pixels, of one picture; nothing is recognisable below
-constexpr std::int64_t most_pixels = 100'000'000;  // 300 MB in memory
+constexpr int whole_width = 1920;             // pixels, target
+constexpr int most_width = 480;               // pixels, of one picture
+constexpr int least_side = 32;                // pixels, of one picture; nothing is recognisable below
+constexpr int64_t most_pixels = 100'000'000;  // 300 MB in memory
 
-std::int64_t with_gaps(std::int64_t count, std::int64_t side) {
+int64_t with_gaps(int64_t count, int64_t side) {
   return count * (side + sheet_gap) + sheet_gap;
 }
 
 /// The side of a picture if `count` of them and the gaps fill `whole` as far as possible.
-std::int64_t side_within(std::int64_t whole, std::int64_t count) {
-  return std::max<std::int64_t>((whole - sheet_gap * (count + 1)) / std::max<std::int64_t>(count, 1), 0);
+int64_t side_within(int64_t whole, int64_t count) {
+  return std::max<int64_t>((whole - sheet_gap * (count + 1)) / std::max<int64_t>(count, 1), 0);
 }
 
 }  // namespace
@@ -31,22 +33,21 @@ SheetLayout layout_of(const SheetOutput& sheet, Size shape) {
     return {side_within(sheet.size->width, sheet.columns), side_within(sheet.size->height, sheet.rows),
             sheet.size->width, sheet.size->height};
   }
-  const std::int64_t width = std::clamp<std::int64_t>(side_within(whole_width, sheet.columns), least_side, most_width);
+  const int64_t width = std::clamp<int64_t>(side_within(whole_width, sheet.columns), least_side, most_width);
   const double exact_height = static_cast<double>(width) * shape.height / std::max(shape.width, 1);
-  const std::int64_t height = std::max<std::int64_t>(std::llround(std::min(exact_height, 1e6)), 1);
+  const int64_t height = std::max<int64_t>(std::llround(std::min(exact_height, 1e6)), 1);
   return {width, height, with_gaps(sheet.columns, width), with_gaps(sheet.rows, height)};
 }
 
-std::optional<SheetProblem> problem_of(const SheetOutput& sheet, Size shape) {
+optional<SheetProblem> problem_of(const SheetOutput& sheet, Size shape) {
   const SheetLayout layout = layout_of(sheet, shape);
-  const std::string sheet_text = fmt::format("a contact sheet of {} x {} pictures", sheet.columns, sheet.rows);
+  const string sheet_text = fmt::format("a contact sheet of {} x {} pictures", sheet.columns, sheet.rows);
   if (sheet.size && std::min(layout.width, layout.height) < least_side)
     return SheetProblem{fmt::format("{} in {} x {} pixels: each would have {} x {}", sheet_text, layout.total_width,
                                     layout.total_height, layout.width, layout.height),
                         fmt::format("expected a `size` of at least [{}, {}], or fewer columns or rows",
                                     with_gaps(sheet.columns, least_side), with_gaps(sheet.rows, least_side))};
-  if (layout.total_height <= most_pixels && layout.total_width * layout.total_height <= most_pixels)
-    return std::nullopt;
+  if (layout.total_height <= most_pixels && layout.total_width * layout.total_height <= most_pixels) return nullopt;
   return SheetProblem{
       fmt::format("{} would have {} x {} pixels", sheet_text, layout.total_width, layout.total_height),
       sheet.size ? fmt::format("expected a `size` of at most {} pixels in all", most_pixels)

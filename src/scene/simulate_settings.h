@@ -1,14 +1,13 @@
 #pragma once
 // The keys of `simulate`: how long and how a scene is simulated.
-#include <cstdint>
-#include <optional>
 
 #include "physics/contact_quality.h"
 #include "physics/integrator.h"
+#include "std.h"
 
 namespace carom {
 
-enum class Engine : std::uint8_t { automatic, exact, stepped, book };
+enum class Engine : uint8_t { automatic, exact, stepped, book };
 
 struct ContactSettings {
   bool merge = false;  // colliding bodies merge into one
@@ -20,17 +19,17 @@ struct Simulate {
   Engine engine = Engine::automatic;
   /// Of engine stepped. The decoder sets dop853 where neither a step nor an integrator is given.
   Integrator integrator = Integrator::rk4;
-  std::optional<double> step;  // s
+  optional<double> step;  // s
   /// In m. Not of engine book: steps are chosen for this error.
-  std::optional<double> tolerance;
-  std::optional<double> rest_speed;  // m/s
-  std::optional<std::uint64_t> max_collisions;
+  optional<double> tolerance;
+  optional<double> rest_speed;  // m/s
+  optional<uint64_t> max_collisions;
   bool as_printed = false;  // book only
   ContactSettings contact;
   // From `stop`; regions that stop are in the World. The run ends before its duration when all bodies are at rest, or
   // after so many collisions.
   bool stop_at_rest = false;
-  std::optional<std::uint64_t> stop_collisions;
+  optional<uint64_t> stop_collisions;
 };
 
 }  // namespace carom

@@ -5,11 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "scene/check.h"
 #include "scene/decode.h"
@@ -18,15 +15,16 @@
 #include "scene/keys.h"
 #include "scene/member.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "yaml/joined.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t names_shown = 5;
+constexpr size_t names_shown = 5;
 
-std::string names_text(const std::vector<std::string>& names) {
+string names_text(const vector<string>& names) {
   return carom::names_text({names.begin(), names.end()}, names_shown);
 }
 
@@ -46,21 +44,21 @@ Node vector_node(const Vec3& value, Place place) {
   return node;
 }
 
-void remove(Node& map, std::string_view key) {
-  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+void remove(Node& map, string_view key) {
+  for (size_t i = 0; i < map.keys.size(); ++i) {
     if (map.keys[i].text != key) continue;
-    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
-    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+    map.keys.erase(map.keys.begin() + static_cast<ptrdiff_t>(i));
+    map.items.erase(map.items.begin() + static_cast<ptrdiff_t>(i));
     return;
   }
 }
 
-void set(Node& map, std::string_view key, Node value) {
+void set(Node& map, string_view key, Node value) {
   if (Node* node = map.find(key)) {
     *node = std::move(value);
     return;
   }
-  map.keys.push_back({std::string(key), value.place});
+  map.keys.push_back({string(key), value.place});
   map.items.push_back(std::move(value));
 }
 
@@ -80,7 +78,7 @@ class Starter {
         place_(place_of_start(root)),
         used_(former_.names.size(), false) {
     numbers_.reserve(former_.names.size());
-    for (std::size_t i = 0; i < former_.names.size(); ++i) numbers_.emplace(former_.names[i], i);
+    for (size_t i = 0; i < former_.names.size(); ++i) numbers_.emplace(former_.names[i], i);
   }
 
   void run() {
@@ -93,7 +91,7 @@ class Starter {
                        fmt::format("at {} s of the run {} {} gone: merged into another body, or removed by a region",
                                    time(), names_text(gone_), gone_.size() == 1 ? "is" : "are"),
                        "expected a scene without bodies that are gone, or an earlier `at`");
-    else if (std::find(used_.begin(), used_.end(), true) == used_.end())
+    else if (std::ranges::find(used_, true) == used_.end())
       diagnostics_.add(place_, "the run has none of the bodies of this scene",
                        former_.names.empty() ? "expected a run with bodies"
                                              : "bodies match by their names; the run has " + names_text(former_.names));
@@ -102,20 +100,20 @@ class Starter {
 
  private:
   template <typename Work>
-  void each(std::string_view name, const Work& work) {
+  void each(string_view name, const Work& work) {
     Node* map = root_.find(name);
     if (map == nullptr || !map->is(Node::Kind::map)) return;
-    for (std::size_t i = 0; i < map->keys.size(); ++i)
+    for (size_t i = 0; i < map->keys.size(); ++i)
       if (map->items[i].is(Node::Kind::map) && map->items[i].find_key("repeat") == nullptr)
         work(map->keys[i], map->items[i]);
   }
 
-  std::string time() const { return shortest(former_.state.time); }
+  string time() const { return shortest(former_.state.time); }
 
-  bool is_gone(std::size_t i) const { return !former_.state.part_of.empty() && former_.state.part_of[i] != i; }
+  bool is_gone(size_t i) const { return !former_.state.part_of.empty() && former_.state.part_of[i] != i; }
 
   /// The body of this name in the run; it counts as used. -1: there is none, or it is gone, which is kept in gone_.
-  std::ptrdiff_t take(const std::string& name) {
+  ptrdiff_t take(const string& name) {
     const auto found = numbers_.find(name);
     if (found == numbers_.end()) {
       own_.push_back(name);
@@ -126,26 +124,26 @@ class Starter {
       return -1;
     }
     used_[found->second] = true;
-    return static_cast<std::ptrdiff_t>(found->second);
+    return static_cast<ptrdiff_t>(found->second);
   }
 
-  void body(const std::string& map, const Kind& kind, const Key& key, Node& node) {
-    const std::ptrdiff_t i = take(key.text);
+  void body(const string& map, const Kind& kind, const Key& key, Node& node) {
+    const ptrdiff_t i = take(key.text);
     if (i < 0) return;
     const View view(&node, kind, key.place, defaults_for(root_, kind));
     replaces(view, {"position", "velocity", "impulse"}, key.text);
     drop_impulse(view, node, key.text);
-    set(node, "position", vector_node(former_.state.position[static_cast<std::size_t>(i)], place_));
-    set(node, "velocity", vector_node(former_.state.velocity[static_cast<std::size_t>(i)], place_));
+    set(node, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
+    set(node, "velocity", vector_node(former_.state.velocity[static_cast<size_t>(i)], place_));
     forget(map + "." + key.text, {"position", "velocity", "impulse"});
   }
 
   void group(const Key& key, Node& node) {
     const Kind& kind = kind_named("group");
     const View view(&node, kind, key.place, defaults_for(root_, kind));
-    const auto name = [&](std::uint64_t k) { return fmt::format("{}.{}", key.text, k); };
-    const std::uint64_t count = filled<GroupKeys>(view).count;
-    std::uint64_t there = 0;
+    const auto name = [&](uint64_t k) { return fmt::format("{}.{}", key.text, k); };
+    const uint64_t count = filled<GroupKeys>(view).count;
+    uint64_t there = 0;
     while (numbers_.contains(name(there))) ++there;
     if (count == 0) return;
     if (there == 0) return own_.push_back(key.text);
@@ -153,7 +151,7 @@ class Starter {
       diagnostics_.add(view.place("count"),
                        fmt::format("{} has {}, and the run has {}", in_backticks(key.text), balls(count), there),
                        fmt::format("expected `count`: {}, or another name, which the run does not have", there));
-      for (std::uint64_t k = 0; k < there; ++k) used_[numbers_.at(name(k))] = true;
+      for (uint64_t k = 0; k < there; ++k) used_[numbers_.at(name(k))] = true;
       return;
     }
     replaces(view, {"in", "arrange", "speed", "velocity", "members"}, key.text);
@@ -161,14 +159,14 @@ class Starter {
     members.kind = Node::Kind::sequence;
     members.place = place_;
     members.items.reserve(count);
-    for (std::uint64_t k = 0; k < count; ++k) {
-      const std::ptrdiff_t i = take(name(k));
+    for (uint64_t k = 0; k < count; ++k) {
+      const ptrdiff_t i = take(name(k));
       if (i < 0) continue;
       Node& member = members.items.emplace_back();
       member.kind = Node::Kind::map;
       member.place = place_;
-      set(member, "position", vector_node(former_.state.position[static_cast<std::size_t>(i)], place_));
-      set(member, "velocity", vector_node(former_.state.velocity[static_cast<std::size_t>(i)], place_));
+      set(member, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
+      set(member, "velocity", vector_node(former_.state.velocity[static_cast<size_t>(i)], place_));
     }
     if (members.items.size() < count) return;
     // The ball may be that of the defaults.
@@ -179,14 +177,14 @@ class Starter {
       drop_impulse(each_ball, own, key.text);
       set(node, "ball", std::move(own));
     }
-    for (const std::string_view rule : {"in", "arrange", "speed", "velocity"}) remove(node, rule);
+    for (const string_view rule : {"in", "arrange", "speed", "velocity"}) remove(node, rule);
     set(node, "members", std::move(members));
     forget("groups." + key.text, {"in", "arrange", "speed", "velocity", "members", "ball.velocity", "ball.impulse"});
   }
 
   /// A value that a --set or a sweep gives would have no effect without a word.
-  void replaces(const View& view, std::initializer_list<std::string_view> keys, const std::string& name) {
-    for (const std::string_view key : keys) {
+  void replaces(const View& view, std::initializer_list<string_view> keys, const string& name) {
+    for (const string_view key : keys) {
       const Node* node = find_field(view.kind(), key) == nullptr ? nullptr : view.given(key);
       if (node == nullptr || place_of(*node).source == 0) continue;
       diagnostics_.add(
@@ -197,22 +195,22 @@ class Starter {
   }
 
   /// The run has applied the impulse, so that the velocity there contains it.
-  void drop_impulse(const View& view, Node& node, const std::string& name) {
-    const std::optional<Vec3> impulse = view.vector("impulse");
+  void drop_impulse(const View& view, Node& node, const string& name) {
+    const optional<Vec3> impulse = view.vector("impulse");
     if (!impulse || impulse->isZero(0)) return;
     kicked_.push_back(name);
     set(node, "impulse", vector_node(Vec3(0, 0, 0), place_));
   }
 
   /// No expression of the file made these values.
-  void forget(const std::string& thing, std::initializer_list<std::string_view> keys) {
+  void forget(const string& thing, std::initializer_list<string_view> keys) {
     if (made_from_.expressions.empty()) return;
-    const std::size_t dot = thing.find('.');
-    const std::string_view family = family_of(std::string_view(thing).substr(dot + 1));
-    const std::string whole = family.empty() ? thing : thing.substr(0, dot + 1) + std::string(family);
+    const size_t dot = thing.find('.');
+    const string_view family = family_of(string_view(thing).substr(dot + 1));
+    const string whole = family.empty() ? thing : thing.substr(0, dot + 1) + string(family);
     ExpressionTexts& texts = made_from_.expressions;
-    for (const std::string_view key : keys) {
-      const std::string path = fmt::format("{}.{}", whole, key);
+    for (const string_view key : keys) {
+      const string path = fmt::format("{}.{}", whole, key);
       texts.erase(path);
       for (auto text = texts.lower_bound(path + "."); text != texts.end() && text->first.starts_with(path + ".");)
         text = texts.erase(text);
@@ -220,10 +218,10 @@ class Starter {
   }
 
   void note() {
-    std::vector<std::string> left;
-    for (std::size_t i = 0; i < used_.size(); ++i)
+    vector<string> left;
+    for (size_t i = 0; i < used_.size(); ++i)
       if (!used_[i] && !is_gone(i)) left.push_back(former_.names[i]);
-    const auto say = [&](std::string text) { made_from_.notes.push_back(std::move(text)); };
+    const auto say = [&](string text) { made_from_.notes.push_back(std::move(text)); };
     if (!own_.empty())
       say(fmt::format("start: the run has no {}, which {} where this scene places {}", names_text(own_),
                       own_.size() == 1 ? "begins" : "begin", own_.size() == 1 ? "it" : "them"));
@@ -240,35 +238,35 @@ class Starter {
   }
 
   bool has_windows() const {
-    const auto has = [](const Node& node, std::initializer_list<std::string_view> keys) {
-      return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return node.find_key(key) != nullptr; });
+    const auto has = [](const Node& node, std::initializer_list<string_view> keys) {
+      return std::ranges::any_of(keys, [&](string_view key) { return node.find_key(key) != nullptr; });
     };
     if (const Node* forces = root_.find("forces"))
       for (const Node& force : forces->items)
         if (has(force, {"from", "until"})) return true;
-    for (const std::string_view kind : {"planes", "walls", "obstacles"})
+    for (const string_view kind : {"planes", "walls", "obstacles"})
       if (const Node* things = root_.find(kind))
         for (const Node& thing : things->items)
           if (has(thing, {"motion"})) return true;
     return false;
   }
 
-  static std::string balls(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "ball" : "balls"); }
+  static string balls(uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "ball" : "balls"); }
 
   Node& root_;
   const FormerState former_;
   MadeFrom& made_from_;
   Diagnostics& diagnostics_;
   const Place place_;
-  std::vector<bool> used_;  // by body of the run
-  std::unordered_map<std::string, std::size_t> numbers_;
+  vector<bool> used_;  // by body of the run
+  std::unordered_map<string, size_t> numbers_;
   // Names of this scene: those that the run lacks, those that are gone there, those with an impulse.
-  std::vector<std::string> own_, gone_, kicked_;
+  vector<string> own_, gone_, kicked_;
 };
 
 }  // namespace
 
-void apply_start(Node& root, const std::string& folder, const LoadOptions& options, MadeFrom& made_from,
+void apply_start(Node& root, const string& folder, const LoadOptions& options, MadeFrom& made_from,
                  Diagnostics& diagnostics) {
   const Node* node = root.find("start");
   if (node == nullptr || node->bad || !node->is(Node::Kind::map)) return;
@@ -276,7 +274,7 @@ void apply_start(Node& root, const std::string& folder, const LoadOptions& optio
   const auto keys = filled<StartKeys>(view);
   if (!keys.run || (view.given("at") != nullptr && !keys.at)) return;
   const auto refuse = [&](const StartError& error) {
-    const std::string_view key = error.of_time && keys.at ? "at" : "run";
+    const string_view key = error.of_time && keys.at ? "at" : "run";
     diagnostics.add(view.place(key),
                     fmt::format("the run {} cannot be used: {}", in_backticks(*keys.run), error.what()), error.remedy);
   };
@@ -284,7 +282,7 @@ void apply_start(Node& root, const std::string& folder, const LoadOptions& optio
   from.run = *keys.run;
   from.folder = beneath(folder, *keys.run);
   if (!options.former_state) return refuse({"there is no reader of runs here", "expected a scene without `start`"});
-  std::optional<FormerState> former;
+  optional<FormerState> former;
   try {
     former = options.former_state(from.folder, keys.at);
   } catch (const StartError& error) {

@@ -1,8 +1,8 @@
 #pragma once
 // `start`: bodies begin as a former run had them.
-#include <string>
 
 #include "scene/load.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 
@@ -13,7 +13,7 @@ namespace carom {
 /// Bodies that the run lacks stay as they are. `root`: the checked tree. `folder`: that of the scene file.
 /// Adds errors where the run has no such state, and where its bodies do not match. `made_from` receives the run, and
 /// notes on what the author may not expect.
-void apply_start(Node& root, const std::string& folder, const LoadOptions& options, MadeFrom& made_from,
+void apply_start(Node& root, const string& folder, const LoadOptions& options, MadeFrom& made_from,
                  Diagnostics& diagnostics);
 
 }  // namespace carom

@@ -5,32 +5,33 @@
 #include <fmt/format.h>
 
 #include "scene/resolve.h"
+#include "std.h"
 
 namespace carom {
 
-std::size_t Sweep::size() const {
-  std::size_t count = 0;
+size_t Sweep::size() const {
+  size_t count = 0;
   for (const SweepBlock& block : blocks) count += block.kept.size();
-  return count * std::max<std::uint64_t>(seeds, 1);
+  return count * std::max<uint64_t>(seeds, 1);
 }
 
-std::string Sweep::id(std::size_t number) const {
+string Sweep::id(size_t number) const {
   return fmt::format("r{:04}", number + 1);
 }
 
-SweepRun Sweep::run(std::size_t number) const {
+SweepRun Sweep::run(size_t number) const {
   SweepRun run;
   run.id = id(number);
   run.values.resize(paths.size());
   for (const SweepValue& value : set_values) run.settings.push_back({value.text, value.where});
-  const std::size_t repeats = std::max<std::uint64_t>(seeds, 1);
-  std::size_t combination = number / repeats;
+  const size_t repeats = std::max<uint64_t>(seeds, 1);
+  size_t combination = number / repeats;
   const SweepBlock* block = blocks.data();
   for (; combination >= block->kept.size(); ++block) combination -= block->kept.size();
-  std::size_t rest = block->kept[combination];
-  std::vector<const SweepCase*> cases(block->axes.size());
-  for (std::size_t a = block->axes.size(); a-- > 0;) {
-    const std::vector<SweepCase>& all = block->axes[a].cases;
+  size_t rest = block->kept[combination];
+  vector<const SweepCase*> cases(block->axes.size());
+  for (size_t a = block->axes.size(); a-- > 0;) {
+    const vector<SweepCase>& all = block->axes[a].cases;
     cases[a] = &all[rest % all.size()];
     rest /= all.size();
   }
@@ -42,7 +43,7 @@ SweepRun Sweep::run(std::size_t number) const {
   }
   if (seeds > 0) {
     // Without repeats the paths contain no seed.
-    const std::string of_run = std::to_string(first_seed.value_or(0) + number % repeats);
+    const string of_run = std::to_string(first_seed.value_or(0) + number % repeats);
     run.values.back() = of_run;
     run.settings.push_back({"seed=" + of_run, file});
   }
@@ -52,20 +53,20 @@ SweepRun Sweep::run(std::size_t number) const {
 namespace {
 
 /// "path: [value, value]" of each path of a grid's or a zip's axis.
-std::string columns(const SweepAxis& axis, const std::vector<std::string>& paths) {
-  std::string out;
-  for (std::size_t column = 0; column < axis.cases.front().values.size(); ++column) {
-    std::string values;
+string columns(const SweepAxis& axis, const vector<string>& paths) {
+  string out;
+  for (size_t column = 0; column < axis.cases.front().values.size(); ++column) {
+    string values;
     for (const SweepCase& one : axis.cases) values += (values.empty() ? "" : ", ") + one.values[column].second.text;
     out += fmt::format("      {}: [{}]\n", paths[axis.cases.front().values[column].first], values);
   }
   return out;
 }
 
-std::string lines(const SweepAxis& axis, const std::vector<std::string>& paths) {
-  std::string out;
+string lines(const SweepAxis& axis, const vector<string>& paths) {
+  string out;
   for (const SweepCase& one : axis.cases) {
-    std::string values;
+    string values;
     for (const auto& [path, value] : one.values)
       values += fmt::format("{}{}: {}", values.empty() ? "" : ", ", paths[path], value.text);
     out += "      - {" + values + "}\n";
@@ -73,15 +74,15 @@ std::string lines(const SweepAxis& axis, const std::vector<std::string>& paths) 
   return out;
 }
 
-std::string block_text(const SweepBlock& block, const std::vector<std::string>& paths) {
-  std::string grid, zip, list;
+string block_text(const SweepBlock& block, const vector<string>& paths) {
+  string grid, zip, list;
   for (const SweepAxis& axis : block.axes) {
     if (axis.kind == SweepAxis::Kind::grid) grid += columns(axis, paths);
     if (axis.kind == SweepAxis::Kind::zip) zip += columns(axis, paths);
     if (axis.kind == SweepAxis::Kind::list) list += lines(axis, paths);
   }
-  std::string out;
-  const auto add = [&](std::string_view key, const std::string& text) {
+  string out;
+  const auto add = [&](string_view key, const string& text) {
     if (!text.empty()) out += fmt::format("    {}:\n{}", key, text);
   };
   add("grid", grid);
@@ -96,11 +97,11 @@ std::string block_text(const SweepBlock& block, const std::vector<std::string>& 
 
 }  // namespace
 
-std::string Sweep::resolved(std::string_view base_name) const {
-  std::string out = fmt::format("sweep: 1\ntitle: {}\nbase: {}\n", in_quotes(title), in_quotes(base_name));
+string Sweep::resolved(string_view base_name) const {
+  string out = fmt::format("sweep: 1\ntitle: {}\nbase: {}\n", in_quotes(title), in_quotes(base_name));
   if (!set_values.empty()) out += "set:\n";
   for (const SweepValue& value : set_values) {
-    const std::size_t equals = value.text.find('=');
+    const size_t equals = value.text.find('=');
     out += fmt::format("  {}: {}\n", value.text.substr(0, equals), value.text.substr(equals + 1));
   }
   if (seed) out += fmt::format("seed: {}\n", *seed);
@@ -109,7 +110,7 @@ std::string Sweep::resolved(std::string_view base_name) const {
   for (const SweepBlock& block : blocks) out += block_text(block, paths);
   if (seeds > 0) out += fmt::format("repeat: {{seeds: {}, first: {}}}\n", seeds, first_seed.value_or(0));
   if (!only.empty()) {
-    std::string names;
+    string names;
     for (const SweepValue& name : only) names += (names.empty() ? "" : ", ") + in_quotes(name.text);
     out += fmt::format("only: [{}]\n", names);
   }

@@ -1,117 +1,112 @@
 #pragma once
 // A sweep file, or --grid of the command line, to its list of runs: the paths of the base scene and their values.
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "scene/load.h"
+#include "std.h"
 
 namespace carom {
 
 /// A value of a path, as YAML on one line.
 struct SweepValue {
-  std::string text;   // "0.7", "[0, 1, 0]", "\"#ff0000\""
-  std::string where;  // "falls.yaml:7:3", the place of the path or of the value
+  string text;   // "0.7", "[0, 1, 0]", "\"#ff0000\""
+  string where;  // "falls.yaml:7:3", the place of the path or of the value
 };
 
 /// One value for each of several paths (indices into Sweep::paths).
 struct SweepCase {
-  std::vector<std::pair<std::uint32_t, SweepValue>> values;
+  vector<std::pair<uint32_t, SweepValue>> values;
 };
 
 /// What varies independently: a path of a grid, the paths of a zip, a list, or samples of ranges.
 struct SweepAxis {
-  enum class Kind : std::uint8_t { grid, zip, list, samples };
+  enum class Kind : uint8_t { grid, zip, list, samples };
   Kind kind = Kind::grid;
-  std::vector<SweepCase> cases;
+  vector<SweepCase> cases;
 };
 
 /// Every combination of its axes' cases without those skipped. The last axis varies fastest.
 struct SweepBlock {
-  std::vector<SweepAxis> axes;
-  std::vector<std::uint32_t> kept;  // indices of combinations
+  vector<SweepAxis> axes;
+  vector<uint32_t> kept;  // indices of combinations
   /// The keys that draw its samples, as lines of YAML. Empty: none.
-  std::string samples;
+  string samples;
   /// The rule that skips combinations, as YAML on one line. Empty: none.
-  std::string skip;
+  string skip;
 };
 
 struct SweepChart {
-  std::string x, y, by;  // `by` is empty if absent
-  std::string where;
+  string x, y, by;  // `by` is empty if absent
+  string where;
 };
 
 struct SweepMeasure {
-  std::string name, where;
+  string name, where;
 };
 
 /// One run of a sweep.
 struct SweepRun {
-  std::string id;  // "r0001"
+  string id;  // "r0001"
   /// By Sweep::paths, as YAML. None: the base's own.
-  std::vector<std::optional<std::string>> values;
+  vector<optional<string>> values;
   /// Those of all runs, then its own.
-  std::vector<Setting> settings;
+  vector<Setting> settings;
 };
 
 /// The content of a sweep file, with its ranges expanded. Run numbers, ids and values depend on it alone.
 class Sweep {
  public:
-  std::string file;  // as given on the command line
-  std::string title;
+  string file;  // as given on the command line
+  string title;
   /// The scene file, relative to the working folder.
-  std::string base;
-  std::vector<SweepValue> set_values;  // "path=value", applied to every run
+  string base;
+  vector<SweepValue> set_values;  // "path=value", applied to every run
   /// The paths that vary, in the order of the file. With repeats the last one is `seed`.
-  std::vector<std::string> paths;
-  std::vector<SweepBlock> blocks;
+  vector<string> paths;
+  vector<SweepBlock> blocks;
   /// The seed of samples. None: nothing is drawn.
-  std::optional<std::uint64_t> seed;
+  optional<uint64_t> seed;
   /// Whether runs whose scene is invalid are left out. The others keep their ids.
   bool skip_invalid = false;
   /// For each combination. 0: no repeats.
-  std::uint64_t seeds = 0;
-  std::optional<std::uint64_t> first_seed;
+  uint64_t seeds = 0;
+  optional<uint64_t> first_seed;
   /// Outputs. Empty: those of the base.
-  std::vector<SweepValue> only;
-  std::vector<SweepMeasure> measures;
-  std::vector<SweepChart> charts;
+  vector<SweepValue> only;
+  vector<SweepMeasure> measures;
+  vector<SweepChart> charts;
   bool collisions = false;  // whether the workbook has a sheet of them
 
-  std::size_t size() const;
-  SweepRun run(std::size_t number) const;  // number: from 0
-  std::string id(std::size_t number) const;
+  size_t size() const;
+  SweepRun run(size_t number) const;  // number: from 0
+  string id(size_t number) const;
 
   /// An equivalent sweep file for a base scene named `base_name` in the same folder.
-  std::string resolved(std::string_view base_name) const;
+  string resolved(string_view base_name) const;
 };
 
-inline constexpr std::size_t most_runs = 1'000'000;
+inline constexpr size_t most_runs = 1'000'000;
 /// Of all paths of a zip together.
-inline constexpr std::size_t most_values = 10'000'000;
+inline constexpr size_t most_values = 10'000'000;
 
 /// What the command line decides before numbers are drawn.
 struct SweepOptions {
   /// Replaces the seed of samples.
-  std::optional<std::uint64_t> seed;
+  optional<uint64_t> seed;
   /// Of a scene: how many samples of the ranges without a count.
-  std::optional<std::uint64_t> random, latin;
+  optional<uint64_t> random, latin;
   /// Of a scene: so many seeds of each run.
-  std::optional<std::uint64_t> repeat;
+  optional<uint64_t> repeat;
   bool color = false;  // colour in the texts of errors
 };
 
 /// Reads and checks a sweep file, as far as possible without its base. Throws SceneError, which holds every error.
-Sweep load_sweep(const std::string& path, const SweepOptions& options = {});
+Sweep load_sweep(const string& path, const SweepOptions& options = {});
 
 /// The sweep of the --grid options. Each is "path=from:to:count" or "path=value,value,...", or, for samples,
 /// "path=from:to" or "path=from:to:log". Throws SceneError.
-Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, const SweepOptions& options = {});
+Sweep grid_sweep(const string& base, const vector<string>& grids, const SweepOptions& options = {});
 
 /// Whether a file begins like a sweep file: it has the key `sweep` and no key `scene`.
-bool is_sweep_file(const std::string& path);
+bool is_sweep_file(const string& path);
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 // The rows of the table of fields for sweep files.
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -74,7 +75,7 @@ constexpr Kind kinds_of_sweeps[] = {
 
 }  // namespace
 
-std::span<const Kind> sweep_kinds() {
+span<const Kind> sweep_kinds() {
   return kinds_of_sweeps;
 }
 

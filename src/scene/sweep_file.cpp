@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "scene/check.h"
 #include "scene/grid_text.h"
@@ -13,6 +12,7 @@
 #include "scene/samples.h"
 #include "scene/sweep.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/decimal.h"
 #include "yaml/document.h"
 #include "yaml/joined.h"
@@ -25,15 +25,15 @@ namespace {
 using Axis = SweepAxis;
 
 /// Whether two values of a path are equal: numbers by value, all else by text.
-bool same_value(const std::string& a, const std::string& b) {
+bool same_value(const string& a, const string& b) {
   if (a == b || cell_text(a) == cell_text(b)) return true;
-  const std::optional<double> x = parse_number(a), y = parse_number(b);
+  const optional<double> x = parse_number(a), y = parse_number(b);
   return x && y && *x == *y;
 }
 
 class SweepReader {
  public:
-  SweepReader(std::vector<Source>& sources, const Node& root, const SweepOptions& options, Diagnostics& diagnostics)
+  SweepReader(vector<Source>& sources, const Node& root, const SweepOptions& options, Diagnostics& diagnostics)
       : sources_(sources), root_(root), options_(options), diagnostics_(diagnostics) {}
 
   Sweep run() {
@@ -41,12 +41,12 @@ class SweepReader {
     sweep_.title = whole.text("title").value_or("");
     sweep_.base = beneath_folder(whole.text("base").value_or(""));
     if (const Node* set = usable(root_.find("set"))) {
-      for (std::size_t i = 0; i < set->keys.size(); ++i)
+      for (size_t i = 0; i < set->keys.size(); ++i)
         sweep_.set_values.push_back({set->keys[i].text + "=" + flow_text(set->items[i]), where(set->keys[i].place)});
     }
     const Node* base = usable(root_.find("base"));
     if (base != nullptr && !sources_.front().option) {
-      if (const std::string why = why_no_file(sweep_.base); !why.empty())
+      if (const string why = why_no_file(sweep_.base); !why.empty())
         diagnostics_.add(base->place, fmt::format("{} {}", why, in_backticks(base->text)),
                          "expected the path of a scene file, relative to the folder of this file");
     }
@@ -66,38 +66,38 @@ class SweepReader {
  private:
   static const Node* usable(const Node* node) { return node != nullptr && !node->bad ? node : nullptr; }
 
-  std::string beneath_folder(const std::string& path) const {
-    const std::size_t slash = sources_.front().name.rfind('/');
-    return beneath(slash == std::string::npos ? "" : sources_.front().name.substr(0, slash + 1), path);
+  string beneath_folder(const string& path) const {
+    const size_t slash = sources_.front().name.rfind('/');
+    return beneath(slash == string::npos ? "" : sources_.front().name.substr(0, slash + 1), path);
   }
 
   /// "file:line:column"
-  std::string where(const Place& place) const {
+  string where(const Place& place) const {
     if (sources_.front().option) return sources_.front().name;
     // A file may be one line of a million values, or have as many lines.
     // Counting therefore continues from the last place.
-    const std::string_view text = sources_.front().text;
-    const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
+    const string_view text = sources_.front().text;
+    const size_t offset = std::min<size_t>(place.offset, text.size());
     if (offset < counted_) counted_ = 0, line_ = column_ = 1;
-    const std::string_view between = text.substr(counted_, offset - counted_);
-    const std::size_t last = between.rfind('\n');
-    if (last == std::string_view::npos) {
+    const string_view between = text.substr(counted_, offset - counted_);
+    const size_t last = between.rfind('\n');
+    if (last == string_view::npos) {
       column_ += count_characters(between);
     } else {
-      line_ += static_cast<std::size_t>(std::count(between.begin(), between.end(), '\n'));
+      line_ += static_cast<size_t>(std::ranges::count(between, '\n'));
       column_ = 1 + count_characters(between.substr(last + 1));
     }
     counted_ = offset;
     return fmt::format("{}:{}:{}", sources_.front().name, line_, column_);
   }
 
-  std::uint32_t path(const std::string& text) {
-    const auto found = std::find(sweep_.paths.begin(), sweep_.paths.end(), text);
+  uint32_t path(const string& text) {
+    const auto found = std::ranges::find(sweep_.paths, text);
     if (found == sweep_.paths.end()) {
       sweep_.paths.push_back(text);
-      return static_cast<std::uint32_t>(sweep_.paths.size() - 1);
+      return static_cast<uint32_t>(sweep_.paths.size() - 1);
     }
-    return static_cast<std::uint32_t>(found - sweep_.paths.begin());
+    return static_cast<uint32_t>(found - sweep_.paths.begin());
   }
 
   void blocks() {
@@ -106,7 +106,7 @@ class SweepReader {
       block(root_);
       return;
     }
-    for (const std::string_view key : {"grid", "zip", "list", "random", "latin", "over", "skip"}) {
+    for (const string_view key : {"grid", "zip", "list", "random", "latin", "over", "skip"}) {
       if (const Key* beside = root_.find_key(key))
         diagnostics_.add(beside->place, fmt::format("{} stands beside `runs`", in_backticks(key)),
                          "expected it in an entry of `runs`");
@@ -119,10 +119,10 @@ class SweepReader {
   void block(const Node& node) {
     if (node.bad || !node.is(Node::Kind::map)) return;
     SweepBlock block;
-    std::uint64_t runs = 1;
+    uint64_t runs = 1;
     taken_.clear();
     if (const Node* grid = usable(node.find("grid"))) {
-      for (std::size_t i = 0; i < grid->keys.size(); ++i) {
+      for (size_t i = 0; i < grid->keys.size(); ++i) {
         Axis axis{Axis::Kind::grid, {}};
         for (SweepValue& value : values(grid->keys[i], grid->items[i]))
           axis.cases.push_back({{{path(grid->keys[i].text), std::move(value)}}});
@@ -141,7 +141,7 @@ class SweepReader {
     }
     if (const Node* list = usable(node.find("list"))) {
       Axis axis{Axis::Kind::list, {}};
-      std::map<std::string, const Key*> keys;
+      std::map<string, const Key*> keys;
       for (const Node& item : list->items) axis.cases.push_back(one_case(item));
       for (const Node& item : list->items)
         for (const Key& key : item.keys) keys.emplace(key.text, &key);
@@ -169,16 +169,16 @@ class SweepReader {
 
   SweepCase one_case(const Node& map) {
     SweepCase one;
-    for (std::size_t i = 0; i < map.keys.size(); ++i)
+    for (size_t i = 0; i < map.keys.size(); ++i)
       one.values.emplace_back(path(map.keys[i].text), SweepValue{flow_text(map.items[i]), where(map.keys[i].place)});
     return one;
   }
 
   Axis zipped(const Node& zip) {
     Axis axis{Axis::Kind::zip, {}};
-    for (std::size_t i = 0; i < zip.keys.size(); ++i) {
+    for (size_t i = 0; i < zip.keys.size(); ++i) {
       const Key& key = zip.keys[i];
-      std::vector<SweepValue> column = values(key, zip.items[i]);
+      vector<SweepValue> column = values(key, zip.items[i]);
       if (i == 0) axis.cases.resize(column.size());
       if (zip.keys.size() * axis.cases.size() > most_values) {
         diagnostics_.add(key.place,
@@ -195,7 +195,7 @@ class SweepReader {
             "expected as many for each path: they vary in step");
         column.resize(axis.cases.size());
       }
-      for (std::size_t k = 0; k < column.size(); ++k) axis.cases[k].values.emplace_back(path(key.text), column[k]);
+      for (size_t k = 0; k < column.size(); ++k) axis.cases[k].values.emplace_back(path(key.text), column[k]);
       take(key);
     }
     return axis;
@@ -208,7 +208,7 @@ class SweepReader {
     const char* key = latin ? "latin" : "random";
     const Node* number = usable(node.find(key));
     if (number == nullptr || !over.is(Node::Kind::map)) return axis;
-    const std::uint64_t count = parse_whole(number->text).value_or(1);
+    const uint64_t count = parse_whole(number->text).value_or(1);
     if (over.keys.size() * count > most_values) {
       diagnostics_.add(node.find_key(key)->place,
                        fmt::format("{} values of {}", count, how_many(over.keys.size(), "path", "paths")),
@@ -216,47 +216,47 @@ class SweepReader {
       return axis;
     }
     axis.cases.resize(count);
-    for (std::size_t i = 0; i < over.keys.size(); ++i) {
+    for (size_t i = 0; i < over.keys.size(); ++i) {
       const Key& its = over.keys[i];
       take(its);
       // The same path in another block draws other numbers.
       Random random(seed_, fmt::format("samples {} {}", sweep_.blocks.size(), its.text));
-      const std::optional<SampledRange> range = span(its, over.items[i]);
-      std::vector<std::string> drawn;
+      const optional<SampledRange> range = span(its, over.items[i]);
+      vector<string> drawn;
       if (range) drawn = samples(*range, latin ? Sampling::latin : Sampling::random, count, random);
       if (range && drawn.empty())
         diagnostics_.add(its.place, fmt::format("the numbers of {} have more than 15 digits", in_backticks(its.text)),
                          "expected ends that differ more, or have fewer digits");
       drawn.resize(count);
-      const std::string place = where(its.place);
-      const std::uint32_t path_number = path(its.text);
-      for (std::size_t k = 0; k < count; ++k)
+      const string place = where(its.place);
+      const uint32_t path_number = path(its.text);
+      for (size_t k = 0; k < count; ++k)
         axis.cases[k].values.emplace_back(path_number, SweepValue{std::move(drawn[k]), place});
     }
     block.samples = fmt::format("    {}: {}\n    over:\n", key, count);
-    for (std::size_t i = 0; i < over.keys.size(); ++i)
+    for (size_t i = 0; i < over.keys.size(); ++i)
       block.samples += fmt::format("      {}: {}\n", over.keys[i].text, flow_text(over.items[i]));
     sweep_.seed = seed_;
     return axis;
   }
 
   /// None: it is wrong, which is reported.
-  std::optional<SampledRange> span(const Key& key, const Node& node) {
-    if (node.bad || !node.is(Node::Kind::map)) return std::nullopt;
+  optional<SampledRange> span(const Key& key, const Node& node) {
+    if (node.bad || !node.is(Node::Kind::map)) return nullopt;
     for (const Node& item : node.items)
-      if (item.bad) return std::nullopt;
-    if (node.find("from") == nullptr || node.find("to") == nullptr) return std::nullopt;
-    const std::optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
-    if (!from || !to) return std::nullopt;
+      if (item.bad) return nullopt;
+    if (node.find("from") == nullptr || node.find("to") == nullptr) return nullopt;
+    const optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
+    if (!from || !to) return nullopt;
     const View view(&node, kind_named("span"), key.place);
     SampledRange range{*from, *to, view.flag("log").value_or(false)};
     const Field* field = field_at(key.text);
     range.whole = field != nullptr && holds_whole_numbers(*field);
     const double low = parse_number(node.find("from")->text).value_or(0),
                  high = parse_number(node.find("to")->text).value_or(0);
-    const auto refuse = [&](const char* end, const std::string& message, const char* remedy) {
+    const auto refuse = [&](const char* end, const string& message, const char* remedy) {
       diagnostics_.add(node.find(end)->place, message, remedy);
-      return std::nullopt;
+      return nullopt;
     };
     if (!(low < high))
       return refuse("to", fmt::format("no number lies between {} and {}", to_text(*from), to_text(*to)),
@@ -278,8 +278,8 @@ class SweepReader {
   }
 
   /// None: it has too many digits, which is reported.
-  std::optional<Decimal> decimal(const Node& value) {
-    const std::optional<Decimal> number = parse_decimal(value.text);
+  optional<Decimal> decimal(const Node& value) {
+    const optional<Decimal> number = parse_decimal(value.text);
     if (!number)
       diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", in_backticks(value.text)),
                        "list such values one by one");
@@ -287,8 +287,8 @@ class SweepReader {
   }
 
   /// The values of a list or a range.
-  std::vector<SweepValue> values(const Key& key, const Node& node) {
-    std::vector<SweepValue> out;
+  vector<SweepValue> values(const Key& key, const Node& node) {
+    vector<SweepValue> out;
     if (node.bad) return out;
     if (node.is(Node::Kind::sequence)) {
       for (const Node& item : node.items) out.push_back({flow_text(item), where(item.place)});
@@ -297,24 +297,24 @@ class SweepReader {
     for (const Node& item : node.items)
       if (item.bad) return out;
     if (node.find("from") == nullptr || node.find("to") == nullptr) return out;
-    for (std::string& text : range(key, node)) out.push_back({std::move(text), where(key.place)});
+    for (string& text : range(key, node)) out.push_back({std::move(text), where(key.place)});
     return out;
   }
 
-  std::vector<std::string> range(const Key& key, const Node& node) {
-    const std::optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
+  vector<string> range(const Key& key, const Node& node) {
+    const optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
     if (!from || !to) return {};
     if (const Node* count = node.find("count")) {
-      const std::uint64_t n = parse_whole(count->text).value_or(1);
+      const uint64_t n = parse_whole(count->text).value_or(1);
       if (n == 1 && to_text(*from) != to_text(*to))
         diagnostics_.add(count->place, "a single value cannot have two ends",
                          "expected `from` equal to `to`, or more values");
       return spread(*from, *to, n);
     }
     const Node* step = node.find("step");
-    const std::optional<Decimal> width = step == nullptr ? std::nullopt : decimal(*step);
+    const optional<Decimal> width = step == nullptr ? nullopt : decimal(*step);
     if (!width) return {};
-    std::vector<std::string> out = steps(*from, *to, *width, most_runs);
+    vector<string> out = steps(*from, *to, *width, most_runs);
     if (out.empty())
       diagnostics_.add(
           step->place,
@@ -334,31 +334,31 @@ class SweepReader {
 
   /// Determines which combinations are kept.
   void keep(SweepBlock& block, const Node* skip, const Node& node) {
-    std::uint64_t count = 1;
+    uint64_t count = 1;
     for (const Axis& axis : block.axes) {
       count *= axis.cases.size();
       if (count > most_runs) return refuse_runs(node.keys.front().place);
     }
     if (skip != nullptr) block.skip = flow_text(*skip);
-    std::vector<std::size_t> skipped(skip == nullptr ? 0 : skip->items.size());
-    std::vector<const SweepValue*> values(sweep_.paths.size());
-    for (std::uint32_t k = 0; k < count; ++k) {
-      std::size_t rest = k;
-      for (std::size_t a = block.axes.size(); a-- > 0;) {
+    vector<size_t> skipped(skip == nullptr ? 0 : skip->items.size());
+    vector<const SweepValue*> values(sweep_.paths.size());
+    for (uint32_t k = 0; k < count; ++k) {
+      size_t rest = k;
+      for (size_t a = block.axes.size(); a-- > 0;) {
         const auto& cases = block.axes[a].cases;
         for (const auto& [number, value] : cases[rest % cases.size()].values) values[number] = &value;
         rest /= cases.size();
       }
       bool left = true;
-      for (std::size_t s = 0; s < skipped.size(); ++s) {
+      for (size_t s = 0; s < skipped.size(); ++s) {
         if (!matches(skip->items[s], values)) continue;
         ++skipped[s];
         left = false;
       }
       if (left) block.kept.push_back(k);
-      std::fill(values.begin(), values.end(), nullptr);
+      std::ranges::fill(values, nullptr);
     }
-    for (std::size_t s = 0; s < skipped.size(); ++s) {
+    for (size_t s = 0; s < skipped.size(); ++s) {
       const Node& entry = skip->items[s];
       if (skipped[s] > 0 || entry.bad || !diagnostics_.empty()) continue;
       diagnostics_.add(entry.keys.front().place, "no run has these values", "expected paths and values of this block");
@@ -368,18 +368,18 @@ class SweepReader {
                        "expected at least one run to remain");
   }
 
-  bool matches(const Node& entry, const std::vector<const SweepValue*>& values) const {
+  bool matches(const Node& entry, const vector<const SweepValue*>& values) const {
     if (!entry.is(Node::Kind::map)) return false;
-    for (std::size_t i = 0; i < entry.keys.size(); ++i) {
-      const auto found = std::find(sweep_.paths.begin(), sweep_.paths.end(), entry.keys[i].text);
+    for (size_t i = 0; i < entry.keys.size(); ++i) {
+      const auto found = std::ranges::find(sweep_.paths, entry.keys[i].text);
       const SweepValue* value =
-          found == sweep_.paths.end() ? nullptr : values[static_cast<std::size_t>(found - sweep_.paths.begin())];
+          found == sweep_.paths.end() ? nullptr : values[static_cast<size_t>(found - sweep_.paths.begin())];
       if (value == nullptr) return false;
       const Node& wanted = entry.items[i];
       const bool same = same_value(flow_text(wanted), value->text);
-      const bool any = wanted.is(Node::Kind::sequence) &&
-                       std::any_of(wanted.items.begin(), wanted.items.end(),
-                                   [&](const Node& one) { return same_value(flow_text(one), value->text); });
+      const bool any = wanted.is(Node::Kind::sequence) && std::ranges::any_of(wanted.items, [&](const Node& one) {
+                         return same_value(flow_text(one), value->text);
+                       });
       if (!same && !any) return false;
     }
     return true;
@@ -392,10 +392,10 @@ class SweepReader {
     const View view(given ? node : nullptr, kind_named("repeat"), Place{});
     sweep_.seeds = options_.repeat.value_or(view.whole("seeds").value_or(1));
     sweep_.first_seed = view.whole("first");
-    if (sweep_.first_seed.value_or(0) > std::numeric_limits<std::uint64_t>::max() - sweep_.seeds)
+    if (sweep_.first_seed.value_or(0) > std::numeric_limits<uint64_t>::max() - sweep_.seeds)
       diagnostics_.add(node->find_key("first")->place, "there are too few seeds after this one",
                        "expected a smaller `first`");
-    if (std::find(sweep_.paths.begin(), sweep_.paths.end(), "seed") != sweep_.paths.end()) {
+    if (std::ranges::find(sweep_.paths, "seed") != sweep_.paths.end()) {
       diagnostics_.add(given ? root_.find_key("repeat")->place : root_.keys.front().place,
                        "`seed` is varied twice: here and by `repeat`", "remove one of them");
       return;
@@ -420,24 +420,24 @@ class SweepReader {
     }
   }
 
-  std::vector<Source>& sources_;
+  vector<Source>& sources_;
   const Node& root_;
   const SweepOptions& options_;
   Diagnostics& diagnostics_;
   Sweep sweep_;
-  std::uint64_t seed_ = 0;                   // of samples
-  std::map<std::string, const Key*> taken_;  // the paths of this block
+  uint64_t seed_ = 0;                   // of samples
+  std::map<string, const Key*> taken_;  // the paths of this block
   // How far where() has counted lines and characters.
-  mutable std::size_t counted_ = 0, line_ = 1, column_ = 1;
+  mutable size_t counted_ = 0, line_ = 1, column_ = 1;
 };
 
 void stop_if_wrong(const Diagnostics& diagnostics, bool color) {
   if (!diagnostics.empty()) throw SceneError(diagnostics, color);
 }
 
-Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, const SweepOptions& options) {
+Sweep read(vector<Source>& sources, Diagnostics& diagnostics, const SweepOptions& options) {
   const bool color = options.color;
-  std::optional<Node> root;
+  optional<Node> root;
   if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
   if (!root) stop_if_wrong(diagnostics, color);
   if (!root->is(Node::Kind::map)) {
@@ -459,15 +459,15 @@ Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, const SweepOp
 
 }  // namespace
 
-Sweep load_sweep(const std::string& path, const SweepOptions& options) {
-  std::vector<Source> sources(1);
+Sweep load_sweep(const string& path, const SweepOptions& options) {
+  vector<Source> sources(1);
   Diagnostics diagnostics(sources);
   if (!read_source(path, sources[0], diagnostics)) stop_if_wrong(diagnostics, options.color);
   return read(sources, diagnostics, options);
 }
 
-Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, const SweepOptions& options) {
-  std::vector<Source> sources(1);
+Sweep grid_sweep(const string& base, const vector<string>& grids, const SweepOptions& options) {
+  vector<Source> sources(1);
   sources[0] = {"--grid", grid_text(base, grids, options), true};
   Diagnostics diagnostics(sources);
   Sweep sweep = read(sources, diagnostics, options);
@@ -476,10 +476,10 @@ Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids,
   return sweep;
 }
 
-bool is_sweep_file(const std::string& path) {
-  std::vector<Source> sources(1);
+bool is_sweep_file(const string& path) {
+  vector<Source> sources(1);
   Diagnostics diagnostics(sources);
-  std::optional<Node> root;
+  optional<Node> root;
   if (read_source(path, sources[0], diagnostics) && check_text(sources[0], 0, diagnostics))
     root = parse_document(sources, 0, 0, diagnostics);
   return root && root->is(Node::Kind::map) && root->find("sweep") != nullptr && root->find("scene") == nullptr;

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "scene/check.h"
 #include "scene/scene_values.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/values.h"
 
@@ -23,7 +23,7 @@ class PathWalk {
       : root_(root), view_(std::in_place, &root, kind_named("scene"), Place{}), node_(&root) {}
 
   /// Returns false, with a problem and a remedy in `found`, if the step leads nowhere.
-  bool step(std::string_view step, ValueAtPath& found) {
+  bool step(string_view step, ValueAtPath& found) {
     found_ = &found;
     const bool moved = view_ ? to_key(step) : into_value(step);
     before_ = step;
@@ -37,13 +37,13 @@ class PathWalk {
   const Node* node() const { return node_; }
 
  private:
-  bool fail(std::string problem, std::string remedy = "") {
+  bool fail(string problem, string remedy = "") {
     found_->problem = std::move(problem);
     found_->remedy = std::move(remedy);
     return false;
   }
 
-  bool to_key(std::string_view step) {
+  bool to_key(string_view step) {
     const Field* field = find_field(view_->kind(), step);
     if (field == nullptr)
       return fail(fmt::format("unknown key {} in {}", in_backticks(step),
@@ -59,7 +59,7 @@ class PathWalk {
 
   bool to_part(const Field& field, bool absent) {
     const Kind& kind = kind_named(field.of);
-    const bool needs = std::any_of(kind.fields.begin(), kind.fields.end(), [](const Field& f) { return f.needed; });
+    const bool needs = std::ranges::any_of(kind.fields, [](const Field& f) { return f.needed; });
     const bool wanted = field.type == Type::part_or_flag ? view_->wants(field.key) : field.type == Type::part && !needs;
     if (absent && !wanted) return fail(fmt::format("this scene has no {}", in_backticks(field.key)));
     const View part = view_->part(field.key, field.of);
@@ -68,36 +68,36 @@ class PathWalk {
     return true;
   }
 
-  bool into_value(std::string_view step) {
+  bool into_value(string_view step) {
     if (field_->type == Type::named || field_->type == Type::list) return to_entry(step);
     if ((field_->type == Type::values || field_->type == Type::texts) && node_->is(Node::Kind::map))
       return to_number(step);
     const bool numbers = node_->is(Node::Kind::sequence);
-    for (const auto& names : {std::vector<std::string_view>{"x", "y", "z"}, {"width", "height"}}) {
+    for (const auto& names : {vector<string_view>{"x", "y", "z"}, {"width", "height"}}) {
       if (!numbers || names.size() != node_->items.size()) continue;
-      const auto at = std::find(names.begin(), names.end(), step);
+      const auto at = std::ranges::find(names, step);
       if (at == names.end()) break;
-      node_ = &node_->items[static_cast<std::size_t>(at - names.begin())];
+      node_ = &node_->items[static_cast<size_t>(at - names.begin())];
       return true;
     }
     return fail(fmt::format("{} has no part {}", in_backticks(before_), in_backticks(step)), "end the path before it");
   }
 
   /// A number with a name.
-  bool to_number(std::string_view step) {
+  bool to_number(string_view step) {
     const Node* number = node_->find(step);
     if (number == nullptr) return fail(fmt::format("{} has no {}", in_backticks(before_), in_backticks(step)));
     node_ = number;
     return true;
   }
 
-  bool to_entry(std::string_view step) {
+  bool to_entry(string_view step) {
     const Kind& kind = kind_named(field_->of);
     const Node* entry = nullptr;
     if (field_->type == Type::named) {
       // Members stand in the tree as `row.0`, two steps of the path.
-      const std::string family = std::exchange(family_, {});
-      const std::string name = family.empty() ? std::string(step) : fmt::format("{}.{}", family, step);
+      const string family = std::exchange(family_, {});
+      const string name = family.empty() ? string(step) : fmt::format("{}.{}", family, step);
       entry = node_->find(name);
       if (entry == nullptr && !family.empty())
         return fail(fmt::format("{} has no member {}", in_backticks(family), in_backticks(step)),
@@ -107,10 +107,10 @@ class PathWalk {
         return true;
       }
     } else if (const auto index = parse_index(step); index && *index < node_->items.size()) {
-      entry = &node_->items[static_cast<std::size_t>(*index)];
+      entry = &node_->items[static_cast<size_t>(*index)];
     }
     if (entry == nullptr) {
-      std::vector<std::string_view> names;
+      vector<string_view> names;
       for (const Key& key : node_->keys) names.push_back(key.text);
       return fail(fmt::format("there is no {} {}", kind.name, in_backticks(step)), suggest_name(step, names));
     }
@@ -125,21 +125,21 @@ class PathWalk {
 
   const Node& root_;
   /// The map that the path has reached. None: it has reached the value node_ of field_.
-  std::optional<View> view_;
+  optional<View> view_;
   const Node* node_;
   const Field* field_ = nullptr;
-  std::string family_;  // the repeated thing whose member the next step names
-  std::string before_ = "the scene";
+  string family_;  // the repeated thing whose member the next step names
+  string before_ = "the scene";
   ValueAtPath* found_ = nullptr;
 };
 
 }  // namespace
 
-ValueAtPath value_at(const Node& root, std::string_view path) {
+ValueAtPath value_at(const Node& root, string_view path) {
   ValueAtPath found;
   PathWalk walk(root);
-  for (std::size_t i = 0; i <= path.size();) {
-    const std::size_t end = std::min(path.find('.', i), path.size());
+  for (size_t i = 0; i <= path.size();) {
+    const size_t end = std::min(path.find('.', i), path.size());
     if (!walk.step(path.substr(i, end - i), found)) return found;
     i = end + 1;
   }

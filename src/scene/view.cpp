@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scene/colors.h"
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/values.h"
 
@@ -13,17 +14,17 @@ namespace carom {
 namespace {
 
 /// Parses every default of the table, each once.
-std::map<std::string_view, Node> parse_initials() {
-  std::map<std::string_view, Node> nodes;
-  std::vector<Source> sources(1);
+std::map<string_view, Node> parse_initials() {
+  std::map<string_view, Node> nodes;
+  vector<Source> sources(1);
   Diagnostics diagnostics(sources);
   const auto parse = [&](const Field& field) {
     if (field.initial.empty() || nodes.contains(field.initial)) return;
     sources[0].text = field.initial;
-    if (std::optional<Node> node = parse_document(sources, 0, 0, diagnostics))
+    if (optional<Node> node = parse_document(sources, 0, 0, diagnostics))
       nodes.emplace(field.initial, std::move(*node));
   };
-  for (const std::span<const Kind> family : families()) {
+  for (const span<const Kind> family : families()) {
     for (const Kind& kind : family)
       for (const Field& field : kind.fields) parse(field);
   }
@@ -37,40 +38,40 @@ bool usable(const Node* node, Node::Kind kind) {
 }  // namespace
 
 const Node& initial_node(const Field& field) {
-  static const std::map<std::string_view, Node> nodes = parse_initials();
+  static const std::map<string_view, Node> nodes = parse_initials();
   return nodes.at(field.initial);
 }
 
-std::optional<double> as_number(const Node* node) {
-  return usable(node, Node::Kind::scalar) ? parse_number(node->text) : std::nullopt;
+optional<double> as_number(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? parse_number(node->text) : nullopt;
 }
 
-std::optional<std::uint64_t> as_whole(const Node* node) {
-  return usable(node, Node::Kind::scalar) ? parse_whole(node->text) : std::nullopt;
+optional<uint64_t> as_whole(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? parse_whole(node->text) : nullopt;
 }
 
-std::optional<bool> as_flag(const Node* node) {
-  return usable(node, Node::Kind::scalar) ? std::optional(node->text == "true") : std::nullopt;
+optional<bool> as_flag(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? optional(node->text == "true") : nullopt;
 }
 
-std::optional<std::string> as_text(const Node* node) {
-  return usable(node, Node::Kind::scalar) ? std::optional(node->text) : std::nullopt;
+optional<string> as_text(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? optional(node->text) : nullopt;
 }
 
-std::optional<Vec3> as_vector(const Node* node) {
-  if (!usable(node, Node::Kind::sequence) || node->items.size() != 3) return std::nullopt;
+optional<Vec3> as_vector(const Node* node) {
+  if (!usable(node, Node::Kind::sequence) || node->items.size() != 3) return nullopt;
   Vec3 v;
   for (int i = 0; i < 3; ++i) {
-    const std::optional<double> x = as_number(&node->items[static_cast<std::size_t>(i)]);
-    if (!x) return std::nullopt;
+    const optional<double> x = as_number(&node->items[static_cast<size_t>(i)]);
+    if (!x) return nullopt;
     v[i] = *x;
   }
   return v;
 }
 
-std::optional<Color> as_color(const Node* node) {
-  if (const std::optional<Vec3> v = as_vector(node)) return Color{v->x(), v->y(), v->z()};
-  return usable(node, Node::Kind::scalar) ? parse_color(node->text) : std::nullopt;
+optional<Color> as_color(const Node* node) {
+  if (const optional<Vec3> v = as_vector(node)) return Color{v->x(), v->y(), v->z()};
+  return usable(node, Node::Kind::scalar) ? parse_color(node->text) : nullopt;
 }
 
 Place place_of(const Node& node) {
@@ -80,7 +81,7 @@ Place place_of(const Node& node) {
   return node.place;
 }
 
-const Node* View::given(std::string_view key) const {
+const Node* View::given(string_view key) const {
   const Field* field = find_field(*kind_, key);
   return field == nullptr ? nullptr : given(*field);
 }
@@ -93,7 +94,7 @@ View::Found View::search(const Field& field) const {
   for (const Node* layer : {own_, defaults_}) {
     if (layer == nullptr || (field.own && layer == defaults_)) continue;
     if (const Node* node = layer->find(field.key)) return {node->cancels ? nullptr : node, false};
-    for (const std::string_view rival : rivals(field)) {
+    for (const string_view rival : rivals(field)) {
       const Node* node = layer->find(rival);
       if (node != nullptr && !node->cancels) return {nullptr, true};
     }
@@ -101,7 +102,7 @@ View::Found View::search(const Field& field) const {
   return {nullptr, false};
 }
 
-const Node* View::find(std::string_view key) const {
+const Node* View::find(string_view key) const {
   const Field* field = find_field(*kind_, key);
   return field == nullptr ? nullptr : find(*field);
 }
@@ -111,28 +112,28 @@ const Node* View::find(const Field& field) const {
   return found.node != nullptr || found.is_replaced || field.initial.empty() ? found.node : &initial_node(field);
 }
 
-std::optional<double> View::number(std::string_view key) const {
+optional<double> View::number(string_view key) const {
   return as_number(find(key));
 }
-std::optional<std::uint64_t> View::whole(std::string_view key) const {
+optional<uint64_t> View::whole(string_view key) const {
   return as_whole(find(key));
 }
-std::optional<Vec3> View::vector(std::string_view key) const {
+optional<Vec3> View::vector(string_view key) const {
   return as_vector(find(key));
 }
-std::optional<Color> View::color(std::string_view key) const {
+optional<Color> View::color(string_view key) const {
   return as_color(find(key));
 }
 
-std::optional<bool> View::flag(std::string_view key) const {
+optional<bool> View::flag(string_view key) const {
   return as_flag(find(key));
 }
 
-std::optional<std::string> View::text(std::string_view key) const {
+optional<string> View::text(string_view key) const {
   return as_text(find(key));
 }
 
-View View::part(std::string_view key, std::string_view name) const {
+View View::part(string_view key, string_view name) const {
   const Kind& kind = kind_named(name);
   const Key* at = own_ == nullptr ? nullptr : own_->find_key(key);
   const Node* beneath = kind.beneath.empty() ? nullptr : given(kind.beneath);
@@ -140,12 +141,12 @@ View View::part(std::string_view key, std::string_view name) const {
               beneath != nullptr && beneath->is(Node::Kind::map) ? beneath : nullptr);
 }
 
-bool View::wants(std::string_view key) const {
+bool View::wants(string_view key) const {
   const Node* node = given(key);
   return node != nullptr && (node->is(Node::Kind::map) || as_flag(node).value_or(false));
 }
 
-Place View::place(std::string_view key) const {
+Place View::place(string_view key) const {
   const Node* node = given(key);
   return node == nullptr ? where_ : place_of(*node);
 }

@@ -1,13 +1,10 @@
 #pragma once
 // A checked map as the decoder reads it: its own values, else its defaults, else the table's.
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "numerics/vec3.h"
 #include "scene/colors.h"
 #include "scene/fields.h"
+#include "std.h"
 #include "yaml/document.h"
 
 namespace carom {
@@ -23,30 +20,30 @@ class View {
         defaults_(defaults) {}
 
   /// The value in effect, or null. A key that excludes this one (Field::one_of) hides the layers below it.
-  const Node* find(std::string_view key) const;
+  const Node* find(string_view key) const;
   const Node* find(const Field& field) const;  // a row of kind()
   /// The same without the table's default.
-  const Node* given(std::string_view key) const;
+  const Node* given(string_view key) const;
   const Node* given(const Field& field) const;
 
   // Each returns nothing if there is no value or a bad one.
-  std::optional<double> number(std::string_view key) const;
-  std::optional<std::uint64_t> whole(std::string_view key) const;
-  std::optional<bool> flag(std::string_view key) const;
-  std::optional<std::string> text(std::string_view key) const;
-  std::optional<Vec3> vector(std::string_view key) const;
-  std::optional<Color> color(std::string_view key) const;
+  optional<double> number(string_view key) const;
+  optional<uint64_t> whole(string_view key) const;
+  optional<bool> flag(string_view key) const;
+  optional<string> text(string_view key) const;
+  optional<Vec3> vector(string_view key) const;
+  optional<Color> color(string_view key) const;
 
   /// A nested map. Its defaults are ignored, and the map of its kind's `beneath` lies below it.
-  View part(std::string_view key, std::string_view kind) const;
+  View part(string_view key, string_view kind) const;
   /// Whether the key requests its object: the value is a map or true.
-  bool wants(std::string_view key) const;
+  bool wants(string_view key) const;
 
   const Node* own() const { return own_; }
   const Kind& kind() const { return *kind_; }
   Place where() const { return where_; }
   /// The place of the value if the file or a --set gives one, else that of the map.
-  Place place(std::string_view key) const;
+  Place place(string_view key) const;
 
  private:
   /// A value of the map or of its defaults, or whether another key replaces it.
@@ -65,12 +62,12 @@ class View {
 /// The node of a Field::initial.
 const Node& initial_node(const Field& field);
 
-std::optional<double> as_number(const Node* node);
-std::optional<std::uint64_t> as_whole(const Node* node);
-std::optional<bool> as_flag(const Node* node);
-std::optional<std::string> as_text(const Node* node);
-std::optional<Vec3> as_vector(const Node* node);
-std::optional<Color> as_color(const Node* node);
+optional<double> as_number(const Node* node);
+optional<uint64_t> as_whole(const Node* node);
+optional<bool> as_flag(const Node* node);
+optional<string> as_text(const Node* node);
+optional<Vec3> as_vector(const Node* node);
+optional<Color> as_color(const Node* node);
 
 /// The place of a value. If a --set gave a part of it, the place of that part.
 Place place_of(const Node& node);

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "geometry/contact_time.h"
 #include "physics/archive.h"
@@ -23,6 +22,7 @@
 #include "physics/world.h"
 #include "simulate/event_log.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -30,8 +30,8 @@ namespace {
 
 constexpr int frames_at_a_time = 4096;
 // Collisions. A frame may have more.
-constexpr std::size_t room_for_frame = EventLog::capacity / 2;
-constexpr std::size_t path_buffer = 4096;
+constexpr size_t room_for_frame = EventLog::capacity / 2;
+constexpr size_t path_buffer = 4096;
 
 class BookSimulator final : public Simulator {
  public:
@@ -40,19 +40,19 @@ class BookSimulator final : public Simulator {
   void advance_to(double time) override;
   double time() const override { return time_; }
   const State& state() override;
-  std::span<const Collision> collisions() const override { return log_.collisions(); }
-  std::span<const PathPiece> paths() const override { return pieces_; }
-  std::span<const RegionCrossing> crossings() const override { return crossings_; }
+  span<const Collision> collisions() const override { return log_.collisions(); }
+  span<const PathPiece> paths() const override { return pieces_; }
+  span<const RegionCrossing> crossings() const override { return crossings_; }
   const Tally& tally() const override { return log_.tally(); }
-  std::vector<Extremes> extremes() const override { return extremes_; }
-  std::string save() override;
-  void restore(std::string_view bytes) override;
+  vector<Extremes> extremes() const override { return extremes_; }
+  string save() override;
+  void restore(string_view bytes) override;
 
  private:
   /// For save() and restore().
   template <typename Archive>
   void keep(Archive& archive);
-  double frame_time(std::uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
+  double frame_time(uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
   void do_frame();
   void find_forces();
   void handle_pairs();
@@ -61,7 +61,7 @@ class BookSimulator final : public Simulator {
   void record_paths();
   void find_crossings();
   bool rests() const;
-  void end_at(double time, EndReason reason, std::uint32_t region = 0);
+  void end_at(double time, EndReason reason, uint32_t region = 0);
   bool end_until(double time);
   void handle_pair(Entity a, Entity b);
   void handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal);
@@ -73,20 +73,20 @@ class BookSimulator final : public Simulator {
   const Bounds bounds_;
   const double rounding_;  // s: of the time of a frame
   // Frames done. The bodies are at frame_time(frames_).
-  std::uint64_t frames_ = 0;
-  double time_ = 0;          // s, requested time: within the last frame done
-  std::vector<Vec3> x_;      // m
-  std::vector<Vec3> v_;      // m/s
-  std::vector<Vec3> force_;  // N
+  uint64_t frames_ = 0;
+  double time_ = 0;     // s, requested time: within the last frame done
+  vector<Vec3> x_;      // m
+  vector<Vec3> v_;      // m/s
+  vector<Vec3> force_;  // N
   State state_;
   EventLog log_;
   // By region and body: whether it is inside, as of the last frame.
-  std::vector<std::uint8_t> inside_;
-  std::vector<RegionCrossing> crossings_;
-  std::vector<PathPiece> pieces_;   // since the last advance
-  std::vector<std::uint8_t> lies_;  // by body: its last piece has no velocity
-  std::optional<RunEnd> end_;       // in the last frame done
-  std::vector<Extremes> extremes_;  // by options_.watch, at the frames
+  vector<uint8_t> inside_;
+  vector<RegionCrossing> crossings_;
+  vector<PathPiece> pieces_;   // since the last advance
+  vector<uint8_t> lies_;       // by body: its last piece has no velocity
+  optional<RunEnd> end_;       // in the last frame done
+  vector<Extremes> extremes_;  // by options_.watch, at the frames
 };
 
 BookSimulator::BookSimulator(const World& world, const State& initial, const BookOptions& options)
@@ -110,7 +110,7 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
 }
 
 void BookSimulator::take_extremes() {
-  for (std::size_t k = 0; k < extremes_.size(); ++k) {
+  for (size_t k = 0; k < extremes_.size(); ++k) {
     const WatchedQuantity& watched = options_.watch[k];
     for (Entity i = watched.first; i < watched.first + watched.count; ++i)
       extremes_[k].take(quantity_of(watched.quantity, x_[i], v_[i], world_.mass[i]), frame_time(frames_));
@@ -223,9 +223,9 @@ void BookSimulator::handle_pairs() {
 void BookSimulator::handle_surfaces() {
   const Entity n = world_.body_count();
   for (Entity i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < world_.planes.size(); ++k)
+    for (size_t k = 0; k < world_.planes.size(); ++k)
       handle_fixed(i, n + static_cast<Entity>(k), world_.planes[k].point, world_.planes[k].normal);
-    for (std::size_t k = 0; k < world_.walls.size(); ++k) {
+    for (size_t k = 0; k < world_.walls.size(); ++k) {
       // A wall acts as a plane over its extent. At its rim the direction is that from its closest point.
       const Vec3 nearest = nearest_on_wall(world_.walls[k], x_[i]);
       const Vec3 away = x_[i] - nearest;
@@ -254,8 +254,8 @@ void BookSimulator::move() {
 
 /// Regions see the bodies at frames only.
 void BookSimulator::find_crossings() {
-  std::size_t k = 0;
-  for (std::uint32_t r = 0; r < world_.regions.size(); ++r) {
+  size_t k = 0;
+  for (uint32_t r = 0; r < world_.regions.size(); ++r) {
     const WorldRegion& region = world_.regions[r];
     for (Entity i = 0; i < world_.body_count(); ++i, ++k) {
       if (!region.on.empty() && !std::binary_search(region.on.begin(), region.on.end(), i)) continue;
@@ -270,10 +270,10 @@ void BookSimulator::find_crossings() {
 
 bool BookSimulator::rests() const {
   return world_.gravity.isZero(0) && (frames_ > 0 || world_.impulse.empty()) &&
-         std::all_of(v_.begin(), v_.end(), [](const Vec3& v) { return v.isZero(0); });
+         std::ranges::all_of(v_, [](const Vec3& v) { return v.isZero(0); });
 }
 
-void BookSimulator::end_at(double time, EndReason reason, std::uint32_t region) {
+void BookSimulator::end_at(double time, EndReason reason, uint32_t region) {
   if (!end_) end_ = RunEnd{time, reason, region};
 }
 
@@ -328,13 +328,13 @@ void BookSimulator::keep(Archive& archive) {
   archive(frames_, time_, log_, crossings_, pieces_, end_);
 }
 
-std::string BookSimulator::save() {
+string BookSimulator::save() {
   StateWriter archive;
   keep(archive);
   return archive.take();
 }
 
-void BookSimulator::restore(std::string_view bytes) {
+void BookSimulator::restore(string_view bytes) {
   StateReader archive(bytes, world_);
   keep(archive);
   archive.finish();
@@ -342,7 +342,7 @@ void BookSimulator::restore(std::string_view bytes) {
 
 /// Between frames a body is on the straight line of the frame's update.
 const State& BookSimulator::state() {
-  const std::optional<RunEnd>& end = log_.tally().end;
+  const optional<RunEnd>& end = log_.tally().end;
   state_.time = end ? std::min(time_, end->time) : time_;
   state_.position = x_;
   state_.velocity = v_;
@@ -354,8 +354,8 @@ const State& BookSimulator::state() {
 
 }  // namespace
 
-std::unique_ptr<Simulator> make_book_simulator(const World& world, const State& initial, const BookOptions& options) {
-  return std::make_unique<BookSimulator>(world, initial, options);
+unique_ptr<Simulator> make_book_simulator(const World& world, const State& initial, const BookOptions& options) {
+  return make_unique<BookSimulator>(world, initial, options);
 }
 
 }  // namespace carom

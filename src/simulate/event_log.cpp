@@ -8,10 +8,11 @@
 
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
-EventLog::EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces)
+EventLog::EventLog(uint64_t max_collisions, bool record_collisions, size_t forces)
     : max_collisions_(max_collisions), record_collisions_(record_collisions), force_work_(forces) {
   tally_.force_work.resize(forces);
   if (record_collisions) collisions_.reserve(capacity);
@@ -51,8 +52,8 @@ void EventLog::take_up(double approach, double energy) {
   hold(energy);
 }
 
-void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
-                       std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts) {
+void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before, span<const Vec3> after,
+                       span<const ContactConstraint> pairs, span<const AbsorbedImpact> impacts) {
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
 
@@ -60,7 +61,7 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
   bool any_recorded = false;
   double of_recorded = 0;  // J
   double work = 0;         // J
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
+  for (size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
     if (!(p.force > 0 || (p.bilateral && p.force < 0))) continue;
     work += p.work();
@@ -81,7 +82,7 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
 
   // The energy lost: the work of moving things, and what the motion loses.
   double lost = work;  // J
-  for (std::size_t k = 0; k < before.size(); ++k)
+  for (size_t k = 0; k < before.size(); ++k)
     lost += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
   lose(lost);
   deviate(-lost);

@@ -1,14 +1,12 @@
 #pragma once
 // The record of a simulator: collisions, energy lost in contact, work of forces, extremes.
 #include <algorithm>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "numerics/compensated.h"
 #include "physics/collision.h"
 #include "physics/tally.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,15 +21,15 @@ class EventLog {
  public:
   /// max_collisions: one more is an error; 0: no limit. record_collisions: if false, collisions are only counted,
   /// without a buffer. `forces`: number of forces with sums of their own.
-  EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces = 0);
+  EventLog(uint64_t max_collisions, bool record_collisions, size_t forces = 0);
 
   /// Empties the buffer for the next advance.
   void begin_advance() { collisions_.clear(); }
   /// Counts a collision and buffers it. Throws SimulationError beyond max_collisions.
   void record(const Collision& collision);
   /// Whether so many more collisions fit into the buffer. It grows if they do not, so an advance should end before.
-  bool has_room(std::size_t more) const { return collisions_.size() + more < capacity; }
-  std::span<const Collision> collisions() const { return collisions_; }  // in order
+  bool has_room(size_t more) const { return collisions_.size() + more < capacity; }
+  span<const Collision> collisions() const { return collisions_; }  // in order
 
   /// Books energy (J) lost in an impact; negative: made.
   void lose(double energy) {
@@ -55,7 +53,7 @@ class EventLog {
     deviate(work);
   }
   /// Books work (J) of a force of the World, by its number there.
-  void add_work(std::size_t force, double work) {
+  void add_work(size_t force, double work) {
     add_work(work);
     force_work_[force].add(work);
     tally_.force_work[force] = force_work_[force].value();
@@ -73,8 +71,8 @@ class EventLog {
     tally_.max_overlap = tally_.max_overlap < overlap ? overlap : tally_.max_overlap;
   }
   /// Counts bodies that come to rest on a thing, and bodies that leave it.
-  void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
-  void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
+  void add_resting(uint64_t bodies) { tally_.resting += bodies; }
+  void remove_resting(uint64_t bodies) { tally_.resting -= bodies; }
   void add_stepped_contact(double time) { tally_.stepped_contact += time; }  // s, of one body
   /// Counts an impact with this approach (m/s) that contact absorbs, and its energy (J), which is booked as lost
   /// elsewhere.
@@ -83,8 +81,8 @@ class EventLog {
   /// (1/kg) is by body. Approaches within a pair's slack, or within path errors, do not count. `impacts`: by pair, or
   /// empty. Their energy is booked as lost, and that of moving things as work. Both are removed from the deviation,
   /// because the caller books the whole change of velocities as deviation.
-  void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
-               std::span<const ContactConstraint> pairs, std::span<const AbsorbedImpact> impacts = {});
+  void take_up(span<const double> inverse_mass, span<const Vec3> before, span<const Vec3> after,
+               span<const ContactConstraint> pairs, span<const AbsorbedImpact> impacts = {});
   /// Books energy (J) lost beside the impacts that are recorded or counted. The record of a rest takes its part back. A
   /// crowd gives back what contacts have lent: less than 0.
   void absorb(double energy) {
@@ -119,7 +117,7 @@ class EventLog {
     archive.sized(force_work_);
   }
 
-  static constexpr std::size_t capacity = 4096;  // collisions
+  static constexpr size_t capacity = 4096;  // collisions
 
  private:
   /// Adds to the energy of impacts without a record (J).
@@ -128,12 +126,12 @@ class EventLog {
     tally_.taken_up.energy = absorbed_.value();
   }
 
-  const std::uint64_t max_collisions_;
+  const uint64_t max_collisions_;
   const bool record_collisions_;
-  std::vector<Collision> collisions_;
+  vector<Collision> collisions_;
   Tally tally_;
   Sum energy_lost_, absorbed_, made_, method_error_, work_, removed_;  // J
-  std::vector<Sum> force_work_;                                        // J
+  vector<Sum> force_work_;                                             // J
 };
 
 }  // namespace carom

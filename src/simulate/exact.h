@@ -1,15 +1,13 @@
 #pragma once
 // The exact simulator. It goes from event to event along paths in closed form, or along a method's steps. See
 // exact_simulator.h.
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <vector>
 
 #include "physics/contact_quality.h"
 #include "physics/integrator.h"
 #include "simulate/simulator.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +17,7 @@ struct ExactOptions {
   double duration = 0;  // s; no later event is scheduled
   // m/s; slower impacts under load end in resting contact; 0: depends on the case (exact_bodies.h).
   double rest_speed = 0;
-  std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
+  uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
   // The method for free flights without a closed form; except with dop853, for all flights that bend.
   Integrator integrator = Integrator::dop853;
   // s: with dop853 the longest step; steps of other methods end at its multiples.
@@ -36,12 +34,12 @@ struct ExactOptions {
   bool record_paths = false;      // false: there is no buffer for paths()
   // What ends the run before the duration, beside regions of the World.
   bool stop_at_rest = false;
-  std::uint64_t stop_collisions = 0;     // 0: none
-  std::vector<WatchedQuantity> watch{};  // for extremes()
+  uint64_t stop_collisions = 0;     // 0: none
+  vector<WatchedQuantity> watch{};  // for extremes()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses. The simulator's own state
 /// at time 0 is after them.
-std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options);
+unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options);
 
 }  // namespace carom

@@ -7,40 +7,42 @@
 #include <cmath>
 #include <utility>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
 
-std::string joined(const std::string& before, const std::vector<Entity>& things, const std::vector<std::string>& after,
-                   const std::function<std::string(Entity)>& name) {
-  std::string text = before;
-  for (std::size_t k = 0; k < things.size(); ++k) text += name(things[k]) + after[k];
+string joined(const string& before, const vector<Entity>& things, const vector<string>& after,
+              const function<string(Entity)>& name) {
+  string text = before;
+  for (size_t k = 0; k < things.size(); ++k) text += name(things[k]) + after[k];
   return text;
 }
 
 /// The name of a thing that has none.
-std::string numbered(Entity e) {
+string numbered(Entity e) {
   return fmt::format("body {}", e);
 }
 
 }  // namespace
 
-SimulationError::SimulationError(const std::string& before, Entity body, const std::string& after)
-    : SimulationError(before, std::vector{body}, {after}) {}
+SimulationError::SimulationError(const string& before, Entity body, const string& after)
+    : SimulationError(before, vector{body}, {after}) {}
 
-SimulationError::SimulationError(std::string before, std::vector<Entity> things, std::vector<std::string> after)
+SimulationError::SimulationError(string before, vector<Entity> things, vector<string> after)
     : runtime_error(joined(before, things, after, numbered)),
       before_(std::move(before)),
       things_(std::move(things)),
       after_(std::move(after)) {}
 
-SimulationError SimulationError::named(const std::function<std::string(Entity)>& name) const {
+SimulationError SimulationError::named(const function<string(Entity)>& name) const {
   return things_.empty() ? *this : SimulationError(joined(before_, things_, after_, name));
 }
 
 void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
                         const Remedies& remedies) {
-  const std::string when = fmt::format("at t = {} s ", time);
+  const string when = fmt::format("at t = {} s ", time);
   const double speed = v.norm();
 
   if (!std::isfinite(speed))

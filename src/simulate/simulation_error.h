@@ -1,12 +1,10 @@
 #pragma once
 // Reasons why a run cannot continue.
-#include <functional>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "physics/bounds.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,17 +13,17 @@ class SimulationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
   /// An error about a body, which simulators identify by number: "<before>body 3<after>".
-  SimulationError(const std::string& before, Entity body, const std::string& after);
+  SimulationError(const string& before, Entity body, const string& after);
   /// An error about several things. after: the text after each of them.
-  SimulationError(std::string before, std::vector<Entity> things, std::vector<std::string> after);
+  SimulationError(string before, vector<Entity> things, vector<string> after);
 
   /// The same error with the things' names in place of their numbers.
-  SimulationError named(const std::function<std::string(Entity)>& name) const;
+  SimulationError named(const function<string(Entity)>& name) const;
 
  private:
-  std::string before_;
-  std::vector<Entity> things_;
-  std::vector<std::string> after_;  // by thing
+  string before_;
+  vector<Entity> things_;
+  vector<string> after_;  // by thing
 };
 
 /// Remedies against a speed, and against a position, that is out of bounds.

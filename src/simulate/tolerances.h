@@ -5,8 +5,8 @@
 // Each is the greatest displacement of a body, as a share of its radius, in nine short runs.
 // In them - means no displacement, and * a pile that rests too late or a run that fails. Constants without brackets
 // have none of these effects.
-#include <cstddef>
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom::exact_tolerance {
 
@@ -51,7 +51,7 @@ inline constexpr double closed_place = 0x1p-48;
 // Share of speeds: the same. These polynomials only serve to find impacts.
 inline constexpr double closed_speed = 0x1p-20;
 // Consecutive explicit steps that a braking force limits, after which the implicit method is tried.
-inline constexpr std::uint8_t many_explicit_steps = 8;
+inline constexpr uint8_t many_explicit_steps = 8;
 // Share of the greatest speed so far: a speed that counts as zero, because its square underflows.
 inline constexpr double negligible_speed = 0x1p-200;
 // Share of the squared speed of falling by a radius: below it, a body is at rest.
@@ -92,7 +92,7 @@ inline constexpr double tie_of_clock = 0x1p-36;
 // Share of the time in which the fastest body crosses the scene, or the duration: the same, by rounding of places.
 inline constexpr double tie_of_places = 0x1p-34;
 // So many events of one instant may be endless rounds. Whether they are is then looked at.
-inline constexpr std::uint32_t rounds_of_events = 1000;
+inline constexpr uint32_t rounds_of_events = 1000;
 // Cosine of an angle: pushes at right angles.
 inline constexpr double right_angle = 0x1p-40;
 // Share of a speed: two approaches that are equal.
@@ -106,7 +106,7 @@ inline constexpr double slackening = 0x1p-40;
 // Share of speeds: a pair that separates faster stays closed no longer.
 inline constexpr double parted = 0x1p-44;
 // So many strikes of one body at an instant may be endless rounds.
-inline constexpr std::uint32_t many_strikes = 32;
+inline constexpr uint32_t many_strikes = 32;
 // Share of the greatest speeds of an instant, by kinetic energy: what rounding leaves of approaches after many rounds.
 inline constexpr double left_by_rounds = 0x1p-40;
 // Share of the greatest speeds of an instant, by kinetic energy: the limit of endless rounds has not changed.
@@ -145,9 +145,9 @@ inline constexpr double wide_open = 1000;
 // Share of the time of falling by a radius, in which changes of contact are counted.
 inline constexpr double time_of_changes = 0.04;
 // Changes of contact in that time. With more, the island moves as a crowd.
-inline constexpr std::uint32_t many_changes = 64;
+inline constexpr uint32_t many_changes = 64;
 // Steps of a crowd without a change of contact. After so many, the island returns to constrained motion.
-inline constexpr std::uint32_t calm_steps = 8;
+inline constexpr uint32_t calm_steps = 8;
 // Share of the greatest acceleration: forces are in balance.
 inline constexpr double constrained_balance = 1e-11;
 // Part of the accelerations. Where the rounding of a string's force or direction makes more, the motion is arbitrary.
@@ -169,12 +169,12 @@ inline constexpr double reach_of_need = 1.25;
 // Share of a radius: room of a member's region, at least.
 inline constexpr double room_of_region = 0.5;
 // Members of a crowd's slab, at least, and its thickness by the length of most rows. Threads take slabs.
-inline constexpr std::size_t members_of_slab = 1000;
+inline constexpr size_t members_of_slab = 1000;
 inline constexpr double rows_through_slab = 3;
 // Share of the last step: a shorter one begins anew.
 inline constexpr double restart = 0.5;
 // Steps without a force, after which a body that is near nothing leaves its crowd.
-inline constexpr std::uint8_t idle_steps = 8;
+inline constexpr uint8_t idle_steps = 8;
 // Multiple of the last step: the longest one.
 inline constexpr double step_growth = 1.25;
 // Share of a gap that errors of a step may take.
@@ -188,7 +188,7 @@ inline constexpr double force_of_speed = 0.3;
 // The same, where it gives them less.
 inline constexpr double least_force = 0.01;
 // Members of a crowd, up to which the contact solver takes steps that sweeps have not solved.
-inline constexpr std::size_t exact_members = 200;
+inline constexpr size_t exact_members = 200;
 // Steps in which missing gaps do not return, at most, after one in which they could not.
 inline constexpr int longest_wait = 64;
 // Share of the energy that a crowd turns over: once errors have made more, missing gaps do not return.
@@ -213,8 +213,8 @@ inline constexpr double standstill = 1e-4;
 // The same: forces of slower bodies need not be finer. Their errors add up to tremors at a tenth of a standstill.
 inline constexpr double tremor = 1e-5;
 // Steps from one look at the parts of a crowd to the next, and looks after which a part that slow rests.
-inline constexpr std::uint32_t steps_to_look = 8;
-inline constexpr std::uint8_t still_looks = 8;
+inline constexpr uint32_t steps_to_look = 8;
+inline constexpr uint8_t still_looks = 8;
 // Share of the speed of falling by a radius: the mean speed of crowds that rest by it; and for how many times of
 // falling.
 inline constexpr double slow_preview = 0.03;
@@ -263,7 +263,7 @@ inline constexpr double carried_disturbance = 1e-12;
 // Share of the largest radius: a larger disturbance does not count as small.
 inline constexpr double saturated = 0.01;
 // Instants at which a disturbance must be small, so that its growth can be measured.
-inline constexpr std::size_t least_small = 8;
+inline constexpr size_t least_small = 8;
 // Share of the duration: a disturbance that becomes large within it is not followed more finely.
 inline constexpr double clock_share = 1e-6;
 

@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
@@ -31,20 +33,20 @@ bool contradicts_little(const ContactIsland::Row& r, double w) {
 }  // namespace
 
 /// Stores Q^T of row c in row_.
-void DualActiveSet::transform(const ContactIsland& island, std::uint32_t c) {
+void DualActiveSet::transform(const ContactIsland& island, uint32_t c) {
   const ContactIsland::Row& r = island.rows[c];
-  const std::size_t at[2] = {3 * r.a, 3 * static_cast<std::size_t>(r.moves_b() ? r.b : 0)};
+  const size_t at[2] = {3 * r.a, 3 * static_cast<size_t>(r.moves_b() ? r.b : 0)};
   const double values[6] = {-r.left.x(), -r.left.y(), -r.left.z(), r.right.x(), r.right.y(), r.right.z()};
   factors_.transform(at, values, r.moves_b() ? 2 : 1, row_.data());
 }
 
 /// Appends row c without a force. False: it depends on the others.
-bool DualActiveSet::append(const ContactIsland& island, std::uint32_t c) {
+bool DualActiveSet::append(const ContactIsland& island, uint32_t c) {
   if (factors_.rank() == factors_.columns()) return false;
   transform(island, c);
   if (factors_.tail(row_.data()) <= dependent_) return false;
   factors_.append(row_.data());
-  place_[c] = static_cast<std::uint32_t>(active_.size());
+  place_[c] = static_cast<uint32_t>(active_.size());
   active_.push_back(c);
   force_.push_back(0);
   fixed_.push_back(island.rows[c].bilateral);
@@ -52,43 +54,43 @@ bool DualActiveSet::append(const ContactIsland& island, std::uint32_t c) {
 }
 
 /// Removes the active row at `place`, and updates row_.
-void DualActiveSet::drop(std::size_t place) {
+void DualActiveSet::drop(size_t place) {
   factors_.remove(place, row_.data());
   place_[active_[place]] = none;
-  const auto at = static_cast<std::ptrdiff_t>(place);
+  const auto at = static_cast<ptrdiff_t>(place);
   active_.erase(active_.begin() + at);
   force_.erase(force_.begin() + at);
   fixed_.erase(fixed_.begin() + at);
-  for (std::size_t k = place; k < active_.size(); ++k) place_[active_[k]] = static_cast<std::uint32_t>(k);
+  for (size_t k = place; k < active_.size(); ++k) place_[active_[k]] = static_cast<uint32_t>(k);
 }
 
 /// Makes new factors, of the bilateral rows and then of these.
-void DualActiveSet::rebuild(const ContactIsland& island, const std::vector<std::uint32_t>& rows) {
+void DualActiveSet::rebuild(const ContactIsland& island, const vector<uint32_t>& rows) {
   factors_.reset(island.unknowns());
   active_.clear();
   force_.clear();
   fixed_.clear();
   place_.assign(island.rows.size(), none);
   if (!island.unilateral)
-    for (std::uint32_t c = 0; c < island.rows.size(); ++c)
+    for (uint32_t c = 0; c < island.rows.size(); ++c)
       if (island.rows[c].bilateral) append(island, c);
-  for (const std::uint32_t c : rows)
+  for (const uint32_t c : rows)
     if (place_[c] == none) append(island, c);
 }
 
 /// Computes the motion that satisfies the active rows exactly, and their forces.
 void DualActiveSet::balance(const ContactIsland& island) {
-  const std::size_t k = active_.size();
-  std::fill(step_.begin(), step_.end(), 0.0);
-  for (std::size_t j = 0; j < k; ++j) {
+  const size_t k = active_.size();
+  std::ranges::fill(step_, 0.0);
+  for (size_t j = 0; j < k; ++j) {
     const ContactIsland::Row& r = island.rows[active_[j]];
     step_[j] = r.scale * r.target - r.dot(free_.data());
   }
   factors_.solve_transposed(step_.data());
   factors_.from_q(step_.data(), y_.data());
-  for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += free_[i];
+  for (size_t i = 0; i < y_.size(); ++i) y_[i] += free_[i];
   factors_.solve(step_.data());
-  std::copy(step_.begin(), step_.begin() + static_cast<std::ptrdiff_t>(k), force_.begin());
+  std::copy(step_.begin(), step_.begin() + static_cast<ptrdiff_t>(k), force_.begin());
 }
 
 /// Returns to the motion of the active rows, without those that pull.
@@ -100,8 +102,8 @@ void DualActiveSet::settle(const ContactIsland& island) {
 /// Removes the row that pulls most, if one does.
 bool DualActiveSet::drop_one_that_pulls(double tolerance) {
   double greatest = 0, least = 0;
-  std::size_t which = none;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
+  size_t which = none;
+  for (size_t k = 0; k < active_.size(); ++k) {
     greatest = std::max(greatest, std::abs(force_[k]));
     if (!fixed_[k] && force_[k] < least) {
       least = force_[k];
@@ -114,9 +116,9 @@ bool DualActiveSet::drop_one_that_pulls(double tolerance) {
 }
 
 /// The growth of row_'s force at which the first active row loses its force, and that row.
-double DualActiveSet::blocking(std::size_t& first) const {
+double DualActiveSet::blocking(size_t& first) const {
   double most = infinite;
-  for (std::size_t k = 0; k < active_.size(); ++k)
+  for (size_t k = 0; k < active_.size(); ++k)
     if (!fixed_[k] && step_[k] > 0 && force_[k] < most * step_[k]) {
       most = force_[k] / step_[k];
       first = k;
@@ -125,7 +127,7 @@ double DualActiveSet::blocking(std::size_t& first) const {
 }
 
 /// Appends row c, which is violated by `shortfall`: its force grows until it is satisfied. False: that is impossible.
-bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double shortfall) {
+bool DualActiveSet::take_in(const ContactIsland& island, uint32_t c, double shortfall) {
   double force = 0;
   transform(island, c);
 
@@ -135,32 +137,32 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
     const bool free = tail > dependent_;
 
     // The change of the active rows' forces for each unit of this one's.
-    std::copy(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(active_.size()), step_.begin());
+    std::copy(row_.begin(), row_.begin() + static_cast<ptrdiff_t>(active_.size()), step_.begin());
     factors_.solve(step_.data());
 
     // The force grows until the row is satisfied, or until an active row loses its force.
-    std::size_t first = none;
+    size_t first = none;
     const double most = blocking(first);
     const double enough = free ? std::max(shortfall, 0.0) / (tail * tail) : infinite;
     if (!free && first == none) return false;
     const double step = std::min(most, enough);
 
     // The active rows' forces and the motion change with it.
-    for (std::size_t k = 0; k < active_.size(); ++k) {
+    for (size_t k = 0; k < active_.size(); ++k) {
       force_[k] -= step * step_[k];
       if (!fixed_[k]) force_[k] = std::max(force_[k], 0.0);
     }
     force += step;
     if (free) {
       factors_.tail_direction(row_.data(), work_.data());
-      for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += step * work_[i];
+      for (size_t i = 0; i < y_.size(); ++i) y_[i] += step * work_[i];
       shortfall -= step * tail * tail;
     }
 
     // The row is satisfied, and becomes active.
     if (enough <= most) {
       factors_.append(row_.data());
-      place_[c] = static_cast<std::uint32_t>(active_.size());
+      place_[c] = static_cast<uint32_t>(active_.size());
       active_.push_back(c);
       force_.push_back(force);
       fixed_.push_back(0);
@@ -177,23 +179,23 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
 /// If it does not for as many steps as there are rows, only rounding is left.
 void DualActiveSet::take_in_violated(const ContactIsland& island) {
   double energy = 0;
-  std::size_t idle = 0;
+  size_t idle = 0;
   // By body: the sum of the speeds that single forces give it.
-  std::vector<double>& load = load_;
+  vector<double>& load = load_;
   load.resize(island.free.size());
 
   for (;;) {
-    std::fill(load.begin(), load.end(), 0.0);
-    for (std::size_t k = 0; k < active_.size(); ++k) {
+    std::ranges::fill(load, 0.0);
+    for (size_t k = 0; k < active_.size(); ++k) {
       const ContactIsland::Row& r = island.rows[active_[k]];
       load[r.a] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.a];
       if (r.moves_b()) load[r.b] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.b];
     }
 
     // Finds the row that is violated most, by more than rounding.
-    std::uint32_t worst = none;
+    uint32_t worst = none;
     double least = 0;
-    for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
+    for (uint32_t c = 0; c < island.rows.size(); ++c) {
       if (place_[c] != none || aside_[c]) continue;
       const ContactIsland::Row& r = island.rows[c];
       const double w = r.dot(y_.data()) - r.scale * r.target;
@@ -222,31 +224,31 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
 
 /// Newton's method on the active rows (iterative refinement): the factors are rounded, the residuals are not.
 void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solution) {
-  const std::size_t n = island.unknowns();
-  const std::size_t k = active_.size();
+  const size_t n = island.unknowns();
+  const size_t k = active_.size();
   solution.motion.resize(n);
   solution.force.assign(island.rows.size(), DoubleDouble{0, 0});
 
   // Without active rows the motion is the free one.
   if (k == 0) {
-    for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
+    for (size_t i = 0; i < n; ++i) solution.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
     y_ = free_;
     return;
   }
 
   // The start is the solution in double precision.
-  for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island.root[i / 3] * y_[i], 0};
-  for (std::size_t j = 0; j < k; ++j) solution.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
+  for (size_t i = 0; i < n; ++i) solution.motion[i] = {island.root[i / 3] * y_[i], 0};
+  for (size_t j = 0; j < k; ++j) solution.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
   double all = 0;
   for (const double y : y_) all = std::max(all, std::abs(y));
 
   // The rows' errors and the imbalance of forces. Each is reduced as long as it at least halves.
   double off = infinite;
   double unbalanced = infinite;
-  std::vector<double>& p = row_;
-  std::vector<double>& g = step_;
-  std::vector<double>& dy = work_;
-  const auto greatest = [](const std::vector<double>& v) {
+  vector<double>& p = row_;
+  vector<double>& g = step_;
+  vector<double>& dy = work_;
+  const auto greatest = [](const vector<double>& v) {
     double most = 0;
     for (const double x : v) most = std::max(most, std::abs(x));
     return most;
@@ -257,56 +259,56 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
   const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal());
   const double enough = 0x1p-92 * all;
   while (off > 0 || unbalanced > 0) {
-    std::fill(g.begin(), g.end(), 0.0);
-    std::fill(p.begin(), p.end(), 0.0);
+    std::ranges::fill(g, 0.0);
+    std::ranges::fill(p, 0.0);
 
     // The correction that removes the rows' errors.
     if (off > 0) {
-      for (std::size_t j = 0; j < k; ++j) {
+      for (size_t j = 0; j < k; ++j) {
         const ContactIsland::Row& r = island.rows[active_[j]];
         g[j] = -r.scale * excess(r, solution.motion);
       }
       factors_.solve_transposed(g.data());
       const double now = greatest(g);
-      if (!(now < 0.5 * off)) std::fill(g.begin(), g.end(), 0.0);
+      if (!(now < 0.5 * off)) std::ranges::fill(g, 0.0);
       off = now < 0.5 * off && left * now > enough ? now : 0;
     }
 
     // The correction that removes the imbalance of forces.
     if (unbalanced > 0) {
       find_imbalance(island, solution);
-      std::vector<double>& lacking = solution.lacking;
-      for (std::size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
+      vector<double>& lacking = solution.lacking;
+      for (size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
       const double now = greatest(lacking);
       if (now < 0.5 * unbalanced) factors_.to_q(lacking.data(), p.data());
       unbalanced = now < 0.5 * unbalanced && left * now > enough ? now : 0;
     }
 
     // Both corrections together, for the motion and for the forces.
-    std::copy(p.begin() + static_cast<std::ptrdiff_t>(k), p.end(), g.begin() + static_cast<std::ptrdiff_t>(k));
+    std::copy(p.begin() + static_cast<ptrdiff_t>(k), p.end(), g.begin() + static_cast<ptrdiff_t>(k));
     factors_.from_q(g.data(), dy.data());
-    for (std::size_t j = 0; j < k; ++j) g[j] -= p[j];
+    for (size_t j = 0; j < k; ++j) g[j] -= p[j];
     factors_.solve(g.data());
-    for (std::size_t i = 0; i < n; ++i)
+    for (size_t i = 0; i < n; ++i)
       solution.motion[i] = solution.motion[i] + DoubleDouble{island.root[i / 3] * dy[i], 0};
-    for (std::size_t j = 0; j < k; ++j) {
+    for (size_t j = 0; j < k; ++j) {
       DoubleDouble& x = solution.force[active_[j]];
       x = x + DoubleDouble{island.rows[active_[j]].scale * g[j], 0};
     }
   }
 
   // The refined values, in double precision.
-  for (std::size_t i = 0; i < n; ++i) y_[i] = solution.motion[i].hi / island.root[i / 3];
-  for (std::size_t j = 0; j < k; ++j) force_[j] = solution.force[active_[j]].hi / island.rows[active_[j]].scale;
+  for (size_t i = 0; i < n; ++i) y_[i] = solution.motion[i].hi / island.root[i / 3];
+  for (size_t j = 0; j < k; ++j) force_[j] = solution.force[active_[j]].hi / island.rows[active_[j]].scale;
 }
 
 /// The inactive row that is violated most, by more than the rounding of the data.
-std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, const ContactSolution& solution,
-                                                  double& shortfall) const {
-  std::uint32_t worst = none;
+uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, const ContactSolution& solution,
+                                             double& shortfall) const {
+  uint32_t worst = none;
   shortfall = 0;
 
-  for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
+  for (uint32_t c = 0; c < island.rows.size(); ++c) {
     if (place_[c] != none || aside_[c] > 1) continue;
     const ContactIsland::Row& r = island.rows[c];
 
@@ -321,10 +323,10 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
 }
 
 /// A hash of the set of active rows, independent of their order.
-std::uint64_t DualActiveSet::signature() const {
-  std::uint64_t sum = active_.size();
-  for (const std::uint32_t c : active_) {
-    std::uint64_t x = c + 0x9e3779b97f4a7c15u;
+uint64_t DualActiveSet::signature() const {
+  uint64_t sum = active_.size();
+  for (const uint32_t c : active_) {
+    uint64_t x = c + 0x9e3779b97f4a7c15u;
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
     x = (x ^ x >> 27) * 0x94d049bb133111ebu;
     sum += x ^ x >> 31;
@@ -334,9 +336,9 @@ std::uint64_t DualActiveSet::signature() const {
 
 /// Appends, removes and refines until nothing is left to do, or a set of rows returns.
 void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) {
-  std::vector<std::uint64_t> seen;
+  vector<uint64_t> seen;
   infeasible_ = false;
-  std::fill(aside_.begin(), aside_.end(), 0);
+  std::ranges::fill(aside_, 0);
   settle(island);
   take_in_violated(island);
 
@@ -346,8 +348,8 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
 
     // A row that pulls is removed first.
     if (drop_one_that_pulls(pulling)) {
-      const std::uint64_t now = signature();
-      if (std::find(seen.begin(), seen.end(), now) != seen.end()) return;
+      const uint64_t now = signature();
+      if (std::ranges::find(seen, now) != seen.end()) return;
       seen.push_back(now);
       settle(island);
       take_in_violated(island);
@@ -355,7 +357,7 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
     }
 
     // Then the row that is violated most becomes active.
-    const std::uint32_t worst = worst_after_refining(island, solution, shortfall);
+    const uint32_t worst = worst_after_refining(island, solution, shortfall);
     if (worst == none) return;
     // A row that cannot be satisfied is set aside.
     if (!take_in(island, worst, shortfall)) {
@@ -367,26 +369,26 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
     }
 
     // The method ends where a set of active rows returns.
-    const std::uint64_t now = signature();
-    if (std::find(seen.begin(), seen.end(), now) != seen.end()) return;
+    const uint64_t now = signature();
+    if (std::ranges::find(seen, now) != seen.end()) return;
     seen.push_back(now);
   }
 }
 
 void DualActiveSet::prepare(const ContactIsland& island) {
-  const std::size_t n = island.unknowns();
+  const size_t n = island.unknowns();
   dependent_ = dependent;
-  for (std::vector<double>* v : {&y_, &free_, &row_, &step_, &work_}) v->assign(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
+  for (vector<double>* v : {&y_, &free_, &row_, &step_, &work_}) v->assign(n, 0.0);
+  for (size_t i = 0; i < n; ++i) free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
   aside_.assign(island.rows.size(), 0);
 }
 
 DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactSolution& solution) {
   prepare(island);
-  std::vector<std::uint32_t> rows;
-  for (std::uint32_t c = 0; c < island.rows.size(); ++c)
+  vector<uint32_t> rows;
+  for (uint32_t c = 0; c < island.rows.size(); ++c)
     if (island.rows[c].force > 0 && !island.rows[c].bilateral) rows.push_back(c);
-  std::sort(rows.begin(), rows.end(), [&](std::uint32_t p, std::uint32_t q) {
+  std::ranges::sort(rows, [&](uint32_t p, uint32_t q) {
     const double fp = island.rows[p].force / island.rows[p].scale, fq = island.rows[q].force / island.rows[q].scale;
     return fp != fq ? fp > fq : p < q;
   });
@@ -394,29 +396,29 @@ DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactS
   return finish(island, solution);
 }
 
-DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, std::span<const std::uint32_t> now,
+DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, span<const uint32_t> now,
                                                  ContactSolution& solution) {
   prepare(island);
 
   // Active rows that no longer exist are removed.
-  for (std::size_t k = active_.size(); k-- > 0;) {
+  for (size_t k = active_.size(); k-- > 0;) {
     active_[k] = now[active_[k]];
     if (active_[k] != none) continue;
     factors_.remove(k, row_.data());
-    active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(k));
+    active_.erase(active_.begin() + static_cast<ptrdiff_t>(k));
   }
 
   // The others stay active, with their factors and without forces.
   force_.assign(active_.size(), 0);
   fixed_.resize(active_.size());
   place_.assign(island.rows.size(), none);
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    place_[active_[k]] = static_cast<std::uint32_t>(k);
+  for (size_t k = 0; k < active_.size(); ++k) {
+    place_[active_[k]] = static_cast<uint32_t>(k);
     fixed_[k] = island.rows[active_[k]].bilateral;
   }
 
   // New bilateral rows become active.
-  for (std::uint32_t c = 0; c < island.rows.size(); ++c)
+  for (uint32_t c = 0; c < island.rows.size(); ++c)
     if (island.rows[c].bilateral && place_[c] == none) append(island, c);
   return finish(island, solution);
 }
@@ -431,8 +433,8 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
     // Later attempts start from the active rows, the strongest first.
     if (looser != 1) {
       dependent_ = looser * dependent;
-      std::vector<std::uint32_t> rows(active_);
-      std::sort(rows.begin(), rows.end(), [&](std::uint32_t p, std::uint32_t q) {
+      vector<uint32_t> rows(active_);
+      std::ranges::sort(rows, [&](uint32_t p, uint32_t q) {
         const double fp = solution.force[p].hi / island.rows[p].scale;
         const double fq = solution.force[q].hi / island.rows[q].scale;
         return fp != fq ? fp > fq : p < q;
@@ -442,7 +444,7 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
 
     run(island, attempt);
     // These are negative by rounding alone.
-    for (std::size_t c = 0; c < island.rows.size(); ++c)
+    for (size_t c = 0; c < island.rows.size(); ++c)
       if (!island.rows[c].bilateral && attempt.force[c].hi < 0) attempt.force[c] = {0, 0};
 
     const Result result{judge(island, attempt), infeasible_};

@@ -3,12 +3,10 @@
 // one, rows that would have to pull are removed, and the solution's energy only grows. The factors are orthogonal, in
 // coordinates in which the solution is the nearest motion, so that bodies of any masses keep their digits. Residuals in
 // twice as many digits then refine the solution (contact_island.h). The factors are kept for the next island.
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "numerics/orthogonal_factors.h"
 #include "solver/contact_island.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,8 +24,8 @@ class DualActiveSet {
 
   /// Starts from the rows that pressed in the last island. Its row c is row now[c] of this island, or gone(). The
   /// masses must be the same.
-  Result solve_again(const ContactIsland& island, std::span<const std::uint32_t> now, ContactSolution& solution);
-  static constexpr std::uint32_t gone() { return none; }
+  Result solve_again(const ContactIsland& island, span<const uint32_t> now, ContactSolution& solution);
+  static constexpr uint32_t gone() { return none; }
 
   /// Whether it holds the factors of a last island.
   bool has_factors() const { return factors_.columns() > 0; }
@@ -35,36 +33,35 @@ class DualActiveSet {
   void clear() { factors_.reset(0); }
 
  private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr uint32_t none = ~uint32_t{0};
 
   void prepare(const ContactIsland& island);
   Result finish(const ContactIsland& island, ContactSolution& solution);
-  void rebuild(const ContactIsland& island, const std::vector<std::uint32_t>& rows);
-  bool append(const ContactIsland& island, std::uint32_t c);
-  void drop(std::size_t place);
+  void rebuild(const ContactIsland& island, const vector<uint32_t>& rows);
+  bool append(const ContactIsland& island, uint32_t c);
+  void drop(size_t place);
   void balance(const ContactIsland& island);
   void settle(const ContactIsland& island);
   bool drop_one_that_pulls(double tolerance);
   void run(const ContactIsland& island, ContactSolution& solution);
   void take_in_violated(const ContactIsland& island);
-  bool take_in(const ContactIsland& island, std::uint32_t c, double shortfall);
-  double blocking(std::size_t& first) const;
+  bool take_in(const ContactIsland& island, uint32_t c, double shortfall);
+  double blocking(size_t& first) const;
   void refine(const ContactIsland& island, ContactSolution& solution);
-  std::uint32_t worst_after_refining(const ContactIsland& island, const ContactSolution& solution,
-                                     double& shortfall) const;
-  void transform(const ContactIsland& island, std::uint32_t c);
-  std::uint64_t signature() const;
+  uint32_t worst_after_refining(const ContactIsland& island, const ContactSolution& solution, double& shortfall) const;
+  void transform(const ContactIsland& island, uint32_t c);
+  uint64_t signature() const;
 
   OrthogonalFactors factors_;
-  std::vector<std::uint32_t> active_;             // rows, in the order of the factors
-  std::vector<double> force_;                     // by active row, for a row of unit length
-  std::vector<std::uint8_t> fixed_;               // by active row: bilateral, it stays
-  std::vector<std::uint32_t> place_;              // by row: its index in active_, or none
-  std::vector<double> y_, free_;                  // 3 for each body
-  std::vector<std::uint8_t> aside_;               // by row: number of times that no motion satisfied it
-  std::vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, and others
-  ContactSolution attempt_;                       // scratch
-  double dependent_ = 0;                          // a row with a smaller tail depends on the others
+  vector<uint32_t> active_;                  // rows, in the order of the factors
+  vector<double> force_;                     // by active row, for a row of unit length
+  vector<uint8_t> fixed_;                    // by active row: bilateral, it stays
+  vector<uint32_t> place_;                   // by row: its index in active_, or none
+  vector<double> y_, free_;                  // 3 for each body
+  vector<uint8_t> aside_;                    // by row: number of times that no motion satisfied it
+  vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, and others
+  ContactSolution attempt_;                  // scratch
+  double dependent_ = 0;                     // a row with a smaller tail depends on the others
   bool infeasible_ = false;
 };
 

@@ -8,18 +8,18 @@
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 using Row = ContactIsland::Row;
-using Vector = std::vector<double>;
+using Vector = vector<double>;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 // A share of the effect of a force on its own row, by which a contact yields: at first.
@@ -38,17 +38,17 @@ class ContactMatrix {
  public:
   explicit ContactMatrix(const ContactIsland& island) : island_(island), places_(island.rows.size()) {
     const auto n = static_cast<int>(island.unknowns());
-    std::vector<Eigen::Triplet<double>> entries;
+    vector<Eigen::Triplet<double>> entries;
 
     // Adds the entries of a block that are in the matrix's lower half.
-    const auto block = [&](std::uint32_t i, std::uint32_t j) {
+    const auto block = [&](uint32_t i, uint32_t j) {
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
           if (i > j || k >= l) entries.emplace_back(3 * static_cast<int>(i) + k, 3 * static_cast<int>(j) + l, 0.0);
     };
 
     // The pattern: a block for each body, and one for each pair that a row connects.
-    for (std::uint32_t i = 0; i < island.free.size(); ++i) block(i, i);
+    for (uint32_t i = 0; i < island.free.size(); ++i) block(i, i);
     for (const Row& r : island.rows)
       if (r.moves_b()) block(std::max(r.a, r.b), std::min(r.a, r.b));
     matrix_.resize(n, n);
@@ -56,15 +56,15 @@ class ContactMatrix {
 
     // The positions of entries among the matrix's values.
     diagonal_.resize(island.free.size());
-    for (std::uint32_t i = 0; i < diagonal_.size(); ++i)
+    for (uint32_t i = 0; i < diagonal_.size(); ++i)
       for (int k = 0, m = 0; k < 3; ++k)
-        for (int l = 0; l <= k; ++l) diagonal_[i][static_cast<std::size_t>(m++)] = place(i, k, i, l);
-    for (std::size_t c = 0; c < island.rows.size(); ++c) {
+        for (int l = 0; l <= k; ++l) diagonal_[i][static_cast<size_t>(m++)] = place(i, k, i, l);
+    for (size_t c = 0; c < island.rows.size(); ++c) {
       const Row& r = island.rows[c];
       if (!r.moves_b()) continue;
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
-          places_[c][static_cast<std::size_t>(3 * k + l)] = place(std::max(r.a, r.b), k, std::min(r.a, r.b), l);
+          places_[c][static_cast<size_t>(3 * k + l)] = place(std::max(r.a, r.b), k, std::min(r.a, r.b), l);
     }
 
     factors_.analyzePattern(matrix_);
@@ -80,10 +80,10 @@ class ContactMatrix {
 
     // Starts from the unit matrix.
     for (const auto& d : diagonal_)
-      for (std::size_t k : {0u, 2u, 5u}) value[d[k]] = 1;
+      for (size_t k : {0u, 2u, 5u}) value[d[k]] = 1;
 
     // Adds the share of each row.
-    for (std::size_t c = 0; c < weight.size(); ++c) {
+    for (size_t c = 0; c < weight.size(); ++c) {
       if (weight[c] == 0) continue;
       const Row& r = island_.rows[c];
       add_square(value, r.a, weight[c], r.left);
@@ -93,8 +93,7 @@ class ContactMatrix {
       const Vec3& high = r.a > r.b ? r.left : r.right;
       const Vec3& low = r.a > r.b ? r.right : r.left;
       for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l)
-          value[places_[c][static_cast<std::size_t>(3 * k + l)]] -= weight[c] * high[k] * low[l];
+        for (int l = 0; l < 3; ++l) value[places_[c][static_cast<size_t>(3 * k + l)]] -= weight[c] * high[k] * low[l];
     }
 
     ++count_;
@@ -117,11 +116,11 @@ class ContactMatrix {
     }
   };
 
-  void add_square(double* value, std::uint32_t i, double weight, const Vec3& v) const {
+  void add_square(double* value, uint32_t i, double weight, const Vec3& v) const {
     for (int k = 0, m = 0; k < 3; ++k)
-      for (int l = 0; l <= k; ++l) value[diagonal_[i][static_cast<std::size_t>(m++)]] += weight * v[k] * v[l];
+      for (int l = 0; l <= k; ++l) value[diagonal_[i][static_cast<size_t>(m++)]] += weight * v[k] * v[l];
   }
-  int place(std::uint32_t i, int k, std::uint32_t j, int l) const {
+  int place(uint32_t i, int k, uint32_t j, int l) const {
     const int* inner = matrix_.innerIndexPtr();
     const int column = 3 * static_cast<int>(j) + l;
     const int *first = inner + matrix_.outerIndexPtr()[column], *last = inner + matrix_.outerIndexPtr()[column + 1];
@@ -130,16 +129,16 @@ class ContactMatrix {
 
   const ContactIsland& island_;
   Eigen::SparseMatrix<double> matrix_;  // lower half
-  std::vector<std::array<int, 6>> diagonal_;
+  vector<array<int, 6>> diagonal_;
   // Positions of a row's off-diagonal block among the matrix's values.
-  std::vector<std::array<int, 9>> places_;
+  vector<array<int, 9>> places_;
   Factors factors_;
   int count_ = 0;
 };
 
 /// The weight of the rows that press. It is the same for all.
 double weight_of(const Vector& weight) {
-  return weight.empty() ? 0 : *std::max_element(weight.begin(), weight.end());
+  return weight.empty() ? 0 : *std::ranges::max_element(weight);
 }
 
 double greatest(const Vector& v) {
@@ -155,7 +154,7 @@ class ContactInteriorPoint::Method {
  public:
   explicit Method(const ContactIsland& island)
       : island_(island), matrix_(island), free_(island.unknowns()), y_(free_.size()), z_(island.rows.size(), 0.0) {
-    for (std::size_t i = 0; i < free_.size(); ++i)
+    for (size_t i = 0; i < free_.size(); ++i)
       free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
     y_ = free_;
   }
@@ -165,7 +164,7 @@ class ContactInteriorPoint::Method {
   Judgement solve(ContactSolution& solution) {
     // From forces of a moment ago, the proximal Newton method alone converges in a few factorisations.
     bool guessed = false;
-    for (std::size_t c = 0; c < rows(); ++c) {
+    for (size_t c = 0; c < rows(); ++c) {
       const Row& r = island_.rows[c];
       z_[c] = r.bilateral ? 0 : r.force / r.scale;
       guessed = guessed || z_[c] > 0;
@@ -177,12 +176,12 @@ class ContactInteriorPoint::Method {
         refine(solution);
         if (const Judgement judgement = judge(island_, solution); judgement.within_slack) return judgement;
       }
-      std::fill(z_.begin(), z_.end(), 0.0);
+      std::ranges::fill(z_, 0.0);
       y_ = free_;
     }
 
     // Otherwise the interior point comes near the solution. Contacts then yield less and less.
-    if (!approach()) std::fill(z_.begin(), z_.end(), 0.0);
+    if (!approach()) std::ranges::fill(z_, 0.0);
     for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
       if (!find_pressing(rho)) break;
 
@@ -192,7 +191,7 @@ class ContactInteriorPoint::Method {
 
   Judgement solve_least(ContactSolution& solution) {
     for (double rho = loosest; rho > 0.5 * least_yield; rho *= 1e-2) {
-      std::fill(z_.begin(), z_.end(), 0.0);
+      std::ranges::fill(z_, 0.0);
       if (!find_pressing(rho)) break;
     }
 
@@ -200,18 +199,18 @@ class ContactInteriorPoint::Method {
     return judge(island_, solution);
   }
 
-  std::vector<double> correct_hold() {
+  vector<double> correct_hold() {
     Vector weight(rows());
     Vector former;
     Vector best;
-    for (std::size_t c = 0; c < rows(); ++c) z_[c] = island_.rows[c].force / island_.rows[c].scale;
+    for (size_t c = 0; c < rows(); ++c) z_[c] = island_.rows[c].force / island_.rows[c].scale;
     double least = no_limit;
     for (int idle = 0;;) {
       // What they leave, as long as that becomes less, or other rows press.
       Vector left = image(z_);
       for (double& each : left) each = -each;
       const double size = greatest(left);
-      for (std::size_t c = 0; c < rows(); ++c) weight[c] = z_[c] > 0 ? 1 / least_yield : 0;
+      for (size_t c = 0; c < rows(); ++c) weight[c] = z_[c] > 0 ? 1 / least_yield : 0;
       idle = size < 0.5 * least ? 0 : idle + 1;
       if (size < least) best = z_;
       least = std::min(least, size);
@@ -221,14 +220,14 @@ class ContactInteriorPoint::Method {
       if (!same && !matrix_.factorise(weight)) return best;
       former = weight;
       matrix_.solve(left);
-      for (std::size_t c = 0; c < rows(); ++c)
+      for (size_t c = 0; c < rows(); ++c)
         if (weight[c] > 0) z_[c] = std::max(z_[c] + island_.rows[c].dot(left.data()) / least_yield, 0.0);
     }
   }
 
  private:
-  std::size_t rows() const { return z_.size(); }
-  double excess_of(const Vector& y, std::size_t c) const {
+  size_t rows() const { return z_.size(); }
+  double excess_of(const Vector& y, size_t c) const {
     const Row& r = island_.rows[c];
     return r.dot(y.data()) - r.scale * r.target;
   }
@@ -236,12 +235,12 @@ class ContactInteriorPoint::Method {
   /// Newton's method on y = free + J^T z, w = J y + d and z w = a value that decreases. It ends near the solution, or
   /// when progress ends. False: it got nowhere.
   bool approach() {
-    const std::size_t m = rows();
+    const size_t m = rows();
     double worst = 0;
     double size = greatest(free_);
 
     // The greatest violation at the start.
-    for (std::size_t c = 0; c < m; ++c) {
+    for (size_t c = 0; c < m; ++c) {
       const double e = excess_of(y_, c);
       worst = std::max(worst, island_.rows[c].bilateral ? std::abs(e) : -e);
     }
@@ -251,7 +250,7 @@ class ContactInteriorPoint::Method {
     // Every row that is not bilateral starts with a positive force and excess.
     Vector w(m);
     Vector weight(m);
-    for (std::size_t c = 0; c < m; ++c) {
+    for (size_t c = 0; c < m; ++c) {
       w[c] = std::max(excess_of(y_, c), worst);
       z_[c] = island_.rows[c].bilateral ? 0 : worst;
     }
@@ -261,17 +260,17 @@ class ContactInteriorPoint::Method {
     for (int idle = 0;;) {
       double gap = 0;
       double off = 0;
-      std::size_t count = 0;
+      size_t count = 0;
 
       // What the motion lacks of free + J^T z.
       Vector lacking = image(z_);
-      for (std::size_t i = 0; i < y_.size(); ++i) {
+      for (size_t i = 0; i < y_.size(); ++i) {
         lacking[i] -= y_[i];
         off = std::max(off, std::abs(lacking[i]));
       }
 
       // The rows' weights, errors and products of force and excess.
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         if (island_.rows[c].bilateral) {
           weight[c] = 1 / tightest;
           continue;
@@ -305,10 +304,10 @@ class ContactInteriorPoint::Method {
   }
 
   /// One predictor-corrector step of Mehrotra's method.
-  bool step(const Vector& lacking, Vector& w, double gap, std::size_t count) {
-    const std::size_t m = rows();
+  bool step(const Vector& lacking, Vector& w, double gap, size_t count) {
+    const size_t m = rows();
     Vector missing(m), product(m), dz(m), dw(m), dy;
-    for (std::size_t c = 0; c < m; ++c) {
+    for (size_t c = 0; c < m; ++c) {
       missing[c] = excess_of(y_, c) - (island_.rows[c].bilateral ? 0 : w[c]);
       product[c] = -z_[c] * w[c];
     }
@@ -316,13 +315,13 @@ class ContactInteriorPoint::Method {
     // Newton's direction for the present `product`.
     const auto solve = [&] {
       dy = lacking;
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
         r.add_to(dy.data(), r.bilateral ? -missing[c] / tightest : (product[c] - z_[c] * missing[c]) / w[c]);
       }
       matrix_.solve(dy);
 
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
         const double rate = r.dot(dy.data()) + missing[c];
         dz[c] = r.bilateral ? -rate / tightest : (product[c] - z_[c] * rate) / w[c];
@@ -333,7 +332,7 @@ class ContactInteriorPoint::Method {
     // The step length at which the first force or excess would be zero.
     const auto room = [&] {
       double length = no_limit;
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         if (island_.rows[c].bilateral) continue;
         if (dz[c] < 0) length = std::min(length, -z_[c] / dz[c]);
         if (dw[c] < 0) length = std::min(length, -w[c] / dw[c]);
@@ -345,33 +344,33 @@ class ContactInteriorPoint::Method {
     solve();
     double length = std::min(1.0, room());
     double left = 0;
-    for (std::size_t c = 0; c < m; ++c)
+    for (size_t c = 0; c < m; ++c)
       if (!island_.rows[c].bilateral) left += (z_[c] + length * dz[c]) * (w[c] + length * dw[c]);
 
     // The corrector aims at equal products, and includes the predictor's second-order term.
     const double ratio = left / gap;
     const double aim = ratio * ratio * ratio * gap / static_cast<double>(count);
-    for (std::size_t c = 0; c < m; ++c) product[c] += aim - dz[c] * dw[c];
+    for (size_t c = 0; c < m; ++c) product[c] += aim - dz[c] * dw[c];
     solve();
     length = std::min(1.0, 0.9995 * room());
     if (!(length > 0)) return false;
 
     // Takes the step, which must leave forces and excesses positive.
-    for (std::size_t c = 0; c < m; ++c) {
+    for (size_t c = 0; c < m; ++c) {
       z_[c] += length * dz[c];
       if (island_.rows[c].bilateral) continue;
       w[c] += length * dw[c];
       if (!(z_[c] > 0) || !(w[c] > 0)) return false;
     }
 
-    for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += length * dy[i];
+    for (size_t i = 0; i < y_.size(); ++i) y_[i] += length * dy[i];
     return true;
   }
 
   /// free + J^T z.
   Vector image(const Vector& z) const {
     Vector y = free_;
-    for (std::size_t c = 0; c < rows(); ++c)
+    for (size_t c = 0; c < rows(); ++c)
       if (z[c] != 0) island_.rows[c].add_to(y.data(), z[c]);
     return y;
   }
@@ -381,7 +380,7 @@ class ContactInteriorPoint::Method {
   /// The method is Newton's with exact line searches. It ends when the set of t > 0 is right.
   /// False: there is no progress, or not within so many factorisations.
   bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
-    const std::size_t m = rows();
+    const size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
 
     double last_off = no_limit;
@@ -389,18 +388,18 @@ class ContactInteriorPoint::Method {
       // The forces that this motion implies, and its merit.
       Vector forces(m);
       double merit = 0;
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         t[c] = rho * z_[c] - excess_of(y_, c);
         const bool presses = t[c] > 0 || island_.rows[c].bilateral;
         weight[c] = presses ? 1 / rho : 0;
         forces[c] = presses ? t[c] / rho : 0;
         merit += t[c] * forces[c];
       }
-      for (std::size_t i = 0; i < y_.size(); ++i) merit += (y_[i] - free_[i]) * (y_[i] - free_[i]);
+      for (size_t i = 0; i < y_.size(); ++i) merit += (y_[i] - free_[i]) * (y_[i] - free_[i]);
 
       // The gradient, with its sign reversed.
       dy = image(forces);
-      for (std::size_t i = 0; i < dy.size(); ++i) dy[i] -= y_[i];
+      for (size_t i = 0; i < dy.size(); ++i) dy[i] -= y_[i];
       const double off = greatest(dy);
 
       if (former == weight && off <= 1e-9 * (greatest(y_) + greatest(free_))) break;
@@ -414,14 +413,14 @@ class ContactInteriorPoint::Method {
       if (former != weight && !matrix_.factorise(weight)) return false;
       former = weight;
       matrix_.solve(dy);
-      for (std::size_t c = 0; c < m; ++c) slope[c] = island_.rows[c].dot(dy.data());
+      for (size_t c = 0; c < m; ++c) slope[c] = island_.rows[c].dot(dy.data());
       const double length = best_length(dy, t, slope, rho);
       if (!std::isfinite(length)) return false;
-      for (std::size_t i = 0; i < dy.size(); ++i) y_[i] += length * dy[i];
+      for (size_t i = 0; i < dy.size(); ++i) y_[i] += length * dy[i];
     }
 
     // The forces of the last motion.
-    for (std::size_t c = 0; c < m; ++c) {
+    for (size_t c = 0; c < m; ++c) {
       const double force = z_[c] - excess_of(y_, c) / rho;
       z_[c] = island_.rows[c].bilateral ? force : std::max(force, 0.0);
     }
@@ -433,18 +432,16 @@ class ContactInteriorPoint::Method {
     // The derivative at 0, and its rate of growth.
     double at = 0;
     double rise = 0;
-    for (std::size_t i = 0; i < dy.size(); ++i) {
+    for (size_t i = 0; i < dy.size(); ++i) {
       at += dy[i] * (y_[i] - free_[i]);
       rise += dy[i] * dy[i];
     }
 
     // The points where a row starts or ceases to press.
-    std::vector<std::pair<double, std::size_t>> turns;
-    const auto presses = [&](std::size_t c) {
-      return t[c] > 0 || (t[c] == 0 && slope[c] < 0) || island_.rows[c].bilateral;
-    };
+    vector<std::pair<double, size_t>> turns;
+    const auto presses = [&](size_t c) { return t[c] > 0 || (t[c] == 0 && slope[c] < 0) || island_.rows[c].bilateral; };
 
-    for (std::size_t c = 0; c < t.size(); ++c) {
+    for (size_t c = 0; c < t.size(); ++c) {
       if (presses(c)) {
         at -= t[c] * slope[c] / rho;
         rise += slope[c] * slope[c] / rho;
@@ -454,7 +451,7 @@ class ContactInteriorPoint::Method {
     }
 
     // Goes from turn to turn as long as the derivative is negative.
-    std::sort(turns.begin(), turns.end());
+    std::ranges::sort(turns);
     double from = 0;
     for (const auto& [turn, c] : turns) {
       const double there = at + rise * (turn - from);
@@ -472,12 +469,12 @@ class ContactInteriorPoint::Method {
   /// Where the first limits progress, contacts are made to yield less.
   void refine(ContactSolution& solution) {
     constexpr double stiffest = 1e-13;
-    const std::size_t n = y_.size();
-    const std::size_t m = rows();
+    const size_t n = y_.size();
+    const size_t m = rows();
     solution.motion.resize(n);
     solution.force.resize(m);
-    for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island_.root[i / 3] * y_[i], 0};
-    for (std::size_t c = 0; c < m; ++c) solution.force[c] = {island_.rows[c].scale * z_[c], 0};
+    for (size_t i = 0; i < n; ++i) solution.motion[i] = {island_.root[i / 3] * y_[i], 0};
+    for (size_t c = 0; c < m; ++c) solution.force[c] = {island_.rows[c].scale * z_[c], 0};
 
     Vector weight(m);
     Vector former;
@@ -488,7 +485,7 @@ class ContactInteriorPoint::Method {
 
     for (int idle = 0;;) {
       // What each row is short by, and whether it presses.
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
         short_by[c] = -r.scale * excess(r, solution.motion);
         const bool presses = r.bilateral || solution.force[c].hi / r.scale + short_by[c] / rho > 0;
@@ -499,8 +496,8 @@ class ContactInteriorPoint::Method {
       // The right-hand side: the imbalance of forces, and what rows are short by.
       find_imbalance(island_, solution);
       lacking = solution.lacking;
-      for (std::size_t i = 0; i < n; ++i) lacking[i] /= island_.root[i / 3];
-      for (std::size_t c = 0; c < m; ++c)
+      for (size_t i = 0; i < n; ++i) lacking[i] /= island_.root[i / 3];
+      for (size_t c = 0; c < m; ++c)
         if (weight[c] != 0) island_.rows[c].add_to(lacking.data(), short_by[c] / rho);
 
       // The correction of the motion.
@@ -522,9 +519,9 @@ class ContactInteriorPoint::Method {
       last = std::min(last, size);
 
       // Adds the correction to the motion and to the forces.
-      for (std::size_t i = 0; i < n; ++i)
+      for (size_t i = 0; i < n; ++i)
         solution.motion[i] = solution.motion[i] + DoubleDouble{island_.root[i / 3] * lacking[i], 0};
-      for (std::size_t c = 0; c < m; ++c) {
+      for (size_t c = 0; c < m; ++c) {
         if (weight[c] == 0) continue;
         const Row& r = island_.rows[c];
         const double dz = (short_by[c] - r.dot(lacking.data())) * used;
@@ -543,7 +540,7 @@ class ContactInteriorPoint::Method {
   Vector z_;     // by row: its force, over its scale
 };
 
-ContactInteriorPoint::ContactInteriorPoint(const ContactIsland& island) : method_(std::make_unique<Method>(island)) {}
+ContactInteriorPoint::ContactInteriorPoint(const ContactIsland& island) : method_(make_unique<Method>(island)) {}
 ContactInteriorPoint::~ContactInteriorPoint() = default;
 double ContactInteriorPoint::operations() const {
   return method_->matrix().operations();
@@ -554,7 +551,7 @@ Judgement ContactInteriorPoint::solve(ContactSolution& solution) {
 Judgement ContactInteriorPoint::solve_least(ContactSolution& solution) {
   return method_->solve_least(solution);
 }
-std::vector<double> ContactInteriorPoint::correct_hold() {
+vector<double> ContactInteriorPoint::correct_hold() {
   return method_->correct_hold();
 }
 

@@ -3,10 +3,9 @@
 // A proximal Newton method then finds which rows press. Residuals in twice as many digits refine the solution.
 // Every system is (1 + J^T D J) dy = r on the bodies. It is sparse and never singular, however many contacts depend on
 // each other.
-#include <memory>
-#include <vector>
 
 #include "solver/contact_island.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,11 +23,11 @@ class ContactInteriorPoint {
   Judgement solve_least(ContactSolution& solution);
   /// Forces over scales, by row, near those of the rows. They leave as little motion as doubles allow. Targets must be
   /// 0.
-  std::vector<double> correct_hold();
+  vector<double> correct_hold();
 
  private:
   class Method;
-  std::unique_ptr<Method> method_;
+  unique_ptr<Method> method_;
 };
 
 }  // namespace carom

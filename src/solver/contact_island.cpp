@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "numerics/disjoint_sets.h"
+#include "std.h"
 
 namespace carom {
 
@@ -52,7 +53,7 @@ void ContactIsland::scale() {
   // The bodies, in these units.
   speed = 0;
   root.resize(inverse_mass.size());
-  for (std::size_t i = 0; i < free.size(); ++i) {
+  for (size_t i = 0; i < free.size(); ++i) {
     inverse_mass[i] = mass * inverse_mass[i];
     root[i] = std::sqrt(inverse_mass[i]);
     free[i] = motion * free[i];
@@ -81,16 +82,15 @@ void ContactIsland::close_mass_gaps() {
   const auto [least, most] = std::minmax_element(inverse_mass.begin(), inverse_mass.end());
   if (exponent_of(*most) - exponent_of(*least) <= widest) return;
 
-  std::vector<std::size_t> order(inverse_mass.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return inverse_mass[i] < inverse_mass[j]; });
+  vector<size_t> order(inverse_mass.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, [&](size_t i, size_t j) { return inverse_mass[i] < inverse_mass[j]; });
 
   // Bodies beyond a gap are made heavier, until the gap has the greatest width allowed.
   heavier.assign(inverse_mass.size(), 0);
   int shift = 0;
   int last = exponent_of(inverse_mass[order.front()]);
-  for (const std::size_t k : order) {
+  for (const size_t k : order) {
     const int exponent = exponent_of(inverse_mass[k]);
     shift += std::max(exponent - last - widest, 0);
     last = exponent;
@@ -99,24 +99,24 @@ void ContactIsland::close_mass_gaps() {
   }
 }
 
-std::vector<int> ContactIsland::force_exponents(const std::vector<DoubleDouble>& force) const {
+vector<int> ContactIsland::force_exponents(const vector<DoubleDouble>& force) const {
   if (heavier.empty()) return {};
 
   // The heaviest of the bodies that forces connect decides.
   DisjointSets sets(free.size());
-  for (std::size_t c = 0; c < rows.size(); ++c)
+  for (size_t c = 0; c < rows.size(); ++c)
     if (force[c].hi != 0 && rows[c].moves_b()) sets.join(rows[c].a, rows[c].b);
-  std::vector<int> least(free.size(), std::numeric_limits<int>::max());  // by root
-  for (std::uint32_t k = 0; k < free.size(); ++k) least[sets.root(k)] = std::min(least[sets.root(k)], heavier[k]);
-  std::vector<int> exponents;
+  vector<int> least(free.size(), std::numeric_limits<int>::max());  // by root
+  for (uint32_t k = 0; k < free.size(); ++k) least[sets.root(k)] = std::min(least[sets.root(k)], heavier[k]);
+  vector<int> exponents;
   for (const Row& r : rows) exponents.push_back(-least[sets.root(r.a)]);
   return exponents;
 }
 
-std::size_t ContactIsland::reach() const {
+size_t ContactIsland::reach() const {
   // The rows of each body, one body after the other.
-  std::vector<std::uint32_t> first(free.size() + 1, 0);
-  std::vector<std::uint32_t> of;
+  vector<uint32_t> first(free.size() + 1, 0);
+  vector<uint32_t> of;
   for (const Row& r : rows) {
     ++first[r.a];
     if (r.moves_b()) ++first[r.b];
@@ -124,23 +124,23 @@ std::size_t ContactIsland::reach() const {
 
   std::partial_sum(first.begin(), first.end(), first.begin());
   of.resize(first.back());
-  for (std::uint32_t c = 0; c < rows.size(); ++c) {
+  for (uint32_t c = 0; c < rows.size(); ++c) {
     of[--first[rows[c].a]] = c;
     if (rows[c].moves_b()) of[--first[rows[c].b]] = c;
   }
 
   // The last row that a breadth-first search from `start` comes to.
-  std::vector<std::uint32_t> order;
-  std::vector<std::uint32_t> distance;
-  const auto search_from = [&](std::uint32_t start) {
+  vector<uint32_t> order;
+  vector<uint32_t> distance;
+  const auto search_from = [&](uint32_t start) {
     distance.assign(rows.size(), ContactConstraint::fixed);
     order.assign(1, start);
     distance[start] = 0;
 
-    for (std::size_t k = 0; k < order.size(); ++k) {
+    for (size_t k = 0; k < order.size(); ++k) {
       const Row& r = rows[order[k]];
-      for (const std::uint32_t body : {r.a, r.moves_b() ? r.b : r.a})
-        for (std::uint32_t at = first[body]; at < first[body + 1]; ++at)
+      for (const uint32_t body : {r.a, r.moves_b() ? r.b : r.a})
+        for (uint32_t at = first[body]; at < first[body + 1]; ++at)
           if (distance[of[at]] == ContactConstraint::fixed) {
             distance[of[at]] = distance[order[k]] + 1;
             order.push_back(of[at]);
@@ -153,7 +153,7 @@ std::size_t ContactIsland::reach() const {
   return distance[search_from(search_from(0))];
 }
 
-double excess(const ContactIsland::Row& r, const std::vector<DoubleDouble>& motion) {
+double excess(const ContactIsland::Row& r, const vector<DoubleDouble>& motion) {
   const DoubleDouble* const u = &motion[3 * r.a];
   const DoubleDouble* const v = r.moves_b() ? &motion[3 * r.b] : nullptr;
   DoubleDouble sum{-r.target, 0};
@@ -166,16 +166,16 @@ double excess(const ContactIsland::Row& r, const std::vector<DoubleDouble>& moti
 }
 
 void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
-  std::vector<DoubleDouble>& push = solution.push;
+  vector<DoubleDouble>& push = solution.push;
   push.assign(island.unknowns(), DoubleDouble{0, 0});
 
   // The sum of forces on each body, by axis.
-  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+  for (size_t c = 0; c < island.rows.size(); ++c) {
     const DoubleDouble& x = solution.force[c];
     if (x.hi == 0) continue;
     const ContactIsland::Row& r = island.rows[c];
 
-    for (std::uint32_t k = 0; k < 3; ++k) {
+    for (uint32_t k = 0; k < 3; ++k) {
       const double n = r.normal[static_cast<int>(k)];
       if (n == 0) continue;
       add_product(push[3 * r.a + k], -n, x);
@@ -185,7 +185,7 @@ void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
 
   // What the motion lacks: free motion and the effect of the forces, less the motion itself.
   solution.lacking.resize(island.unknowns());
-  for (std::size_t i = 0; i < push.size(); ++i) {
+  for (size_t i = 0; i < push.size(); ++i) {
     DoubleDouble sum{island.free[i / 3][static_cast<int>(i % 3)], 0};
     add_product(sum, -1, solution.motion[i]);
     add_product(sum, island.inverse_mass[i / 3], push[i]);
@@ -198,7 +198,7 @@ Judgement judge(const ContactIsland& island, ContactSolution& solution) {
   const auto differ = [&](double change) { judgement.change = std::max(judgement.change, change); };
 
   // By how much rows are violated, or off where they press.
-  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+  for (size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
     const double w = excess(r, solution.motion);
     const double off = solution.force[c].hi != 0 || r.bilateral ? std::abs(w) : std::max(-w, 0.0);
@@ -210,8 +210,8 @@ Judgement judge(const ContactIsland& island, ContactSolution& solution) {
 
   // The imbalance of forces, as a share of the speed.
   find_imbalance(island, solution);
-  const std::vector<double>& lacking = solution.lacking;
-  for (std::size_t i = 0; i < lacking.size(); ++i) {
+  const vector<double>& lacking = solution.lacking;
+  for (size_t i = 0; i < lacking.size(); ++i) {
     if (lacking[i] == 0) continue;
     const DoubleDouble* const u = &solution.motion[i - i % 3];
     const double speed = std::max({island.speed, std::abs(u[0].hi), std::abs(u[1].hi), std::abs(u[2].hi)});

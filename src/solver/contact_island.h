@@ -2,12 +2,10 @@
 // An island of contacts that share bodies, in units of its own. The methods behind contact_problem.h work on it.
 // The certificate that judges their solutions is here too.
 #include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "numerics/compensated.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,7 +25,7 @@ class PowerOfTwo {
 /// greatest. Other units therefore give the same digits. In y = u / root every contact is a row of unit length.
 struct ContactIsland {
   struct Row {
-    std::uint32_t a = 0, b = 0;  // b = ContactConstraint::fixed: an immovable thing
+    uint32_t a = 0, b = 0;  // b = ContactConstraint::fixed: an immovable thing
     bool bilateral = false;
     Vec3 normal = Vec3::Zero();  // from a to b
     double target = 0, slack = 0;
@@ -45,15 +43,15 @@ struct ContactIsland {
     }
     /// y += t times the row.
     void add_to(double* y, double t) const {
-      for (int k = 0; k < 3; ++k) y[3 * a + static_cast<std::uint32_t>(k)] -= t * left[k];
+      for (int k = 0; k < 3; ++k) y[3 * a + static_cast<uint32_t>(k)] -= t * left[k];
       if (!moves_b()) return;
-      for (int k = 0; k < 3; ++k) y[3 * b + static_cast<std::uint32_t>(k)] += t * right[k];
+      for (int k = 0; k < 3; ++k) y[3 * b + static_cast<uint32_t>(k)] += t * right[k];
     }
   };
 
-  std::vector<double> inverse_mass, root;  // by body; root: of inverse_mass
-  std::vector<Vec3> free;                  // by body
-  std::vector<Row> rows;
+  vector<double> inverse_mass, root;  // by body; root: of inverse_mass
+  vector<Vec3> free;                  // by body
+  vector<Row> rows;
   double speed = 0;         // the greatest free motion or target, in [1/2, 2) unless all are 0
   int motion_exponent = 0;  // of the unit of motion
   int mass_exponent = 0;    // of the unit of inverse mass
@@ -61,33 +59,33 @@ struct ContactIsland {
   bool unilateral = true;   // no row is bilateral
 
   // By body: log2 of its mass over the true one. Empty: all are true (close_mass_gaps).
-  std::vector<int> heavier{};
+  vector<int> heavier{};
 
-  std::size_t unknowns() const { return 3 * free.size(); }
+  size_t unknowns() const { return 3 * free.size(); }
   /// The effect of the data's rounding on a row of unit length times the motion.
   double noise_scale(const Row& r) const { return r.scale * (std::abs(r.target) + (r.moves_b() ? 2 : 1) * speed); }
   /// Makes light bodies heavier by powers of two, until no gap between the masses of two bodies is more than 2^60. What
   /// is lighter by that changes no digit of a heavier body's motion, and rows of such bodies no longer look alike.
   void close_mass_gaps();
   /// By row: log2 of the true force over the one here; empty: 0. Forces that light bodies alone bear have their scale.
-  std::vector<int> force_exponents(const std::vector<DoubleDouble>& force) const;
+  vector<int> force_exponents(const vector<DoubleDouble>& force) const;
   /// An estimate of the longest of the shortest paths between rows, in steps between rows that share a body.
   /// It is the distance between the row farthest from the first one and the row farthest from that.
-  std::size_t reach() const;
+  size_t reach() const;
   /// Computes all that follows from inverse_mass, free, and the rows' bodies, normals, targets, slacks and guesses.
   void scale();
 };
 
 /// Answers have twice as many digits, so that refinement can remove the rounding of the factors.
 struct ContactSolution {
-  std::vector<DoubleDouble> motion;  // 3 for each body, in the island's unit
-  std::vector<DoubleDouble> force;   // by row, in the island's unit
-  std::vector<DoubleDouble> push;    // scratch: M (motion - free)
-  std::vector<double> lacking;       // scratch: the imbalance
+  vector<DoubleDouble> motion;  // 3 for each body, in the island's unit
+  vector<DoubleDouble> force;   // by row, in the island's unit
+  vector<DoubleDouble> push;    // scratch: M (motion - free)
+  vector<double> lacking;       // scratch: the imbalance
 };
 
 /// normal . (u_b - u_a) - target.
-double excess(const ContactIsland::Row& row, const std::vector<DoubleDouble>& motion);
+double excess(const ContactIsland::Row& row, const vector<DoubleDouble>& motion);
 
 /// Stores free + M^-1 N force - motion, by coordinate, in solution.lacking. It is 0 for an exact solution.
 void find_imbalance(const ContactIsland& island, ContactSolution& solution);

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "numerics/disjoint_sets.h"
 #include "solver/active_set.h"
 #include "solver/contact_interior_point.h"
 #include "solver/contact_island.h"
 #include "solver/least_forces.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,11 +21,11 @@ namespace {
 
 /// Contacts that share bodies, one island after the other. `fixed` things do not connect.
 struct ContactIslands {
-  std::vector<std::uint32_t> contacts;  // contacts, by island, ascending
+  vector<uint32_t> contacts;  // contacts, by island, ascending
   // The first contact of each island, and at the end the number of contacts.
-  std::vector<std::uint32_t> first;
+  vector<uint32_t> first;
 
-  void find(std::size_t bodies, std::span<const ContactConstraint> all) {
+  void find(size_t bodies, span<const ContactConstraint> all) {
     DisjointSets sets(bodies);
     for (const ContactConstraint& c : all)
       if (c.b != ContactConstraint::fixed) sets.join(c.a, c.b);
@@ -35,26 +34,26 @@ struct ContactIslands {
     next_.assign(bodies, 0);
     for (const ContactConstraint& c : all) ++next_[sets.root(c.a)];
     first.assign(1, 0);
-    for (std::uint32_t& next : next_) {
-      const std::uint32_t count = next;
+    for (uint32_t& next : next_) {
+      const uint32_t count = next;
       next = first.back();
       if (count > 0) first.push_back(next + count);
     }
 
     contacts.resize(all.size());
-    for (std::uint32_t k = 0; k < all.size(); ++k) contacts[next_[sets.root(all[k].a)]++] = k;
+    for (uint32_t k = 0; k < all.size(); ++k) contacts[next_[sets.root(all[k].a)]++] = k;
   }
 
  private:
-  std::vector<std::uint32_t> next_;  // by root
+  vector<uint32_t> next_;  // by root
 };
 
 /// The last solution of an island.
 struct CachedIsland {
   DualActiveSet method;
-  std::vector<double> inverse_mass;
-  std::vector<ContactIsland::Row> rows;  // with their forces
-  std::vector<std::uint32_t> now;        // by row: its number in the present island, or DualActiveSet::gone()
+  vector<double> inverse_mass;
+  vector<ContactIsland::Row> rows;  // with their forces
+  vector<uint32_t> now;             // by row: its number in the present island, or DualActiveSet::gone()
 
   bool resembles(const ContactIsland& island);
 };
@@ -62,22 +61,22 @@ struct CachedIsland {
 /// Whether the last factors or forces are a start: the masses are the same, and few rows differ.
 bool CachedIsland::resembles(const ContactIsland& island) {
   // One row in so many may differ.
-  constexpr std::size_t few = 16;
+  constexpr size_t few = 16;
   if (island.inverse_mass != inverse_mass || rows.empty()) return false;
 
   // The rows of the present island, by their bodies.
-  const auto key = [](const ContactIsland::Row& r) { return std::uint64_t{r.a} << 32 | r.b; };
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  for (std::uint32_t c = 0; c < island.rows.size(); ++c) order.emplace_back(key(island.rows[c]), c);
-  std::sort(order.begin(), order.end());
+  const auto key = [](const ContactIsland::Row& r) { return uint64_t{r.a} << 32 | r.b; };
+  vector<std::pair<uint64_t, uint32_t>> order;
+  for (uint32_t c = 0; c < island.rows.size(); ++c) order.emplace_back(key(island.rows[c]), c);
+  std::ranges::sort(order);
 
   // Each former row takes the first equal one that is not taken.
   now.assign(rows.size(), DualActiveSet::gone());
-  std::vector<std::uint8_t> taken(island.rows.size(), 0);
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
+  vector<uint8_t> taken(island.rows.size(), 0);
+  size_t found = 0;
+  for (size_t k = 0; k < rows.size(); ++k) {
     const ContactIsland::Row& r = rows[k];
-    auto it = std::lower_bound(order.begin(), order.end(), std::pair(key(r), std::uint32_t{0}));
+    auto it = std::lower_bound(order.begin(), order.end(), std::pair(key(r), uint32_t{0}));
 
     for (; it != order.end() && it->first == key(r); ++it) {
       const ContactIsland::Row& is = island.rows[it->second];
@@ -89,7 +88,7 @@ bool CachedIsland::resembles(const ContactIsland& island) {
     }
   }
 
-  const std::size_t others = (rows.size() - found) + (island.rows.size() - found);
+  const size_t others = (rows.size() - found) + (island.rows.size() - found);
   return others <= 1 + rows.size() / few;
 }
 
@@ -131,8 +130,8 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
 }
 
 /// Whether contact allows the free motion.
-bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
-  return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t k) {
+bool nothing_presses(const ContactProblem& problem, span<const uint32_t> contacts) {
+  return std::ranges::all_of(contacts, [&](uint32_t k) {
     const ContactConstraint& c = problem.contacts[k];
     const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : problem.motion[c.b];
     return !c.bilateral && c.normal.dot(b - problem.motion[c.a]) >= c.target - c.surface;
@@ -169,7 +168,7 @@ class ExactCost {
  private:
   static constexpr double factorisations = 35;
   const ContactIsland& island_;
-  std::optional<ContactInteriorPoint> method_;
+  optional<ContactInteriorPoint> method_;
   double dense_;         // ns
   double least_sparse_;  // ns
 };
@@ -177,47 +176,47 @@ class ExactCost {
 }  // namespace
 
 struct ContactSolver::Workspace {
-  std::map<std::uint32_t, CachedIsland> cached;  // by the lowest body of an island
-  CachedIsland uncached;                         // where nothing is kept
+  std::map<uint32_t, CachedIsland> cached;  // by the lowest body of an island
+  CachedIsland uncached;                    // where nothing is kept
   ContactIslands islands;
   ContactIsland island;
   ContactSolution solution;
   ContactSolution attempt;
-  std::vector<std::uint32_t> place;   // by body: its number in the island
-  std::vector<std::uint32_t> bodies;  // by number in the island
+  vector<uint32_t> place;   // by body: its number in the island
+  vector<uint32_t> bodies;  // by number in the island
   bool caches = true;
   bool by_factors = false;  // the last exact solution is that of an active set
 
-  void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
-  void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
+  void take_island(const ContactProblem& problem, span<const uint32_t> contacts);
+  void give_back(const ContactProblem& problem, span<const uint32_t> contacts) const;
   Certificate solve_exactly(ExactCost& cost, CachedIsland& last);
-  Certificate solve_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
+  Certificate solve_island(const ContactProblem& problem, span<const uint32_t> contacts);
   Certificate solve(const ContactProblem& problem);
 };
 
-void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
+void ContactSolver::Workspace::take_island(const ContactProblem& problem, span<const uint32_t> contacts) {
   island.inverse_mass.clear();
   island.free.clear();
   island.rows.clear();
   bodies.clear();
 
   // The bodies, in ascending order.
-  for (const std::uint32_t c : contacts)
-    for (const std::uint32_t body : {problem.contacts[c].a, problem.contacts[c].b})
+  for (const uint32_t c : contacts)
+    for (const uint32_t body : {problem.contacts[c].a, problem.contacts[c].b})
       if (body != ContactConstraint::fixed && place[body] == ContactConstraint::fixed) {
         place[body] = 0;
         bodies.push_back(body);
       }
-  std::sort(bodies.begin(), bodies.end());
+  std::ranges::sort(bodies);
 
-  for (std::uint32_t k = 0; k < bodies.size(); ++k) {
+  for (uint32_t k = 0; k < bodies.size(); ++k) {
     place[bodies[k]] = k;
     island.inverse_mass.push_back(problem.inverse_mass[bodies[k]]);
     island.free.push_back(problem.motion[bodies[k]]);
   }
 
   // The rows, with bodies by their number in the island.
-  for (const std::uint32_t c : contacts) {
+  for (const uint32_t c : contacts) {
     const ContactConstraint& from = problem.contacts[c];
     ContactIsland::Row& row = island.rows.emplace_back();
     row.a = place[from.a];
@@ -229,26 +228,26 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }
 
-  for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;
+  for (const uint32_t body : bodies) place[body] = ContactConstraint::fixed;
   island.close_mass_gaps();
   island.scale();
 }
 
 /// A speed that contact leaves is zero if double-double precision does not resolve it.
-void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
+void ContactSolver::Workspace::give_back(const ContactProblem& problem, span<const uint32_t> contacts) const {
   const double nothing = 0x1p-96 * island.speed;
   const PowerOfTwo unit(island.motion_exponent);
   const PowerOfTwo unit_of_force(island.motion_exponent - island.mass_exponent);
 
-  for (std::size_t k = 0; k < bodies.size(); ++k)
+  for (size_t k = 0; k < bodies.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
-      const double u = solution.motion[3 * k + static_cast<std::size_t>(axis)].value();
+      const double u = solution.motion[3 * k + static_cast<size_t>(axis)].value();
       const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
       problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
     }
 
-  const std::vector<int> exponents = island.force_exponents(solution.force);
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
+  const vector<int> exponents = island.force_exponents(solution.force);
+  for (size_t k = 0; k < contacts.size(); ++k) {
     const double force = unit_of_force * solution.force[k].value();
     problem.contacts[contacts[k]].force = exponents.empty() ? force : std::ldexp(force, exponents[k]);
   }
@@ -286,7 +285,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
     if (take(result.judgement, result.infeasible)) return best;
   }
   if (alike)
-    for (std::size_t k = 0; k < last.rows.size(); ++k)
+    for (size_t k = 0; k < last.rows.size(); ++k)
       if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
         island.rows[last.now[k]].force = last.rows[k].force;
 
@@ -301,7 +300,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
   by_factors = false;
   if (take(cost.method().solve(attempt), false)) return best;
   // Orthogonal factors, from the forces of the best solution so far.
-  for (std::size_t c = 0; c < island.rows.size(); ++c)
+  for (size_t c = 0; c < island.rows.size(); ++c)
     island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(solution.force[c].hi, 0.0);
   if (by_active_set()) return best;
   // Orthogonal factors from nothing.
@@ -310,13 +309,12 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
   return best;
 }
 
-Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem,
-                                                   std::span<const std::uint32_t> contacts) {
+Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem, span<const uint32_t> contacts) {
   Certificate certificate;
 
   // An island without pressing contacts needs no method, and one of a single contact seldom does.
   if (nothing_presses(problem, contacts)) {
-    for (const std::uint32_t c : contacts) problem.contacts[c].force = problem.contacts[c].independent = 0;
+    for (const uint32_t c : contacts) problem.contacts[c].force = problem.contacts[c].independent = 0;
     return certificate;
   }
   if (contacts.size() == 1 && solve_single(problem, problem.contacts[contacts.front()], certificate))
@@ -324,7 +322,7 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
 
   take_island(problem, contacts);
   if (island.speed == 0) {
-    for (const std::uint32_t c : contacts) problem.contacts[c].force = problem.contacts[c].independent = 0;
+    for (const uint32_t c : contacts) problem.contacts[c].force = problem.contacts[c].independent = 0;
     return certificate;
   }
 
@@ -335,11 +333,11 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
   if (caches) {
     last.inverse_mass = island.inverse_mass;
     last.rows = island.rows;
-    for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = solution.force[c].hi;
+    for (size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = solution.force[c].hi;
   }
 
   give_back(problem, contacts);
-  for (const std::uint32_t c : contacts) problem.contacts[c].independent = problem.contacts[c].force;
+  for (const uint32_t c : contacts) problem.contacts[c].independent = problem.contacts[c].force;
   if (problem.least_forces && certificate.solved() && take_least_forces(island, solution, by_factors))
     give_back(problem, contacts);
   return certificate;
@@ -349,14 +347,14 @@ Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
   Certificate all;
   place.resize(std::max(place.size(), problem.motion.size()), ContactConstraint::fixed);
   islands.find(problem.motion.size(), problem.contacts);
-  for (std::size_t k = 0; k + 1 < islands.first.size(); ++k) {
-    const std::size_t first = islands.first[k], count = islands.first[k + 1] - first;
-    all.merge(solve_island(problem, std::span(islands.contacts).subspan(first, count)));
+  for (size_t k = 0; k + 1 < islands.first.size(); ++k) {
+    const size_t first = islands.first[k], count = islands.first[k + 1] - first;
+    all.merge(solve_island(problem, span(islands.contacts).subspan(first, count)));
   }
   return all;
 }
 
-ContactSolver::ContactSolver() : workspace_(std::make_unique<Workspace>()) {}
+ContactSolver::ContactSolver() : workspace_(make_unique<Workspace>()) {}
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;

@@ -10,20 +10,18 @@
 // the last one. An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h)
 // serves large ones. The cheaper method is chosen, unless masses are too unequal for the sparse one.
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <span>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
 /// A contact between two bodies, or between a body and a fixed thing.
 struct ContactConstraint {
-  static constexpr std::uint32_t fixed = std::numeric_limits<std::uint32_t>::max();
+  static constexpr uint32_t fixed = std::numeric_limits<uint32_t>::max();
   // Indices in the problem's arrays. b = `fixed`: an immovable thing.
-  std::uint32_t a, b;
+  uint32_t a, b;
   Vec3 normal;        // from a to b; unit up to rounding
   double target = 0;  // lower bound of normal . (u_b - u_a); in the unit of u
   double slack = 0;   // of bilateral contacts; in the unit of u
@@ -43,20 +41,20 @@ struct ContactConstraint {
 };
 
 /// The speed of approach of a contact's bodies along its normal, in the unit of `motion`.
-inline double approach(std::span<const Vec3> motion, const ContactConstraint& c) {
+inline double approach(span<const Vec3> motion, const ContactConstraint& c) {
   const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : motion[c.b];
   return c.normal.dot(motion[c.a] - b) - c.surface;
 }
 
 /// The inverse mass of a contact's second body (1/kg): 0 for an immovable thing.
-inline double inverse_mass_of_b(std::span<const double> inverse_mass, const ContactConstraint& c) {
+inline double inverse_mass_of_b(span<const double> inverse_mass, const ContactConstraint& c) {
   return c.b == ContactConstraint::fixed ? 0 : inverse_mass[c.b];
 }
 
 struct ContactProblem {
-  std::span<const double> inverse_mass;  // 1/kg, > 0, by body
-  std::span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
-  std::span<ContactConstraint> contacts;
+  span<const double> inverse_mass;  // 1/kg, > 0, by body
+  span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
+  span<ContactConstraint> contacts;
   // Of the forces that give this motion, those of equally stiff contacts: the sum of their squares is the least. They
   // do not depend on the order of contacts.
   bool least_forces = false;
@@ -65,7 +63,7 @@ struct ContactProblem {
 /// The quality of a solution. It is the exact one, rounded, of data that differ from the given ones by `change`.
 /// The change is relative to each row's own scale: a target's, or a free motion's, with the problem's greatest one.
 struct Certificate {
-  enum class Verdict : std::uint8_t {
+  enum class Verdict : uint8_t {
     solved,  // to rounding, or to the required accuracy
     // No motion satisfies all contacts. Those that matter most to the method are satisfied.
     infeasible,
@@ -95,7 +93,7 @@ class ContactSolver {
  private:
   friend Certificate solve(const ContactProblem& problem);
   struct Workspace;
-  std::unique_ptr<Workspace> workspace_;
+  unique_ptr<Workspace> workspace_;
 };
 
 /// The same without memory of earlier problems. Units of mass, length and time that differ by powers of two give the

@@ -5,32 +5,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "solver/contact_interior_point.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 /// Whether a row is closed, up to rounding.
-bool is_closed(const ContactIsland& island, const ContactSolution& solution, std::size_t c) {
+bool is_closed(const ContactIsland& island, const ContactSolution& solution, size_t c) {
   const ContactIsland::Row& r = island.rows[c];
   return r.bilateral || solution.force[c].hi > 0 ||
          r.scale * excess(r, solution.motion) <= accepted_change * island.noise_scale(r);
 }
 
 /// Sets forces to zero that are only rounding, beside the greatest force on either body.
-void clear_rounding(const ContactIsland& island, const std::vector<std::size_t>& which,
-                    std::vector<DoubleDouble>& force) {
-  std::vector<double> greatest(island.free.size(), 0.0);  // by body
-  for (const std::size_t c : which) {
+void clear_rounding(const ContactIsland& island, const vector<size_t>& which, vector<DoubleDouble>& force) {
+  vector<double> greatest(island.free.size(), 0.0);  // by body
+  for (const size_t c : which) {
     const ContactIsland::Row& r = island.rows[c];
     greatest[r.a] = std::max(greatest[r.a], std::abs(force[c].hi));
     if (r.moves_b()) greatest[r.b] = std::max(greatest[r.b], std::abs(force[c].hi));
   }
 
-  for (const std::size_t c : which) {
+  for (const size_t c : which) {
     const ContactIsland::Row& r = island.rows[c];
     const double beside = r.moves_b() ? std::min(greatest[r.a], greatest[r.b]) : greatest[r.a];
     if (std::abs(force[c].hi) <= accepted_change * beside) force[c] = {0, 0};
@@ -52,9 +51,9 @@ bool scale_alike(ContactIsland& bodies) {
 }  // namespace
 
 bool take_least_forces(const ContactIsland& island, ContactSolution& solution, bool independent) {
-  std::vector<std::size_t> closed;
+  vector<size_t> closed;
   bool open = !independent;  // the forces are
-  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+  for (size_t c = 0; c < island.rows.size(); ++c) {
     if (!is_closed(island, solution, c)) continue;
     closed.push_back(c);
     open = open || solution.force[c].hi == 0;
@@ -65,9 +64,9 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
   find_imbalance(island, solution);
   ContactIsland bodies;
   bodies.free.resize(island.free.size());
-  for (std::size_t i = 0; i < solution.push.size(); ++i)
+  for (size_t i = 0; i < solution.push.size(); ++i)
     bodies.free[i / 3][static_cast<int>(i % 3)] = -solution.push[i].value();
-  for (const std::size_t c : closed) {
+  for (const size_t c : closed) {
     ContactIsland::Row r = island.rows[c];
     r.target = 0;
     r.force = 0;
@@ -78,10 +77,9 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
   ContactSolution least;
   if (!ContactInteriorPoint(bodies).solve_least(least).within_slack) return false;
 
-  std::vector<DoubleDouble> found(island.rows.size(), DoubleDouble{0, 0});
+  vector<DoubleDouble> found(island.rows.size(), DoubleDouble{0, 0});
   const PowerOfTwo unit(bodies.motion_exponent - bodies.mass_exponent);
-  for (std::size_t k = 0; k < closed.size(); ++k)
-    found[closed[k]] = {unit * least.force[k].hi, unit * least.force[k].lo};
+  for (size_t k = 0; k < closed.size(); ++k) found[closed[k]] = {unit * least.force[k].hi, unit * least.force[k].lo};
   clear_rounding(island, closed, found);
 
   // They must be as exact as the others.
@@ -94,8 +92,7 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
 void correct_hold(const ContactProblem& problem) {
   // The forces on the bodies, and the contacts that bear them.
   ContactIsland bodies;
-  for (std::size_t i = 0; i < problem.motion.size(); ++i)
-    bodies.free.push_back(problem.motion[i] / problem.inverse_mass[i]);
+  for (size_t i = 0; i < problem.motion.size(); ++i) bodies.free.push_back(problem.motion[i] / problem.inverse_mass[i]);
   for (const ContactConstraint& c : problem.contacts) {
     ContactIsland::Row& r = bodies.rows.emplace_back();
     r.a = c.a;
@@ -105,9 +102,9 @@ void correct_hold(const ContactProblem& problem) {
   }
   if (!scale_alike(bodies)) return;
 
-  const std::vector<double> found = ContactInteriorPoint(bodies).correct_hold();
+  const vector<double> found = ContactInteriorPoint(bodies).correct_hold();
   const PowerOfTwo unit(bodies.motion_exponent - bodies.mass_exponent);
-  for (std::size_t c = 0; c < found.size(); ++c) {
+  for (size_t c = 0; c < found.size(); ++c) {
     ContactConstraint& contact = problem.contacts[c];
     contact.force = contact.independent = unit * found[c];
     const Vec3 force = contact.force * contact.normal;

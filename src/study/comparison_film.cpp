@@ -16,6 +16,7 @@
 #include "files/run_folder.h"
 #include "scene/film_format.h"
 #include "scene/sweep.h"
+#include "std.h"
 #include "study/sweep_folder.h"
 #include "yaml/value_json.h"
 #include "yaml/values.h"
@@ -23,11 +24,11 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t most_labels = 4;  // values below a run's id
+constexpr size_t most_labels = 4;  // values below a run's id
 
 /// Commands after which the film of this run has another setting. A sweep refuses a run that was drawn again, so its
 /// runs are drawn elsewhere.
-std::string redrawing(const std::string& run, std::string_view setting) {
+string redrawing(const string& run, string_view setting) {
   const std::filesystem::path runs = std::filesystem::path(absolute(run)).parent_path();
   if (!is_sweep_file((runs.parent_path() / stored_sweep).string()))
     return fmt::format("carom render {} --set output.video.{}", run, setting);
@@ -38,7 +39,7 @@ std::string redrawing(const std::string& run, std::string_view setting) {
 FilmTile tile_of(const ListedRun& run) {
   FilmTile tile{run.folder, {}, 0, {run.id}};
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
-  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
   const nlohmann::ordered_json outputs = manifest ? json_of_text(manifest->outputs) : nlohmann::ordered_json();
   if (!outputs.is_object() || !outputs.contains("video"))
     throw ExportError(
@@ -51,9 +52,9 @@ FilmTile tile_of(const ListedRun& run) {
   const nlohmann::ordered_json file = video.value("file", nlohmann::ordered_json("animation.mp4")),
                                from = video.value("from", nlohmann::ordered_json(0.0)),
                                speed = video.value("speed", nlohmann::ordered_json(1.0));
-  if (!file.is_string() || !is_plain_name(file.get<std::string>()) || !from.is_number() || !speed.is_number())
+  if (!file.is_string() || !is_plain_name(file.get<string>()) || !from.is_number() || !speed.is_number())
     throw damaged();
-  tile.file = file.get<std::string>();
+  tile.file = file.get<string>();
   tile.from = from.get<double>();
   tile.speed = speed.get<double>();
   if (film_format(tile.file) == FilmFormat::webp)
@@ -71,23 +72,23 @@ void refuse_other_speed(const FilmTile& tile, const FilmTile& first) {
 
 }  // namespace
 
-std::vector<FilmTile> film_tiles(const RunSet& runs) {
-  const std::size_t count = runs.runs().size();
+vector<FilmTile> film_tiles(const RunSet& runs) {
+  const size_t count = runs.runs().size();
   if (count > most_tiles)
     throw ExportError(fmt::format("a film shows at most {} runs side by side, not {}: name fewer, or leave --video out",
                                   most_tiles, count));
   ComparisonPlan plan;
   plan.parameters = runs.parameters();
   Outcomes outcomes(plan, 0, count);
-  for (std::size_t i = 0; i < count; ++i) outcomes.add(i, runs.run(i), true, {});
+  for (size_t i = 0; i < count; ++i) outcomes.add(i, runs.run(i), true, {});
   outcomes.finish();
-  const std::vector<std::size_t> varied = outcomes.independent();
-  std::vector<FilmTile> tiles;
-  for (std::size_t i = 0; i < count; ++i) {
+  const vector<size_t> varied = outcomes.independent();
+  vector<FilmTile> tiles;
+  for (size_t i = 0; i < count; ++i) {
     tiles.push_back(tile_of(runs.runs()[i]));
     refuse_other_speed(tiles.back(), tiles.front());
     const ComparedRun run = runs.run(i);
-    for (std::size_t k = 0; k < std::min(varied.size(), most_labels); ++k)
+    for (size_t k = 0; k < std::min(varied.size(), most_labels); ++k)
       tiles.back().labels.push_back(name_of_value(plan.parameters[varied[k]], run.values[varied[k]]));
   }
   return tiles;

@@ -1,14 +1,14 @@
 #pragma once
 // The films of compared runs, side by side.
-#include <vector>
 
 #include "export/side_by_side.h"
+#include "std.h"
 #include "study/run_list.h"
 
 namespace carom {
 
 /// The film of each run, labelled with the run's id and its varied values.
 /// Throws ExportError. Its text names what a run lacks and the remedy.
-std::vector<FilmTile> film_tiles(const RunSet& runs);
+vector<FilmTile> film_tiles(const RunSet& runs);
 
 }  // namespace carom

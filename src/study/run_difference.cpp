@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <tuple>
 
 #include "compare/compared_run.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -30,12 +30,12 @@ class Collisions {
     return cells_ != nullptr;
   }
 
-  std::uint64_t count() const { return count_; }  // collisions so far
+  uint64_t count() const { return count_; }  // collisions so far
   bool is_collision() const { return cells_ != nullptr && cell(1) != "rest"; }
   bool ended() const { return cells_ == nullptr; }
 
   CollisionFacts facts() const {
-    return {number_in(cell(0)).value_or(0), std::string(cell(1)), std::string(cell(2)), std::string(cell(3)),
+    return {number_in(cell(0)).value_or(0), string(cell(1)), string(cell(2)), string(cell(3)),
             number_in(cell(4)).value_or(0)};
   }
   bool is_same(const Collisions& other) const {
@@ -43,26 +43,24 @@ class Collisions {
   }
   bool ends_the_same(const Collisions& other) const { return *cells_ == *other.cells_; }
   /// The first column with different cells, and the two cells.
-  std::tuple<std::string, std::string, std::string> first_difference(const Collisions& other) const {
-    std::size_t column = columns_[4];
+  std::tuple<string, string, string> first_difference(const Collisions& other) const {
+    size_t column = columns_[4];
     if (cell(4) == other.cell(4))
       for (column = 0; column < cells_->size() && column < other.cells_->size(); ++column)
         if ((*cells_)[column] != (*other.cells_)[column]) break;
     const auto text = [column](const Collisions& of) {
-      return column < of.cells_->size() ? std::string((*of.cells_)[column]) : std::string();
+      return column < of.cells_->size() ? string((*of.cells_)[column]) : string();
     };
-    return {column < table_.columns().size() ? table_.columns()[column] : std::string(), text(*this), text(other)};
+    return {column < table_.columns().size() ? table_.columns()[column] : string(), text(*this), text(other)};
   }
 
  private:
-  std::string_view cell(std::size_t k) const {
-    return columns_[k] < cells_->size() ? (*cells_)[columns_[k]] : std::string_view();
-  }
+  string_view cell(size_t k) const { return columns_[k] < cells_->size() ? (*cells_)[columns_[k]] : string_view(); }
 
   StoredTable table_;
-  std::vector<std::size_t> columns_;
-  const std::vector<std::string_view>* cells_ = nullptr;
-  std::uint64_t count_ = 0;
+  vector<size_t> columns_;
+  const vector<string_view>* cells_ = nullptr;
+  uint64_t count_ = 0;
 };
 
 void need_collisions(const RunRecord& run) {
@@ -103,7 +101,7 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
 double last_time(const RunRecord& run) {
   double time = 0;
   const Descriptor file = open_stored(run.folder.get(), "trajectory.csv");
-  lines_from_end(file.get(), [&](std::string_view line) {
+  lines_from_end(file.get(), [&](string_view line) {
     time = number_in(line.substr(0, line.find(','))).value_or(0);
     return false;
   });
@@ -114,8 +112,8 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
   EndDifference difference;
   difference.time_a = last_time(run_a);
   difference.time_b = last_time(run_b);
-  const std::vector<EndMotion> a = end_of_trajectory(run_a.folder.get()), b = end_of_trajectory(run_b.folder.get());
-  std::map<std::string_view, const EndMotion*> of_b;
+  const vector<EndMotion> a = end_of_trajectory(run_a.folder.get()), b = end_of_trajectory(run_b.folder.get());
+  std::map<string_view, const EndMotion*> of_b;
   for (const EndMotion& motion : b) of_b.emplace(motion.body, &motion);
   for (const EndMotion& motion : a) {
     const auto found = of_b.find(motion.body);
@@ -148,8 +146,8 @@ bool RunDifference::equal() const {
          end->only_a.empty() && end->only_b.empty() && end->time_a == end->time_b;
 }
 
-RunDifference difference_of(const std::string& a, const std::string& b) {
-  const std::vector<ListedRun> runs = list_runs({a, b});
+RunDifference difference_of(const string& a, const string& b) {
+  const vector<ListedRun> runs = list_runs({a, b});
   if (runs.size() != 2)
     throw ExportError(fmt::format("{} and {} are not two runs: name run folders, such as {}", a, b,
                                   runs.empty() ? "output/half" : runs.front().folder));
@@ -157,7 +155,7 @@ RunDifference difference_of(const std::string& a, const std::string& b) {
   const RunRecord record_a = whole_run(runs[0]), record_b = whole_run(runs[1]);
   const RunSet scenes(runs);
   const ComparedRun of_a = scenes.run(0), of_b = scenes.run(1);
-  for (std::size_t k = 0; k < scenes.parameters().size(); ++k)
+  for (size_t k = 0; k < scenes.parameters().size(); ++k)
     difference.values.push_back(
         {scenes.parameters()[k].path, scenes.parameters()[k].unit, of_a.values[k], of_b.values[k]});
   difference.collisions = collision_difference(record_a, record_b);

@@ -22,6 +22,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
+#include "std.h"
 #include "study/sweep_folder.h"
 #include "yaml/joined.h"
 #include "yaml/source.h"
@@ -31,28 +32,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t longest_hashed = 256 << 20;  // bytes
+constexpr uint64_t longest_hashed = 256 << 20;  // bytes
 /// Maximum number of bad folders in the message.
-constexpr std::size_t most_listed = 10;
+constexpr size_t most_listed = 10;
 
 /// The names in a path, from its end: "r0001", "runs", "sweep".
-std::vector<std::string> names_of(const std::string& path) {
+vector<string> names_of(const string& path) {
   const fs::path whole = fs::path(absolute(path)).lexically_normal();
-  std::vector<std::string> names;
+  vector<string> names;
   for (const fs::path& name : whole)
     if (!name.empty() && name != "/") names.push_back(name.string());
-  std::reverse(names.begin(), names.end());
+  std::ranges::reverse(names);
   return names;
 }
 
 /// The fault of a run's folder. Empty: it is a complete or a failed run.
-std::string fault_of(ListedRun& run) {
+string fault_of(ListedRun& run) {
   settle_folder(run.folder);
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   if (!folder) return "there is no such folder";
   const auto manifest = read_manifest(folder.get(), manifest_name);
-  const bool has_summary = manifest && std::any_of(manifest->files.begin(), manifest->files.end(),
-                                                   [](const FileRecord& file) { return file.name == summary_name; });
+  const bool has_summary = manifest && std::ranges::any_of(manifest->files, [](const FileRecord& file) {
+                             return file.name == summary_name;
+                           });
   if (!has_summary) {
     if (stored_size(folder.get(), failure_file)) return "";
     return "it holds no whole run: run its scene again";
@@ -71,71 +73,71 @@ std::string fault_of(ListedRun& run) {
 }
 
 /// Sorts r0002 before r0010 and r9999 before r10000: by the text before the last digits, then by their number.
-bool is_earlier(const std::string& a, const std::string& b) {
-  const auto split = [](const std::string& name) {
+bool is_earlier(const string& a, const string& b) {
+  const auto split = [](const string& name) {
     // npos + 1: 0.
-    const std::size_t digits = name.find_last_not_of("0123456789") + 1;
-    const std::size_t first = std::min(name.find_first_not_of('0', digits), name.size());
+    const size_t digits = name.find_last_not_of("0123456789") + 1;
+    const size_t first = std::min(name.find_first_not_of('0', digits), name.size());
     return std::tuple(name.substr(0, digits), name.size() - first, name.substr(first), name);
   };
   return split(a) < split(b);
 }
 
-std::vector<std::string> runs_of_sweep(const std::string& folder) {
-  std::vector<std::string> found;
-  const std::string runs = (fs::path(folder) / "runs").string();
+vector<string> runs_of_sweep(const string& folder) {
+  vector<string> found;
+  const string runs = (fs::path(folder) / "runs").string();
   const Descriptor opened = open_folder(AT_FDCWD, runs, true);
-  std::vector<std::string> names = opened ? folder_names(opened.get()) : std::vector<std::string>();
-  std::sort(names.begin(), names.end(), is_earlier);
-  for (const std::string& name : names)
+  vector<string> names = opened ? folder_names(opened.get()) : vector<string>();
+  std::ranges::sort(names, is_earlier);
+  for (const string& name : names)
     if (is_plain_name(name) && open_folder(opened.get(), name, true)) found.push_back((fs::path(runs) / name).string());
   return found;
 }
 
 /// Sets the ids to the last names of the paths. Equal ids are extended by the names before, without `runs`.
-void name_all(std::vector<ListedRun>& runs) {
-  std::vector<std::vector<std::string>> names;  // of each folder once
-  std::map<std::vector<std::string>, std::vector<std::size_t>> folders;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::vector<std::string> all = names_of(runs[i].folder);
+void name_all(vector<ListedRun>& runs) {
+  vector<vector<string>> names;  // of each folder once
+  std::map<vector<string>, vector<size_t>> folders;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    vector<string> all = names_of(runs[i].folder);
     if (all.size() > 1) all.erase(std::remove(all.begin() + 1, all.end(), "runs"), all.end());
     const auto [found, fresh] = folders.try_emplace(all);
     found->second.push_back(i);
     if (fresh) names.push_back(std::move(all));
   }
-  std::vector<std::string> ids;
+  vector<string> ids;
   for (const auto& all : names) ids.push_back(all.empty() ? "run" : all[0]);
-  std::vector<std::size_t> used(names.size(), 1);
+  vector<size_t> used(names.size(), 1);
   for (bool longer = true; longer;) {
     longer = false;
-    std::map<std::string, std::vector<std::size_t>> same;
-    for (std::size_t k = 0; k < ids.size(); ++k) same[ids[k]].push_back(k);
+    std::map<string, vector<size_t>> same;
+    for (size_t k = 0; k < ids.size(); ++k) same[ids[k]].push_back(k);
     for (const auto& [id, numbers] : same) {
-      for (const std::size_t k : numbers) {
+      for (const size_t k : numbers) {
         if (numbers.size() < 2 || used[k] >= names[k].size()) continue;
         ids[k] = names[k][used[k]++] + "/" + ids[k];
         longer = true;
       }
     }
   }
-  std::map<std::string, int> taken;  // counts folders that are named twice
-  for (std::size_t k = 0; k < names.size(); ++k)
-    for (const std::size_t i : folders[names[k]]) {
+  std::map<string, int> taken;  // counts folders that are named twice
+  for (size_t k = 0; k < names.size(); ++k)
+    for (const size_t i : folders[names[k]]) {
       const int before = taken[ids[k]]++;
       runs[i].id = before == 0 ? ids[k] : fmt::format("{} ({})", ids[k], before + 1);
     }
 }
 
-bool is_parameter(const std::string& path) {
+bool is_parameter(const string& path) {
   return path != "scene" && path != "title" && path != "caption" && !path.starts_with("output.") &&
          !path.starts_with("measures.");
 }
 
 /// The numbers of these runs in a sweep, by their ids. Empty if one does not belong to it.
-std::vector<std::size_t> numbers_in(const Sweep& sweep, const std::vector<ListedRun>& runs) {
-  std::vector<std::size_t> numbers;
+vector<size_t> numbers_in(const Sweep& sweep, const vector<ListedRun>& runs) {
+  vector<size_t> numbers;
   // The runs are in the order of the sweep.
-  std::size_t number = 0;
+  size_t number = 0;
   for (const ListedRun& run : runs) {
     while (number < sweep.size() && sweep.id(number) != run.id) ++number;
     if (number == sweep.size()) return {};
@@ -144,9 +146,9 @@ std::vector<std::size_t> numbers_in(const Sweep& sweep, const std::vector<Listed
   return numbers;
 }
 
-std::vector<SceneValue> values_of(const ListedRun& run) {
+vector<SceneValue> values_of(const ListedRun& run) {
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
-  const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : std::nullopt;
+  const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : nullopt;
   if (!text && run.done) throw ExportError(fmt::format("{} has no scene.yaml: run its scene again", run.folder));
   if (!text) return {};
   return scene_values(run.folder + "/scene.yaml", *text);
@@ -154,20 +156,20 @@ std::vector<SceneValue> values_of(const ListedRun& run) {
 
 }  // namespace
 
-std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const std::function<void()>& stop_check) {
-  std::vector<ListedRun> runs;
-  for (const std::string& folder : folders) {
-    const std::vector<std::string> below = runs_of_sweep(folder);
-    for (const std::string& run : below) runs.push_back({"", run, false});
+vector<ListedRun> list_runs(const vector<string>& folders, const function<void()>& stop_check) {
+  vector<ListedRun> runs;
+  for (const string& folder : folders) {
+    const vector<string> below = runs_of_sweep(folder);
+    for (const string& run : below) runs.push_back({"", run, false});
     if (below.empty()) runs.push_back({"", folder, false});
   }
-  std::vector<std::string> wrong;
+  vector<string> wrong;
   for (ListedRun& run : runs) {
     stop_check();
-    if (const std::string why = fault_of(run); !why.empty()) wrong.push_back(fmt::format("{}: {}", run.folder, why));
+    if (const string why = fault_of(run); !why.empty()) wrong.push_back(fmt::format("{}: {}", run.folder, why));
   }
   if (wrong.size() > most_listed) {
-    const std::size_t more = wrong.size() - most_listed;
+    const size_t more = wrong.size() - most_listed;
     wrong.resize(most_listed);
     wrong.push_back(fmt::format("and {} more", more));
   }
@@ -176,13 +178,13 @@ std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const 
   return runs;
 }
 
-std::string digest_of(const std::vector<ListedRun>& runs, const std::function<void()>& stop_check) {
+string digest_of(const vector<ListedRun>& runs, const function<void()>& stop_check) {
   Sha256 hash;
   for (const ListedRun& run : runs) {
     stop_check();
     const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
     const auto text =
-        folder ? read_text(folder.get(), run.done ? manifest_name : failure_file, largest_manifest) : std::nullopt;
+        folder ? read_text(folder.get(), run.done ? manifest_name : failure_file, largest_manifest) : nullopt;
     hash.add(fmt::format("{}\n{}\n", run.id, sha256(text.value_or(""))));
   }
   return hash.hex();
@@ -195,7 +197,7 @@ class SharedExpressions {
  public:
   void add(const ListedRun& run) {
     const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
-    const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+    const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
     ExpressionTexts own = manifest ? manifest->expressions : ExpressionTexts();
     if (std::exchange(first_, false)) {
       texts_ = std::move(own);
@@ -208,7 +210,7 @@ class SharedExpressions {
   }
 
   /// `everywhere`: all scenes have the path.
-  bool make(const std::string& path, bool everywhere) const {
+  bool make(const string& path, bool everywhere) const {
     const bool exists = everywhere || repeat_of(texts_, path) != nullptr;
     return exists && (!everywhere || expression_at(texts_, path) != nullptr);
   }
@@ -220,18 +222,18 @@ class SharedExpressions {
 
 }  // namespace
 
-RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_check) : runs_(std::move(runs)) {
+RunSet::RunSet(vector<ListedRun> runs, const function<void()>& stop_check) : runs_(std::move(runs)) {
   SharedExpressions expressions;
   // Of all scenes, each path once, in the order of the first scene with it.
-  std::vector<SceneValue> all;
-  std::map<std::string, std::size_t> known;  // its paths
+  vector<SceneValue> all;
+  std::map<string, size_t> known;  // its paths
   // By path: the number of scenes with it.
-  std::vector<std::size_t> counts;
-  std::set<std::size_t> varying;
-  std::size_t scenes = 0;
+  vector<size_t> counts;
+  std::set<size_t> varying;
+  size_t scenes = 0;
   for (const ListedRun& run : runs_) {
     stop_check();
-    const std::vector<SceneValue> values = values_of(run);
+    const vector<SceneValue> values = values_of(run);
     if (values.empty()) continue;
     ++scenes;
     expressions.add(run);
@@ -246,7 +248,7 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_ch
       if (all[found->second].text != value.text) varying.insert(found->second);
     }
   }
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  for (size_t k = 0; k < all.size(); ++k) {
     if (counts[k] == scenes && !varying.contains(k)) continue;
     if (expressions.make(all[k].path, counts[k] == scenes)) continue;
     numbers_.emplace(all[k].path, parameters_.size());
@@ -255,18 +257,18 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_ch
   // Runs are repeats if, without the seed, there are fewer scenarios than runs.
   const auto seed = numbers_.find("seed");
   if (seed == numbers_.end()) return;
-  std::set<std::string> scenarios;
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
+  std::set<string> scenarios;
+  for (size_t i = 0; i < runs_.size(); ++i) {
     Sha256 hash;
     const ComparedRun compared = run(i);
-    for (std::size_t p = 0; p < compared.values.size(); ++p)
+    for (size_t p = 0; p < compared.values.size(); ++p)
       if (p != seed->second) hash.add(compared.values[p] + "\n");
     scenarios.insert(hash.hex());
   }
   if (scenarios.size() < runs_.size()) seed_ = seed->second;
 }
 
-RunSet::RunSet(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
+RunSet::RunSet(vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
   const ComparisonPlan plan = comparison_plan(sweep, {});
   parameters_ = plan.parameters;
   seed_ = plan.seed;
@@ -274,9 +276,9 @@ RunSet::RunSet(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)
   sweep_ = std::move(sweep);
 }
 
-ComparedRun RunSet::run(std::size_t number) const {
+ComparedRun RunSet::run(size_t number) const {
   if (sweep_) return compared_run(*sweep_, in_sweep_[number], runs_[number].folder);
-  ComparedRun run{runs_[number].id, runs_[number].folder, std::vector<std::string>(parameters_.size())};
+  ComparedRun run{runs_[number].id, runs_[number].folder, vector<string>(parameters_.size())};
   if (parameters_.empty()) return run;
   for (SceneValue& value : values_of(runs_[number]))
     if (const auto found = numbers_.find(value.path); found != numbers_.end())
@@ -284,11 +286,11 @@ ComparedRun RunSet::run(std::size_t number) const {
   return run;
 }
 
-std::optional<Sweep> sweep_of(const std::string& folder, const std::vector<ListedRun>& runs) {
-  const std::string file = (fs::path(folder) / stored_sweep).string();
-  if (!is_sweep_file(file)) return std::nullopt;
+optional<Sweep> sweep_of(const string& folder, const vector<ListedRun>& runs) {
+  const string file = (fs::path(folder) / stored_sweep).string();
+  if (!is_sweep_file(file)) return nullopt;
   Sweep sweep = load_sweep(file);
-  if (runs.empty() || numbers_in(sweep, runs).empty()) return std::nullopt;
+  if (runs.empty() || numbers_in(sweep, runs).empty()) return nullopt;
   return sweep;
 }
 

@@ -1,19 +1,16 @@
 #pragma once
 // Named folders to the runs in them, and to the values in which their scenes differ.
-#include <functional>
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "compare/comparison.h"
 #include "scene/sweep.h"
+#include "std.h"
 
 namespace carom {
 
 /// A run's folder, and its id among the runs.
 struct ListedRun {
-  std::string id, folder;
+  string id, folder;
   /// False: it failed, according to its error.txt.
   bool done = false;
 };
@@ -22,12 +19,12 @@ struct ListedRun {
 /// Ids are the names of folders, with more of the path where two are equal.
 /// Throws ExportError with a text that lists every folder that is neither.
 /// `stop_check`: called often, may throw. The same holds below.
-std::vector<ListedRun> list_runs(
-    const std::vector<std::string>& folders, const std::function<void()>& stop_check = [] {});
+vector<ListedRun> list_runs(
+    const vector<string>& folders, const function<void()>& stop_check = [] {});
 
 /// SHA-256 of what identifies these runs: ids and manifests.
-std::string digest_of(
-    const std::vector<ListedRun>& runs, const std::function<void()>& stop_check = [] {});
+string digest_of(
+    const vector<ListedRun>& runs, const function<void()>& stop_check = [] {});
 
 /// Runs and their varied values.
 class RunSet {
@@ -35,28 +32,28 @@ class RunSet {
   /// The values in which their scenes differ, found with one scene in memory. Title, caption and outputs are not
   /// parameters.
   explicit RunSet(
-      std::vector<ListedRun> runs, const std::function<void()>& stop_check = [] {});
+      vector<ListedRun> runs, const function<void()>& stop_check = [] {});
   /// The values that the sweep of these runs varied, according to its file.
-  RunSet(std::vector<ListedRun> runs, Sweep sweep);
+  RunSet(vector<ListedRun> runs, Sweep sweep);
 
-  const std::vector<Parameter>& parameters() const { return parameters_; }
+  const vector<Parameter>& parameters() const { return parameters_; }
   /// The index of the seed among the parameters, if it distinguishes repeats of the same scenario.
-  std::optional<std::size_t> seed() const { return seed_; }
-  const std::vector<ListedRun>& runs() const { return runs_; }
+  optional<size_t> seed() const { return seed_; }
+  const vector<ListedRun>& runs() const { return runs_; }
   /// Run `number` with its values. Those that its scene lacks are empty.
-  ComparedRun run(std::size_t number) const;
+  ComparedRun run(size_t number) const;
 
  private:
-  std::vector<ListedRun> runs_;
-  std::vector<Parameter> parameters_;
-  std::map<std::string, std::size_t> numbers_;  // indices of parameters, by path
-  std::optional<std::size_t> seed_;
-  std::optional<Sweep> sweep_;
+  vector<ListedRun> runs_;
+  vector<Parameter> parameters_;
+  std::map<string, size_t> numbers_;  // indices of parameters, by path
+  optional<size_t> seed_;
+  optional<Sweep> sweep_;
   /// By run: its number in the sweep.
-  std::vector<std::size_t> in_sweep_;
+  vector<size_t> in_sweep_;
 };
 
 /// The sweep of this folder, if all these runs belong to it. None: it is not a sweep's folder, or a run is not of it.
-std::optional<Sweep> sweep_of(const std::string& folder, const std::vector<ListedRun>& runs);
+optional<Sweep> sweep_of(const string& folder, const vector<ListedRun>& runs);
 
 }  // namespace carom

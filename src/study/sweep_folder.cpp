@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string_view>
 #include <thread>
 
 #include "files/copied_run.h"
@@ -28,6 +27,7 @@
 #include "scene/path_field.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
+#include "std.h"
 #include "yaml/source.h"
 #include "yaml/value_json.h"
 
@@ -38,37 +38,37 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::uint64_t largest = 1 << 30;  // bytes of sweep.yaml and of base.yaml
+constexpr uint64_t largest = 1 << 30;  // bytes of sweep.yaml and of base.yaml
 constexpr auto lock_patience = std::chrono::seconds(30);
 
 constexpr const char* sweep_key = "sweep";
 
 /// None: it is absent, or not a sweep's.
-std::optional<Manifest> read_sweep_manifest(int folder) {
+optional<Manifest> read_sweep_manifest(int folder) {
   auto manifest = read_manifest(folder, manifest_name);
-  return manifest && json_of_text(manifest->outputs).contains(sweep_key) ? std::move(manifest) : std::nullopt;
+  return manifest && json_of_text(manifest->outputs).contains(sweep_key) ? std::move(manifest) : nullopt;
 }
 
-bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Manifest& manifest) {
+bool is_whole(int folder, const string& path, const Sweep& sweep, const Manifest& manifest) {
   if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, is_picture).empty()) return false;
-  const std::string mark = path + "/" + manifest_name;
-  std::set<std::string> absent(manifest.failed.begin(), manifest.failed.end());
+  const string mark = path + "/" + manifest_name;
+  std::set<string> absent(manifest.failed.begin(), manifest.failed.end());
   for (auto& [id, errors] : stored_skips(path)) absent.insert(std::move(id));
-  for (std::size_t number = 0; number < sweep.size(); ++number) {
-    const std::string id = sweep.id(number);
+  for (size_t number = 0; number < sweep.size(); ++number) {
+    const string id = sweep.id(number);
     if (!absent.contains(id) && !is_whole_since(path + "/runs/" + id, mark)) return false;
   }
   return true;
 }
 
 /// The part of a sweep's text that determines the runs: from its base on, without the comparison.
-std::string_view runs_part(std::string_view text) {
-  const std::size_t begin = std::min(text.find("\nbase: "), text.size());
+string_view runs_part(string_view text) {
+  const size_t begin = std::min(text.find("\nbase: "), text.size());
   return text.substr(begin, std::min(text.find("\ncompare:\n"), text.size() - 1) - begin);
 }
 
 /// Whether the folder's runs are those of this sweep.
-bool has_runs_of(int folder, const Sweep& sweep, const std::string& base_text) {
+bool has_runs_of(int folder, const Sweep& sweep, const string& base_text) {
   const auto stored = read_text(folder, stored_sweep, largest);
   return stored && runs_part(*stored) == runs_part(sweep.resolved(stored_base)) &&
          read_text(folder, stored_base, largest) == base_text;
@@ -76,14 +76,14 @@ bool has_runs_of(int folder, const Sweep& sweep, const std::string& base_text) {
 
 /// Whether this sweep was interrupted, or ran out of space, before base.yaml was complete. No run begins before that.
 bool has_begun(const FoundFolder& found, const Sweep& sweep) {
-  const bool alone = std::all_of(found.names.begin(), found.names.end(),
-                                 [](const auto& name) { return name == stored_sweep || is_part_name(name); });
+  const bool alone =
+      std::ranges::all_of(found.names, [](const auto& name) { return name == stored_sweep || is_part_name(name); });
   return alone && read_text(found.folder.get(), stored_sweep, largest) == sweep.resolved(stored_base);
 }
 
 }  // namespace
 
-SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, const std::string& base_text) {
+SweepContent inspect_sweep_folder(const string& path, const Sweep& sweep, const string& base_text) {
   const FoundFolder found = find_folder(path);
   if (found.content == FolderContent::nothing || found.content == FolderContent::incomplete)
     return SweepContent::nothing;
@@ -96,16 +96,16 @@ SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, c
   return whole ? SweepContent::this_sweep : SweepContent::incomplete;
 }
 
-bool is_ended_sweep(const std::string& path) {
+bool is_ended_sweep(const string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
-  const auto manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
-  const auto is_other = [](std::string_view name) { return name != stored_sweep && name != stored_base; };
+  const auto manifest = folder ? read_sweep_manifest(folder.get()) : nullopt;
+  const auto is_other = [](string_view name) { return name != stored_sweep && name != stored_base; };
   return manifest && wrong_file(folder.get(), *manifest, is_other).empty();
 }
 
-std::string skipped_text(const Sweep& sweep, const std::vector<InvalidRun>& invalid) {
+string skipped_text(const Sweep& sweep, const vector<InvalidRun>& invalid) {
   if (invalid.empty()) return "";
-  std::string text = "run,error\n";
+  string text = "run,error\n";
   for (const InvalidRun& run : invalid) {
     text += sweep.id(run.number) + ",";
     text += text_cell(run.messages) + "\n";
@@ -113,8 +113,8 @@ std::string skipped_text(const Sweep& sweep, const std::vector<InvalidRun>& inva
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> stored_skips(const std::string& path) {
-  std::vector<std::pair<std::string, std::string>> skips;
+vector<std::pair<string, string>> stored_skips(const string& path) {
+  vector<std::pair<string, string>> skips;
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   Descriptor file = folder ? open_stored(folder.get(), stored_skipped) : Descriptor();
   if (!file) return skips;
@@ -124,14 +124,14 @@ std::vector<std::pair<std::string, std::string>> stored_skips(const std::string&
   return skips;
 }
 
-std::vector<std::string> stored_failures(const std::string& path) {
+vector<string> stored_failures(const string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
-  const auto manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
-  return manifest ? manifest->failed : std::vector<std::string>();
+  const auto manifest = folder ? read_sweep_manifest(folder.get()) : nullopt;
+  return manifest ? manifest->failed : vector<string>();
 }
 
-SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-                         const std::string& skipped, const std::function<void()>& stop_check)
+SweepFolder::SweepFolder(const string& path, Use use, const Sweep& sweep, const string& base_text,
+                         const string& skipped, const function<void()>& stop_check)
     : base_text_(base_text) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -139,7 +139,7 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
   folder_ = open_folder(AT_FDCWD, path, true);
   if (!folder_) fail("open", {-1, path}, "");
   place_ = {folder_.get(), path};
-  const std::string busy =
+  const string busy =
       "another sweep, or another part of this one, is writing into it; wait for it, or name another folder with -o";
   if (use == Use::alone) {
     if (!lock_folder(place_, LockKind::alone)) fail("write", place_, "", busy);
@@ -163,7 +163,7 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
   begin(sweep, base_text, skipped);
 }
 
-void SweepFolder::begin(const Sweep& sweep, const std::string& base_text, const std::string& skipped) {
+void SweepFolder::begin(const Sweep& sweep, const string& base_text, const string& skipped) {
   if (!has_runs_of(place_.folder, sweep, base_text)) remove_runs();
   put(stored_sweep, sweep.resolved(stored_base));
   put(stored_base, base_text);
@@ -174,7 +174,7 @@ void SweepFolder::begin(const Sweep& sweep, const std::string& base_text, const 
 }
 
 /// False: the lock was held elsewhere all the time.
-bool SweepFolder::lock(LockKind kind, const std::function<void()>& stop_check) const {
+bool SweepFolder::lock(LockKind kind, const function<void()>& stop_check) const {
   const auto start = std::chrono::steady_clock::now();
   while (!lock_folder(place_, kind)) {
     if (std::chrono::steady_clock::now() - start > lock_patience) return false;
@@ -186,17 +186,17 @@ bool SweepFolder::lock(LockKind kind, const std::function<void()>& stop_check) c
 
 /// A run of another sweep must not be taken for one of this sweep.
 void SweepFolder::remove_runs() const {
-  const std::string path = place_.path + "/runs";
+  const string path = place_.path + "/runs";
   const Descriptor runs = open_folder(AT_FDCWD, path, false);
   if (!runs) return;
-  for (const std::string& name : folder_names(runs.get())) remove_run(path + "/" + name);
+  for (const string& name : folder_names(runs.get())) remove_run(path + "/" + name);
 }
 
-bool SweepFolder::has(const char* name, const std::string& text) const {
+bool SweepFolder::has(const char* name, const string& text) const {
   return read_text(place_.folder, name, largest).value_or("") == text;
 }
 
-void SweepFolder::put(const char* name, const std::string& text) {
+void SweepFolder::put(const char* name, const string& text) {
   if (!has(name, text)) {
     OutputFile file(place_, name);
     file.write(text);
@@ -205,12 +205,12 @@ void SweepFolder::put(const char* name, const std::string& text) {
   if (auto record = read_record(place_.folder, name)) begun_.push_back(std::move(*record));
 }
 
-ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text) {
+ComparisonPlan comparison_plan(const Sweep& sweep, const string& base_text) {
   ComparisonPlan plan;
   plan.title = sweep.title;
-  for (const std::string& path : sweep.paths) {
+  for (const string& path : sweep.paths) {
     const Field* field = field_at(path);
-    plan.parameters.push_back({path, field == nullptr ? "" : std::string(field->unit)});
+    plan.parameters.push_back({path, field == nullptr ? "" : string(field->unit)});
   }
   for (const SweepMeasure& measure : sweep.measures) plan.measures.push_back(measure.name);
   for (const SweepChart& chart : sweep.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
@@ -220,18 +220,18 @@ ComparisonPlan comparison_plan(const Sweep& sweep, const std::string& base_text)
   return plan;
 }
 
-ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder) {
+ComparedRun compared_run(const Sweep& sweep, size_t number, const string& folder) {
   const SweepRun run = sweep.run(number);
   ComparedRun out{run.id, folder, {}};
-  std::optional<std::vector<SceneValue>> own;  // of the scene
-  for (std::size_t p = 0; p < run.values.size(); ++p) {
+  optional<vector<SceneValue>> own;  // of the scene
+  for (size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
     // The scene of a run has the number of an expression.
     if (!out.values.back().empty() && !out.values.back().starts_with('=')) continue;
     if (!own) {
       const Descriptor place = open_folder(AT_FDCWD, folder, true);
-      const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : std::nullopt;
-      own = text ? scene_values(folder + "/scene.yaml", *text) : std::vector<SceneValue>();
+      const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : nullopt;
+      own = text ? scene_values(folder + "/scene.yaml", *text) : vector<SceneValue>();
     }
     for (SceneValue& value : *own)
       if (value.path == sweep.paths[p]) out.values[p] = std::move(value.text);
@@ -239,36 +239,36 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
   return out;
 }
 
-void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch) {
+void SweepFolder::finish(const Sweep& sweep, const vector<RunStatus>& statuses, const ComparisonWatch& watch) {
   // The runs must survive a power failure before the manifest lists them.
   sync_file_system(place_.path);
-  std::vector<std::size_t> kept;
-  for (std::size_t number = 0; number < statuses.size(); ++number)
+  vector<size_t> kept;
+  for (size_t number = 0; number < statuses.size(); ++number)
     if (statuses[number] != RunStatus::left_out) kept.push_back(number);
-  const auto compared = [&](std::size_t row) {
-    const std::size_t number = kept[row];
+  const auto compared = [&](size_t row) {
+    const size_t number = kept[row];
     ComparedRun run = compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
     run.failed = statuses[number] != RunStatus::done;
     return run;
   };
-  std::vector<std::unique_ptr<OutputFile>> files =
+  vector<unique_ptr<OutputFile>> files =
       write_comparison(place_, comparison_plan(sweep, base_text_), kept.size(), compared, watch);
 
   Json failed = Json::array();
-  for (const std::size_t number : kept)
+  for (const size_t number : kept)
     if (statuses[number] != RunStatus::done) failed.push_back(sweep.id(number));
   Json facts;
   facts["counts"] = {{"runs", kept.size()}, {"done", kept.size() - failed.size()}, {"failed", failed.size()}};
   if (kept.size() < statuses.size()) facts["counts"]["skipped"] = statuses.size() - kept.size();
   facts["failed"] = std::move(failed);
   const Json outputs = {{sweep_key, {{"title", valid_utf8(sweep.title)}}}};
-  std::vector<FileRecord> records = begun_;
+  vector<FileRecord> records = begun_;
   for (const auto& file : files) records.push_back(file->record());
   OutputFile manifest(place_, manifest_name);
   manifest.write(manifest_text(text_of_json(outputs), text_of_json(facts), records));
   manifest.complete();
 
-  std::vector<PartFile*> parts;
+  vector<PartFile*> parts;
   for (const auto& file : files) parts.push_back(file.get());
   publish(place_, Durability::synced, parts, manifest);
 }

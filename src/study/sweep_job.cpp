@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -28,6 +27,7 @@
 #include "scene/motion_text.h"
 #include "scene/path_field.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "study/sweep_folder.h"
 #include "yaml/diagnostics.h"
 #include "yaml/value_json.h"
@@ -38,25 +38,25 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t examined_at_a_time = 64;
+constexpr size_t examined_at_a_time = 64;
 /// Of one simulation. Each may have a film in progress.
-constexpr std::size_t most_shows = 8;
+constexpr size_t most_shows = 8;
 /// Batches with errors. Planning stops after this number.
-constexpr std::size_t most_wrong = 16;
-constexpr std::size_t errors_shown = 20;
+constexpr size_t most_wrong = 16;
+constexpr size_t errors_shown = 20;
 constexpr double sync_every = 2;  // s
 
 /// Removes repeated errors, and keeps each under the first run that has it.
 /// An error is a line and the lines below it that begin with a blank.
-std::pair<std::string, std::size_t> each_once(std::string_view text) {
-  std::string out, head;
-  std::set<std::string, std::less<>> known;
-  for (std::size_t i = 0; i < text.size();) {
-    std::size_t end = i;
+std::pair<string, size_t> each_once(string_view text) {
+  string out, head;
+  std::set<string, std::less<>> known;
+  for (size_t i = 0; i < text.size();) {
+    size_t end = i;
     do {
       end = std::min(text.find('\n', end), text.size() - 1) + 1;
     } while (end < text.size() && text[end] == ' ');
-    const std::string_view block = text.substr(i, end - i);
+    const string_view block = text.substr(i, end - i);
     i = end;
     if (block.ends_with(":\n")) {
       head = block;
@@ -71,26 +71,26 @@ std::pair<std::string, std::size_t> each_once(std::string_view text) {
 
 /// Invalid runs of a batch.
 struct WrongRuns {
-  std::string text;                  // for a terminal: the id of each run, then its errors
-  std::vector<ErrorRecord> records;  // each once
-  std::vector<InvalidRun> invalid;
+  string text;                  // for a terminal: the id of each run, then its errors
+  vector<ErrorRecord> records;  // each once
+  vector<InvalidRun> invalid;
   bool any_lost = false;  // whether the cause may be another than the scenes
 
   void append(const WrongRuns& more) {
     text += more.text;
     for (const ErrorRecord& record : more.records) add(record);
   }
-  void lost(const std::string& id, const std::string& message) {
+  void lost(const string& id, const string& message) {
     any_lost = true;
     text += fmt::format("{}: error: {}\n", id, message);
     add({id, 0, 0, message, {}, {}});
   }
   /// `errors`: as examine() has them.
-  void add(const std::string& id, const Json& errors) {
-    const std::string its = errors[1].get<std::string>();
+  void add(const string& id, const Json& errors) {
+    const string its = errors[1].get<string>();
     text += fmt::format("{}:\n{}", id, its);
     any_lost = any_lost || !errors[4].get<bool>();
-    InvalidRun run{errors[0].get<std::size_t>(), its, {}};
+    InvalidRun run{errors[0].get<size_t>(), its, {}};
     for (const Json& error : errors[3]) {
       const ErrorRecord record{error[0], error[1], error[2], error[3], error[4], error[5]};
       run.messages += (run.messages.empty() ? "" : "; ") + record.message;
@@ -105,21 +105,20 @@ struct WrongRuns {
       return std::tie(record.file, record.line, record.column, record.message) ==
              std::tie(other.file, other.line, other.column, other.message);
     };
-    if (records.size() < errors_shown && std::none_of(records.begin(), records.end(), is_same))
-      records.push_back(record);
+    if (records.size() < errors_shown && std::ranges::none_of(records, is_same)) records.push_back(record);
   }
 };
 
-Json records_json(const std::vector<ErrorRecord>& records) {
+Json records_json(const vector<ErrorRecord>& records) {
   Json list = Json::array();
   for (const ErrorRecord& r : records) list.push_back({r.file, r.line, r.column, r.message, r.remedy, r.near});
   return list;
 }
 
-std::array<char, 16> digest(std::string_view text) {
-  const std::string hex = sha256(text);
-  std::array<char, 16> out{};
-  for (std::size_t i = 0; i < out.size(); ++i) {
+array<char, 16> digest(string_view text) {
+  const string hex = sha256(text);
+  array<char, 16> out{};
+  for (size_t i = 0; i < out.size(); ++i) {
     const auto nibble = [&](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
     out[i] = static_cast<char>(16 * nibble(hex[2 * i]) + nibble(hex[2 * i + 1]));
   }
@@ -128,13 +127,13 @@ std::array<char, 16> digest(std::string_view text) {
 
 /// The run that a scenario begins with, as its manifest names it. `folder`: the sweep's, in which it must not lie.
 /// Throws SceneError.
-std::string start_text(const Scene& scene, const std::string& folder) {
+string start_text(const Scene& scene, const string& folder) {
   const auto& start = scene.made_from.start;
   if (!start) return {};
   if ((canonical(start->folder) + "/").starts_with(canonical(folder) + "/")) {
-    const std::string fault = fmt::format("the run {} lies in the folder of this sweep, which replaces what is there",
-                                          in_backticks(start->run));
-    const std::string remedy = "expected a run elsewhere, or another folder for the sweep: -o";
+    const string fault = fmt::format("the run {} lies in the folder of this sweep, which replaces what is there",
+                                     in_backticks(start->run));
+    const string remedy = "expected a run elsewhere, or another folder for the sweep: -o";
     throw SceneError(fmt::format("{}: error: {}\n   = {}\n", scene.file, fault, remedy), 1,
                      {{scene.file, 0, 0, fault, remedy, ""}});
   }
@@ -142,7 +141,7 @@ std::string start_text(const Scene& scene, const std::string& folder) {
 }
 
 /// Adds the values of `let` that a measure names.
-void add_given(const Measure& measure, const Scene& scene, std::string& text) {
+void add_given(const Measure& measure, const Scene& scene, string& text) {
   for (const Measure& part : measure.parts) add_given(part, scene, text);
   if (measure.form != MeasureForm::given) return;
   const auto number = scene.measures.numbers.find(measure.things[0]);
@@ -150,8 +149,8 @@ void add_given(const Measure& measure, const Scene& scene, std::string& text) {
 }
 
 /// What besides the motion determines the measures of a scene, and these further ones.
-std::string measured_text(const Scene& scene, const std::vector<Measure>& more) {
-  std::string text;
+string measured_text(const Scene& scene, const vector<Measure>& more) {
+  string text;
   for (const OwnMeasure& own : scene.measures.own) text += fmt::format("{}: {}\n", own.name, own.text);
   for (const Measure& measure : own_measures(scene)) add_given(measure, scene, text);
   for (const Measure& measure : more) add_given(measure, scene, text);
@@ -160,20 +159,20 @@ std::string measured_text(const Scene& scene, const std::vector<Measure>& more) 
 
 LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
   const auto is_film = [](const SweepValue& output) { return output.text == "video"; };
-  load.chooses_outputs = !sweep.only.empty() && std::none_of(sweep.only.begin(), sweep.only.end(), is_film);
+  load.chooses_outputs = !sweep.only.empty() && std::ranges::none_of(sweep.only, is_film);
   return load;
 }
 
 }  // namespace
 
-bool may_read_files(const Sweep& sweep, const std::string& base_text) {
-  const std::string settings = sweep.resolved("");
+bool may_read_files(const Sweep& sweep, const string& base_text) {
+  const string settings = sweep.resolved("");
   for (const char* key : {"mesh", "start"})
-    if (base_text.find(key) != std::string::npos || settings.find(key) != std::string::npos) return true;
+    if (base_text.find(key) != string::npos || settings.find(key) != string::npos) return true;
   return false;
 }
 
-SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
+SweepJob::SweepJob(Sweep sweep, string folder, SweepSettings settings)
     : sweep_(std::move(sweep)),
       folder_(std::move(folder)),
       settings_(std::move(settings)),
@@ -183,7 +182,7 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
   Sweep once = sweep_;
   once.seeds = 0;
   // All runs have the same seed. If none is valid, plan() reports the errors.
-  for (std::size_t number = 0; !sweep_.first_seed && number < (sweep_.skip_invalid ? once.size() : 1); ++number) {
+  for (size_t number = 0; !sweep_.first_seed && number < (sweep_.skip_invalid ? once.size() : 1); ++number) {
     try {
       sweep_.first_seed = base_.scene(once.run(number).settings).seed;
     } catch (const SceneError&) {
@@ -193,11 +192,11 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
   if (!sweep_.first_seed) sweep_.first_seed = 0;
 }
 
-std::string SweepJob::run_folder(std::size_t number) const {
+string SweepJob::run_folder(size_t number) const {
   return fmt::format("{}/runs/{}", folder_, sweep_.id(number));
 }
 
-Scene SweepJob::scene(std::size_t number) {
+Scene SweepJob::scene(size_t number) {
   Scene scene = base_.scene(sweep_.run(number).settings);
   scene.output = settings_.restrict(scene.output, sweep_);
   return scene;
@@ -207,10 +206,10 @@ Scene SweepJob::scene(std::size_t number) {
 
 /// The planned runs as bytes, then the errors of the wrong ones as JSON: number, text, count, errors in parts, and
 /// whether the scene is invalid.
-std::string SweepJob::examine(std::size_t first, std::size_t last) {
-  std::string out;
+string SweepJob::examine(size_t first, size_t last) {
+  string out;
   Json errors = Json::array();
-  for (std::size_t number = first; number < last; ++number) {
+  for (size_t number = first; number < last; ++number) {
     settings_.stop_check();
     PlannedRun run;
     const auto refuse = [&](const SceneError& error, bool is_invalid) {
@@ -224,7 +223,7 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
       run.scene = digest(its.resolved + meshes_text(its) + start_text(its, folder_) + (named ? sweep_.id(number) : ""));
       run.motion = digest(motion_text(its));
       run.measured = digest(measured_text(its, measures_));
-      const std::string folder = run_folder(number);
+      const string folder = run_folder(number);
       settle_folder(folder);
       run.content = inspect_folder(folder, its);
       // Files of a run of an unfinished sweep are not synced: they may have changed by a power failure.
@@ -242,38 +241,38 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
   return out + text_of_json(errors);
 }
 
-void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_progress) {
-  std::size_t next = 0;
+void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress) {
+  size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
   measures_ = measures_of(comparison_plan(sweep_, base_.text()));
   // By the first run of the batch.
-  std::map<std::size_t, WrongRuns> wrong;
+  std::map<size_t, WrongRuns> wrong;
   Tasks tasks;
-  tasks.next = [&]() -> std::optional<std::size_t> {
-    if (next >= runs_.size() || (!sweep_.skip_invalid && wrong.size() >= most_wrong)) return std::nullopt;
-    const std::size_t task = next;
+  tasks.next = [&]() -> optional<size_t> {
+    if (next >= runs_.size() || (!sweep_.skip_invalid && wrong.size() >= most_wrong)) return nullopt;
+    const size_t task = next;
     next += examined_at_a_time;
     return task;
   };
-  const auto end_of = [&](std::size_t first) { return std::min(first + examined_at_a_time, runs_.size()); };
-  tasks.work = [&](std::size_t first) { return examine(first, end_of(first)); };
+  const auto end_of = [&](size_t first) { return std::min(first + examined_at_a_time, runs_.size()); };
+  tasks.work = [&](size_t first) { return examine(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
-    const std::size_t first = outcome.task, last = end_of(first);
+    const size_t first = outcome.task, last = end_of(first);
     if (outcome.kind != TaskOutcome::Kind::done) {
-      const std::string message = fmt::format("{}, between here and {}", outcome.text, sweep_.id(last - 1));
+      const string message = fmt::format("{}, between here and {}", outcome.text, sweep_.id(last - 1));
       wrong[first].lost(sweep_.id(first), message);
       return;
     }
-    const std::size_t bytes = (last - first) * sizeof(PlannedRun);
+    const size_t bytes = (last - first) * sizeof(PlannedRun);
     std::memcpy(static_cast<void*>(&runs_[first]), outcome.text.data(), bytes);
-    for (const Json& errors : json_of_text(std::string_view(outcome.text).substr(bytes)))
-      wrong[first].add(sweep_.id(errors[0].get<std::size_t>()), errors);
+    for (const Json& errors : json_of_text(string_view(outcome.text).substr(bytes)))
+      wrong[first].add(sweep_.id(errors[0].get<size_t>()), errors);
     progress.done += last - first;
     report_progress(progress);
   };
   tasks.stop_check = settings_.stop_check;
   work_off(tasks, std::min(settings_.jobs, (runs_.size() + examined_at_a_time - 1) / examined_at_a_time));
-  std::size_t valid = runs_.size();
+  size_t valid = runs_.size();
   bool any_lost = false;
   for (auto& [first, runs] : wrong) {
     any_lost = any_lost || runs.any_lost;
@@ -287,30 +286,30 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_prog
   throw SceneError(text, count, all.records);
 }
 
-std::optional<std::size_t> SweepJob::other_content() const {
+optional<size_t> SweepJob::other_content() const {
   // Changes in the folders of other parts' runs do not count.
-  const std::vector<std::size_t> mine = of_part();
-  const auto found = std::find_if(mine.begin(), mine.end(), [&](std::size_t number) {
+  const vector<size_t> mine = of_part();
+  const auto found = std::ranges::find_if(mine, [&](size_t number) {
     const FolderContent content = runs_[number].content;
     return content == FolderContent::other_run || content == FolderContent::more || content == FolderContent::touched;
   });
-  return found == mine.end() ? std::nullopt : std::optional(*found);
+  return found == mine.end() ? nullopt : optional(*found);
 }
 
-std::vector<std::string> SweepJob::idle_paths() const {
-  constexpr std::size_t most = 20'000;  // runs that are examined
-  std::vector<std::string> idle;
-  for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
-    const std::string& path = sweep_.paths[p];
-    const std::string_view head = std::string_view(path).substr(0, path.find('.'));
+vector<string> SweepJob::idle_paths() const {
+  constexpr size_t most = 20'000;  // runs that are examined
+  vector<string> idle;
+  for (size_t p = 0; p < sweep_.paths.size(); ++p) {
+    const string& path = sweep_.paths[p];
+    const string_view head = string_view(path).substr(0, path.find('.'));
     if (head == "output" || head == "title" || is_drawn(path)) continue;
-    std::map<std::string, std::size_t> first;  // by the other values
-    std::size_t pairs = 0, alike = 0;
-    for (std::size_t number = 0; number < std::min(runs_.size(), most); ++number) {
+    std::map<string, size_t> first;  // by the other values
+    size_t pairs = 0, alike = 0;
+    for (size_t number = 0; number < std::min(runs_.size(), most); ++number) {
       if (runs_[number].status == RunStatus::left_out) continue;
-      std::string others;
+      string others;
       const SweepRun run = sweep_.run(number);
-      for (std::size_t q = 0; q < run.values.size(); ++q)
+      for (size_t q = 0; q < run.values.size(); ++q)
         if (q != p) others += run.values[q].value_or("-") + '\n';
       const auto [found, is_new] = first.emplace(std::move(others), number);
       // Equal values may differ in notation.
@@ -327,23 +326,23 @@ std::vector<std::string> SweepJob::idle_paths() const {
 
 // ---- Running
 
-std::vector<SweepJob::Motion> SweepJob::motions() const {
+vector<SweepJob::Motion> SweepJob::motions() const {
   // Sort runs by motion, then scenario, then number.
-  std::vector<std::size_t> order;
-  for (std::size_t number = 0; number < runs_.size(); ++number)
+  vector<size_t> order;
+  for (size_t number = 0; number < runs_.size(); ++number)
     if (runs_[number].status != RunStatus::left_out) order.push_back(number);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(order, [&](size_t a, size_t b) {
     return std::tie(runs_[a].motion, runs_[a].scene, a) < std::tie(runs_[b].motion, runs_[b].scene, b);
   });
-  std::vector<Motion> motions;
-  for (std::size_t i = 0; i < order.size();) {
+  vector<Motion> motions;
+  for (size_t i = 0; i < order.size();) {
     Motion motion;
     Unit shared;
     const auto& moves = runs_[order[i]].motion;
     while (i < order.size() && runs_[order[i]].motion == moves) {
       const auto& scenario = runs_[order[i]].scene;
-      std::vector<std::size_t> to_do;
-      std::size_t like = none;
+      vector<size_t> to_do;
+      size_t like = none;
       for (; i < order.size() && runs_[order[i]].motion == moves && runs_[order[i]].scene == scenario; ++i) {
         motion.runs.push_back(order[i]);
         if (runs_[order[i]].status == RunStatus::done)
@@ -363,47 +362,47 @@ std::vector<SweepJob::Motion> SweepJob::motions() const {
     motions.push_back(std::move(motion));
   }
   // The division into parts must not depend on what is already done.
-  std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) { return first(a) < first(b); });
-  std::vector<Motion> mine;
-  for (std::size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
+  std::ranges::sort(motions, [](const Motion& a, const Motion& b) { return first(a) < first(b); });
+  vector<Motion> mine;
+  for (size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
     mine.push_back(std::move(motions[m]));
   return mine;
 }
 
-std::size_t SweepJob::first(const Motion& motion) {
-  return *std::min_element(motion.runs.begin(), motion.runs.end());
+size_t SweepJob::first(const Motion& motion) {
+  return *std::ranges::min_element(motion.runs);
 }
 
-std::vector<SweepJob::Unit> SweepJob::units() const {
-  std::vector<Unit> out;
+vector<SweepJob::Unit> SweepJob::units() const {
+  vector<Unit> out;
   for (Motion& motion : motions()) std::move(motion.units.begin(), motion.units.end(), std::back_inserter(out));
   return out;
 }
 
-std::vector<std::size_t> SweepJob::of_part() const {
-  std::vector<std::size_t> out;
+vector<size_t> SweepJob::of_part() const {
+  vector<size_t> out;
   for (const Motion& motion : motions()) out.insert(out.end(), motion.runs.begin(), motion.runs.end());
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   return out;
 }
 
-std::size_t SweepJob::runs_in(const std::vector<Unit>& units) {
-  std::size_t count = 0;
+size_t SweepJob::runs_in(const vector<Unit>& units) {
+  size_t count = 0;
   for (const Unit& unit : units)
     for (const auto& scenario : unit.scenarios) count += scenario.size();
   return count;
 }
 
-std::size_t SweepJob::left() const {
+size_t SweepJob::left() const {
   return runs_in(units());
 }
 
 /// The result of a unit as JSON: the reason for each failed run.
-std::string SweepJob::work(const Unit& unit) {
+string SweepJob::work(const Unit& unit) {
   nlohmann::ordered_json failures = nlohmann::ordered_json::object();
-  const auto fail = [&](std::size_t number, const std::string& why) { failures[std::to_string(number)] = why; };
-  const auto copy_to_all = [&](std::size_t from, const std::vector<std::size_t>& runs) {
-    for (const std::size_t number : runs) {
+  const auto fail = [&](size_t number, const string& why) { failures[std::to_string(number)] = why; };
+  const auto copy_to_all = [&](size_t from, const vector<size_t>& runs) {
+    for (const size_t number : runs) {
       if (number == from) continue;
       try {
         copy_run(run_folder(from), run_folder(number));
@@ -417,9 +416,9 @@ std::string SweepJob::work(const Unit& unit) {
     copy_to_all(unit.like, unit.scenarios.front());
     return text_of_json(failures);
   }
-  std::vector<Scene> scenes;
+  vector<Scene> scenes;
   scenes.reserve(unit.scenarios.size());
-  std::vector<Show> shows;
+  vector<Show> shows;
   for (const auto& scenario : unit.scenarios) {
     scenes.push_back(scene(scenario.front()));
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
@@ -430,9 +429,9 @@ std::string SweepJob::work(const Unit& unit) {
   how.checkpoint_s = settings_.checkpoint_s;
   std::copy_if(measures_.begin(), measures_.end(), std::back_inserter(how.measures),
                [](const Measure& measure) { return !measure.is_stored(); });
-  const std::vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const std::vector<std::size_t>& runs = unit.scenarios[i];
+  const vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
+  for (size_t i = 0; i < results.size(); ++i) {
+    const vector<size_t>& runs = unit.scenarios[i];
     if (!results[i].failure) {
       copy_to_all(runs.front(), runs);
       continue;
@@ -440,22 +439,22 @@ std::string SweepJob::work(const Unit& unit) {
     try {
       std::rethrow_exception(results[i].failure);
     } catch (const std::exception& error) {
-      for (const std::size_t number : runs) fail(number, error.what());
+      for (const size_t number : runs) fail(number, error.what());
     }
   }
   return text_of_json(failures);
 }
 
-void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progress,
-                   const std::function<void(std::size_t, const std::string&)>& failed) {
-  const std::vector<Unit> all = units();
+void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
+                   const function<void(size_t, const string&)>& failed) {
+  const vector<Unit> all = units();
   // Of an earlier mesh.
   for (const InvalidRun& run : invalid_) remove_run(run_folder(run.number));
   SweepProgress progress{0, 0, runs_in(all)};
-  std::size_t next = 0;
+  size_t next = 0;
   auto synced = std::chrono::steady_clock::now();
-  std::string full_disk;  // the first error that names one
-  const auto fail = [&](std::size_t number, std::string why) {
+  string full_disk;  // the first error that names one
+  const auto fail = [&](size_t number, string why) {
     if (names_full_disk(why)) {
       if (full_disk.empty()) full_disk = std::move(why);
       return;
@@ -471,19 +470,19 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     failed(number, why);
   };
   Tasks tasks;
-  tasks.next = [&] { return next < all.size() && full_disk.empty() ? std::optional(next++) : std::nullopt; };
-  tasks.work = [&](std::size_t task) { return work(all[task]); };
+  tasks.next = [&] { return next < all.size() && full_disk.empty() ? optional(next++) : nullopt; };
+  tasks.work = [&](size_t task) { return work(all[task]); };
   tasks.done = [&](const TaskOutcome& outcome) {
     const bool whole = outcome.kind == TaskOutcome::Kind::done;
     const nlohmann::ordered_json failures = whole ? json_of_text(outcome.text) : nlohmann::ordered_json::object();
     for (const auto& scenario : all[outcome.task].scenarios) {
-      for (const std::size_t number : scenario) {
+      for (const size_t number : scenario) {
         ++progress.done;
         const auto found = failures.find(std::to_string(number));
         if (!whole)
           fail(number, outcome.text);
         else if (found != failures.end())
-          fail(number, found->get<std::string>());
+          fail(number, found->get<string>());
         else
           runs_[number].status = RunStatus::done;
       }
@@ -498,7 +497,7 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progr
     settings_.stop_check();
     report_progress(progress);
   };
-  work_off(tasks, std::min(settings_.jobs, std::max<std::size_t>(all.size(), 1)));
+  work_off(tasks, std::min(settings_.jobs, std::max<size_t>(all.size(), 1)));
   if (!full_disk.empty()) throw ExportError(full_disk);
 }
 

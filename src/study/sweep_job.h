@@ -1,11 +1,5 @@
 #pragma once
 // The work of a sweep: checks its scenarios, determines which runs are done, and does the others.
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "files/run_folder.h"
 #include "files/summary.h"
@@ -14,6 +8,7 @@
 #include "run/run_settings.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
+#include "std.h"
 #include "study/shard.h"
 #include "study/workers.h"
 
@@ -21,21 +16,21 @@ namespace carom {
 
 struct SweepSettings {
   LoadOptions load;  // without --set options
-  std::size_t jobs = 1;
+  size_t jobs = 1;
   Shard shard;
-  bool force = false;                                           // also run what is done
-  double checkpoint_s = RunSettings{}.checkpoint_s;             // of each run
-  bool checks_requirements = false;                             // whether this machine makes the outputs
-  std::function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
+  bool force = false;                                      // also run what is done
+  double checkpoint_s = RunSettings{}.checkpoint_s;        // of each run
+  bool checks_requirements = false;                        // whether this machine makes the outputs
+  function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
   /// Called often, in every process. May throw.
-  std::function<void()> stop_check;
+  function<void()> stop_check;
 };
 
 /// Whether a scenario may have a mesh or begin with a former run: files that can change independently of the sweep.
 /// `base_text`: the text of the base scene.
-bool may_read_files(const Sweep& sweep, const std::string& base_text);
+bool may_read_files(const Sweep& sweep, const string& base_text);
 
-enum class RunStatus : std::uint8_t {
+enum class RunStatus : uint8_t {
   missing,
   done,
   failed,
@@ -46,93 +41,93 @@ enum class RunStatus : std::uint8_t {
 struct PlannedRun {
   /// Digests. Scenarios with equal `scene` are equal, and those with equal `motion` move alike. Those with equal
   /// `measured` have the same measures of their motion.
-  std::array<char, 16> scene{}, motion{}, measured{};
+  array<char, 16> scene{}, motion{}, measured{};
   FolderContent content = FolderContent::nothing;
   RunStatus status = RunStatus::missing;
 };
 
 /// A run that is left out.
 struct InvalidRun {
-  std::size_t number = 0;
-  std::string text;      // its errors, for a terminal
-  std::string messages;  // the errors on one line, without places
+  size_t number = 0;
+  string text;      // its errors, for a terminal
+  string messages;  // the errors on one line, without places
 };
 
 struct SweepProgress {
   /// Numbers of runs to do in this shard.
-  std::size_t done = 0, failed = 0, of = 0;
+  size_t done = 0, failed = 0, of = 0;
 };
 
 class SweepJob {
  public:
   /// Reads the base. The first seed of repeats is the base's, unless the sweep sets another. Throws SceneError.
-  SweepJob(Sweep sweep, std::string folder, SweepSettings settings);
+  SweepJob(Sweep sweep, string folder, SweepSettings settings);
 
   const Sweep& sweep() const { return sweep_; }
-  const std::string& base_text() const { return base_.text(); }
+  const string& base_text() const { return base_.text(); }
   /// A run's scenario, with the outputs to write. Throws SceneError.
-  Scene scene(std::size_t number);
-  const std::string& folder() const { return folder_; }
-  const std::vector<PlannedRun>& runs() const { return runs_; }
-  std::string run_folder(std::size_t number) const;
+  Scene scene(size_t number);
+  const string& folder() const { return folder_; }
+  const vector<PlannedRun>& runs() const { return runs_; }
+  string run_folder(size_t number) const;
 
   /// Loads every scenario and inspects its folder, several at a time.
   /// A finished run from which the sweep's measures cannot be determined counts as missing.
   /// Throws SceneError with all errors, each once. Of a large number, only the first ones are given.
   /// If the sweep leaves out invalid runs, it throws only if all are invalid, or this machine lacks something.
-  void plan(const std::function<void(const SweepProgress&)>& report_progress);
+  void plan(const function<void(const SweepProgress&)>& report_progress);
 
   /// The runs that are left out, by number. They belong to no part.
-  const std::vector<InvalidRun>& invalid() const { return invalid_; }
+  const vector<InvalidRun>& invalid() const { return invalid_; }
 
   /// The first run of this shard that would overwrite other content: another scene's run, more outputs, or a changed
   /// file. Call it after plan().
-  std::optional<std::size_t> other_content() const;
+  optional<size_t> other_content() const;
 
   /// The paths that affect neither the motion nor measures, although they are not settings of appearance or output.
   /// Runs that differ only in such a path move alike. Call it after plan().
-  std::vector<std::string> idle_paths() const;
+  vector<string> idle_paths() const;
 
   /// The runs of this shard, in order. Call it and the functions below after plan().
-  std::vector<std::size_t> of_part() const;
+  vector<size_t> of_part() const;
   /// The number of these runs that are not done.
-  std::size_t left() const;
+  size_t left() const;
 
   /// Does the remaining runs. Scenarios that move alike share one simulation, and equal ones are run once and copied.
   /// A failed run leaves `error.txt` in its folder, and `failed` is called with it. On a full disk no further run
   /// begins, and ExportError is thrown.
   /// The last results are not yet synced to disk.
-  void run(const std::function<void(const SweepProgress&)>& report_progress,
-           const std::function<void(std::size_t number, const std::string& why)>& failed);
+  void run(const function<void(const SweepProgress&)>& report_progress,
+           const function<void(size_t number, const string& why)>& failed);
 
  private:
   struct Unit {
-    std::vector<std::vector<std::size_t>> scenarios;  // for each scenario its runs
+    vector<vector<size_t>> scenarios;  // for each scenario its runs
     /// A finished run of the (only) scenario.
-    std::size_t like = none;
+    size_t like = none;
   };
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr size_t none = static_cast<size_t>(-1);
 
-  std::string examine(std::size_t first, std::size_t last);
+  string examine(size_t first, size_t last);
   /// Runs that move alike.
   struct Motion {
-    std::vector<std::size_t> runs;
-    std::vector<Unit> units;  // the remaining work
+    vector<size_t> runs;
+    vector<Unit> units;  // the remaining work
   };
-  static std::size_t first(const Motion& motion);  // its first run
-  std::vector<Motion> motions() const;             // of this part
-  std::vector<Unit> units() const;
-  static std::size_t runs_in(const std::vector<Unit>& units);
-  std::string work(const Unit& unit);
+  static size_t first(const Motion& motion);  // its first run
+  vector<Motion> motions() const;             // of this part
+  vector<Unit> units() const;
+  static size_t runs_in(const vector<Unit>& units);
+  string work(const Unit& unit);
 
   Sweep sweep_;
-  std::string folder_;
+  string folder_;
   SweepSettings settings_;
   SceneFile base_;
   Requirements requirements_;
-  std::vector<Measure> measures_;
-  std::vector<PlannedRun> runs_;
-  std::vector<InvalidRun> invalid_;
+  vector<Measure> measures_;
+  vector<PlannedRun> runs_;
+  vector<InvalidRun> invalid_;
 };
 
 }  // namespace carom

@@ -13,13 +13,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <thread>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
@@ -31,36 +31,36 @@ constexpr auto end_patience = std::chrono::seconds(1);
 
 /// The header of an outcome's text.
 struct Head {
-  std::uint64_t size;
+  uint64_t size;
   TaskOutcome::Kind kind;
 };
 
-bool send_all(int socket, const void* bytes, std::size_t size) {
+bool send_all(int socket, const void* bytes, size_t size) {
   const char* from = static_cast<const char*>(bytes);
   while (size > 0) {
     const ssize_t n = send(socket, from, size, MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     from += n;
-    size -= static_cast<std::size_t>(n);
+    size -= static_cast<size_t>(n);
   }
   return true;
 }
 
-bool receive_all(int socket, void* bytes, std::size_t size) {
+bool receive_all(int socket, void* bytes, size_t size) {
   char* to = static_cast<char*>(bytes);
   while (size > 0) {
     const ssize_t n = recv(socket, to, size, 0);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     to += n;
-    size -= static_cast<std::size_t>(n);
+    size -= static_cast<size_t>(n);
   }
   return true;
 }
 
 /// Waits up to check_interval for data. If the system cannot wait, every socket is reported as ready.
-bool wait_for_any(std::vector<pollfd>& sockets) {
+bool wait_for_any(vector<pollfd>& sockets) {
   const int ready = poll(sockets.data(), sockets.size(), check_interval);
   if (ready >= 0 || errno == EINTR) return ready > 0;
   std::this_thread::sleep_for(std::chrono::milliseconds(check_interval));
@@ -70,9 +70,9 @@ bool wait_for_any(std::vector<pollfd>& sockets) {
 
 /// The loop of a worker, until there are no more tasks or the parent has ended.
 [[noreturn]] void serve(int socket, const Tasks& tasks) {
-  std::uint64_t task = 0;
+  uint64_t task = 0;
   while (receive_all(socket, &task, sizeof task)) {
-    std::string text;
+    string text;
     TaskOutcome::Kind kind = TaskOutcome::Kind::done;
     try {
       text = tasks.work(task);
@@ -94,7 +94,7 @@ bool wait_for_any(std::vector<pollfd>& sockets) {
 
 class Pool {
  public:
-  Pool(const Tasks& tasks, std::size_t jobs) : tasks_(tasks), workers_(jobs) {}
+  Pool(const Tasks& tasks, size_t jobs) : tasks_(tasks), workers_(jobs) {}
 
   /// Ends the running workers with SIGTERM, so that they can clean up their files.
   ~Pool() {
@@ -108,7 +108,7 @@ class Pool {
   void go() {
     for (Worker& worker : workers_)
       if (!give(worker)) break;
-    std::vector<pollfd> sockets;
+    vector<pollfd> sockets;
     while (true) {
       sockets.clear();
       for (const Worker& worker : workers_)
@@ -117,8 +117,7 @@ class Pool {
       const bool ready = wait_for_any(sockets);
       tasks_.stop_check();
       for (const pollfd& socket : sockets) {
-        Worker& worker =
-            *std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.socket == socket.fd; });
+        Worker& worker = *std::ranges::find_if(workers_, [&](const Worker& w) { return w.socket == socket.fd; });
         if (ready ? socket.revents == 0 : !has_ended(worker)) continue;
         take(worker);
         give(worker);
@@ -132,8 +131,8 @@ class Pool {
     pid_t process = 0;
     int socket = -1;
     bool busy = false;
-    std::size_t task = 0;
-    std::optional<int> status{};  // set once it has ended
+    size_t task = 0;
+    optional<int> status{};  // set once it has ended
   };
 
   static bool has_ended(Worker& worker) {
@@ -171,17 +170,17 @@ class Pool {
   }
 
   /// False: the worker has ended before it sent all bytes.
-  bool receive_all(Worker& worker, void* bytes, std::size_t size) {
+  bool receive_all(Worker& worker, void* bytes, size_t size) {
     char* to = static_cast<char*>(bytes);
     while (size > 0) {
       const ssize_t n = recv(worker.socket, to, size, MSG_DONTWAIT);
       if (n > 0) {
         to += n;
-        size -= static_cast<std::size_t>(n);
+        size -= static_cast<size_t>(n);
         continue;
       }
       if (n == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) return false;
-      std::vector<pollfd> wanted = {{worker.socket, POLLIN, 0}};
+      vector<pollfd> wanted = {{worker.socket, POLLIN, 0}};
       const bool ready = wait_for_any(wanted);
       tasks_.stop_check();
       if (!ready && has_ended(worker)) return false;
@@ -191,11 +190,11 @@ class Pool {
 
   /// Whether there was a task to assign.
   bool give(Worker& worker) {
-    const std::optional<std::size_t> task = tasks_.next();
+    const optional<size_t> task = tasks_.next();
     if (!task) return false;
     worker.task = *task;
     worker.busy = true;
-    const std::uint64_t number = *task;
+    const uint64_t number = *task;
     // A worker that has ended between two tasks is replaced.
     int status = 0;
     for (int attempt = 0; attempt < 2; ++attempt) {
@@ -277,12 +276,12 @@ class Pool {
   }
 
   const Tasks& tasks_;
-  std::vector<Worker> workers_;
+  vector<Worker> workers_;
 };
 
 }  // namespace
 
-void work_off(const Tasks& tasks, std::size_t jobs) {
+void work_off(const Tasks& tasks, size_t jobs) {
   Pool(tasks, jobs).go();
 }
 

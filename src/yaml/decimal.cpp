@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -28,30 +29,30 @@ void align(Decimal& a, Decimal& b) {
   shorter.places = places;
 }
 
-std::string digits_of(Wide value) {
-  std::string out;
+string digits_of(Wide value) {
+  string out;
   do {
     out += static_cast<char>('0' + static_cast<int>(value % 10));
     value /= 10;
   } while (value != 0);
-  std::reverse(out.begin(), out.end());
+  std::ranges::reverse(out);
   return out;
 }
 
 }  // namespace
 
-std::optional<Decimal> parse_decimal(std::string_view text) {
-  if (!parse_number(text)) return std::nullopt;
+optional<Decimal> parse_decimal(string_view text) {
+  if (!parse_number(text)) return nullopt;
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
-  std::string digits;
+  string digits;
   int places = 0, exponent = 0;
   bool fraction = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '.') {
       fraction = true;
     } else if (text[i] == 'e' || text[i] == 'E') {
-      std::string_view power_text = text.substr(i + 1);
+      string_view power_text = text.substr(i + 1);
       if (power_text.starts_with('+')) power_text.remove_prefix(1);
       // An exponent out of range leaves 0. Then the number itself is 0, because parse_number accepted it.
       std::from_chars(power_text.data(), power_text.data() + power_text.size(), exponent);
@@ -61,7 +62,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
       places += fraction ? 1 : 0;
     }
   }
-  if (digits.find_first_not_of('0') == std::string::npos) return Decimal{};
+  if (digits.find_first_not_of('0') == string::npos) return Decimal{};
   places -= exponent;
   while (digits.size() > 1 && digits.ends_with('0')) {
     digits.pop_back();
@@ -69,7 +70,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   }
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
   const int before = static_cast<int>(digits.size()) - places;  // digits before the point
-  if (std::max(before, 0) + std::max(places, 0) > most_digits) return std::nullopt;
+  if (std::max(before, 0) + std::max(places, 0) > most_digits) return nullopt;
   Decimal value;
   for (const char c : digits) value.units = 10 * value.units + (c - '0');
   if (places < 0) {
@@ -81,25 +82,25 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   return value;
 }
 
-std::string to_text(const Decimal& value) {
+string to_text(const Decimal& value) {
   Decimal v = value;
   while (v.places > 0 && v.units % 10 == 0) {
     v.units /= 10;
     --v.places;
   }
-  std::string digits = digits_of(v.units < 0 ? -v.units : v.units);
+  string digits = digits_of(v.units < 0 ? -v.units : v.units);
   if (v.places > 0) {
-    const auto places = static_cast<std::size_t>(v.places);
+    const auto places = static_cast<size_t>(v.places);
     if (digits.size() <= places) digits.insert(0, places + 1 - digits.size(), '0');
     digits.insert(digits.size() - places, 1, '.');
   }
   return v.units < 0 ? "-" + digits : digits;
 }
 
-std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uint64_t count) {
+vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
   Decimal a = from, b = to;
   align(a, b);
-  std::vector<std::string> out;
+  vector<string> out;
   const auto last = static_cast<Wide>(count) - 1;
   for (Wide i = 0; i <= last; ++i) {
     if (i == 0 || i == last) {
@@ -135,12 +136,12 @@ std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uin
   return out;
 }
 
-std::vector<std::string> steps(const Decimal& from, const Decimal& to, const Decimal& step, std::uint64_t most) {
+vector<string> steps(const Decimal& from, const Decimal& to, const Decimal& step, uint64_t most) {
   Decimal a = from, b = to, d = step;
   align(a, b);
   align(a, d);
   align(a, b);
-  std::vector<std::string> out;
+  vector<string> out;
   const bool up = a.units <= b.units;
   if (d.units == 0 || ((d.units > 0) != up && a.units != b.units)) return out;
   for (; up ? a.units <= b.units : a.units >= b.units; a.units += d.units) {

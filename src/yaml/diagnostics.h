@@ -1,65 +1,61 @@
 #pragma once
 // Errors with places, collected, sorted and shown: place, line, caret, remedy.
-#include <cstddef>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
 
 /// A part of a text, in bytes. Length 0: none.
 struct TextSpan {
-  std::size_t at = 0, length = 0;
+  size_t at = 0, length = 0;
 };
 
 /// What is wrong with a text, and where. Length 0: with all of it.
 struct TextFault {
-  std::string text;
+  string text;
   TextSpan span{};
 };
 
 /// The two parts of "fault\n  remedy" or "fault. Remedy: remedy". `remedy` is empty if there is none.
 struct TextRemedy {
-  std::string fault, remedy;
+  string fault, remedy;
 };
-TextRemedy fault_and_remedy(std::string_view text);
+TextRemedy fault_and_remedy(string_view text);
 
 /// An error in parts, for other programs.
 struct ErrorRecord {
-  std::string file;  // or the option: "--set balls.red.mass=x"; empty: none
+  string file;  // or the option: "--set balls.red.mass=x"; empty: none
   /// From 1, the column in characters. 0: the error has no place in the file.
-  std::size_t line = 0, column = 0;
-  std::string message;
-  std::string remedy;  // lines; empty: none
-  std::string near;    // what was probably meant: "radius"; empty: unknown
+  size_t line = 0, column = 0;
+  string message;
+  string remedy;  // lines; empty: none
+  string near;    // what was probably meant: "radius"; empty: unknown
 };
 
 class Diagnostics {
  public:
   /// `sources`: the texts that places point into, the file first, then one per --set. They must outlive this object.
-  explicit Diagnostics(const std::vector<Source>& sources) : sources_(sources) {}
+  explicit Diagnostics(const vector<Source>& sources) : sources_(sources) {}
 
   /// `remedy`: what was expected, or a suggestion. Each of its lines is one remedy. A character of the marked text that
   /// is only like one of ASCII is named there as well. At a place of repeated things, errors that differ by numbers
   /// alone are one, which has the number of members.
-  void add(Place place, std::string message, std::string remedy = {});
+  void add(Place place, string message, string remedy = {});
   /// An error of a file as a whole: "path: error: message".
-  void add_unplaced(std::string name, std::string message, std::string remedy = {});
+  void add_unplaced(string name, string message, string remedy = {});
   /// A value or key at this place belongs to each member of a repeated thing.
   void mark_repeated(Place place);
   /// Adds an error that another member has already. False: none has. It saves the search for a remedy.
-  bool add_member(Place place, std::string_view message);
+  bool add_member(Place place, string_view message);
 
   bool empty() const { return errors_.empty(); }
-  std::size_t count() const { return errors_.size(); }
+  size_t count() const { return errors_.size(); }
   /// Grows with every error, also with those of further members.
-  std::size_t added() const { return added_; }
+  size_t added() const { return added_; }
 
   /// All errors in the order of the file. Each error has this form:
   ///   path:line:column: error: message
@@ -67,47 +63,47 @@ class Diagnostics {
   ///         |      ^~~~
   ///         = remedy
   /// Lines and columns count from 1, columns in characters.
-  std::string text(bool color) const;
+  string text(bool color) const;
   /// The same errors in parts.
-  std::vector<ErrorRecord> records() const;
+  vector<ErrorRecord> records() const;
 
  private:
   struct Error {
     bool placed;
     Place place;
-    std::string name, message, remedy;
-    std::size_t members = 1;
+    string name, message, remedy;
+    size_t members = 1;
   };
-  std::vector<const Error*> in_order() const;
-  static std::string remedy_of(const Error& error);
-  std::string show(const Error& error, bool color) const;
+  vector<const Error*> in_order() const;
+  static string remedy_of(const Error& error);
+  string show(const Error& error, bool color) const;
 
-  const std::vector<Source>& sources_;
-  std::vector<Error> errors_;
-  std::size_t added_ = 0;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> repeated_;  // sources and offsets
+  const vector<Source>& sources_;
+  vector<Error> errors_;
+  size_t added_ = 0;
+  std::set<std::pair<uint32_t, uint32_t>> repeated_;  // sources and offsets
   /// By place and message without numbers: the number of the error.
-  std::map<std::string, std::size_t> first_of_alike_;
+  std::map<string, size_t> first_of_alike_;
 };
 
 /// The number of UTF-8 characters. A byte that is not part of one counts as one.
-std::size_t count_characters(std::string_view text);
+size_t count_characters(string_view text);
 
 /// `text` between backticks, for use inside a message: shortened and free of control characters.
-std::string in_backticks(std::string_view text);
+string in_backticks(string_view text);
 
 /// The name in "did you mean `name`?". Empty: the text does not suggest one.
-std::string suggestion_in(std::string_view text);
+string suggestion_in(string_view text);
 
 /// The closest name in `candidates`: few letters differ, and two swapped letters count as one difference.
 /// Empty: none is near. Of equally near names the first is returned.
-std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates);
+string nearest(string_view name, const vector<string_view>& candidates);
 
 /// "`red`, `blue` and 7 more". Members of a repeated thing are one name.
-std::string names_text(const std::vector<std::string_view>& names, std::size_t most);
+string names_text(const vector<string_view>& names, size_t most);
 
 /// What to say of a name that is not there: "did you mean `red`?", or "there are `red`, `blue` and 7 more". Empty:
 /// there are no names.
-std::string suggest_name(std::string_view name, const std::vector<std::string_view>& candidates);
+string suggest_name(string_view name, const vector<string_view>& candidates);
 
 }  // namespace carom

@@ -13,15 +13,16 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/syntax.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t max_depth = 32;
-constexpr std::size_t max_values = 6'000'000;
-constexpr std::size_t max_text = 10'000;  // bytes of one scalar
+constexpr size_t max_depth = 32;
+constexpr size_t max_values = 6'000'000;
+constexpr size_t max_text = 10'000;  // bytes of one scalar
 // Of aliases, duplicate keys and the like, before parsing stops.
 constexpr int max_refusals = 200;
 
@@ -30,7 +31,7 @@ struct Stop {};
 
 class DocumentBuilder : public YAML::EventHandler {
  public:
-  DocumentBuilder(std::string_view text, std::uint32_t source, std::size_t base, Diagnostics& diagnostics)
+  DocumentBuilder(string_view text, uint32_t source, size_t base, Diagnostics& diagnostics)
       : text_(text), source_(source), base_(base), diagnostics_(diagnostics) {}
 
   Node root;
@@ -39,9 +40,9 @@ class DocumentBuilder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents == 1) return;
     // A setting begins with its value. What follows a bracket shows that a text is meant.
-    const std::size_t first = text_.find_first_not_of(' ', base_);
-    if (source_ > 0 && first != std::string_view::npos && (text_[first] == '{' || text_[first] == '[')) {
-      refuse(at(mark), std::string(text_after_bracket), std::string(quotes_for_bracket));
+    const size_t first = text_.find_first_not_of(' ', base_);
+    if (source_ > 0 && first != string_view::npos && (text_[first] == '{' || text_[first] == '[')) {
+      refuse(at(mark), string(text_after_bracket), string(quotes_for_bracket));
     } else if (!root.is(Node::Kind::map)) {
       refuse({source_, 0, 1}, "this is not a scene", "expected a map of keys, such as `scene: 1`");
     } else if (at(mark).offset == base_) {
@@ -73,8 +74,7 @@ class DocumentBuilder : public YAML::EventHandler {
     scalar(at(mark), "", false, true);
   }
 
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override {
+  void OnScalar(const YAML::Mark& mark, const string& tag, YAML::anchor_t anchor, const string& value) override {
     check_anchor(mark, anchor);
     check_tag(mark, tag);
     const bool is_quoted = tag == "!";
@@ -84,22 +84,22 @@ class DocumentBuilder : public YAML::EventHandler {
       throw Stop{};
     }
     // The raw text may be folded or escaped. Then the place is a single character.
-    const std::string_view raw = text_.substr(place.offset);
-    if (raw.starts_with(value) && !value.empty()) place.length = static_cast<std::uint32_t>(value.size());
+    const string_view raw = text_.substr(place.offset);
+    if (raw.starts_with(value) && !value.empty()) place.length = static_cast<uint32_t>(value.size());
     if (is_quoted && raw.size() > value.size() + 1 && raw.substr(1, value.size()) == value &&
         (raw[0] == '"' || raw[0] == '\'')) {
-      place.length = static_cast<std::uint32_t>(value.size() + 2);
+      place.length = static_cast<uint32_t>(value.size() + 2);
     }
     check_decoded(place, value);
     scalar(place, value, is_quoted, false);
   }
 
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+  void OnSequenceStart(const YAML::Mark& mark, const string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
     begin(Node::Kind::sequence, mark, tag, anchor);
   }
   void OnSequenceEnd() override { end(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+  void OnMapStart(const YAML::Mark& mark, const string& tag, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
     begin(Node::Kind::map, mark, tag, anchor);
   }
@@ -110,19 +110,19 @@ class DocumentBuilder : public YAML::EventHandler {
   struct Open {
     Node node;
     // A map's key that waits for its value.
-    std::optional<Key> pending;
-    std::unordered_map<std::string, std::size_t> index;  // keys, once there are many
+    optional<Key> pending;
+    std::unordered_map<string, size_t> index;  // keys, once there are many
   };
 
-  Place at(const YAML::Mark& mark, std::size_t length = 1) const {
-    const std::size_t offset = std::min(base_ + static_cast<std::size_t>(std::max(mark.pos, 0)), text_.size());
-    return {source_, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
+  Place at(const YAML::Mark& mark, size_t length = 1) const {
+    const size_t offset = std::min(base_ + static_cast<size_t>(std::max(mark.pos, 0)), text_.size());
+    return {source_, static_cast<uint32_t>(offset), static_cast<uint32_t>(length)};
   }
-  std::size_t word_length(const YAML::Mark& mark) const {
-    const std::size_t begin = at(mark).offset;
-    return std::max<std::size_t>(1, std::min(text_.find_first_of(" \n,]}", begin), text_.size()) - begin);
+  size_t word_length(const YAML::Mark& mark) const {
+    const size_t begin = at(mark).offset;
+    return std::max<size_t>(1, std::min(text_.find_first_of(" \n,]}", begin), text_.size()) - begin);
   }
-  void refuse(Place place, std::string message, std::string remedy) {
+  void refuse(Place place, string message, string remedy) {
     diagnostics_.add(place, std::move(message), std::move(remedy));
     if (++refusals_ > max_refusals) throw Stop{};
   }
@@ -135,25 +135,25 @@ class DocumentBuilder : public YAML::EventHandler {
   void check_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (anchor != 0) refuse(at(mark, word_length(mark)), "an anchor", "remove it: scenes have no anchors and aliases");
   }
-  void check_tag(const YAML::Mark& mark, const std::string& tag) {
+  void check_tag(const YAML::Mark& mark, const string& tag) {
     if (!tag.empty() && tag != "?" && tag != "!") {
       refuse(at(mark, word_length(mark)), "a tag", "remove it: the key determines the type of its value");
     }
   }
   /// Escapes such as "\0" or "\uD800" produce text that the check of the raw bytes did not cover.
-  void check_decoded(Place place, const std::string& value) {
-    for (std::size_t i = 0; i < value.size();) {
+  void check_decoded(Place place, const string& value) {
+    for (size_t i = 0; i < value.size();) {
       char32_t code = 0;
       const int length = utf8_length(value, i, code);
       if (length == 0 || (is_control(code) && code != '\n')) {
         refuse(place, "this text holds a control character", "expected plain text");
         throw Stop{};
       }
-      i += static_cast<std::size_t>(length);
+      i += static_cast<size_t>(length);
     }
   }
 
-  void scalar(Place place, const std::string& value, bool is_quoted, bool bad) {
+  void scalar(Place place, const string& value, bool is_quoted, bool bad) {
     if (awaits_key()) {
       if (value == "<<" && !is_quoted) {
         refuse(place, "`<<` merges maps in some YAML dialects, not in a scene",
@@ -172,7 +172,7 @@ class DocumentBuilder : public YAML::EventHandler {
     add(std::move(node));
   }
 
-  void begin(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+  void begin(Node::Kind kind, const YAML::Mark& mark, const string& tag, YAML::anchor_t anchor) {
     check_anchor(mark, anchor);
     check_tag(mark, tag);
     if (open_.size() >= max_depth) {
@@ -226,50 +226,49 @@ class DocumentBuilder : public YAML::EventHandler {
     parent.node.items.push_back(std::move(node));
   }
 
-  static constexpr std::size_t many = 32;
+  static constexpr size_t many = 32;
 
-  static const Key* first_with(const Open& open, const std::string& name) {
+  static const Key* first_with(const Open& open, const string& name) {
     if (open.node.keys.size() < many) return open.node.find_key(name);
     const auto it = open.index.find(name);
     return it == open.index.end() ? nullptr : &open.node.keys[it->second];
   }
 
   static void index_last_key(Open& open) {
-    const std::vector<Key>& keys = open.node.keys;
+    const vector<Key>& keys = open.node.keys;
     if (keys.size() < many) return;
-    for (std::size_t i = keys.size() == many ? 0 : keys.size() - 1; i < keys.size(); ++i)
+    for (size_t i = keys.size() == many ? 0 : keys.size() - 1; i < keys.size(); ++i)
       open.index.emplace(keys[i].text, i);
   }
 
-  std::string_view text_;
-  std::uint32_t source_;
-  std::size_t base_;
+  string_view text_;
+  uint32_t source_;
+  size_t base_;
   Diagnostics& diagnostics_;
-  std::vector<Open> open_;
-  std::size_t values_ = 0;
+  vector<Open> open_;
+  size_t values_ = 0;
   int refusals_ = 0;
 };
 
 }  // namespace
 
-const Key* Node::find_key(std::string_view key) const {
+const Key* Node::find_key(string_view key) const {
   for (const Key& k : keys) {
     if (k.text == key) return &k;
   }
   return nullptr;
 }
 
-const Node* Node::find(std::string_view key) const {
+const Node* Node::find(string_view key) const {
   const Key* k = find_key(key);
-  return k == nullptr || items.size() != keys.size() ? nullptr : &items[static_cast<std::size_t>(k - keys.data())];
+  return k == nullptr || items.size() != keys.size() ? nullptr : &items[static_cast<size_t>(k - keys.data())];
 }
 
-Node* Node::find(std::string_view key) {
+Node* Node::find(string_view key) {
   return const_cast<Node*>(static_cast<const Node&>(*this).find(key));
 }
 
-std::optional<Node> parse_document(const std::vector<Source>& sources, std::uint32_t index, std::size_t offset,
-                                   Diagnostics& diagnostics) {
+optional<Node> parse_document(const vector<Source>& sources, uint32_t index, size_t offset, Diagnostics& diagnostics) {
   const Source& source = sources[index];
   DocumentBuilder builder(source.text, index, offset, diagnostics);
   try {
@@ -279,11 +278,11 @@ std::optional<Node> parse_document(const std::vector<Source>& sources, std::uint
     // Not `while (HandleNextDocument)`, which never ends on ",". The builder throws at a second document.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const Stop&) {
-    return std::nullopt;
+    return nullopt;
   } catch (const YAML::Exception& error) {
-    const std::size_t pos = error.mark.is_null() ? 0 : static_cast<std::size_t>(std::max(error.mark.pos, 0));
+    const size_t pos = error.mark.is_null() ? 0 : static_cast<size_t>(std::max(error.mark.pos, 0));
     explain_syntax(source, index, offset, std::min(offset + pos, source.text.size()), error.msg, diagnostics);
-    return std::nullopt;
+    return nullopt;
   }
   if (builder.documents == 0) return Node{};
   return std::move(builder.root);

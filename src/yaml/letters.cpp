@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
@@ -12,18 +14,18 @@ bool begins_letter(char c) {
 
 }  // namespace
 
-std::size_t letters_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_letter));
+size_t letters_of(string_view text) {
+  return static_cast<size_t>(std::ranges::count_if(text, begins_letter));
 }
 
-std::string shortened(std::string_view text, std::size_t most) {
-  std::size_t letters = 0, cut = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+string shortened(string_view text, size_t most) {
+  size_t letters = 0, cut = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
     if (!begins_letter(text[i])) continue;
     if (++letters == most) cut = i;
-    if (letters > most) return std::string(text.substr(0, cut)) + "…";
+    if (letters > most) return string(text.substr(0, cut)) + "…";
   }
-  return std::string(text);
+  return string(text);
 }
 
 }  // namespace carom

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view hyphen = "`-`", space = "a plain space", nothing = "nothing there", quote = "`'`";
+constexpr string_view hyphen = "`-`", space = "a plain space", nothing = "nothing there", quote = "`'`";
 
 constexpr Lookalike all_lookalikes[] = {
     {0x2212, "a minus sign", hyphen},
@@ -50,23 +51,22 @@ constexpr Lookalike all_lookalikes[] = {
 
 }  // namespace
 
-std::optional<Lookalike> lookalike_at(std::string_view text, std::size_t i) {
+optional<Lookalike> lookalike_at(string_view text, size_t i) {
   char32_t code = 0;
-  if (i >= text.size() || utf8_length(text, i, code) < 2) return std::nullopt;
+  if (i >= text.size() || utf8_length(text, i, code) < 2) return nullopt;
   const Lookalike* const found = std::find_if(std::begin(all_lookalikes), std::end(all_lookalikes),
                                               [&](const Lookalike& l) { return l.code == code; });
-  return found == std::end(all_lookalikes) ? std::nullopt : std::optional(*found);
+  return found == std::end(all_lookalikes) ? nullopt : optional(*found);
 }
 
 bool is_blank(const Lookalike& lookalike) {
   return lookalike.plain == space || lookalike.plain == nothing;
 }
 
-std::string lookalike_in(std::string_view text) {
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (const std::optional<Lookalike> found = lookalike_at(text, i))
-      return fmt::format("U+{:04X} is {}: write {}", static_cast<std::uint32_t>(found->code), found->name,
-                         found->plain);
+string lookalike_in(string_view text) {
+  for (size_t i = 0; i < text.size(); ++i)
+    if (const optional<Lookalike> found = lookalike_at(text, i))
+      return fmt::format("U+{:04X} is {}: write {}", static_cast<uint32_t>(found->code), found->name, found->plain);
   return {};
 }
 

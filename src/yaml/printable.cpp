@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom {
@@ -23,16 +24,16 @@ bool is_unprintable(char32_t code) {
                                          [&](const Block& block) { return code >= block.first && code <= block.last; });
 }
 
-std::string escaped(char32_t code) {
-  const auto number = static_cast<std::uint32_t>(code);
+string escaped(char32_t code) {
+  const auto number = static_cast<uint32_t>(code);
   if (number < 0x20) return fmt::format("\\x{:02x}", number);
   if (number < 0x10000) return fmt::format("\\u{:04x}", number);
   return fmt::format("\\u{:04x}\\u{:04x}", 0xD800 + ((number - 0x10000) >> 10), 0xDC00 + ((number - 0x10000) & 0x3FF));
 }
 
-std::string printable(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
+string printable(string_view text) {
+  string result;
+  for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);  // 0: not UTF-8
     if (length == 0)
@@ -40,8 +41,8 @@ std::string printable(std::string_view text) {
     else if (is_unprintable(code))
       result += escaped(code);
     else
-      result += text.substr(i, static_cast<std::size_t>(length));
-    i += static_cast<std::size_t>(std::max(length, 1));
+      result += text.substr(i, static_cast<size_t>(length));
+    i += static_cast<size_t>(std::max(length, 1));
   }
   return result;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Text of unknown origin, such as a file name or a title, made safe to display.
-#include <string>
-#include <string_view>
+
+#include "std.h"
 
 namespace carom {
 
@@ -12,9 +12,9 @@ namespace carom {
 bool is_unprintable(char32_t code);
 
 /// The character as an escape sequence of JSON: "\u202e". A character beyond U+FFFF becomes a surrogate pair.
-std::string escaped(char32_t code);
+string escaped(char32_t code);
 
 /// `text` with unprintable characters and bytes that are not UTF-8 escaped as "\x1b" or "\u202e".
-std::string printable(std::string_view text);
+string printable(string_view text);
 
 }  // namespace carom

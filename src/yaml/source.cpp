@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 
@@ -17,7 +18,7 @@ namespace carom {
 namespace {
 
 // Brackets, quotes, commas and colons. Each takes about 200 bytes while scanning.
-constexpr std::uint64_t max_brackets = 4'000'000;
+constexpr uint64_t max_brackets = 4'000'000;
 // More than the depth limit of document.cpp, so that the message of that limit comes first.
 constexpr int max_open_brackets = 1000;
 constexpr int max_shown_tabs = 10;
@@ -29,17 +30,16 @@ struct OpenFile {
   }
 };
 
-void refuse_file(Diagnostics& diagnostics, const std::string& path, const std::string& why,
-                 const std::string& remedy = {}) {
+void refuse_file(Diagnostics& diagnostics, const string& path, const string& why, const string& remedy = {}) {
   diagnostics.add_unplaced(path, why, remedy);
 }
 
 /// Removes the byte order mark and turns "\r\n" into "\n". Columns and shown lines then need no special case.
-void normalise(std::string& text) {
+void normalise(string& text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  if (text.find('\r') == std::string::npos) return;
-  std::size_t to = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  if (text.find('\r') == string::npos) return;
+  size_t to = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
     text[to++] = text[i];
   }
@@ -47,20 +47,19 @@ void normalise(std::string& text) {
 }
 
 /// False: the file looks like UTF-16 or UTF-32, which yaml-cpp would decode silently.
-bool has_utf8_form(std::string_view text) {
+bool has_utf8_form(string_view text) {
   return !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF") &&
-         !(text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) &&
-         !text.starts_with(std::string_view("\0\0\xFE\xFF", 4));
+         !(text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) && !text.starts_with(string_view("\0\0\xFE\xFF", 4));
 }
 
-Place one_byte(std::uint32_t index, std::size_t offset) {
-  return {index, static_cast<std::uint32_t>(offset), 1};
+Place one_byte(uint32_t index, size_t offset) {
+  return {index, static_cast<uint32_t>(offset), 1};
 }
 
 }  // namespace
 
-int utf8_length(std::string_view text, std::size_t i, char32_t& code) {
-  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+int utf8_length(string_view text, size_t i, char32_t& code) {
+  const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char first = byte(i);
   if (first < 0x80) {
     code = first;
@@ -70,10 +69,10 @@ int utf8_length(std::string_view text, std::size_t i, char32_t& code) {
                      : first >= 0xE0 && first <= 0xEF ? 3
                      : first >= 0xF0 && first <= 0xF4 ? 4
                                                       : 0;
-  if (length == 0 || i + static_cast<std::size_t>(length) > text.size()) return 0;
+  if (length == 0 || i + static_cast<size_t>(length) > text.size()) return 0;
   code = first & (0x7F >> length);
   for (int k = 1; k < length; ++k) {
-    const unsigned char next = byte(i + static_cast<std::size_t>(k));
+    const unsigned char next = byte(i + static_cast<size_t>(k));
     if ((next & 0xC0) != 0x80) return 0;
     code = (code << 6) | (next & 0x3F);
   }
@@ -88,9 +87,9 @@ bool is_control(char32_t code) {
          (code & 0xFFFE) == 0xFFFE || (code >= 0xFDD0 && code <= 0xFDEF);
 }
 
-bool read_source(const std::string& path, Source& source, Diagnostics& diagnostics) {
+bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   source.name = path;
-  if (path.find('\0') != std::string::npos) {
+  if (path.find('\0') != string::npos) {
     refuse_file(diagnostics, path, "no such file");
     return false;
   }
@@ -115,15 +114,15 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
   }
 
   // The size can change during reading. The limit therefore applies to what was read, not to what fstat returned.
-  std::string& text = source.text;
+  string& text = source.text;
   text.clear();
   const auto too_big = [&] {
     refuse_file(diagnostics, path, fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
                 "many balls of one kind are a group: `groups`");
     return false;
   };
-  if (static_cast<std::uint64_t>(info.st_size) > max_source_bytes) return too_big();
-  text.reserve(static_cast<std::size_t>(info.st_size) + 8);
+  if (static_cast<uint64_t>(info.st_size) > max_source_bytes) return too_big();
+  text.reserve(static_cast<size_t>(info.st_size) + 8);
   char buffer[1 << 16];
   for (;;) {
     const ssize_t got = read(file.fd, buffer, sizeof buffer);
@@ -133,7 +132,7 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
       return false;
     }
     if (got == 0) break;
-    text.append(buffer, static_cast<std::size_t>(got));
+    text.append(buffer, static_cast<size_t>(got));
     if (text.size() > max_source_bytes) return too_big();
   }
   if (!has_utf8_form(text)) {
@@ -145,23 +144,23 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
   return true;
 }
 
-std::string why_no_file(const std::string& path) {
+string why_no_file(const string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) == 0) return S_ISREG(info.st_mode) ? "" : "this is not a regular file:";
   if (errno == ENOENT || errno == ENOTDIR) return "there is no file";
   return fmt::format("cannot be inspected ({}):", std::strerror(errno));
 }
 
-bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
-  std::string& text = source.text;
+bool check_text(Source& source, uint32_t index, Diagnostics& diagnostics) {
+  string& text = source.text;
   bool can_go_on = true;
   int tab_lines = 0;
-  std::uint64_t brackets = 0;
+  uint64_t brackets = 0;
   int open_brackets = 0;
   // Only spaces so far in this line.
   bool indenting = true;
   bool tab_in_line = false;
-  for (std::size_t i = 0; i < text.size();) {
+  for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);
     if (length == 0) {
@@ -183,8 +182,8 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
       indenting = true;
       tab_in_line = false;
     } else if (is_control(code)) {
-      diagnostics.add({index, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(length)},
-                      fmt::format("control character U+{:04X}", static_cast<std::uint32_t>(code)), "remove it");
+      diagnostics.add({index, static_cast<uint32_t>(i), static_cast<uint32_t>(length)},
+                      fmt::format("control character U+{:04X}", static_cast<uint32_t>(code)), "remove it");
       return false;
     } else if (code != ' ') {
       indenting = false;
@@ -205,12 +204,12 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
         return false;
       }
     }
-    i += static_cast<std::size_t>(length);
+    i += static_cast<size_t>(length);
   }
   if (tab_lines > max_shown_tabs) {
-    diagnostics.add_unplaced(source.name,
-                             fmt::format("tabs in {}", how_many(static_cast<std::size_t>(tab_lines - max_shown_tabs),
-                                                                "more line", "more lines")));
+    diagnostics.add_unplaced(
+        source.name, fmt::format("tabs in {}",
+                                 how_many(static_cast<size_t>(tab_lines - max_shown_tabs), "more line", "more lines")));
   }
   return can_go_on;
 }

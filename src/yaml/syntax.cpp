@@ -6,12 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <span>
-#include <string_view>
 #include <utility>
-#include <vector>
 
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/lookalikes.h"
 
@@ -20,15 +17,15 @@ namespace {
 
 /// A bracket or quote without a partner.
 struct Unpaired {
-  std::size_t open = std::string::npos;
+  size_t open = string::npos;
   /// A bracket of another kind that stands where the partner is expected. npos: the text ends before any partner.
-  std::size_t close = std::string::npos;
+  size_t close = string::npos;
 };
 
 /// Walks brackets, quotes and comments as YAML reads them, except in blocks of text. The result serves only a message.
-Unpaired find_unpaired(std::string_view text, std::size_t begin) {
-  std::vector<std::size_t> open;
-  for (std::size_t i = begin; i < text.size(); ++i) {
+Unpaired find_unpaired(string_view text, size_t begin) {
+  vector<size_t> open;
+  for (size_t i = begin; i < text.size(); ++i) {
     const char c = text[i];
     const char before = i == begin ? '\n' : text[i - 1];
     const bool token_start =
@@ -36,7 +33,7 @@ Unpaired find_unpaired(std::string_view text, std::size_t begin) {
     if (c == '#' && (before == ' ' || before == '\n')) {
       i = std::min(text.find('\n', i), text.size());
     } else if ((c == '"' || c == '\'') && token_start) {
-      std::size_t j = i + 1;
+      size_t j = i + 1;
       for (; j < text.size(); ++j) {
         if (c == '"' && text[j] == '\\') {
           ++j;
@@ -48,7 +45,7 @@ Unpaired find_unpaired(std::string_view text, std::size_t begin) {
           }
         }
       }
-      if (j >= text.size()) return {i, std::string::npos};
+      if (j >= text.size()) return {i, string::npos};
       i = j;
     } else if ((c == '[' || c == '{') && (token_start || !open.empty())) {
       open.push_back(i);
@@ -57,31 +54,31 @@ Unpaired find_unpaired(std::string_view text, std::size_t begin) {
       open.pop_back();
     }
   }
-  if (!open.empty()) return {open.back(), std::string::npos};
+  if (!open.empty()) return {open.back(), string::npos};
   return {};
 }
 
-std::size_t line_start(std::string_view text, std::size_t i) {
+size_t line_start(string_view text, size_t i) {
   return i == 0 ? 0 : text.rfind('\n', i - 1) + 1;
 }
 
-std::string_view line_at(std::string_view text, std::size_t i) {
-  const std::size_t begin = line_start(text, i);
+string_view line_at(string_view text, size_t i) {
+  const size_t begin = line_start(text, i);
   return text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
 }
 
-bool has_colon(std::string_view line) {
-  return line.find(": ") != std::string_view::npos || line.ends_with(':');
+bool has_colon(string_view line) {
+  return line.find(": ") != string_view::npos || line.ends_with(':');
 }
 
 /// The meaning of one of the parser's messages.
 struct SyntaxCause {
-  std::string_view complaint;  // a part of the message
-  std::string_view message, remedy;
+  string_view complaint;  // a part of the message
+  string_view message, remedy;
 };
 
-constexpr std::string_view no_tags = "remove it: the key determines the type of its value";
-constexpr std::string_view own_lines = "expected lists as [a, b], or `- ` in lines of their own";
+constexpr string_view no_tags = "remove it: the key determines the type of its value";
+constexpr string_view own_lines = "expected lists as [a, b], or `- ` in lines of their own";
 
 constexpr SyntaxCause causes_in_values[] = {
     {"anchor is not defined", "an alias", "expected the value itself: scenes have no anchors and aliases"},
@@ -106,8 +103,8 @@ constexpr SyntaxCause causes_in_lines[] = {
 /// A failure of the parser. Each function adds an error if it finds the cause, and returns whether it did.
 class ParseFailure {
  public:
-  ParseFailure(const Source& source, std::uint32_t index, std::size_t begin, std::size_t detected,
-               const std::string& complaint, Diagnostics& diagnostics)
+  ParseFailure(const Source& source, uint32_t index, size_t begin, size_t detected, const string& complaint,
+               Diagnostics& diagnostics)
       : text_(source.text),
         index_(index),
         begin_(begin),
@@ -123,16 +120,16 @@ class ParseFailure {
   }
 
  private:
-  void add(std::size_t offset, std::string message, std::string remedy, std::size_t length = 1) {
-    const Place place{index_, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
+  void add(size_t offset, string message, string remedy, size_t length = 1) {
+    const Place place{index_, static_cast<uint32_t>(offset), static_cast<uint32_t>(length)};
     diagnostics_.add(place, std::move(message), std::move(remedy));
   }
-  bool complaint_has(std::string_view part) const { return complaint_.find(part) != std::string::npos; }
+  bool complaint_has(string_view part) const { return complaint_.find(part) != string::npos; }
 
-  bool explain_by(std::span<const SyntaxCause> causes) {
+  bool explain_by(span<const SyntaxCause> causes) {
     for (const SyntaxCause& cause : causes) {
       if (!complaint_has(cause.complaint)) continue;
-      add(detected_, std::string(cause.message), std::string(cause.remedy));
+      add(detected_, string(cause.message), string(cause.remedy));
       return true;
     }
     return false;
@@ -141,7 +138,7 @@ class ParseFailure {
   bool explain_character() {
     if (complaint_has("unknown token")) {
       const char c = detected_ < text_.size() ? text_[detected_] : ' ';
-      add(detected_, fmt::format("plain text cannot begin with {}", in_backticks(std::string(1, c))),
+      add(detected_, fmt::format("plain text cannot begin with {}", in_backticks(string(1, c))),
           "put the text in quotes");
       return true;
     }
@@ -155,13 +152,13 @@ class ParseFailure {
 
   /// What looks like a space, at the start of a line or after a ':', up to the line where the parser stopped.
   bool explain_blank() {
-    const std::size_t end = line_start(text_, detected_) + line_at(text_, detected_).size();
+    const size_t end = line_start(text_, detected_) + line_at(text_, detected_).size();
     bool structural = true;
-    for (std::size_t i = begin_; i < end; ++i) {
-      const std::optional<Lookalike> found = lookalike_at(text_, i);
+    for (size_t i = begin_; i < end; ++i) {
+      const optional<Lookalike> found = lookalike_at(text_, i);
       if (structural && found && is_blank(*found)) {
         char32_t code = 0;
-        add(i, "this is no space to YAML", "", static_cast<std::size_t>(utf8_length(text_, i, code)));
+        add(i, "this is no space to YAML", "", static_cast<size_t>(utf8_length(text_, i, code)));
         return true;
       }
       structural = text_[i] == '\n' || text_[i] == ':' || (structural && text_[i] == ' ');
@@ -171,15 +168,15 @@ class ParseFailure {
 
   /// `color: #ff0000` in brackets: the comment hides the rest of the line.
   bool explain_comment() {
-    std::size_t depth = 0;
-    for (std::size_t i = begin_; i <= std::min(detected_, text_.size() - 1); ++i) {
+    size_t depth = 0;
+    for (size_t i = begin_; i <= std::min(detected_, text_.size() - 1); ++i) {
       const char c = text_[i];
       if (c == '[' || c == '{') ++depth;
       if ((c == ']' || c == '}') && depth > 0) --depth;
       if (c != '#' || i == 0 || text_[i - 1] != ' ') continue;
-      const std::size_t before = text_.find_last_not_of(' ', i - 1), end = text_.find_first_of(" ,]}\n", i);
-      const std::size_t word = std::min(end, text_.size()) - i;
-      const bool is_value = before != std::string_view::npos && std::string_view(":,[").find(text_[before]) < 3;
+      const size_t before = text_.find_last_not_of(' ', i - 1), end = text_.find_first_of(" ,]}\n", i);
+      const size_t word = std::min(end, text_.size()) - i;
+      const bool is_value = before != string_view::npos && string_view(":,[").find(text_[before]) < 3;
       if (depth > 0 && is_value && word > 1) {
         add(i,
             fmt::format("{} begins a comment, which hides the rest of the line", in_backticks(text_.substr(i, word))),
@@ -193,12 +190,12 @@ class ParseFailure {
 
   bool explain_unpaired() {
     const Unpaired unpaired = find_unpaired(text_, begin_);
-    if (unpaired.open == std::string::npos) return false;
+    if (unpaired.open == string::npos) return false;
     const char c = text_[unpaired.open];
-    const std::string open = in_backticks(text_.substr(unpaired.open, 1));
-    const std::string closing = c == '[' ? "]" : c == '{' ? "}" : std::string(1, c);
-    if (unpaired.close != std::string::npos) {
-      const auto before = text_.begin() + static_cast<std::ptrdiff_t>(unpaired.open);
+    const string open = in_backticks(text_.substr(unpaired.open, 1));
+    const string closing = c == '[' ? "]" : c == '{' ? "}" : string(1, c);
+    if (unpaired.close != string::npos) {
+      const auto before = text_.begin() + static_cast<ptrdiff_t>(unpaired.open);
       add(unpaired.close,
           fmt::format("{} cannot close the {} of line {}", in_backticks(text_.substr(unpaired.close, 1)), open,
                       1 + std::count(text_.begin(), before, '\n')),
@@ -212,33 +209,33 @@ class ParseFailure {
 
   bool explain_text_after_bracket() {
     if (!complaint_has("end of map not found")) return false;
-    const std::string_view before = text_.substr(0, detected_);
-    const std::size_t last = before.find_last_not_of(' ');
-    if (last == std::string_view::npos || (before[last] != '}' && before[last] != ']')) return false;
-    add(detected_, std::string(text_after_bracket), std::string(quotes_for_bracket));
+    const string_view before = text_.substr(0, detected_);
+    const size_t last = before.find_last_not_of(' ');
+    if (last == string_view::npos || (before[last] != '}' && before[last] != ']')) return false;
+    add(detected_, string(text_after_bracket), string(quotes_for_bracket));
     return true;
   }
 
   /// Two ": " in a line, or a line above without a ':' that the parser joined to this one.
   bool explain_map_value() {
     if (!complaint_has("illegal map value")) return false;
-    const std::size_t start = line_start(text_, detected_);
-    if (text_.substr(start, detected_ - start).find(": ") != std::string_view::npos) {
+    const size_t start = line_start(text_, detected_);
+    if (text_.substr(start, detected_ - start).find(": ") != string_view::npos) {
       add(detected_, "a second ':' in this line",
           "expected one `key: value` a line; text that holds ': ' needs quotes");
       return true;
     }
-    std::size_t above = start;
+    size_t above = start;
     while (above > begin_) {
       above = line_start(text_, above - 1);
-      const std::string_view line = line_at(text_, above);
-      const std::size_t word = line.find_first_not_of(' ');
-      if (word == std::string_view::npos || line[word] == '#') continue;
+      const string_view line = line_at(text_, above);
+      const size_t word = line.find_first_not_of(' ');
+      if (word == string_view::npos || line[word] == '#') continue;
       if (!has_colon(line)) {
         add(above + word, "this line has no ':'", "expected `key: value`", line.find_last_not_of(' ') + 1 - word);
       } else {
-        const std::string_view here = line_at(text_, detected_);
-        const std::size_t first = std::min(here.find_first_not_of(' '), detected_ - start);
+        const string_view here = line_at(text_, detected_);
+        const size_t first = std::min(here.find_first_not_of(' '), detected_ - start);
         add(start + first, "this line is indented further than the line above, which has its value already",
             "expected the same indentation");
       }
@@ -247,17 +244,17 @@ class ParseFailure {
     return false;
   }
 
-  const std::string_view text_;
-  const std::uint32_t index_;
-  const std::size_t begin_, detected_;
-  const std::string& complaint_;
+  const string_view text_;
+  const uint32_t index_;
+  const size_t begin_, detected_;
+  const string& complaint_;
   Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t detected,
-                    const std::string& complaint, Diagnostics& diagnostics) {
+void explain_syntax(const Source& source, uint32_t index, size_t begin, size_t detected, const string& complaint,
+                    Diagnostics& diagnostics) {
   ParseFailure(source, index, begin, detected, complaint, diagnostics).explain();
 }
 

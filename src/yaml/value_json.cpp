@@ -3,9 +3,8 @@
 #include "yaml/value_json.h"
 
 #include <cmath>
-#include <string>
-#include <vector>
 
+#include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/values.h"
 
@@ -13,17 +12,17 @@ namespace carom {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of_text(std::string_view text) {
+Json json_of_text(string_view text) {
   return Json::parse(text, nullptr, false);
 }
 
-std::string text_of_json(const Json& value, int indent) {
+string text_of_json(const Json& value, int indent) {
   return value.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 Json number_json(double value) {
   constexpr double whole_below = 9007199254740992.0;
-  if (std::floor(value) == value && std::fabs(value) < whole_below) return static_cast<std::int64_t>(value);
+  if (std::floor(value) == value && std::fabs(value) < whole_below) return static_cast<int64_t>(value);
   return value;
 }
 
@@ -34,8 +33,7 @@ Json json_of(const Node& node) {
       break;
     case Node::Kind::scalar:
       if (!node.quoted && (node.text == "true" || node.text == "false")) return node.text == "true";
-      if (const std::optional<double> number = parse_number(node.text); number && !node.quoted)
-        return number_json(*number);
+      if (const optional<double> number = parse_number(node.text); number && !node.quoted) return number_json(*number);
       return node.text;
     case Node::Kind::sequence:
       out = Json::array();
@@ -43,28 +41,28 @@ Json json_of(const Node& node) {
       break;
     case Node::Kind::map:
       out = Json::object();
-      for (std::size_t i = 0; i < node.keys.size(); ++i) out[node.keys[i].text] = json_of(node.items[i]);
+      for (size_t i = 0; i < node.keys.size(); ++i) out[node.keys[i].text] = json_of(node.items[i]);
       break;
   }
   return out;
 }
 
-Json json_of_yaml(std::string_view yaml) {
-  std::vector<Source> sources(1);
+Json json_of_yaml(string_view yaml) {
+  vector<Source> sources(1);
   sources[0].text = yaml;
   Diagnostics diagnostics(sources);
-  const std::optional<Node> node = parse_document(sources, 0, 0, diagnostics);
+  const optional<Node> node = parse_document(sources, 0, 0, diagnostics);
   return node ? json_of(*node) : Json();
 }
 
-std::string cell_text(std::string_view yaml) {
+string cell_text(string_view yaml) {
   if (yaml.starts_with('+')) {
     const auto number = parse_number(yaml);
-    return number ? shortest(*number) : std::string(yaml);
+    return number ? shortest(*number) : string(yaml);
   }
-  if (!yaml.starts_with('"') && !yaml.starts_with('\'')) return std::string(yaml);
+  if (!yaml.starts_with('"') && !yaml.starts_with('\'')) return string(yaml);
   const Json json = json_of_yaml(yaml);
-  return json.is_string() ? json.get<std::string>() : std::string(yaml);
+  return json.is_string() ? json.get<string>() : string(yaml);
 }
 
 }  // namespace carom

@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <regex>
 #include <set>
-#include <string>
 
 #include "architecture/source_tree.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 TEST(Layout, TopLevelHoldsOnlyWhatTheLayoutNames) {
-  const std::set<std::string> named = {
-      "CMakeLists.txt", "CMakePresets.json", "README.md", "dev", "scenes", "src", "tests", "output"};
+  const std::set<string> named = {"CMakeLists.txt", "CMakePresets.json", "README.md", "dev", "scenes", "src", "tests",
+                                  "output"};
   for (const SourceFile& file : tracked_files()) {
-    const std::string top = file.path.substr(0, file.path.find('/'));
+    const string top = file.path.substr(0, file.path.find('/'));
     EXPECT_TRUE(named.contains(top) || top.starts_with(".")) << file.path;
   }
 }
@@ -40,11 +40,9 @@ TEST(Layout, EverySceneOpensWithACommentAndNamesItsFormat) {
       continue;
     }
     const auto lines = file.lines();
-    const auto first =
-        std::find_if(lines.begin(), lines.end(), [](const auto& line) { return !std::regex_match(line, modeline); });
+    const auto first = std::ranges::find_if(lines, [](const auto& line) { return !std::regex_match(line, modeline); });
     EXPECT_TRUE(first != lines.end() && first->starts_with("# ")) << file.path << " says nothing of itself";
-    EXPECT_EQ(std::count(lines.begin(), lines.end(), file.path.starts_with("scenes/sweeps/") ? "sweep: 1" : "scene: 1"),
-              1)
+    EXPECT_EQ(std::ranges::count(lines, file.path.starts_with("scenes/sweeps/") ? "sweep: 1" : "scene: 1"), 1)
         << file.path;
   }
 }
@@ -52,7 +50,7 @@ TEST(Layout, EverySceneOpensWithACommentAndNamesItsFormat) {
 TEST(Layout, NoFileNamesAPathOfSomebodysMachine) {
   static const std::regex machine(R"((^|[\s"'`=(:])/(work|home|root|Users)/)");
   for (const SourceFile& file : tracked_files()) {
-    for (const std::string& line : file.lines()) {
+    for (const string& line : file.lines()) {
       EXPECT_FALSE(line.size() < 4096 && std::regex_search(line, machine)) << file.path << ": " << line;
     }
   }

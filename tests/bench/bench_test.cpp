@@ -11,6 +11,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 constexpr const char* with_rest_length = "forces.0.spring.rest_length=0.1";
 constexpr double unlimited = 1e6;  // s, of budget: no row depends on the speed of the machine
 
-Scene scene_of(const std::string& name, const std::vector<std::string>& set = {}) {
+Scene scene_of(const string& name, const vector<string>& set = {}) {
   LoadOptions options;
   options.set = set;
   return load_scene(SCENES_DIR "/" + name + ".yaml", options);
@@ -30,11 +31,11 @@ BenchResult bench(const Scene& scene, double longest, double shortest, double bu
   options.shortest = shortest;
   options.repeat = 1;
   options.budget = budget;
-  return run_bench(scene, options, {[] {}, [](double, const std::string&) {}});
+  return run_bench(scene, options, {[] {}, [](double, const string&) {}});
 }
 
-std::vector<BenchRow> rows_of(const BenchResult& result, Engine engine, Integrator integrator = Integrator::rk4) {
-  std::vector<BenchRow> rows;
+vector<BenchRow> rows_of(const BenchResult& result, Engine engine, Integrator integrator = Integrator::rk4) {
+  vector<BenchRow> rows;
   for (const BenchRow& row : result.rows)
     if (row.method.engine == engine && (engine != Engine::stepped || row.method.integrator == integrator))
       rows.push_back(row);
@@ -42,7 +43,7 @@ std::vector<BenchRow> rows_of(const BenchResult& result, Engine engine, Integrat
 }
 
 /// The slope of log error over log step, fitted through all rows.
-double order_of(const std::vector<BenchRow>& rows, double Differences::*error) {
+double order_of(const vector<BenchRow>& rows, double Differences::*error) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const BenchRow& row : rows) {
     const double x = std::log(*row.method.steps.length), y = std::log((*row.errors).*error);
@@ -76,7 +77,7 @@ TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
   const auto rk4 = rows_of(result, Engine::stepped);
   ASSERT_EQ(own.size(), 4u);  // by the error of a step
   EXPECT_LT(own.back().errors->position, 5e-11);
-  for (std::size_t k = 1; k < own.size(); ++k)
+  for (size_t k = 1; k < own.size(); ++k)
     EXPECT_LT(own[k].errors->position, 0.2 * own[k - 1].errors->position);  // measured: 0.13, 1e-3, 5e-2
   ASSERT_EQ(result.witnesses.size(), 2u);  // verlet, rk4: at these steps euler's error exceeds its estimate
   for (const Witness& witness : result.witnesses) EXPECT_TRUE(witness.agrees) << full_name_of(witness.method);
@@ -177,19 +178,19 @@ TEST(Bench, ReportsWhatAnEngineDoesNotHave) {
                     clay = bench(scene_of("clay"), 0.01, 0.01);
   EXPECT_EQ(
       spring.left_out,
-      (std::vector<std::string>{
+      (vector<string>{
           "exact: under a `spring` with a rest length or damping paths have no closed form, which `engine: exact` "
           "follows",
           "book: `engine: book` has no forces other than gravity"}));
-  EXPECT_EQ(clay.left_out, (std::vector<std::string>{"stepped: `engine: stepped` has no `contact: merge`",
-                                                     "book: `engine: book` has no `contact: merge`"}));
+  EXPECT_EQ(clay.left_out, (vector<string>{"stepped: `engine: stepped` has no `contact: merge`",
+                                           "book: `engine: book` has no `contact: merge`"}));
   EXPECT_EQ(clay.rows.size(), 1u);
 }
 
 TEST(Bench, WhatNoEngineHasHasNoReference) {
   BenchOptions options;
   options.reference = Engine::exact;
-  EXPECT_THROW(run_bench(scene_of("bumper", {with_rest_length}), options, {[] {}, [](double, const std::string&) {}}),
+  EXPECT_THROW(run_bench(scene_of("bumper", {with_rest_length}), options, {[] {}, [](double, const string&) {}}),
                SimulationError);
 }
 
@@ -197,7 +198,7 @@ TEST(Bench, ResultsAreTheSameEachTime) {
   const Scene scene = scene_of("basketball_and_tennis_ball");
   const BenchResult once = bench(scene, 0.01, 0.005), again = bench(scene, 0.01, 0.005);
   ASSERT_EQ(once.rows.size(), 9u);
-  for (std::size_t k = 0; k < once.rows.size(); ++k) {
+  for (size_t k = 0; k < once.rows.size(); ++k) {
     EXPECT_EQ(once.rows[k].hash, again.rows[k].hash);
     EXPECT_EQ(once.rows[k].errors->position, again.rows[k].errors->position);
     EXPECT_GT(once.rows[k].cpu_s, 0);
@@ -217,9 +218,9 @@ TEST(WorkPrecisionPlot, HasALineForEachMethodAndNoZeros) {
   const BenchResult result = bench(scene, 0.01, 0.0025);
   EXPECT_EQ(rows_of(result, Engine::stepped).back().errors->position, 0);
   const Plot plot = work_precision_plot(scene, result);
-  std::vector<std::string> names;
+  vector<string> names;
   for (const PlotSeries& series : plot.series) names.push_back(series.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"exact, stepped", "book"}));
+  EXPECT_EQ(names, (vector<string>{"exact, stepped", "book"}));
   EXPECT_EQ(plot.title, scene.title);
   EXPECT_GT(plot.floor, 1e-17);
   EXPECT_LT(plot.floor, 1e-15);
@@ -233,7 +234,7 @@ TEST(WorkPrecisionPlot, HasALineForEachMethodAndNoZeros) {
 TEST(Bench, ARunThatFailsIsARowWithoutFigures) {
   const auto rows = rows_of(bench(scene_of("book_as_printed"), 0x1p-6, 0x1p-6), Engine::book);
   ASSERT_EQ(rows.size(), 1u);
-  EXPECT_NE(rows[0].failure.find("`red` is 1.374e+11 m from the origin"), std::string::npos) << rows[0].failure;
+  EXPECT_NE(rows[0].failure.find("`red` is 1.374e+11 m from the origin"), string::npos) << rows[0].failure;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The errors of a run, and the matching of collisions of two runs.
 #include "bench/differences.h"
 #include "physics/world.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ World one_ball() {
 }
 
 /// A ball that falls at 1 m/s onto the floor, which it strikes at `impact`, and flies up.
-RecordedRun bounce(double impact, const std::vector<double>& instants) {
+RecordedRun bounce(double impact, const vector<double>& instants) {
   RecordedRun run;
   for (const double t : instants) {
     State state;
@@ -34,7 +35,7 @@ RecordedRun bounce(double impact, const std::vector<double>& instants) {
   return run;
 }
 
-RecordedRun with_impacts(const std::vector<Impact>& impacts) {
+RecordedRun with_impacts(const vector<Impact>& impacts) {
   RecordedRun run;
   run.impacts = impacts;
   run.tally.fastest.speed = 1;
@@ -43,7 +44,7 @@ RecordedRun with_impacts(const std::vector<Impact>& impacts) {
 }
 
 TEST(Differences, OfAnImpactALittleLateAreThoseOfTheWayNotOfTheVelocity) {
-  const std::vector<double> instants = {0.5, 1, 1.005, 1.01, 2};
+  const vector<double> instants = {0.5, 1, 1.005, 1.01, 2};
   const Differences d = differences(one_ball(), bounce(1, instants), bounce(1.01, instants), instants, 4);
   EXPECT_NEAR(d.position, 0.01, 1e-15);
   EXPECT_EQ(d.velocity, 0);  // at 1, 1.005 and 1.01 s the ball is up in one run and down in the other
@@ -53,7 +54,7 @@ TEST(Differences, OfAnImpactALittleLateAreThoseOfTheWayNotOfTheVelocity) {
 }
 
 TEST(Differences, OfAMissedImpactAreThoseOfTheVelocityToo) {
-  const std::vector<double> instants = {0.5, 2};
+  const vector<double> instants = {0.5, 2};
   RecordedRun through = bounce(1, instants);
   through.impacts.clear();
   through.states[1].position[0].y() = -0.5;
@@ -66,7 +67,7 @@ TEST(Differences, OfAMissedImpactAreThoseOfTheVelocityToo) {
 }
 
 TEST(Differences, AfterTheTimeThatIsComparedDoNotCount) {
-  const std::vector<double> instants = {0.5, 2};
+  const vector<double> instants = {0.5, 2};
   RecordedRun through = bounce(1, instants);
   through.impacts.clear();
   through.states[1].velocity[0].y() = -1;

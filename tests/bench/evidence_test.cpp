@@ -1,6 +1,7 @@
 // The choice of the reference run and its error, with runs of one body at made-up positions.
 #include "bench/evidence.h"
 #include "physics/world.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,8 @@
 namespace carom {
 namespace {
 
-const std::vector<double> instants = {0.25, 0.75};  // s
-constexpr double rounding = 1e-15;                  // m
+const vector<double> instants = {0.25, 0.75};  // s
+constexpr double rounding = 1e-15;             // m
 
 World one_body() {
   World world;
@@ -30,7 +31,7 @@ RecordedRun run_off(double off) {
     run.states.push_back(state);
   }
   run.duration = 1;
-  run.hash = static_cast<std::uint64_t>(1e18 * std::abs(off));
+  run.hash = static_cast<uint64_t>(1e18 * std::abs(off));
   return run;
 }
 

@@ -1,5 +1,6 @@
 // Statistics for comparing chaotic runs.
 #include "bench/statistics.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +8,11 @@ namespace carom {
 namespace {
 
 TEST(Statistics, DistanceIsThatOfTheDistributionFunctions) {
-  const std::vector<double> low = {1, 2, 3, 4}, high = {5, 6}, same = {1, 1, 2, 2, 3, 3, 4, 4};
+  const vector<double> low = {1, 2, 3, 4}, high = {5, 6}, same = {1, 1, 2, 2, 3, 3, 4, 4};
   EXPECT_EQ(distance(low, high), 1);
   EXPECT_EQ(distance(low, same), 0);
-  EXPECT_EQ(distance(low, std::vector<double>{3, 4}), 0.5);
-  EXPECT_EQ(distance(std::vector<double>{3, 4}, low), 0.5);
+  EXPECT_EQ(distance(low, vector<double>{3, 4}), 0.5);
+  EXPECT_EQ(distance(vector<double>{3, 4}, low), 0.5);
 }
 
 Statistics run_with(double rate, double speed) {

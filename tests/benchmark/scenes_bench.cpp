@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "bench/state_hash.h"
 #include "export/png.h"
@@ -14,23 +12,24 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-void load(benchmark::State& state, const std::string& file) {
+void load(benchmark::State& state, const string& file) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(load_scene(file));
   }
 }
 
-void simulate(benchmark::State& state, const std::string& file) {
+void simulate(benchmark::State& state, const string& file) {
   const Scene scene = load_scene(file);
   ExactOptions options;
   options.duration = scene.simulate.duration;
   options.rest_speed = scene.simulate.rest_speed.value_or(0);
   options.record_collisions = false;
-  std::uint64_t collisions = 0, result = 0;
+  uint64_t collisions = 0, result = 0;
   for (auto _ : state) {
     const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
     while (simulator->time() < options.duration) {
@@ -45,7 +44,7 @@ void simulate(benchmark::State& state, const std::string& file) {
   state.SetLabel(fmt::format("hash {:016x}", result));
 }
 
-void frame(benchmark::State& state, const std::string& file) {
+void frame(benchmark::State& state, const string& file) {
   const Scene scene = load_scene(file);
   const FramesOutput frames = scene.output.frames.value_or(FramesOutput{});
   Renderer renderer(scene, frames.size, frames.samples);
@@ -57,13 +56,13 @@ void frame(benchmark::State& state, const std::string& file) {
 
 /// Registers each scene before main() runs, so that --benchmark_filter finds them.
 const bool registered = [] {
-  std::vector<std::filesystem::path> files;
+  vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR "/benchmark")) {
     files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   for (const std::filesystem::path& file : files) {
-    const std::string name = "/" + file.stem().string();
+    const string name = "/" + file.stem().string();
     benchmark::RegisterBenchmark(("load" + name).c_str(), load, file.string())->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("simulate" + name).c_str(), simulate, file.string())->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("frame" + name).c_str(), frame, file.string())

@@ -8,13 +8,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <string>
-#include <vector>
 
 #include "export/tables.h"
 #include "physics/world.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -23,17 +22,17 @@ namespace {
 class Folder {
  public:
   Folder() {
-    std::string name = std::filesystem::temp_directory_path() / "carom_bench_XXXXXX";
+    string name = std::filesystem::temp_directory_path() / "carom_bench_XXXXXX";
     if (mkdtemp(name.data())) path_ = name;
   }
   ~Folder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  const std::string& path() const { return path_; }
+  const string& path() const { return path_; }
 
  private:
-  std::string path_;
+  string path_;
 };
 
 constexpr Entity bodies = 1000;
@@ -53,7 +52,7 @@ void digits(benchmark::State& state) {
   const State of = motion();
   char text[number_size];
   for (auto _ : state) {
-    for (std::int64_t instant = 0; instant < state.range(0) / bodies; ++instant)
+    for (int64_t instant = 0; instant < state.range(0) / bodies; ++instant)
       for (Entity i = 0; i < bodies; ++i)
         for (const Vec3* v : {&of.position[i], &of.velocity[i]})
           for (int axis = 0; axis < 3; ++axis)
@@ -73,7 +72,7 @@ void trajectory(benchmark::State& state) {
     const Folder folder;
     const Descriptor open_folder(open(folder.path().c_str(), O_RDONLY | O_DIRECTORY));
     TrajectoryTable table({open_folder.get(), folder.path()}, scene);
-    for (std::int64_t instant = 0; instant < state.range(0) / bodies; ++instant)
+    for (int64_t instant = 0; instant < state.range(0) / bodies; ++instant)
       table.add(0.001 * static_cast<double>(instant), of, {});
     table.files().front()->complete();
     state.SetLabel(table.files().front()->record().sha256.substr(0, 16));
@@ -82,9 +81,9 @@ void trajectory(benchmark::State& state) {
 }
 BENCHMARK(trajectory)->Arg(10'000'000)->Iterations(1)->UseRealTime()->Unit(benchmark::kSecond);
 
-void load_million(benchmark::State& state, const std::string& arrange) {
+void load_million(benchmark::State& state, const string& arrange) {
   const Folder folder;
-  const std::string file = folder.path() + "/million.yaml";
+  const string file = folder.path() + "/million.yaml";
   std::ofstream(file) << "scene: 1\n"
                          "gravity: [0, 0, 0]\n"
                          "groups:\n"
@@ -102,11 +101,11 @@ BENCHMARK_CAPTURE(load_million, random, "random")->Unit(benchmark::kSecond);
 /// Balls listed in the file one by one.
 void load_list(benchmark::State& state) {
   const Folder folder;
-  const std::string file = folder.path() + "/list.yaml";
+  const string file = folder.path() + "/list.yaml";
   {
     std::ofstream text(file);
     text << "scene: 1\ndefaults: {ball: {mass: 1, radius: 0.4}}\nballs:\n";
-    for (std::int64_t i = 0; i < state.range(0); ++i)
+    for (int64_t i = 0; i < state.range(0); ++i)
       text << fmt::format("  b{}: {{position: [{}, {}, {}], velocity: [0.25, -0.5, 1]}}\n", i, i % 100, i / 100 % 100,
                           i / 10'000);
     text << "simulate: {duration: 1}\n";

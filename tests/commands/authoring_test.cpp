@@ -9,6 +9,7 @@
 #include "scene/absent_words.h"
 #include "scene/field_places.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -37,37 +38,37 @@ TEST(New, SceneDoesWhatItsCommentDescribes) {
   const Workplace here;
   here.carom({"new", "first"});
   const Json run = Json::parse(here.carom({"run", "first.yaml", "--only", "collisions", "--json"}).out)["scenes"][0];
-  const std::string scene(starting_scene()), phrase = "sqrt(2 * 1 / 9.80665) = ";
+  const string scene(starting_scene()), phrase = "sqrt(2 * 1 / 9.80665) = ";
   const double stated = std::stod(scene.substr(scene.find(phrase) + phrase.size()));
   EXPECT_NEAR(run["summary"]["first_collision_s"].get<double>(), stated, 5e-5);
-  const std::string table = here.read("output/first/collisions.csv");
-  EXPECT_NE(table.find(",body-fixed,red,floor,"), std::string::npos) << table;
-  EXPECT_NE(table.find(",body-body,red,blue,"), std::string::npos) << table;
+  const string table = here.read("output/first/collisions.csv");
+  EXPECT_NE(table.find(",body-fixed,red,floor,"), string::npos) << table;
+  EXPECT_NE(table.find(",body-body,red,blue,"), string::npos) << table;
 }
 
 TEST(New, EveryLineThatIsCommentedOutMayBeTakenIn) {
   const Workplace here;
-  const std::string scene(starting_scene());
-  std::string all;
+  const string scene(starting_scene());
+  string all;
   bool inside = false;  // from the scene's first key on
-  for (std::size_t i = 0; i < scene.size();) {
-    const std::size_t end = scene.find('\n', i);
-    std::string line = scene.substr(i, end - i);
+  for (size_t i = 0; i < scene.size();) {
+    const size_t end = scene.find('\n', i);
+    string line = scene.substr(i, end - i);
     i = end + 1;
     inside = inside || line.starts_with("scene: 1");
-    const std::size_t mark = line.find_first_not_of(' ');
-    const bool key = mark != std::string::npos && line[mark] == '#' && line.find(": ") != std::string::npos;
+    const size_t mark = line.find_first_not_of(' ');
+    const bool key = mark != string::npos && line[mark] == '#' && line.find(": ") != string::npos;
     const bool opens = line.starts_with("# groups:") || line.starts_with("# walls:");
     if (inside && (opens || (key && !line.ends_with(".") && !line.ends_with(":")))) line.erase(mark, 2);
     all += line + "\n";
   }
-  EXPECT_NE(all.find("\ngroups:\n  marbles:"), std::string::npos);
-  EXPECT_NE(all.find("\n  video:"), std::string::npos);
+  EXPECT_NE(all.find("\ngroups:\n  marbles:"), string::npos);
+  EXPECT_NE(all.find("\n  video:"), string::npos);
   here.write("all.yaml", all);
   const Finished check = here.carom({"check", "all.yaml", "--set", "gravity=[0,-1,0]"});
   EXPECT_EQ(check.code, 0) << check.err << all;
-  EXPECT_NE(check.out.find("22 bodies"), std::string::npos) << check.out;
-  EXPECT_NE(check.out.find("1 plane, 1 wall"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("22 bodies"), string::npos) << check.out;
+  EXPECT_NE(check.out.find("1 plane, 1 wall"), string::npos) << check.out;
 }
 
 TEST(New, NamesMayHaveAFolderAndAnEnding) {
@@ -103,13 +104,13 @@ TEST(New, ReplacesNoFolder) {
   here.write("first.yaml/file", "");
   const Finished refused = here.carom({"new", "first", "--force"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("first.yaml is a folder"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("first.yaml is a folder"), string::npos) << refused.err;
   EXPECT_EQ(here.files().size(), 1u);
 }
 
 TEST(New, ReplacesAnOldSchemaButNothingElseOfItsName) {
   const Workplace here;
-  const std::string schema = here.carom({"schema"}).out;
+  const string schema = here.carom({"schema"}).out;
   here.write("scene.schema.json", schema.substr(0, schema.size() / 2));
   EXPECT_EQ(here.carom({"new", "first"}).code, 0);
   EXPECT_EQ(here.read("scene.schema.json"), schema);
@@ -121,19 +122,19 @@ TEST(New, ReplacesAnOldSchemaButNothingElseOfItsName) {
 
 TEST(New, RefusesWhatIsNoName) {
   const Workplace here;
-  for (const std::string name : {"", ".", "..", "demos/", ".hidden", "demos/.yaml", "a\nb", "back\\slash", "/"}) {
+  for (const string name : {"", ".", "..", "demos/", ".hidden", "demos/.yaml", "a\nb", "back\\slash", "/"}) {
     const Finished made = here.carom({"new", name});
     EXPECT_EQ(made.code, 2) << name;
-    EXPECT_NE(made.err.find("is not a name for a scene"), std::string::npos) << name << ": " << made.err;
+    EXPECT_NE(made.err.find("is not a name for a scene"), string::npos) << name << ": " << made.err;
   }
   EXPECT_EQ(here.carom({"new", "--", "-dash"}).code, 2);
-  EXPECT_EQ(here.carom({"new", std::string(151, 'a')}).code, 2);
+  EXPECT_EQ(here.carom({"new", string(151, 'a')}).code, 2);
   EXPECT_EQ(here.carom({"new"}).code, 2);
   EXPECT_EQ(here.carom({"new", "a", "b"}).code, 2);
   here.write("file", "");
   const Finished under = here.carom({"new", "file/first"});
   EXPECT_EQ(under.code, 1);
-  EXPECT_NE(under.err.find("cannot make file: Not a directory"), std::string::npos) << under.err;
+  EXPECT_NE(under.err.find("cannot make file: Not a directory"), string::npos) << under.err;
   EXPECT_EQ(here.files().size(), 1u);
 }
 
@@ -156,7 +157,7 @@ TEST(Explain, PrintsAllOfAKeyByItsPath) {
 TEST(Explain, PrintsEveryPlaceOfABareKey) {
   const Workplace here;
   const Json fields = Json::parse(here.carom({"explain", "restitution", "--json"}).out)["fields"];
-  std::set<std::string> paths;
+  std::set<string> paths;
   for (const Json& field : fields) {
     for (const Json& path : field["paths"]) paths.insert(path);
   }
@@ -216,47 +217,47 @@ TEST(Explain, NamesWhatReplacesAnAbsentWord) {
     const Json words = Json::parse(here.carom({"explain", word, "--json"}).out)["words"];
     ASSERT_EQ(words.size(), 1u) << word;
     for (const Json& key : words[0]["see"])
-      EXPECT_EQ(here.carom({"explain", key.get<std::string>()}).code, 0) << word << ": " << key;
+      EXPECT_EQ(here.carom({"explain", key.get<string>()}).code, 0) << word << ": " << key;
   }
 }
 
 TEST(Explain, EveryWordThatIsAbsentStandsInOneRowAndPointsAtKeys) {
-  std::set<std::string_view> words;
+  std::set<string_view> words;
   for (const AbsentWord& row : absent_words()) {
-    for (const std::string_view word : parts_of(row.words)) {
+    for (const string_view word : parts_of(row.words)) {
       EXPECT_TRUE(words.insert(word).second) << word;
       EXPECT_EQ(find_absent_word(word), &row) << word;
     }
-    for (const std::string_view key : parts_of(row.see))
+    for (const string_view key : parts_of(row.see))
       EXPECT_TRUE(!find_places(key).empty() || find_kind(key) != nullptr) << key;
   }
 }
 
 TEST(Explain, WhatAnAbsentWordProposesIsOfTheFormat) {
-  const auto choice_of = [](const FieldPlaces& row, const std::string& value) {
+  const auto choice_of = [](const FieldPlaces& row, const string& value) {
     const Field& field = *row.field;
     if (field.type == Type::flag) return value == "true" || value == "false";
-    const std::vector<std::string_view> all = choices(field);
-    return field.type != Type::choice || std::find(all.begin(), all.end(), value) != all.end();
+    const vector<string_view> all = choices(field);
+    return field.type != Type::choice || std::ranges::find(all, value) != all.end();
   };
   for (const AbsentWord& row : absent_words()) {
-    const std::string text(row.meaning);
-    for (std::size_t open = text.find('`'); open != std::string::npos;) {
-      const std::size_t close = text.find('`', open + 1);
-      ASSERT_NE(close, std::string::npos) << text;
-      const std::string term = text.substr(open + 1, close - open - 1);
+    const string text(row.meaning);
+    for (size_t open = text.find('`'); open != string::npos;) {
+      const size_t close = text.find('`', open + 1);
+      ASSERT_NE(close, string::npos) << text;
+      const string term = text.substr(open + 1, close - open - 1);
       open = text.find('`', close + 1);
-      const std::size_t colon = std::min(term.find(": "), term.size());
-      const std::string key = term.substr(0, colon), value = colon < term.size() ? term.substr(colon + 2) : "";
+      const size_t colon = std::min(term.find(": "), term.size());
+      const string key = term.substr(0, colon), value = colon < term.size() ? term.substr(colon + 2) : "";
       if (term.starts_with("carom ")) {
         EXPECT_EQ(Workplace().carom({term.substr(6), "--help"}).code, 0) << term;
       } else if (term.starts_with("--set ") || term == "#" || term == "1080p") {
         continue;  // an option, a mark of YAML, a size
       } else {
-        const std::vector<FieldPlaces> rows = find_places(key);
+        const vector<FieldPlaces> rows = find_places(key);
         EXPECT_FALSE(rows.empty()) << term;
-        EXPECT_TRUE(value.empty() || std::any_of(rows.begin(), rows.end(),
-                                                 [&](const FieldPlaces& place) { return choice_of(place, value); }))
+        EXPECT_TRUE(value.empty() ||
+                    std::ranges::any_of(rows, [&](const FieldPlaces& place) { return choice_of(place, value); }))
             << term;
       }
     }
@@ -266,29 +267,29 @@ TEST(Explain, WhatAnAbsentWordProposesIsOfTheFormat) {
 TEST(Explain, AKindHasItsKeysWithUnitsAndDefaults) {
   const Workplace here;
   for (const char* kind : {"ball", "body", "group", "plane", "wall", "obstacle"}) {
-    const std::string out = here.carom({"explain", kind}).out;
-    EXPECT_TRUE(out.starts_with(std::string(kind) + ": ")) << out;
-    EXPECT_EQ(out.find("needed      no"), std::string::npos) << out;  // no row of `defaults`
+    const string out = here.carom({"explain", kind}).out;
+    EXPECT_TRUE(out.starts_with(string(kind) + ": ")) << out;
+    EXPECT_EQ(out.find("needed      no"), string::npos) << out;  // no row of `defaults`
   }
-  const std::string ball = here.carom({"explain", "ball"}).out;
+  const string ball = here.carom({"explain", "ball"}).out;
   EXPECT_TRUE(ball.starts_with("ball: A sphere that moves without turning.\n")) << ball;
-  EXPECT_NE(ball.find("  stands at   balls.NAME and defaults.ball\n"), std::string::npos) << ball;
-  EXPECT_NE(ball.find("    velocity        Velocity at time 0. (m/s; default [0, 0, 0])\n"), std::string::npos) << ball;
-  EXPECT_NE(ball.find("    mass            Mass. (kg; mass or density needed)\n"), std::string::npos) << ball;
+  EXPECT_NE(ball.find("  stands at   balls.NAME and defaults.ball\n"), string::npos) << ball;
+  EXPECT_NE(ball.find("    velocity        Velocity at time 0. (m/s; default [0, 0, 0])\n"), string::npos) << ball;
+  EXPECT_NE(ball.find("    mass            Mass. (kg; mass or density needed)\n"), string::npos) << ball;
 }
 
 TEST(Explain, AloneListsTheKinds) {
   const Workplace here;
-  const std::string out = here.carom({"explain"}).out;
-  EXPECT_NE(out.find("\n    ball            A sphere that moves without turning.\n"), std::string::npos) << out;
+  const string out = here.carom({"explain"}).out;
+  EXPECT_NE(out.find("\n    ball            A sphere that moves without turning.\n"), string::npos) << out;
   EXPECT_EQ(here.carom({"explain", "-q"}).out, "");
 }
 
 TEST(Explain, PrintsThePageOfAllKeys) {
   const Workplace here;
-  const std::string page = here.carom({"explain", "--page"}).out;
+  const string page = here.carom({"explain", "--page"}).out;
   EXPECT_TRUE(page.starts_with("# The format of scene and sweep files\n")) << page;
-  EXPECT_NE(page.find("| `rest_speed` | a number of at least 0 in m/s |  | `0.01` |"), std::string::npos) << page;
+  EXPECT_NE(page.find("| `rest_speed` | a number of at least 0 in m/s |  | `0.01` |"), string::npos) << page;
   EXPECT_EQ(here.carom({"explain", "--page", "balls"}).code, 2);
 }
 
@@ -300,7 +301,7 @@ TEST(SchemaCommand, HasTheKindsOfFiles) {
   EXPECT_TRUE(Json::parse(here.carom({"schema", "sweep"}).out)["properties"].contains("sweep"));
   const Finished wrong = here.carom({"schema", "scne"});
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.err.find("no kind of file `scne`; did you mean `scene`?"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("no kind of file `scne`; did you mean `scene`?"), string::npos) << wrong.err;
 }
 
 }  // namespace

@@ -7,26 +7,27 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> quick = {"bench", "balls.yaml", "--steps", "0.1:0.05", "--repeat", "1"};
+const vector<string> quick = {"bench", "balls.yaml", "--steps", "0.1:0.05", "--repeat", "1"};
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+vector<string> with(vector<string> words, const vector<string>& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
-std::vector<std::vector<std::string>> table_of(const std::string& text) {
-  std::vector<std::vector<std::string>> rows;
+vector<vector<string>> table_of(const string& text) {
+  vector<vector<string>> rows;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  for (string line; std::getline(lines, line);) {
     rows.emplace_back();
     std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    for (string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
   }
   return rows;
 }
@@ -42,11 +43,11 @@ simulate: {duration: 3}
 )");
   const Finished run = here.carom(quick);
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("exact; rounding and smaller step errors move it by"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("exact; rounding and smaller step errors move it by"), string::npos) << run.out;
   EXPECT_NE(run.out.find("\n  islands     no independent check: all methods move bodies in lasting contact"),
-            std::string::npos)
+            string::npos)
       << run.out;
-  EXPECT_EQ(run.out.find("in agreement: "), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("in agreement: "), string::npos) << run.out;
   const Json json = Json::parse(here.carom(with(quick, {"--json", "--force"})).out);
   EXPECT_TRUE(json.at("scenes").at(0).at("reference").at("islands_unchecked")) << json;
 }
@@ -61,16 +62,16 @@ TEST(BenchCommand, WritesATableAPlotAndAManifest) {
   ASSERT_EQ(files.size(), 5u);
   const auto table = table_of(files.at("bench.csv"));
   ASSERT_EQ(table.size(), 1u + 1 + 3 * 2 + 2);
-  const std::string contract =
+  const string contract =
       "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
       "collisions_missed,collisions_invented,result_hash,";
   EXPECT_TRUE(files.at("bench.csv").starts_with(contract));
-  std::vector<std::string> ways;
-  for (std::size_t k = 1; k < table.size(); ++k) ways.push_back(table[k][0] + " " + table[k][1] + " " + table[k][2]);
-  EXPECT_EQ(ways, (std::vector<std::string>{"exact  ", "stepped euler 0.1", "stepped euler 0.05", "stepped verlet 0.1",
-                                            "stepped verlet 0.05", "stepped rk4 0.1", "stepped rk4 0.05", "book  0.1",
-                                            "book  0.05"}));
-  for (std::size_t k = 1; k < table.size(); ++k) {
+  vector<string> ways;
+  for (size_t k = 1; k < table.size(); ++k) ways.push_back(table[k][0] + " " + table[k][1] + " " + table[k][2]);
+  EXPECT_EQ(ways,
+            (vector<string>{"exact  ", "stepped euler 0.1", "stepped euler 0.05", "stepped verlet 0.1",
+                            "stepped verlet 0.05", "stepped rk4 0.1", "stepped rk4 0.05", "book  0.1", "book  0.05"}));
+  for (size_t k = 1; k < table.size(); ++k) {
     EXPECT_GT(std::stod(table[k][3]), 0) << k;
     EXPECT_EQ(table[k][10].size(), 16u) << k;
     EXPECT_EQ(table[k][11], "done") << k;
@@ -81,11 +82,11 @@ TEST(BenchCommand, WritesATableAPlotAndAManifest) {
   const Json manifest = Json::parse(files.at("manifest.json"));
   EXPECT_EQ(manifest["reference"]["engine"], "exact");
   EXPECT_EQ(manifest["files"].size(), 4u);
-  EXPECT_NE(run.out.find("\n  reference   exact; rounding moves it by "), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("\n  motion      regular: "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  reference   exact; rounding moves it by "), string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  motion      regular: "), string::npos) << run.out;
   EXPECT_NE(run.out.find(
                 "\n  wrote       output/balls.bench: bench.csv, bench.png, bench.svg, manifest.json and scene.yaml\n"),
-            std::string::npos)
+            string::npos)
       << run.out;
 }
 
@@ -100,7 +101,7 @@ simulate: {duration: 1.2}
 )");
   const Finished run = here.carom({"bench", "heap.yaml", "--steps", "0.0625:0.0625", "--budget", "4"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("\n  qualities   of lasting contact of many bodies: means of "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  qualities   of lasting contact of many bodies: means of "), string::npos) << run.out;
   const auto files = here.files("output/heap.bench");
   EXPECT_TRUE(files.at("qualities.png").starts_with("\x89PNG"));
   EXPECT_TRUE(files.at("qualities.svg").starts_with("<?xml"));
@@ -109,7 +110,7 @@ simulate: {duration: 1.2}
   ASSERT_GE(table.size(), 4u);
   EXPECT_EQ(table[1][0], "preview");
   EXPECT_EQ(table[3][0], "normal");
-  for (std::size_t k = 1; k < table.size(); ++k) {
+  for (size_t k = 1; k < table.size(); ++k) {
     EXPECT_GE(std::stoi(table[k][2]), 3) << k;
     EXPECT_LT(std::stod(table[k][3]), 0.05) << k;
     EXPECT_LT(std::abs(std::stod(table[k][5])), 0.1) << k;
@@ -125,7 +126,7 @@ TEST(BenchCommand, JsonHasTheSameRows) {
   const Json scene = Json::parse(run.out)["scenes"][0];
   const auto table = table_of(here.read("output/balls.bench/bench.csv"));
   ASSERT_EQ(scene["rows"].size() + 1, table.size());
-  for (std::size_t k = 1; k < table.size(); ++k) {
+  for (size_t k = 1; k < table.size(); ++k) {
     const Json& row = scene["rows"][k - 1];
     EXPECT_EQ(row["engine"], table[k][0]);
     EXPECT_EQ(row["position_error_m"].get<double>(), std::stod(table[k][4]));
@@ -147,7 +148,7 @@ TEST(BenchCommand, ReplacesABenchOfTheSceneAndNothingElse) {
   for (const auto& words : {with(quick, {"-o", "output/balls"}), with(quick, {"--set", "balls.red.mass=11"})}) {
     const Finished refused = here.carom(words);
     EXPECT_EQ(refused.code, 2);
-    EXPECT_NE(refused.err.find("overwrite it with --force"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("overwrite it with --force"), string::npos) << refused.err;
   }
   EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "output/balls.bench"}).code, 2);
   EXPECT_EQ(here.files("output"), before);
@@ -161,7 +162,7 @@ TEST(BenchCommand, WithoutGnuplotRunsNothing) {
   const Finished run = here.shell("PATH=/nowhere \"$CAROM\" bench balls.yaml");
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.out, "");
-  EXPECT_NE(run.err.find("apt install gnuplot-nox"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("apt install gnuplot-nox"), string::npos) << run.err;
   EXPECT_FALSE(here.has("output"));
 }
 
@@ -188,7 +189,7 @@ TEST(BenchCommand, ThatFailsReportsTheReasonAndLeavesNothing) {
 TEST(BenchCommand, RefusesWordsThatMeanNothing) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
-  const auto complaint = [&](const std::vector<std::string>& words) {
+  const auto complaint = [&](const vector<string>& words) {
     const Finished run = here.carom(with({"bench", "balls.yaml"}, words));
     EXPECT_EQ(run.code, 2);
     return run.err.substr(0, run.err.find('\n'));

@@ -6,13 +6,14 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::string camera = "camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}\n";
+const string camera = "camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}\n";
 
 TEST(Check, ReportsWhatARunWouldDo) {
   const Workplace here;
@@ -38,9 +39,9 @@ TEST(Check, ReportsWhatARunWouldDo) {
 TEST(Check, ReportsTheSideOfPlusX) {
   const Workplace here;
   here.write("balls.yaml", two_balls(camera));
-  const auto plus_x = [&](const std::string& eye) {
+  const auto plus_x = [&](const string& eye) {
     const Finished check = here.carom({"check", "balls.yaml", "--json", "--set", "camera.eye=" + eye});
-    return Json::parse(check.out).at("scenes").at(0).at("camera").at("plus_x").get<std::string>();
+    return Json::parse(check.out).at("scenes").at(0).at("camera").at("plus_x").get<string>();
   };
   EXPECT_EQ(plus_x("[0, 3, -5]"), "left");
   EXPECT_EQ(plus_x("[0, 3, 5]"), "right");
@@ -58,7 +59,7 @@ TEST(Check, GivesBothFieldsOfView) {
 }
 
 // From 10 m away, with a square picture of 90 degrees, a ball is visible while |x| < 10 + sqrt(2) r.
-const std::string passing_ball =
+const string passing_ball =
     "scene: 1\ngravity: [0, 0, 0]\n"
     "balls:\n"
     "  passing: {mass: 1, radius: 0.1, position: [-12, 0, 0], velocity: [10, 0, 0]}\n"
@@ -76,14 +77,14 @@ TEST(Check, ReportsWhenABodyEntersThePictureAndLeavesIt) {
   EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},
                                                {{"time_s", 2.22}, {"body", "passing"}, {"enters", false}}}));
   EXPECT_EQ(seen.at("watched_until_s"), 3);
-  const std::string out = here.carom({"check", "passing.yaml"}).out;
-  EXPECT_NE(out.find("  in and out  passing enters at 0.19 s; passing leaves at 2.22 s\n"), std::string::npos) << out;
+  const string out = here.carom({"check", "passing.yaml"}).out;
+  EXPECT_NE(out.find("  in and out  passing enters at 0.19 s; passing leaves at 2.22 s\n"), string::npos) << out;
 }
 
 TEST(Check, ChecksTheInstantsOfThePictures) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [64, 64], from: 1}}\n");
-  const auto crossings = [&](const std::string& until) {
+  const auto crossings = [&](const string& until) {
     const Finished check = here.carom({"check", "passing.yaml", "--json", "--set", "output.frames.until=" + until});
     return Json::parse(check.out).at("scenes").at(0).at("camera").at("crossings_listed");
   };
@@ -94,55 +95,55 @@ TEST(Check, ChecksTheInstantsOfThePictures) {
 TEST(Check, OfACameraThatMovesWatchesItsOwnPictures) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [64, 64]}}\n");
-  const auto checked = [&](const std::string& set) {
+  const auto checked = [&](const string& set) {
     const Json all = Json::parse(
         here.carom({"check", "passing.yaml", "--json", "--set", "balls.passing.radius=0.3", "--set", set}).out);
     return all.at("scenes").at(0).at("camera");
   };
-  const auto text = [&](const std::string& set) { return here.carom({"check", "passing.yaml", "--set", set}).out; };
+  const auto text = [&](const string& set) { return here.carom({"check", "passing.yaml", "--set", set}).out; };
   // The still ball comes into view beside the passing one, and leaves again.
   const Json follow = checked("camera={follow: passing, eye: [-12, 0, 9], fov: 60}");
   EXPECT_EQ(follow.at("kind"), "follow");
   EXPECT_EQ(follow.at("out_of_view_names"), Json({"still"}));
   EXPECT_EQ(follow.at("crossings_listed").size(), 2u);
   EXPECT_EQ(follow.at("crossings_listed").at(0).at("body"), "still");
-  EXPECT_NE(text("camera={follow: passing}").find("  camera      follows passing; +x points"), std::string::npos);
+  EXPECT_NE(text("camera={follow: passing}").find("  camera      follows passing; +x points"), string::npos);
 
   const Json fit = checked("camera={fit: motion}");
   EXPECT_EQ(fit.at("kind"), "fit");
   EXPECT_EQ(fit.at("out_of_view"), 0);
   EXPECT_EQ(fit.at("crossings"), 0);
-  EXPECT_NE(text("camera.fit=motion").find("  camera      frames the motion; +x points"), std::string::npos);
+  EXPECT_NE(text("camera.fit=motion").find("  camera      frames the motion; +x points"), string::npos);
 
   // It turns away from the passing ball.
-  const std::string path =
+  const string path =
       "camera={path: [{at: 0, eye: [-12, 0, 9], target: [-12, 0, 0]}, {at: 1, eye: [-12, 0, 9], target: [-30, 0, 0]}]}";
   EXPECT_EQ(checked(path).at("kind"), "path");
   EXPECT_EQ(checked(path).at("out_of_view_names"), Json({"still"}));
   EXPECT_EQ(checked(path).at("crossings_listed").at(0).at("body"), "passing");
-  EXPECT_NE(text(path).find("  camera      2 keyframes; +x points"), std::string::npos);
+  EXPECT_NE(text(path).find("  camera      2 keyframes; +x points"), string::npos);
 }
 
 TEST(Check, ReportsBytesAndSecondsToCome) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [640, 360]}}\n");
-  const auto seconds = [&](const std::string& set) {
+  const auto seconds = [&](const string& set) {
     const Finished check = here.carom({"check", "passing.yaml", "--json", "--set", set});
     return Json::parse(check.out).at("scenes").at(0).at("seconds").get<double>();
   };
   const double few = seconds("output.frames.fps=10"), many = seconds("output.frames.fps=1000");
   EXPECT_GT(few, 0);
   EXPECT_GT(many, 20 * few);  // 3001 pictures beside 31
-  const std::string out = here.carom({"check", "passing.yaml", "--set", "output.frames.fps=1000"}).out;
-  EXPECT_NE(out.find(" and roughly "), std::string::npos) << out;
+  const string out = here.carom({"check", "passing.yaml", "--set", "output.frames.fps=1000"}).out;
+  EXPECT_NE(out.find(" and roughly "), string::npos) << out;
 }
 
 // Films of few bodies have 50 times fewer bytes than pictures. A constant for all films was 20 times too large.
 TEST(Check, BytesAreThoseThatARunWrites) {
   const Workplace here;
-  const auto holds = [&](const std::string& scene, const std::string& output) {
-    const std::vector<std::string> words = {SCENES_DIR "/" + scene + ".yaml", "-o", scene, "--set", "output=" + output};
-    std::vector<std::string> check = {"check", "--json"}, run = {"run", "-q", "--force"};
+  const auto holds = [&](const string& scene, const string& output) {
+    const vector<string> words = {SCENES_DIR "/" + scene + ".yaml", "-o", scene, "--set", "output=" + output};
+    vector<string> check = {"check", "--json"}, run = {"run", "-q", "--force"};
     check.insert(check.end(), words.begin(), words.end());
     run.insert(run.end(), words.begin(), words.end());
     const double expected = Json::parse(here.carom(check).out).at("scenes").at(0).at("bytes").get<double>();
@@ -187,7 +188,7 @@ TEST(Check, DoesNotGuessAtAMotionThatTakesLong) {
   EXPECT_EQ(seen.at("plus_x"), "right");
   EXPECT_NE(here.carom({"check", "gas.yaml"})
                 .out.find("  unseen      not known: the camera frames the motion, which takes longer to simulate\n"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Check, ReportsWhatWouldStopARun) {
@@ -199,9 +200,9 @@ TEST(Check, ReportsWhatWouldStopARun) {
   const Finished check = here.carom({"check", "bouncing.yaml"}), run = here.carom({"run", "bouncing.yaml"});
   EXPECT_EQ(check.code, 0);
   EXPECT_EQ(run.code, 1);
-  const std::size_t at = check.out.find("  trouble     a run would stop: ") + 32;
-  const std::string why = check.out.substr(at, 20);
-  EXPECT_NE(run.err.find(why), std::string::npos) << check.out << run.err;
+  const size_t at = check.out.find("  trouble     a run would stop: ") + 32;
+  const string why = check.out.substr(at, 20);
+  EXPECT_NE(run.err.find(why), string::npos) << check.out << run.err;
 }
 
 TEST(Check, NamesWhatOverlapsAndHowDeep) {
@@ -211,7 +212,7 @@ TEST(Check, NamesWhatOverlapsAndHowDeep) {
              "  blue: {mass: 1, radius: 1, position: [1.5, 0, 0]}\nsimulate: {duration: 1}\n");
   const Finished check = here.carom({"check", "deep.yaml"});
   EXPECT_EQ(check.code, 2);
-  EXPECT_NE(check.err.find("`blue` overlaps `red` by 0.5 m at the start"), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("`blue` overlaps `red` by 0.5 m at the start"), string::npos) << check.err;
 }
 
 TEST(Check, NamesAtMostTenBodiesOutOfView) {
@@ -221,31 +222,31 @@ TEST(Check, NamesAtMostTenBodiesOutOfView) {
       "scene: 1\ngroups: {gas: {count: 30, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 10], max: [2, 2, 12]}, "
       "arrange: lattice}}\n"
       "simulate: {duration: 1}\ncamera: {eye: [0, 0, 5], target: [0, 0, 0]}\n");
-  const std::string out = here.carom({"check", "behind.yaml"}).out;
-  EXPECT_NE(out.find("  bodies      30 bodies: gas (30)\n"), std::string::npos) << out;
+  const string out = here.carom({"check", "behind.yaml"}).out;
+  EXPECT_NE(out.find("  bodies      30 bodies: gas (30)\n"), string::npos) << out;
   EXPECT_NE(
       out.find("  unseen      gas.0, gas.1, gas.2, gas.3, gas.4, gas.5, gas.6, gas.7, gas.8, gas.9 and 20 more at\n"
                "              time 0\n"),
-      std::string::npos)
+      string::npos)
       << out;
 }
 
 TEST(Check, NamesSizesAndMassesThatMakeARunSlow) {
   const Workplace here;
-  const std::string scene =
+  const string scene =
       "scene: 1\nballs:\n  bob: {mass: 1, radius: 1e-9, position: [1, 0, 0]}\n"
       "  joint: {mass: 1e-12, radius: 0.01, position: [0.5, 0, 0]}\n"
       "strings:\n  s: {from: [0, 0, 0], to: joint}\n  t: {from: joint, to: bob}\nsimulate: {duration: 1e-6}\n";
   here.write("chain.yaml", scene);
   const Finished check = here.carom({"check", "chain.yaml"});
-  EXPECT_NE(check.out.find("  slow        the radius of bob is 2e-09 of the length of its string"), std::string::npos)
+  EXPECT_NE(check.out.find("  slow        the radius of bob is 2e-09 of the length of its string"), string::npos)
       << check.out;
-  EXPECT_NE(check.out.find("the mass of joint is 1e-12 of the heaviest"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("the mass of joint is 1e-12 of the heaviest"), string::npos) << check.out;
   const Json json = Json::parse(here.carom({"check", "chain.yaml", "--json"}).out);
   EXPECT_TRUE(json.at("scenes").at(0).contains("slow"));
   const Finished fine =
       here.carom({"check", "chain.yaml", "--set", "balls.bob.radius=1e-6", "--set", "balls.joint.mass=1e-8"});
-  EXPECT_EQ(fine.out.find("  slow "), std::string::npos) << fine.out;
+  EXPECT_EQ(fine.out.find("  slow "), string::npos) << fine.out;
 }
 
 // No body ever meets another one, and a second of motion takes a minute.
@@ -256,15 +257,15 @@ TEST(Check, EndsItsSearchForACollisionAndEstimatesTheRun) {
              "strings: {s: {from: [0, 0, 0], to: bob}}\nsimulate: {duration: 200}\n");
   const Finished check = here.carom({"check", "bob.yaml"});
   EXPECT_EQ(check.code, 0);
-  EXPECT_NE(check.out.find("  first hit   not known: there is none until "), std::string::npos) << check.out;
-  EXPECT_NE(check.out.find(" and roughly "), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("  first hit   not known: there is none until "), string::npos) << check.out;
+  EXPECT_NE(check.out.find(" and roughly "), string::npos) << check.out;
 }
 
 TEST(Check, ReportsThatThereIsNoCollision) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   const Finished check = here.carom({"check", "balls.yaml", "--set", "simulate.duration=0.4"});
-  EXPECT_NE(check.out.find("  first hit   none within 0.4 s\n"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("  first hit   none within 0.4 s\n"), string::npos) << check.out;
   const Finished json = here.carom({"check", "balls.yaml", "--json", "--set", "simulate.duration=0.4"});
   EXPECT_EQ(Json::parse(json.out).at("scenes").at(0).at("first_collision"), nullptr);
 }
@@ -280,12 +281,12 @@ TEST(Check, FirstCollisionIsTheOneThatTheRunWrites) {
   const Json check = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0);
   const Json run = Json::parse(here.carom({"run", "gas.yaml", "--json"}).out).at("scenes").at(0);
   EXPECT_EQ(check.at("first_collision").at("time_s"), run.at("summary").at("first_collision_s"));
-  const std::string table = here.read("output/gas/collisions.csv");
-  const std::string names = "," + check.at("first_collision").at("kind").get<std::string>() + "," +
-                            check.at("first_collision").at("a").get<std::string>() + "," +
-                            check.at("first_collision").at("b").get<std::string>() + ",";
-  const std::size_t row = table.find('\n') + 1;
-  EXPECT_NE(table.substr(row, table.find('\n', row) - row).find(names), std::string::npos) << names;
+  const string table = here.read("output/gas/collisions.csv");
+  const string names = "," + check.at("first_collision").at("kind").get<string>() + "," +
+                       check.at("first_collision").at("a").get<string>() + "," +
+                       check.at("first_collision").at("b").get<string>() + ",";
+  const size_t row = table.find('\n') + 1;
+  EXPECT_NE(table.substr(row, table.find('\n', row) - row).find(names), string::npos) << names;
 }
 
 TEST(Check, BookSceneGetsTheExactPrediction) {
@@ -297,19 +298,19 @@ TEST(Check, BookSceneGetsTheExactPrediction) {
       check.out.find("  engine      book, 1 s of motion\n"
                      "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s (exact; the book engine\n"
                      "              detects it in a later frame)\n"),
-      std::string::npos)
+      string::npos)
       << check.out;
 }
 
 TEST(Check, ReportsTheStateOfTheFolder) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
-  const auto folder = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"check", "balls.yaml"};
+  const auto folder = [&](const vector<string>& more) {
+    vector<string> words = {"check", "balls.yaml"};
     words.insert(words.end(), more.begin(), more.end());
-    const std::string out = here.carom(words).out;
-    const std::size_t at = out.find("  folder ");
-    return at == std::string::npos ? out : out.substr(at);
+    const string out = here.carom(words).out;
+    const size_t at = out.find("  folder ");
+    return at == string::npos ? out : out.substr(at);
   };
   EXPECT_EQ(folder({}), "  folder      output/balls: new\n");
   here.carom({"run", "balls.yaml"});
@@ -330,10 +331,10 @@ TEST(Check, ShowsAllErrorsOfAllFilesAndTheRightScenes) {
   const Finished check = here.carom({"check", "one.yaml", "two.yaml", "three.yaml"});
   EXPECT_EQ(check.code, 2);
   EXPECT_TRUE(check.out.starts_with("two: Two balls\n")) << check.out;
-  EXPECT_NE(check.err.find("one.yaml:8:1: error: "), std::string::npos) << check.err;
-  EXPECT_NE(check.err.find("one.yaml:9:15: error: "), std::string::npos) << check.err;
-  EXPECT_NE(check.err.find("three.yaml:1:8: error: "), std::string::npos) << check.err;
-  EXPECT_NE(check.err.find(" errors in 2 of 3 scenes\n"), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("one.yaml:8:1: error: "), string::npos) << check.err;
+  EXPECT_NE(check.err.find("one.yaml:9:15: error: "), string::npos) << check.err;
+  EXPECT_NE(check.err.find("three.yaml:1:8: error: "), string::npos) << check.err;
+  EXPECT_NE(check.err.find(" errors in 2 of 3 scenes\n"), string::npos) << check.err;
 }
 
 TEST(Check, QuietShowsOnlyWhatIsWrong) {
@@ -345,7 +346,7 @@ TEST(Check, QuietShowsOnlyWhatIsWrong) {
   const Finished wrong = here.carom({"check", "two.yaml", "missing.yaml", "-q"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_EQ(wrong.out, "");
-  EXPECT_NE(wrong.err.find("missing.yaml"), std::string::npos);
+  EXPECT_NE(wrong.err.find("missing.yaml"), string::npos);
 }
 
 TEST(Check, ScenesBeyondTheBudgetAreRefusedUnlessForced) {
@@ -354,7 +355,7 @@ TEST(Check, ScenesBeyondTheBudgetAreRefusedUnlessForced) {
   EXPECT_EQ(here.carom({"check", "big.yaml"}).code, 2);
   const Finished forced = here.carom({"check", "big.yaml", "--force"});
   EXPECT_EQ(forced.code, 0) << forced.err;
-  EXPECT_NE(forced.out.find("1,000,001 pictures"), std::string::npos) << forced.out;
+  EXPECT_NE(forced.out.find("1,000,001 pictures"), string::npos) << forced.out;
 }
 
 TEST(Check, ReportsVolumesObstaclesAndForces) {
@@ -376,11 +377,11 @@ TEST(Check, ReportsVolumesObstaclesAndForces) {
                 "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m; post a\n"
                 "              sphere of radius 0.5 m\n"
                 "  forces      1 force in addition to gravity\n"),
-            std::string::npos)
+            string::npos)
       << check.out;
-  const std::string json = here.carom({"check", "things.yaml", "--json"}).out;
-  EXPECT_NE(json.find("\"obstacles\": 1"), std::string::npos) << json;
-  EXPECT_NE(json.find("\"crate\": {\n          \"box\": [\n            1.0,"), std::string::npos) << json;
+  const string json = here.carom({"check", "things.yaml", "--json"}).out;
+  EXPECT_NE(json.find("\"obstacles\": 1"), string::npos) << json;
+  EXPECT_NE(json.find("\"crate\": {\n          \"box\": [\n            1.0,"), string::npos) << json;
 }
 
 }  // namespace

@@ -5,12 +5,13 @@
 
 #include "commands/program.h"
 #include "commands/run.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 // The text on stderr of a command line that is wrong: exit code 2, nothing on stdout, no scene read.
-std::string complaint(const std::vector<std::string>& words) {
+string complaint(const vector<string>& words) {
   const Workplace here;
   const Finished finished = here.carom(words);
   EXPECT_EQ(finished.code, 2);
@@ -29,7 +30,7 @@ TEST(CommandLine, MisspeltCommandGetsItsNearName) {
 }
 
 TEST(CommandLine, CommandThatIsNearNothingGetsTheList) {
-  const std::string list = complaint({"simulate"});
+  const string list = complaint({"simulate"});
   EXPECT_TRUE(list.starts_with("carom: no command `simulate`; the commands are run, check, ")) << list;
   EXPECT_TRUE(list.ends_with(" and explain\n  carom --help shows how it is used\n")) << list;
 }
@@ -74,7 +75,7 @@ TEST(CommandLine, NoSceneIsAnError) {
 }
 
 TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
-  const std::string end = "\n  carom run --help shows how it is used\n";
+  const string end = "\n  carom run --help shows how it is used\n";
   EXPECT_EQ(complaint({"run", "a.yaml", "-o"}), "carom run: --output needs a value" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--set"}), "carom run: --set needs a value" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--set", "gravity"}),
@@ -117,23 +118,23 @@ TEST(CommandLine, TwoScenesForOneFolderAreRefused) {
 
 TEST(CommandLine, HelpOpensWithExamples) {
   const Workplace here;
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--help"}, {"-h"}, {"help"}, {"run", "--help"}, {"check", "-h"}, {"help", "run"}}) {
+  for (const vector<string>& words :
+       {vector<string>{"--help"}, {"-h"}, {"help"}, {"run", "--help"}, {"check", "-h"}, {"help", "run"}}) {
     const Finished help = here.carom(words);
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");
-    const std::size_t examples = help.out.find("\nExamples:\n  carom "), usage = help.out.find("\nUsage:\n");
+    const size_t examples = help.out.find("\nExamples:\n  carom "), usage = help.out.find("\nUsage:\n");
     EXPECT_LT(examples, 120u) << help.out;
     EXPECT_LT(examples, usage) << help.out;
-    EXPECT_NE(usage, std::string::npos) << help.out;
+    EXPECT_NE(usage, string::npos) << help.out;
   }
 }
 
 TEST(CommandLine, HelpNamesEveryOption) {
-  const std::string help = Workplace().carom({"run", "--help"}).out;
-  for (const std::string option : {"-o,--output DIR", "--set PATH=VALUE", "--only LIST", "--seed N", "--force",
-                                   "--progress HOW", "--color WHEN", "--json", "-q,--quiet", "-h,--help"}) {
-    EXPECT_NE(help.find("\n  " + option + " "), std::string::npos) << option;
+  const string help = Workplace().carom({"run", "--help"}).out;
+  for (const string option : {"-o,--output DIR", "--set PATH=VALUE", "--only LIST", "--seed N", "--force",
+                              "--progress HOW", "--color WHEN", "--json", "-q,--quiet", "-h,--help"}) {
+    EXPECT_NE(help.find("\n  " + option + " "), string::npos) << option;
   }
 }
 
@@ -154,7 +155,7 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, WordsAfterTwoDashesAreScenes) {
   const CommandText& text = run_text();
   const Options options = parse_options(text, {"-q", "a.yaml", "--", "--force", "-o"}).options;
-  EXPECT_EQ(options.operands, (std::vector<std::string>{"a.yaml", "--force", "-o"}));
+  EXPECT_EQ(options.operands, (vector<string>{"a.yaml", "--force", "-o"}));
   EXPECT_TRUE(options.quiet);
   EXPECT_FALSE(options.force);
 }
@@ -165,10 +166,10 @@ TEST(CommandLine, EveryOptionIsRead) {
                                                "energy,sheet,energy", "--seed", "18446744073709551615", "--force",
                                                "--json", "-q", "--progress=lines", "--color", "never"})
                               .options;
-  EXPECT_EQ(options.operands, (std::vector<std::string>{"a.yaml", "b.yaml"}));
-  EXPECT_EQ(options.set, (std::vector<std::string>{"x=1", "y=2=3"}));
+  EXPECT_EQ(options.operands, (vector<string>{"a.yaml", "b.yaml"}));
+  EXPECT_EQ(options.set, (vector<string>{"x=1", "y=2=3"}));
   EXPECT_EQ(options.output, "out");
-  EXPECT_EQ(options.only, (std::vector<std::string>{"energy", "sheet"}));
+  EXPECT_EQ(options.only, (vector<string>{"energy", "sheet"}));
   EXPECT_EQ(options.seed, 18446744073709551615u);
   EXPECT_TRUE(options.force && options.json && options.quiet);
   EXPECT_EQ(options.progress, ProgressChoice::lines);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "commands/program.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -13,11 +14,11 @@ namespace {
 using Json = nlohmann::json;
 
 /// Runs a, b and c that differ in the red ball's restitution.
-void make_runs(const Workplace& here, const std::string& more = tables) {
+void make_runs(const Workplace& here, const string& more = tables) {
   here.write("balls.yaml", two_balls(more));
   for (const auto& [name, e] : {std::pair("a", "0.5"), std::pair("b", "0.75"), std::pair("c", "1")})
-    ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", std::string("runs/") + name, "--set",
-                          std::string("balls.red.restitution=") + e, "-q"})
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", string("runs/") + name, "--set",
+                          string("balls.red.restitution=") + e, "-q"})
                   .code,
               0);
 }
@@ -36,13 +37,13 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
             "  wrote       output/comparison: comparison.xlsx, manifest.json and summary.csv\n");
   const auto files = here.files("output/comparison");
   ASSERT_EQ(files.size(), 3u);
-  const std::string& table = files.at("summary.csv");
+  const string& table = files.at("summary.csv");
   EXPECT_NE(table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,"
                        "balls.red.restitution,balls.red.speed_m_"
                        "per_s\na,Two balls,exact,done,1,"),
-            std::string::npos)
+            string::npos)
       << table;
-  EXPECT_NE(table.find("\nc,"), std::string::npos);
+  EXPECT_NE(table.find("\nc,"), string::npos);
   EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));
   const Json manifest = Json::parse(files.at("manifest.json"));
   EXPECT_EQ(manifest["files"].size(), 2u);
@@ -60,7 +61,7 @@ planes: {ramp: {point: [0, 0, 0], normal: ['= sin(tilt)', '= cos(tilt)', 0]}}
 simulate: {duration: 0.1}
 output: {collisions: true}
 )");
-  const auto run = [&](const std::string& name, const std::string& set) {
+  const auto run = [&](const string& name, const string& set) {
     ASSERT_EQ(here.carom({"run", "ramp.yaml", "-o", "runs/" + name, "--set", set, "-q"}).code, 0);
   };
   run("a", "let.tilt=20");
@@ -69,12 +70,12 @@ output: {collisions: true}
   run("d", "let.n=5");
   run("e", "balls.row.position.z=1");
   run("f", "balls.red.radius=0.06");
-  const auto varied = [&](const std::vector<std::string>& runs) {
-    std::vector<std::string> words = {"compare", "--force"};
-    for (const std::string& name : runs) words.push_back("runs/" + name);
-    const std::string out = here.carom(words).out;
-    const std::size_t at = out.find("varied      ");
-    return at == std::string::npos ? out : out.substr(at + 12, out.find('\n', at) - at - 12);
+  const auto varied = [&](const vector<string>& runs) {
+    vector<string> words = {"compare", "--force"};
+    for (const string& name : runs) words.push_back("runs/" + name);
+    const string out = here.carom(words).out;
+    const size_t at = out.find("varied      ");
+    return at == string::npos ? out : out.substr(at + 12, out.find('\n', at) - at - 12);
   };
   EXPECT_EQ(varied({"a", "b"}), "let.tilt");
   EXPECT_EQ(varied({"a", "b", "c", "d"}), "let.tilt, let.r and let.n");
@@ -86,7 +87,7 @@ output: {collisions: true}
 TEST(CompareCommand, IsUpToDateUntilARunOrTheRequestChanges) {
   const Workplace here;
   make_runs(here);
-  const std::vector<std::string> words = {"compare", "runs/a", "runs/b"};
+  const vector<string> words = {"compare", "runs/a", "runs/b"};
   ASSERT_EQ(here.carom(words).code, 0);
   const auto before = here.files("output");
   EXPECT_EQ(here.carom(words).out, "output/comparison: up to date\n");
@@ -96,7 +97,7 @@ TEST(CompareCommand, IsUpToDateUntilARunOrTheRequestChanges) {
   EXPECT_NE(here.files("output"), before);
   ASSERT_EQ(here.carom(words).code, 0);
   here.shell("rm output/comparison/summary.csv");
-  EXPECT_NE(here.carom(words).out.find("wrote"), std::string::npos);
+  EXPECT_NE(here.carom(words).out.find("wrote"), string::npos);
   EXPECT_EQ(here.files("output"), before);
 }
 
@@ -106,7 +107,7 @@ TEST(CompareCommand, OverwritesNothingElse) {
   const auto before = here.files("runs");
   const Finished refused = here.carom({"compare", "runs/a", "runs/b", "-o", "runs/c"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("the folder runs/c holds something else\n  write elsewhere with -o"), std::string::npos);
+  EXPECT_NE(refused.err.find("the folder runs/c holds something else\n  write elsewhere with -o"), string::npos);
   EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "-o", "runs/../runs/b", "--force"}).code, 2);
   here.write("mine/notes.txt", "mine");
   EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "-o", "mine"}).code, 2);
@@ -120,8 +121,8 @@ TEST(CompareCommand, TakesASweepsRunsAndNamesRunsApart) {
   make_runs(here);
   ASSERT_EQ(here.shell("mkdir -p one two && cp -r runs one/runs && cp -r runs two/runs").code, 0);
   ASSERT_EQ(here.carom({"compare", "one", "two", "runs/a", "--json"}).code, 0);
-  const std::string table = here.read("output/comparison/summary.csv");
-  for (const char* id : {"\none/a,", "\none/b,", "\ntwo/c,"}) EXPECT_NE(table.find(id), std::string::npos) << table;
+  const string table = here.read("output/comparison/summary.csv");
+  for (const char* id : {"\none/a,", "\none/b,", "\ntwo/c,"}) EXPECT_NE(table.find(id), string::npos) << table;
 }
 
 TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
@@ -135,7 +136,7 @@ TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
   const Finished run = here.carom({"compare", "swept"});
   ASSERT_EQ(run.code, 0) << run.err;
   for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx"})
-    EXPECT_EQ(here.read(std::string("output/comparison/") + file), here.read(std::string("swept/") + file)) << file;
+    EXPECT_EQ(here.read(string("output/comparison/") + file), here.read(string("swept/") + file)) << file;
 }
 
 TEST(CompareCommand, TakesASweepsRunsInTheOrderOfTheirNumbers) {
@@ -146,8 +147,8 @@ TEST(CompareCommand, TakesASweepsRunsInTheOrderOfTheirNumbers) {
       0);
   ASSERT_EQ(here.carom({"compare", "one"}).code, 0);
   std::istringstream rows(here.read("output/comparison/summary.csv"));
-  std::string ids;
-  for (std::string row; std::getline(rows, row);) ids += row.substr(0, row.find(',') + 1);
+  string ids;
+  for (string row; std::getline(rows, row);) ids += row.substr(0, row.find(',') + 1);
   EXPECT_EQ(ids, "run,last,r002,r0010,r9999,r10000,");
 }
 
@@ -158,7 +159,7 @@ TEST(CompareCommand, TakesRunsThatDifferInTheSeedAsRepeats) {
              "groups: {gas: {count: 4, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: "
              "1}}\nsimulate: {duration: 0.5}\noutput: {collisions: true}\n");
   for (const char* seed : {"1", "2", "3"})
-    ASSERT_EQ(here.carom({"run", "gas.yaml", "--seed", seed, "-o", std::string("gas/") + seed, "-q"}).code, 0);
+    ASSERT_EQ(here.carom({"run", "gas.yaml", "--seed", seed, "-o", string("gas/") + seed, "-q"}).code, 0);
   ASSERT_EQ(here.carom({"compare", "gas/1", "gas/2", "gas/3"}).code, 0);
   EXPECT_TRUE(here.read("output/comparison/repeats.csv").starts_with("n,energy_lost_J.mean,energy_lost_J.sd,"));
   ASSERT_EQ(here.carom({"compare", "gas/1"}).code, 0);
@@ -169,8 +170,8 @@ TEST(CompareCommand, ReportsErrorsOfFoldersAndWords) {
   const Workplace here;
   make_runs(here);
   here.write("no/run.txt", "");
-  const auto error = [&](const std::vector<std::string>& words) {
-    std::vector<std::string> line = {"compare", "runs/a"};
+  const auto error = [&](const vector<string>& words) {
+    vector<string> line = {"compare", "runs/a"};
     line.insert(line.end(), words.begin(), words.end());
     const Finished run = here.carom(line);
     EXPECT_EQ(run.code, 2) << run.err;
@@ -187,8 +188,8 @@ TEST(CompareCommand, ReportsErrorsOfFoldersAndWords) {
             "carom: `balls.rde.x_m`: balls has no `rde`; did you mean `red`?\n");
   EXPECT_NE(
       error({"runs/b", "--charts", "balls.red.restitutio:collisions"}).find("did you mean `balls.red.restitution`"),
-      std::string::npos);
-  EXPECT_NE(error({"--charts", "collisions"}).find("--charts takes x:y or x:y:by"), std::string::npos);
+      string::npos);
+  EXPECT_NE(error({"--charts", "collisions"}).find("--charts takes x:y or x:y:by"), string::npos);
   EXPECT_EQ(error({"runs/b", "--video"}),
             "carom: runs/a has no film: run its scene again with the output `video` (--only video)\n");
   EXPECT_EQ(here.carom({"compare"}).code, 2);
@@ -218,7 +219,7 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
                         "output.video.size=[32, 48]", "--set", "output.video.from=0.5"})
                 .code,
             0);
-  const std::vector<std::string> words = {"compare", "runs/first", "runs/longer", "runs/other", "--video"};
+  const vector<string> words = {"compare", "runs/first", "runs/longer", "runs/other", "--video"};
   const Finished run = here.carom(words);
   ASSERT_EQ(run.code, 0) << run.err;
   const Finished probe = here.shell(
@@ -227,7 +228,7 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
   EXPECT_EQ(probe.out, "128,156,20/1,32\n")
       << "1.5 s and the frame of 0, twice as often; three tiles of 64 x 48 in a square, two lines of 8 "
          "pixels and their margins above each";
-  const std::string film = here.read("output/comparison/comparison.mp4");
+  const string film = here.read("output/comparison/comparison.mp4");
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer", "runs/other", "--video", "--force"}).code, 0);
   EXPECT_EQ(here.read("output/comparison/comparison.mp4"), film);
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer"}).code, 0);
@@ -251,21 +252,21 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
   ASSERT_EQ(run.code, 0) << run.err;
   // One line of 10 pixels, two margins of 5 above and below.
   constexpr int strip = 24;
-  const auto grey = [&](const std::string& film, const std::string& cut) {
+  const auto grey = [&](const string& film, const string& cut) {
     return here
         .shell("ffmpeg -v error -i " + film + " -vf crop=" + cut + " -frames:v 1 -f rawvideo -pix_fmt gray pipe:1")
         .out;
   };
-  const std::string compared = grey("output/comparison/comparison.mp4", "320:240:0:" + std::to_string(strip));
-  const std::string own = grey("runs/first/animation.mp4", "320:240:0:0");
+  const string compared = grey("output/comparison/comparison.mp4", "320:240:0:" + std::to_string(strip));
+  const string own = grey("runs/first/animation.mp4", "320:240:0:0");
   ASSERT_EQ(compared.size(), 320u * 240);
   ASSERT_EQ(own.size(), compared.size());
   int most = 0;
-  for (std::size_t i = 0; i < own.size(); ++i)
+  for (size_t i = 0; i < own.size(); ++i)
     most = std::max(most, std::abs(static_cast<unsigned char>(compared[i]) - static_cast<unsigned char>(own[i])));
   EXPECT_LT(most, 60) << "the film below its label is unchanged, but for the second encoding";
-  const std::string label = grey("output/comparison/comparison.mp4", "320:" + std::to_string(strip) + ":0:0");
-  const auto letters = std::count_if(label.begin(), label.end(), [](char c) { return (c & 0x80) != 0; });
+  const string label = grey("output/comparison/comparison.mp4", "320:" + std::to_string(strip) + ":0:0");
+  const auto letters = std::ranges::count_if(label, [](char c) { return (c & 0x80) != 0; });
   EXPECT_GT(letters, 20) << "the run's name in white";
   EXPECT_EQ(
       here.shell("XDG_DATA_HOME= HOME= XDG_DATA_DIRS=$PWD $CAROM compare runs/first runs/second --video -o other").err,
@@ -292,7 +293,7 @@ TEST(CompareCommand, FilmMixesGifsAndNamesTheRemedyForOthers) {
   const Workplace here;
   here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
                                      "output: {video: {fps: 10, size: [64, 48]}}\n"));
-  const auto make = [&](const std::string& folder, const std::string& setting) {
+  const auto make = [&](const string& folder, const string& setting) {
     ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", folder, "--set", setting}).code, 0);
   };
   make("runs/first", "output.video.fps=10");
@@ -327,17 +328,17 @@ TEST(CompareCommand, RemedyForTheFilmsOfASweepWorksAndLeavesTheSweepAsItIs) {
       "$CAROM render pair/runs/* -o OTHER -q --set output.video.file=animation.mp4 && $CAROM compare OTHER/* --video");
   EXPECT_EQ(remedy.code, 0) << remedy.err;
   EXPECT_TRUE(here.has("output/comparison/comparison.mp4"));
-  EXPECT_NE(here.carom({"sweep", "pair.yaml", "-o", "pair"}).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom({"sweep", "pair.yaml", "-o", "pair"}).out.find("up to date"), string::npos);
 }
 
 TEST(CompareCommand, FilmOfTooManyRunsIsRefused) {
   const Workplace here;
   make_runs(here);
-  std::vector<std::string> words = {"compare", "--video"};
+  vector<string> words = {"compare", "--video"};
   for (int i = 0; i < 17; ++i) words.push_back("runs/a");
   const Finished run = here.carom(words);
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("a film shows at most 16 runs side by side, not 17"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("a film shows at most 16 runs side by side, not 17"), string::npos) << run.err;
 }
 
 TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
@@ -361,8 +362,8 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
                 .code,
             0);
   const Finished heavy = here.carom({"diff", "runs/a", "runs/heavy"});
-  EXPECT_NE(heavy.out.find("differs: impulse_N_s"), std::string::npos) << heavy.out;
-  EXPECT_EQ(heavy.out.find("they leave at"), std::string::npos) << heavy.out;
+  EXPECT_NE(heavy.out.find("differs: impulse_N_s"), string::npos) << heavy.out;
+  EXPECT_EQ(heavy.out.find("they leave at"), string::npos) << heavy.out;
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);
   EXPECT_EQ(part["collisions"]["part"]["number"], 1);
@@ -371,12 +372,12 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_EQ(part["values"].size(), 2u);
   const Finished same = here.carom({"diff", "runs/a", "runs/a"});
   EXPECT_EQ(same.code, 0);
-  EXPECT_NE(same.out.find("\n  equal       scenes, collisions and final positions\n"), std::string::npos);
+  EXPECT_NE(same.out.find("\n  equal       scenes, collisions and final positions\n"), string::npos);
 }
 
 TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
   const Workplace here;
-  for (const std::string run : {"run", "same"})
+  for (const string run : {"run", "same"})
     ASSERT_EQ(
         here.carom({"run", SCENES_DIR "/bouncing_ball.yaml", "-q", "-o", run, "--only", "collisions,trajectory"}).code,
         0);
@@ -385,11 +386,11 @@ TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
                 .code,
             0);
   // Columns: run,title,engine,status,duration_s,bodies,collisions.
-  std::string row = here.read("run/summary.csv");
+  string row = here.read("run/summary.csv");
   row.erase(0, row.find('\n') + 1);
   for (int k = 0; k < 6; ++k) row.erase(0, row.find(',') + 1);
-  const std::string count = row.substr(0, row.find(','));
-  ASSERT_NE(here.read("run/collisions.csv").find(",rest,"), std::string::npos);
+  const string count = row.substr(0, row.find(','));
+  ASSERT_NE(here.read("run/collisions.csv").find(",rest,"), string::npos);
   const Json same = Json::parse(here.carom({"diff", "run", "same", "--json"}).out);
   EXPECT_EQ(std::to_string(same["collisions"]["a"].get<int>()), count);
   EXPECT_EQ(std::to_string(same["collisions"]["same"].get<int>()), count);
@@ -411,7 +412,7 @@ TEST(DiffCommand, ReportsWhatIsMissing) {
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "y", "--only", "collisions,trajectory"}).code, 0);
   const Finished no_end = here.carom({"diff", "x", "y"});
   EXPECT_EQ(no_end.code, 0);
-  EXPECT_NE(no_end.out.find("  end         not known: x has no trajectory.csv;"), std::string::npos) << no_end.out;
+  EXPECT_NE(no_end.out.find("  end         not known: x has no trajectory.csv;"), string::npos) << no_end.out;
 }
 
 }  // namespace

@@ -8,14 +8,15 @@
 #include "commands/program.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 /// So many balls of 0.1 m that fall by 1.9 m at most.
-Scene pour(int count, const std::string& more) {
-  const std::string text = "scene: 1\nballs: {b: {repeat: " + std::to_string(count) +
-                           ", mass: 1, radius: 0.1, position: ['= i', 1.9, 0]}}\nsimulate: {duration: 9}\n" + more;
+Scene pour(int count, const string& more) {
+  const string text = "scene: 1\nballs: {b: {repeat: " + std::to_string(count) +
+                      ", mass: 1, radius: 0.1, position: ['= i', 1.9, 0]}}\nsimulate: {duration: 9}\n" + more;
   const Workplace here;
   here.write("pour.yaml", text);
   return load_scene(here.path("pour.yaml"));
@@ -38,7 +39,7 @@ TEST(CrowdAhead, FollowsTheFallAndWhatImpactsTake) {
 }
 
 TEST(CrowdAhead, IsNoneWhereBodiesDoNotCollect) {
-  const std::string floor = "planes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
+  const string floor = "planes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
   const auto from = [](const Scene& scene, Engine engine) { return crowd_ahead(scene, engine).from; };
   EXPECT_EQ(from(pour(100, "restitution: 1\n" + floor), Engine::exact), never);
   EXPECT_EQ(from(pour(100, "restitution: 0.5\n"), Engine::exact), never);

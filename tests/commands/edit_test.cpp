@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "commands/program.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 /// Two balls with so many pictures.
-std::string balls_with_frames(int frames) {
+string balls_with_frames(int frames) {
   return two_balls("output: {energy: true, frames: {fps: " + std::to_string(frames - 1) + ", size: [32, 18]}}\n");
 }
 
@@ -18,7 +19,7 @@ TEST(EditedScene, ReplacesItsRunWithoutForceAndLeavesNoStaleFile) {
   EXPECT_TRUE(here.has("output/balls/frames/frame_00008.png"));
   here.write("balls.yaml", balls_with_frames(3));
   const Finished check = here.carom({"check", "balls.yaml"});
-  EXPECT_NE(check.out.find("holds a run of the scene as it was, will be replaced"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("holds a run of the scene as it was, will be replaced"), string::npos) << check.out;
   const Finished again = here.carom({"run", "balls.yaml", "-q"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_FALSE(here.has("output/balls/frames/frame_00003.png"));
@@ -50,7 +51,7 @@ TEST(EditedScene, DoesNotReplaceTheRunOfAnotherSceneOrOfOtherSettings) {
 }
 
 TEST(EditedScene, LeavesTouchedAndForeignFilesAlone) {
-  const auto refused = [](const std::string& change, const std::string& why) {
+  const auto refused = [](const string& change, const string& why) {
     const Workplace here;
     here.write("balls.yaml", balls_with_frames(3));
     here.carom({"run", "balls.yaml", "-q"});
@@ -74,10 +75,10 @@ TEST(EditedScene, LeavesTouchedAndForeignFilesAlone) {
 }
 
 TEST(UneditedScene, LeavesTouchedFilesAlone) {
-  const auto refused = [](const std::string& change, const std::string& why, const std::string& only = "") {
+  const auto refused = [](const string& change, const string& why, const string& only = "") {
     const Workplace here;
     here.write("balls.yaml", balls_with_frames(3));
-    std::vector<std::string> first = {"run", "balls.yaml", "-q"};
+    vector<string> first = {"run", "balls.yaml", "-q"};
     if (!only.empty()) first.insert(first.end(), {"--only", only});
     here.carom(first);
     here.shell(change);
@@ -90,7 +91,7 @@ TEST(UneditedScene, LeavesTouchedFilesAlone) {
     EXPECT_EQ(here.files("output"), before) << change;
     // Long lines are wrapped.
     EXPECT_NE(here.carom({"check", "balls.yaml"}).out.find("holds " + why.substr(0, why.find_first_of(" ,"))),
-              std::string::npos);
+              string::npos);
     EXPECT_EQ(here.carom({"run", "balls.yaml", "-q", "--force"}).code, 0) << change;
     EXPECT_EQ(here.carom({"run", "balls.yaml"}).out, "balls: Two balls\n  up to date  output/balls\n");
   };
@@ -118,15 +119,13 @@ TEST(UneditedScene, PicturesThatWereChangedAreDrawnAgainOnlyByForce) {
   const Workplace here;
   here.write("balls.yaml", balls_with_frames(3));
   here.carom({"run", "balls.yaml", "-o", "run", "-q"});
-  const std::string picture = here.read("run/frames/frame_00001.png");
+  const string picture = here.read("run/frames/frame_00001.png");
   here.shell("echo mine >> run/frames/frame_00001.png");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"render", "run", "-q"},
-        std::vector<std::string>{"render", "run", "-q", "--set", "output.frames.samples=1"}}) {
+  for (const vector<string>& words : {vector<string>{"render", "run", "-q"},
+                                      vector<string>{"render", "run", "-q", "--set", "output.frames.samples=1"}}) {
     const Finished again = here.carom(words);
     EXPECT_EQ(again.code, 2) << again.err;
-    EXPECT_NE(again.err.find("holds a run of this scene with a changed file, frames/frame_00001.png"),
-              std::string::npos)
+    EXPECT_NE(again.err.find("holds a run of this scene with a changed file, frames/frame_00001.png"), string::npos)
         << again.err;
     EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture + "mine\n");
   }
@@ -140,11 +139,11 @@ TEST(UneditedScene, PicturesThatWereChangedAreDrawnAgainOnlyByForce) {
 TEST(UneditedSweep, LeavesTouchedFilesAlone) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
-  const std::vector<std::string> words = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"};
-  std::vector<std::string> forced = words;
+  const vector<string> words = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"};
+  vector<string> forced = words;
   forced.emplace_back("--force");
   ASSERT_EQ(here.carom(words).code, 0);
-  const std::pair<std::string, std::string> all[] = {
+  const std::pair<string, string> all[] = {
       {"sweep/summary.csv", "carom: balls.yaml: the folder sweep holds a comparison with a changed file, summary.csv"},
       {"sweep/comparison.xlsx",
        "carom: balls.yaml: the folder sweep holds a comparison with a changed file, comparison.xlsx"},
@@ -177,10 +176,10 @@ TEST(UneditedSweep, IsLeftAloneInACopyToo) {
   // The runs are newer than the copy's manifest.
   here.shell("mkdir copy; cp sweep/*.* copy; cp -r sweep/runs copy; echo mine >> copy/runs/r0002/energy.csv");
   const auto before = here.files("copy");
-  const std::string held = "copy/runs/r0002 holds a run of this scene with a changed file, energy.csv";
+  const string held = "copy/runs/r0002 holds a run of this scene with a changed file, energy.csv";
   const Finished again = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "copy", "-q"});
   EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find(held), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find(held), string::npos) << again.err;
   const Finished gathered = here.carom({"gather", "copy", "sweep", "-q"});
   EXPECT_EQ(gathered.code, 2);
   EXPECT_EQ(gathered.err, "carom: the folder " + held + ": remove it or rename it; nothing was gathered\n");
@@ -190,9 +189,9 @@ TEST(UneditedSweep, IsLeftAloneInACopyToo) {
 TEST(UneditedSweep, RepeatsAChangedRunBeforeItsEnd) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
-  const std::vector<std::string> words = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"};
+  const vector<string> words = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"};
   ASSERT_EQ(here.carom(words).code, 0);
-  const std::string energy = here.read("sweep/runs/r0002/energy.csv");
+  const string energy = here.read("sweep/runs/r0002/energy.csv");
   here.shell("rm sweep/manifest.json; truncate -s 10 sweep/runs/r0002/energy.csv");
   EXPECT_EQ(here.carom(words).code, 0);
   EXPECT_EQ(here.read("sweep/runs/r0002/energy.csv"), energy);
@@ -203,9 +202,9 @@ TEST(UneditedComparison, LeavesTouchedFilesAlone) {
   here.write("balls.yaml", two_balls());
   here.carom({"run", "balls.yaml", "-o", "a", "-q"});
   here.carom({"run", "balls.yaml", "-o", "b", "-q", "--set", "balls.red.mass=2"});
-  const std::vector<std::string> words = {"compare", "a", "b", "-o", "both", "-q"};
+  const vector<string> words = {"compare", "a", "b", "-o", "both", "-q"};
   ASSERT_EQ(here.carom(words).code, 0);
-  const std::string table = here.read("both/summary.csv");
+  const string table = here.read("both/summary.csv");
   here.shell("echo mine >> both/summary.csv");
   const Finished again = here.carom(words);
   EXPECT_EQ(again.code, 2);
@@ -222,12 +221,12 @@ TEST(EditedScene, DoesNotReplaceARunOfASweep) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "sweep", "-q"});
-  for (const std::string folder : {"sweep", "sweep/runs/r0001"})
+  for (const string folder : {"sweep", "sweep/runs/r0001"})
     EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", folder, "-q"}).code, 2) << folder;
 }
 
 /// Starts a watch of a.yaml and b.yaml, does these steps, and ends it. `await FILE TEXT` waits until FILE has TEXT.
-Finished watched(const Workplace& here, const std::string& steps) {
+Finished watched(const Workplace& here, const string& steps) {
   return here.shell(
       "await() { n=0; until grep -qs -- \"$2\" \"$1\"; do sleep 0.02; n=$((n + 1)); [ $n -lt 500 ] || exit 9; done; }\n"
       "\"$CAROM\" run --watch a.yaml b.yaml --progress none >out 2>err & p=$!\n" +
@@ -244,7 +243,7 @@ TEST(Watch, RunsAtEachSaveHoweverItIsDone) {
       "sed 's/duration: 1/duration: 0.25/' a.yaml > .tmp; mv .tmp a.yaml; await output/a/summary.csv exact,done,0.25,\n"
       "sed 's/duration: 0.25/duration: 0.5/' a.yaml > .tmp; cat .tmp > a.yaml; await output/a/summary.csv done,0.5,");
   EXPECT_EQ(run.code, 143) << run.err;
-  EXPECT_NE(run.err.find("carom: waiting for changes of a.yaml and b.yaml; Ctrl-C ends\n"), std::string::npos);
+  EXPECT_NE(run.err.find("carom: waiting for changes of a.yaml and b.yaml; Ctrl-C ends\n"), string::npos);
   EXPECT_TRUE(run.err.ends_with("carom: interrupted\n")) << run.err;
   // b.yaml was not saved.
   EXPECT_EQ(run.out.find("\nb: "), run.out.rfind("\nb: ")) << run.out;
@@ -260,7 +259,7 @@ TEST(Watch, ShowsErrorsAndGoesOn) {
               "cp a.yaml good; echo 'camra: 1' >> a.yaml; await err 'not run'\n"
               "sed 's/duration: 1/duration: 0.25/' good > a.yaml; await output/a/summary.csv done,0.25,");
   EXPECT_EQ(run.code, 143) << run.err;
-  EXPECT_NE(run.err.find("did you mean `camera`?\ncarom: a.yaml: 1 error; not run\n"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("did you mean `camera`?\ncarom: a.yaml: 1 error; not run\n"), string::npos) << run.err;
 }
 
 TEST(Watch, FollowsMeshesAndTheirMaterials) {
@@ -283,7 +282,7 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
               "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
               "differs output/a/manifest.json green/manifest.json");
   EXPECT_EQ(run.code, 143) << run.err << run.out;
-  const std::string frame = "/frames/frame_00000.png";
+  const string frame = "/frames/frame_00000.png";
   EXPECT_FALSE(here.read("green" + frame).empty());
   EXPECT_NE(here.read("before" + frame), here.read("green" + frame));
   EXPECT_NE(here.read("output/a" + frame), here.read("green" + frame));
@@ -303,7 +302,7 @@ TEST(Watch, OfARunThatIsDoneShowsATextureThatGoesMissing) {
                                "echo 'newmtl a\nmap_Kd none.png' > new; mv new pin.mtl; await err '1 error; not run'");
   EXPECT_EQ(run.code, 143) << run.err << run.out;
   EXPECT_NE(run.err.find("a.yaml:2:31: error: cannot read the mesh pin.obj: its texture none.png is not there\n"),
-            std::string::npos)
+            string::npos)
       << run.err;
   EXPECT_EQ(here.files("output/a"), here.files("before"));
 }
@@ -313,19 +312,19 @@ TEST(Watch, HasNoJsonDocument) {
   here.write("a.yaml", two_balls());
   const Finished run = here.carom({"run", "--watch", "a.yaml", "--json"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("leave out --json"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("leave out --json"), string::npos) << run.err;
 }
 
 TEST(Progress, OfScenesThatRunAtOnceBeginsBeforeOneEnds) {
   const Workplace here;
-  std::string text = two_balls("output: {frames: {fps: 1, size: [64, 36], samples: 1}}\n");
+  string text = two_balls("output: {frames: {fps: 1, size: [64, 36], samples: 1}}\n");
   text.replace(text.find("duration: 1}"), 12, "duration: 99990}");
   for (const char* name : {"a.yaml", "b.yaml"}) here.write(name, text);
   const Finished run = here.shell(
       "\"$CAROM\" run a.yaml b.yaml -j 2 --progress lines 2>err & p=$!\n"
       "n=0; until grep -qs 'run: [0-9]* %, 0 of 2 scenes' err || [ $n -gt 500 ]; do n=$((n+1)); sleep 0.02; done\n"
       "kill -TERM $p; wait $p; cat err >&2");
-  EXPECT_NE(run.err.find(" %, 0 of 2 scenes"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" %, 0 of 2 scenes"), string::npos) << run.err;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -25,7 +26,7 @@ const char* const sweep =
     "grid: {balls.red.mass: [5, 10]}\n";
 
 /// A program of this name in bin/, a shell script.
-void put_program(const Workplace& here, const std::string& name, const std::string& script) {
+void put_program(const Workplace& here, const string& name, const string& script) {
   here.write("bin/" + name, "#!/bin/sh\n" + script + "\n");
   chmod(here.path("bin/" + name).c_str(), 0755);
 }
@@ -47,7 +48,7 @@ TEST_P(HangingProgram, FfmpegIsLeftAtTheFirstSignal) {
     const Workplace here;
     here.write("balls.yaml", two_balls(film));
     put_program(here, "ffmpeg", "echo $$ > \"" + here.path("started") + "\"; " + script);
-    const std::string path = std::getenv("PATH");
+    const string path = std::getenv("PATH");
     setenv("PATH", (here.path("bin") + ":" + path).c_str(), 1);
     const auto start = std::chrono::steady_clock::now();
     const Finished run =
@@ -66,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, HangingProgram, ::testing::Values(SIGINT, SIGT
 // One polygon of many corners takes longer to read than the test allows.
 TEST(HangingMesh, IsLeftAtTheFirstSignal) {
   const Workplace here;
-  std::string mesh, face = "f";
+  string mesh, face = "f";
   for (int k = 0; k < 32'000; ++k) {
     const double angle = 0.00019634954 * k, radius = k % 2 == 0 ? 1 : 0.9;  // a star
     mesh += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
@@ -91,12 +92,12 @@ TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
   here.carom({"run", "balls.yaml", "-o", "b", "--set", "balls.red.mass=5"});
   ASSERT_EQ(here.carom({"compare", "a", "b", "-o", "whole"}).code, 0);
   // Blocks of 512 bytes: too few for a part of the workbook, and for the parts together.
-  const std::size_t blocks = (here.read("whole/comparison.xlsx").size() - 1) / 512;
-  for (const std::size_t limit : {std::size_t{4}, blocks}) {
+  const size_t blocks = (here.read("whole/comparison.xlsx").size() - 1) / 512;
+  for (const size_t limit : {size_t{4}, blocks}) {
     const Finished compare =
         here.shell("ulimit -f " + std::to_string(limit) + "; exec \"$CAROM\" compare a b -o out --progress none");
     EXPECT_EQ(compare.code, 1);
-    EXPECT_NE(compare.err.find("carom: cannot write out/comparison.xlsx: File too large\n"), std::string::npos)
+    EXPECT_NE(compare.err.find("carom: cannot write out/comparison.xlsx: File too large\n"), string::npos)
         << compare.err;
     EXPECT_FALSE(here.has("out"));
   }
@@ -127,13 +128,13 @@ class OwnPrograms {
   OwnPrograms& operator=(const OwnPrograms&) = delete;
 
  private:
-  std::string path_;
+  string path_;
 };
 
 // The disk of a test is not full. An ffmpeg that reports one stands for it.
 const char* const full_disk = "echo started >> \"$LOG\"; echo 'cannot write: No space left on device' >&2; exit 1";
 
-const std::string remedy = "  make room, then the same command runs what is missing, or write elsewhere with -o\n";
+const string remedy = "  make room, then the same command runs what is missing, or write elsewhere with -o\n";
 
 TEST(FullDisk, EndsASweepAtItsFirstErrorWithOneRemedy) {
   for (const char* jobs : {"1", "2"}) {
@@ -151,8 +152,8 @@ TEST(FullDisk, EndsASweepAtItsFirstErrorWithOneRemedy) {
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy +
                                   "carom: sweep.yaml: 0 runs made, 12 not run\n"))
         << run.err;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 3) << run.err;
-    EXPECT_LE(here.read("log").size(), std::string("started\n").size() * std::stoul(jobs));
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 3) << run.err;
+    EXPECT_LE(here.read("log").size(), string("started\n").size() * std::stoul(jobs));
     EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "out"}).code, 0);
   }
 }
@@ -162,11 +163,10 @@ TEST(FullDisk, CountsTheRunsOfASweepThatAreMadeAndNotRun) {
   here.write("balls.yaml", two_balls(film));
   here.write("sweep.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.mass: [1, 2, 3, 4, 5]}\n");
   here.carom({"sweep", "sweep.yaml", "-o", "out", "-q"});
-  for (const char* run : {"r0002", "r0004", "r0005"}) fs::remove_all(here.path(std::string("out/runs/") + run));
+  for (const char* run : {"r0002", "r0004", "r0005"}) fs::remove_all(here.path(string("out/runs/") + run));
   // The first film has room.
-  put_program(
-      here, "ffmpeg",
-      "[ -e \"$LOG\" ] || { echo > \"$LOG\"; PATH=${PATH#*:}; exec ffmpeg \"$@\"; }\n" + std::string(full_disk));
+  put_program(here, "ffmpeg",
+              "[ -e \"$LOG\" ] || { echo > \"$LOG\"; PATH=${PATH#*:}; exec ffmpeg \"$@\"; }\n" + string(full_disk));
   setenv("LOG", here.path("log").c_str(), 1);
   const OwnPrograms programs(here);
   const Finished run = here.carom({"sweep", "sweep.yaml", "-o", "out", "-j", "1", "--json", "--progress", "none"});
@@ -191,9 +191,9 @@ TEST(FullDisk, EndsARunOfSeveralScenesWithOneError) {
         here.carom({"run", "a.yaml", "b.yaml", "c.yaml", "d.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
     EXPECT_EQ(run.code, 1);
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy)) << run.err;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 2) << run.err;
     EXPECT_TRUE(run.out.starts_with("4 scenes: 1 failed, 3 not run, in ")) << run.out;
-    EXPECT_LE(here.read("log").size(), std::string("started\n").size() * std::stoul(jobs));
+    EXPECT_LE(here.read("log").size(), string("started\n").size() * std::stoul(jobs));
   }
 }
 

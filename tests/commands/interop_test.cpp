@@ -8,13 +8,14 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-const std::string solids = SOURCE_DIR "/tests/interop/solids.yaml";
+const string solids = SOURCE_DIR "/tests/interop/solids.yaml";
 
-std::string read_back(const Workplace& here, const std::string& folder) {
+string read_back(const Workplace& here, const string& folder) {
   const Finished done = here.shell("/usr/bin/python3 " SOURCE_DIR "/tests/interop/read_back.py " + folder);
   return done.out + done.err;
 }
@@ -33,7 +34,7 @@ TEST(Interop, BodiesThatBecomePartOfOthersVanish) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(read_back(here, "output/clay"), "vtk\nxyz\ngltf\n");
   // The merged lump's radius, from the scene's comment.
-  EXPECT_NE(here.read("output/clay/trajectory.xyz").find(" 0.3301927248894"), std::string::npos);
+  EXPECT_NE(here.read("output/clay/trajectory.xyz").find(" 0.3301927248894"), string::npos);
 }
 
 TEST(Interop, DrawnMeshesAreInTheFiles) {
@@ -67,7 +68,7 @@ TEST(Interop, OnlyAddsThemWithDefaultSettings) {
   EXPECT_EQ(manifest["outputs"]["gltf"]["fps"], 30);
   EXPECT_EQ(manifest["files"].size() + 1, files.size());
   // The run is up to date; a run without these files would remove them, so it needs --force.
-  EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "vtk,xyz,gltf"}).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "vtk,xyz,gltf"}).out.find("up to date"), string::npos);
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).code, 2);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--only", "energy", "--force", "-q"}).code, 0);
   EXPECT_EQ(here.files("output/balls").size(), 4U);
@@ -102,12 +103,12 @@ TEST(Interop, TooManyFilesAndKeysAreRefused) {
   here.write("vtk.yaml", two_balls("output:\n  vtk: {every: 1e-6}\n"));
   const Finished files = here.carom({"check", "vtk.yaml"});
   EXPECT_EQ(files.code, 2);
-  EXPECT_NE(files.err.find("files in vtk/; the limit is 100000"), std::string::npos) << files.err;
+  EXPECT_NE(files.err.find("files in vtk/; the limit is 100000"), string::npos) << files.err;
   here.write("gltf.yaml", two_balls("output:\n  gltf: {fps: 1e8}\n"));
   const Finished keys = here.carom({"check", "gltf.yaml"});
   EXPECT_EQ(keys.code, 2);
-  EXPECT_NE(keys.err.find("keyframes of animation.glb; the limit is 10000000"), std::string::npos) << keys.err;
-  EXPECT_NE(keys.err.find("expected a lower `fps`, a shorter duration or fewer bodies"), std::string::npos) << keys.err;
+  EXPECT_NE(keys.err.find("keyframes of animation.glb; the limit is 10000000"), string::npos) << keys.err;
+  EXPECT_NE(keys.err.find("expected a lower `fps`, a shorter duration or fewer bodies"), string::npos) << keys.err;
 }
 
 TEST(Interop, BytesArePredicted) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// The only error of a command that must fail with exit code 2. It is that of the first scene, if the document has any.
-Json error_of(const Workplace& here, std::vector<std::string> words) {
+Json error_of(const Workplace& here, vector<string> words) {
   words.emplace_back("--json");
   const Finished run = here.carom(words);
   EXPECT_EQ(run.code, 2) << run.err;
@@ -30,11 +31,11 @@ TEST(JsonErrors, OfASceneHavePlaceMessageRemedyAndTheNearName) {
                          {"message", "unknown key `camra` in the scene"},
                          {"remedy", "did you mean `camera`?"},
                          {"near", "camera"}};
-  for (const std::string command : {"run", "check", "bench"}) EXPECT_EQ(error_of(here, {command, "a.yaml"}), expected);
+  for (const string command : {"run", "check", "bench"}) EXPECT_EQ(error_of(here, {command, "a.yaml"}), expected);
   here.write("s.yaml", "sweep: 1\nbase: a.yaml\ngrid: {balls.red.mass: [1, 2]}\n");
-  for (const std::string command : {"sweep", "submit"})
-    EXPECT_EQ(error_of(here, command == "sweep" ? std::vector<std::string>{command, "s.yaml"}
-                                                : std::vector<std::string>{command, "s.yaml", "--slurm"}),
+  for (const string command : {"sweep", "submit"})
+    EXPECT_EQ(error_of(here, command == "sweep" ? vector<string>{command, "s.yaml"}
+                                                : vector<string>{command, "s.yaml", "--slurm"}),
               expected);
 }
 
@@ -55,13 +56,13 @@ TEST(JsonErrors, OfFoldersAndOptionsHaveTheSameMembers) {
   here.write("output/a/notes.txt", "mine");
   const Json folder = error_of(here, {"run", "a.yaml"});
   EXPECT_EQ(folder.at("file"), "a.yaml");
-  EXPECT_NE(folder.at("message").get<std::string>().find("the folder output/a holds"), std::string::npos);
+  EXPECT_NE(folder.at("message").get<string>().find("the folder output/a holds"), string::npos);
   EXPECT_EQ(folder.at("remedy"), "write elsewhere with -o, or overwrite it with --force");
   EXPECT_EQ(error_of(here, {"run", "a.yaml", "--engin", "exact"}).at("near"), nullptr);
   EXPECT_EQ(error_of(here, {"run", "a.yaml", "--onl", "energy"}).at("near"), "--only");
-  for (const std::string command : {"diff", "compare", "gather", "render", "plot"}) {
-    const Json error = error_of(here, command == "diff" ? std::vector<std::string>{command, "no", "none"}
-                                                        : std::vector<std::string>{command, "no"});
+  for (const string command : {"diff", "compare", "gather", "render", "plot"}) {
+    const Json error =
+        error_of(here, command == "diff" ? vector<string>{command, "no", "none"} : vector<string>{command, "no"});
     for (const char* member : {"file", "line", "column", "message", "remedy", "near"})
       EXPECT_TRUE(error.contains(member)) << command;
   }
@@ -71,8 +72,7 @@ TEST(JsonErrors, OfFoldersAndOptionsHaveTheSameMembers) {
 TEST(JsonErrors, OfTheCommandLineHaveTheirRemedyApart) {
   const Workplace here;
   here.write("a.yaml", two_balls());
-  const auto expect = [&](const std::vector<std::string>& words, const std::string& message,
-                          const std::string& remedy) {
+  const auto expect = [&](const vector<string>& words, const string& message, const string& remedy) {
     const Json error = error_of(here, words);
     EXPECT_EQ(error.at("message"), message);
     EXPECT_EQ(error.at("remedy"), remedy);

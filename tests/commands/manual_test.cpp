@@ -7,27 +7,28 @@
 #include "commands/program.h"
 #include "scene/field_places.h"
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t i = text.find(from); i != std::string::npos; i = text.find(from, i + to.size()))
+string replaced(string text, const string& from, const string& to) {
+  for (size_t i = text.find(from); i != string::npos; i = text.find(from, i + to.size()))
     text.replace(i, from.size(), to);
   return text;
 }
 
 TEST(ManualPage, HasEveryCommandItsExamplesAndItsOptions) {
-  const std::string page = manual_page();
+  const string page = manual_page();
   for (const Command& command : commands()) {
-    const std::string head = ".SS carom " + command.text.name + "\n";
-    const std::size_t begin = page.find(head);
-    ASSERT_NE(begin, std::string::npos) << head;
-    const std::string section = page.substr(begin, page.find(".S", begin + 3) - begin);
+    const string head = ".SS carom " + command.text.name + "\n";
+    const size_t begin = page.find(head);
+    ASSERT_NE(begin, string::npos) << head;
+    const string section = page.substr(begin, page.find(".S", begin + 3) - begin);
     for (const OptionUse& use : command.text.options)
-      EXPECT_NE(section.find("\\fB" + replaced(std::string(use.name), "-", "\\-") + "\\fR"), std::string::npos)
+      EXPECT_NE(section.find("\\fB" + replaced(string(use.name), "-", "\\-") + "\\fR"), string::npos)
           << command.text.name << " " << use.name;
-    EXPECT_NE(section.find("carom " + command.text.name), std::string::npos);
+    EXPECT_NE(section.find("carom " + command.text.name), string::npos);
   }
 }
 
@@ -36,16 +37,16 @@ TEST(ManualPage, IsSetByGroffWithoutAWarning) {
   const Finished set = here.shell(R"("$CAROM" --man | groff -man -Tutf8 -ww -rLL=100n -P-c -P-b -P-u)");
   ASSERT_EQ(set.code, 0) << set.err;
   EXPECT_EQ(set.err, "");
-  EXPECT_NE(set.out.find("carom run scenes/two_bowling_balls.yaml\n"), std::string::npos) << set.out;
-  EXPECT_NE(set.out.find("--output DIR"), std::string::npos);
-  EXPECT_NE(set.out.find("EXIT STATUS"), std::string::npos);
-  EXPECT_EQ(set.out.find('\\'), std::string::npos);
+  EXPECT_NE(set.out.find("carom run scenes/two_bowling_balls.yaml\n"), string::npos) << set.out;
+  EXPECT_NE(set.out.find("--output DIR"), string::npos);
+  EXPECT_NE(set.out.find("EXIT STATUS"), string::npos);
+  EXPECT_EQ(set.out.find('\\'), string::npos);
 }
 
 TEST(SettablePaths, ArePathsOfExplain) {
   ASSERT_GT(settable_paths().size(), 30u);
-  for (const std::string& path : settable_paths()) EXPECT_FALSE(find_places(path).empty()) << path;
-  for (const std::string& path : plain_paths()) EXPECT_FALSE(find_places(path).empty()) << path;
+  for (const string& path : settable_paths()) EXPECT_FALSE(find_places(path).empty()) << path;
+  for (const string& path : plain_paths()) EXPECT_FALSE(find_places(path).empty()) << path;
 }
 
 /// Bash's completions of the last word, sorted, in a folder with some files.
@@ -58,7 +59,7 @@ class BashCompletion : public ::testing::Test {
     here_.write("scenes/notes.txt", "");
     here_.write("output/one/summary.csv", "");
   }
-  std::string offered(const std::string& words) const {
+  string offered(const string& words) const {
     const Finished bash = here_.shell(R"(bash -c '
       compopt() { :; }
       source completion || exit 9
@@ -86,7 +87,7 @@ TEST_F(BashCompletion, OffersTheOptionsOfTheCommandAndNoOthers) {
   EXPECT_EQ(offered("carom schema --f"), "");
   for (const Command& command : commands())
     for (const OptionUse& use : options_of(command.text))
-      EXPECT_EQ(offered("carom " + command.text.name + " " + std::string(use.name)).find(use.name), 0u)
+      EXPECT_EQ(offered("carom " + command.text.name + " " + string(use.name)).find(use.name), 0u)
           << command.text.name << " " << use.name;
 }
 

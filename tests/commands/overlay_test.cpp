@@ -2,21 +2,22 @@
 #include <gtest/gtest.h>
 
 #include "commands/program.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-using Files = std::map<std::string, std::string>;
-using Words = std::vector<std::string>;
+using Files = std::map<string, string>;
+using Words = vector<string>;
 
-const std::string small_frames =
+const string small_frames =
     "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n"
     "output: {frames: {fps: 4, size: [96, 54], samples: 1}}\n";
 
-Files frames_of(const Workplace& here, const std::string& folder) {
+Files frames_of(const Workplace& here, const string& folder) {
   Files frames;
   for (const auto& [name, bytes] : here.files(folder))
-    if (name.find("frame_") != std::string::npos) frames[name.substr(name.rfind('/') + 1)] = bytes;
+    if (name.find("frame_") != string::npos) frames[name.substr(name.rfind('/') + 1)] = bytes;
   return frames;
 }
 
@@ -43,8 +44,8 @@ TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
   const Workplace here;
   here.write("balls.yaml", two_balls(small_frames));
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run"}).code, 0);
-  for (const std::string& set : {std::string("caption=\"{collisions} so far\""), std::string("flash=true"),
-                                 std::string("balls.red.color={by: collisions}")}) {
+  for (const string& set :
+       {string("caption=\"{collisions} so far\""), string("flash=true"), string("balls.red.color={by: collisions}")}) {
     const Finished rendered = here.carom({"render", "run", "--set", set, "-o", "b", "--force", "--progress", "none"});
     EXPECT_EQ(rendered.code, 0) << rendered.err;
     EXPECT_EQ(rendered.err, "run: the pictures show collisions, which its flights do not hold: simulating again\n")
@@ -57,11 +58,11 @@ TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
 TEST(Overlay, ThatShowsCollisionsIsInTheRecordOfItsRun) {
   const Workplace here;
   for (const char* more : {"caption: \"{collisions} so far\"\n", "flash: true\n"}) {
-    here.write("balls.yaml", two_balls(more + std::string(small_frames)));
+    here.write("balls.yaml", two_balls(more + string(small_frames)));
     ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "a/run", "--force"}).code, 0);
-    const std::vector<std::string> render = {"render", "a/run", "--set",   "camera={eye: [1, 1, 4], target: [1, 0, 0]}",
-                                             "-o",     "b/run", "--force", "--progress",
-                                             "none"};
+    const vector<string> render = {"render", "a/run", "--set",   "camera={eye: [1, 1, 4], target: [1, 0, 0]}",
+                                   "-o",     "b/run", "--force", "--progress",
+                                   "none"};
     const Finished rendered = here.carom(render);
     EXPECT_EQ(rendered.code, 0);
     EXPECT_EQ(rendered.err, "");
@@ -75,10 +76,10 @@ TEST(Overlay, ThatShowsCollisionsIsInTheRecordOfItsRun) {
 
 TEST(Overlay, OfAStillIsThatOfTheFrameAtItsTime) {
   const Workplace here;
-  for (const std::string& more :
-       {std::string("trails: {seconds: 0.3}\nshutter: 0.5\narrows: [force]\ncaption: \"{time} s in {run}\"\n"),
-        std::string("flash: true\ncaption: \"{collisions}, {time} s\"\n"),
-        std::string("trails: true\nforces: [{drag: {quadratic: 0.1}}]\ncaption: \"{time} s\"\n")}) {
+  for (const string& more :
+       {string("trails: {seconds: 0.3}\nshutter: 0.5\narrows: [force]\ncaption: \"{time} s in {run}\"\n"),
+        string("flash: true\ncaption: \"{collisions}, {time} s\"\n"),
+        string("trails: true\nforces: [{drag: {quadratic: 0.1}}]\ncaption: \"{time} s\"\n")}) {
     here.write("balls.yaml", two_balls(more + "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n"
                                               "output: {frames: {fps: 10, size: [96, 54], samples: 1}}\n"));
     ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run", "--force"}).code, 0);
@@ -90,7 +91,7 @@ TEST(Overlay, OfAStillIsThatOfTheFrameAtItsTime) {
 
 TEST(Overlay, OfAStillIsDrawnAlsoForASceneWithoutPictures) {
   const Workplace here;
-  const std::string shown = "trails: true\nflash: true\ncamera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
+  const string shown = "trails: true\nflash: true\ncamera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
   here.write("none.yaml", two_balls(shown + "output: {flights: true}\n"));
   here.write("frames.yaml", two_balls(shown + "output: {frames: {fps: 2}}\n"));
   ASSERT_EQ(here.carom({"run", "none.yaml"}).code, 0);
@@ -105,8 +106,8 @@ TEST(Overlay, OfASweepHasTheValuesAndTheNameOfEachRun) {
   here.write("balls.yaml", two_balls("caption: \"{run}, {balls.red.mass} kg\"\n" + small_frames));
   const Finished sweep = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,1.0,2", "-o", "s", "--quiet"});
   ASSERT_EQ(sweep.code, 0) << sweep.err;
-  EXPECT_NE(here.read("s/runs/r0001/scene.yaml").find("caption: \"{run}, 1 kg\"\n"), std::string::npos);
-  EXPECT_NE(here.read("s/runs/r0003/scene.yaml").find("caption: \"{run}, 2 kg\"\n"), std::string::npos);
+  EXPECT_NE(here.read("s/runs/r0001/scene.yaml").find("caption: \"{run}, 1 kg\"\n"), string::npos);
+  EXPECT_NE(here.read("s/runs/r0003/scene.yaml").find("caption: \"{run}, 2 kg\"\n"), string::npos);
   EXPECT_NE(frames_of(here, "s/runs/r0001"), frames_of(here, "s/runs/r0002"));
   const Finished again = here.carom({"run", "s/runs/r0002/scene.yaml", "-o", "x/r0002"});
   ASSERT_EQ(again.code, 0) << again.err;
@@ -127,22 +128,22 @@ TEST(Overlay, OfATransparentSceneHasNoMp4) {
   EXPECT_EQ(film.code, 2);
   EXPECT_NE(film.err.find("an MP4 has no transparency, and `background` is `none`; write frames, a .gif or a .webp, or "
                           "give the background a colour"),
-            std::string::npos)
+            string::npos)
       << film.err;
 }
 
 TEST(Overlay, OfATransparentSceneWithAnMp4IsRefusedOnlyIfTheFilmIsMade) {
   const Workplace here;
   here.write("balls.yaml", two_balls("background: none\noutput: {frames: {fps: 2, size: [64, 36]}, video: true}\n"));
-  const std::string wrong = "an MP4 has no transparency, and `background` is `none`";
+  const string wrong = "an MP4 has no transparency, and `background` is `none`";
   for (const char* command : {"run", "check"}) {
     const Finished whole = here.carom({command, "balls.yaml"});
     EXPECT_EQ(whole.code, 2);
-    EXPECT_NE(whole.err.find(wrong), std::string::npos) << whole.err;
+    EXPECT_NE(whole.err.find(wrong), string::npos) << whole.err;
   }
   const Finished film = here.carom({"run", "balls.yaml", "--only", "frames,video"});
   EXPECT_EQ(film.code, 2);
-  EXPECT_NE(film.err.find(wrong), std::string::npos) << film.err;
+  EXPECT_NE(film.err.find(wrong), string::npos) << film.err;
   const Finished frames = here.carom({"run", "balls.yaml", "--only", "frames", "-o", "out"});
   EXPECT_EQ(frames.code, 0) << frames.err;
   EXPECT_TRUE(here.has("out/frames/frame_00000.png"));

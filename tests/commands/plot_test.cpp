@@ -4,19 +4,20 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-using Files = std::map<std::string, std::string>;
-using Words = std::vector<std::string>;
+using Files = std::map<string, string>;
+using Words = vector<string>;
 
-Files charts_in(const Workplace& here, const std::string& folder) {
+Files charts_in(const Workplace& here, const string& folder) {
   return here.files(folder + "/plots");
 }
 
 /// carom run of a scene of scenes/ with these outputs.
-void run_ours(const Workplace& here, const std::string& scene, const std::string& only, const std::string& to) {
+void run_ours(const Workplace& here, const string& scene, const string& only, const string& to) {
   const Finished run = here.carom({"run", SCENES_DIR "/" + scene + ".yaml", "--only", only, "-o", to, "-q"});
   ASSERT_EQ(run.code, 0) << run.err;
 }
@@ -43,7 +44,7 @@ TEST_P(Plotted, FromPathsIsWhatTheRunItselfDraws) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Plotted, ::testing::Values("bouncing_ball", "gas_in_a_room", "clay"),
-                         [](const auto& scene) { return std::string(scene.param); });
+                         [](const auto& scene) { return string(scene.param); });
 
 TEST(PlotRuns, IntoAnotherFolderIsTheRunOfThePlotsAlone) {
   const Workplace here;
@@ -56,7 +57,7 @@ TEST(PlotRuns, IntoAnotherFolderIsTheRunOfThePlotsAlone) {
   for (const Words& again : {Words{"plot", "run", "-o", "charts"},
                              {"plot", "charts"},
                              {"run", "run/scene.yaml", "--only", "plots", "-o", "charts"}})
-    EXPECT_NE(here.carom(again).out.find("up to date"), std::string::npos) << again[0];
+    EXPECT_NE(here.carom(again).out.find("up to date"), string::npos) << again[0];
 }
 
 TEST(PlotRuns, OfTablesThatTheSceneDoesNotListHasASceneThatListsThem) {
@@ -77,8 +78,8 @@ TEST(PlotRuns, KeepsTheOtherFilesAndLeavesTheRunUpToDate) {
   const Files after = here.files("run");
   for (const auto& [name, bytes] : before) EXPECT_TRUE(name == "manifest.json" || after.at(name) == bytes) << name;
   EXPECT_EQ(after.size(), before.size() + 8);
-  EXPECT_NE(here.carom({"run", "balls.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
-  EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom({"run", "balls.yaml", "-o", "run"}).out.find("up to date"), string::npos);
+  EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), string::npos);
   const auto manifest = nlohmann::json::parse(here.read("run/manifest.json"));
   EXPECT_EQ(manifest["outputs"]["plots"], true);
   EXPECT_EQ(manifest["files"].size(), after.size() - 1);
@@ -93,12 +94,12 @@ TEST(PlotRuns, DrawsAgainWhatIsMissingOrForced) {
   here.write("run/plots/energy.svg", "something else");
   const Finished refused = here.carom({"plot", "run"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("holds a run of this scene with a changed file, plots/energy.svg"), std::string::npos)
+  EXPECT_NE(refused.err.find("holds a run of this scene with a changed file, plots/energy.svg"), string::npos)
       << refused.err;
   here.shell("rm run/plots/energy.svg");
-  EXPECT_NE(here.carom({"plot", "run"}).out.find("wrote"), std::string::npos);
+  EXPECT_NE(here.carom({"plot", "run"}).out.find("wrote"), string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
-  EXPECT_NE(here.carom({"plot", "run", "--force"}).out.find("wrote"), std::string::npos);
+  EXPECT_NE(here.carom({"plot", "run", "--force"}).out.find("wrote"), string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
   here.write("run/energy.csv", "time_s\n");
   const Finished changed = here.carom({"plot", "run", "--force"});
@@ -119,9 +120,8 @@ TEST(PlotRuns, NamesTheKeyOfAChartThatTheRunHasNoDataFor) {
             "  left out    collisions: the run has no collisions.csv, which the key output.collisions gives\n"
             "  wrote       run/plots: energy, each as SVG and PNG\n");
   EXPECT_EQ(charts_in(here, "run").size(), 2u);
-  EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), std::string::npos);
-  EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "energy", "-o", "run"}).out.find("up to date"),
-            std::string::npos);
+  EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), string::npos);
+  EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "energy", "-o", "run"}).out.find("up to date"), string::npos);
   // A run has all data, so its charts are not up to date.
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy,plots", "-o", "run", "-q"}).code, 0);
   EXPECT_EQ(charts_in(here, "run").size(), 8u);
@@ -154,8 +154,7 @@ TEST(PlotRuns, WithoutGnuplotNamesTheRemedy) {
 TEST(PlotRuns, OfSeveralRunsIsTheSameForAnyNumberOfJobs) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
-  for (const char* name : {"a", "b"})
-    here.carom({"run", "balls.yaml", "--set", std::string("title=") + name, "-o", name});
+  for (const char* name : {"a", "b"}) here.carom({"run", "balls.yaml", "--set", string("title=") + name, "-o", name});
   ASSERT_EQ(here.carom({"plot", "a", "b", "-o", "one"}).code, 0);
   ASSERT_EQ(here.carom({"plot", "a", "b", "-o", "two", "-j", "2"}).code, 0);
   EXPECT_EQ(here.files("one"), here.files("two"));

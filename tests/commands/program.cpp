@@ -12,12 +12,14 @@
 #include <sstream>
 #include <thread>
 
+#include "std.h"
+
 namespace carom::testing {
 
 namespace fs = std::filesystem;
 
 Workplace::Workplace() {
-  std::string name = ::testing::TempDir() + "carom_XXXXXX";
+  string name = ::testing::TempDir() + "carom_XXXXXX";
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = name;
 }
@@ -27,36 +29,36 @@ Workplace::~Workplace() {
   fs::remove_all(folder_, ignored);
 }
 
-void Workplace::write(const std::string& name, const std::string& text) const {
+void Workplace::write(const string& name, const string& text) const {
   fs::create_directories(fs::path(path(name)).parent_path());
   std::ofstream(path(name), std::ios::binary) << text;
 }
 
-std::string Workplace::read(const std::string& name) const {
+string Workplace::read(const string& name) const {
   std::ifstream file(path(name), std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
 
-bool Workplace::has(const std::string& name) const {
+bool Workplace::has(const string& name) const {
   return fs::exists(path(name));
 }
 
-std::map<std::string, std::string> Workplace::files(const std::string& name) const {
-  std::map<std::string, std::string> found;
+std::map<string, string> Workplace::files(const string& name) const {
+  std::map<string, string> found;
   if (!has(name)) return found;
   for (const auto& entry : fs::recursive_directory_iterator(path(name))) {
     if (!entry.is_regular_file()) continue;
-    const std::string relative = entry.path().lexically_relative(path(name)).generic_string();
+    const string relative = entry.path().lexically_relative(path(name)).generic_string();
     if (relative.starts_with(".stdout") || relative.starts_with(".stderr")) continue;
     found[relative] = read(name + "/" + relative);
   }
   return found;
 }
 
-int Workplace::start(const std::vector<std::string>& words) const {
-  const std::string out = path(".stdout"), err = path(".stderr");
+int Workplace::start(const vector<string>& words) const {
+  const string out = path(".stdout"), err = path(".stderr");
   const pid_t process = fork();
   if (process != 0) return process;
   signal(SIGINT, SIG_DFL);
@@ -66,9 +68,9 @@ int Workplace::start(const std::vector<std::string>& words) const {
   const bool placed = chdir(folder_.c_str()) == 0 && dup2(open("/dev/null", O_RDONLY), 0) == 0 &&
                       dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), 1) == 1 &&
                       dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), 2) == 2;
-  std::vector<char*> argv;
-  std::vector<std::string> copy = words;
-  for (std::string& word : copy) argv.push_back(word.data());
+  vector<char*> argv;
+  vector<string> copy = words;
+  for (string& word : copy) argv.push_back(word.data());
   argv.push_back(nullptr);
   if (placed) execv(argv[0], argv.data());
   _exit(127);
@@ -80,18 +82,18 @@ Finished Workplace::finish(int process) const {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read(".stdout"), read(".stderr")};
 }
 
-Finished Workplace::carom(const std::vector<std::string>& words) const {
-  std::vector<std::string> line = {CAROM_PROGRAM};
+Finished Workplace::carom(const vector<string>& words) const {
+  vector<string> line = {CAROM_PROGRAM};
   line.insert(line.end(), words.begin(), words.end());
   return finish(start(line));
 }
 
-Finished Workplace::shell(const std::string& command) const {
+Finished Workplace::shell(const string& command) const {
   return finish(start({"/bin/sh", "-c", command}));
 }
 
-Finished Workplace::interrupted(const std::vector<std::string>& words, const std::string& sign, int signal) const {
-  std::vector<std::string> line = {CAROM_PROGRAM};
+Finished Workplace::interrupted(const vector<string>& words, const string& sign, int signal) const {
+  vector<string> line = {CAROM_PROGRAM};
   line.insert(line.end(), words.begin(), words.end());
   const int process = start(line);
   for (int i = 0; i < 2000 && !has(sign); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -99,9 +101,8 @@ Finished Workplace::interrupted(const std::vector<std::string>& words, const std
   return finish(process);
 }
 
-Finished Workplace::interrupted_after(const std::vector<std::string>& words, std::chrono::milliseconds time,
-                                      int signal) const {
-  std::vector<std::string> line = {CAROM_PROGRAM};
+Finished Workplace::interrupted_after(const vector<string>& words, std::chrono::milliseconds time, int signal) const {
+  vector<string> line = {CAROM_PROGRAM};
   line.insert(line.end(), words.begin(), words.end());
   const int process = start(line);
   std::this_thread::sleep_for(time);
@@ -109,7 +110,7 @@ Finished Workplace::interrupted_after(const std::vector<std::string>& words, std
   return finish(process);
 }
 
-std::string two_balls(const std::string& more) {
+string two_balls(const string& more) {
   return "scene: 1\n"
          "title: Two balls\n"
          "gravity: [0, 0, 0]\n"

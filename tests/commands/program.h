@@ -2,15 +2,14 @@
 // The real program as a subprocess, in its own folder.
 #include <chrono>
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
+
+#include "std.h"
 
 namespace carom::testing {
 
 struct Finished {
   int code = -1;  // exit code; 1000 + signal if a signal ended it
-  std::string out, err;
+  string out, err;
 };
 
 /// A fresh folder for a test's commands; removed at the end.
@@ -21,37 +20,37 @@ class Workplace {
   Workplace(const Workplace&) = delete;
   Workplace& operator=(const Workplace&) = delete;
 
-  void write(const std::string& name, const std::string& text) const;
-  std::string read(const std::string& name) const;  // empty if it is not there
-  bool has(const std::string& name) const;
+  void write(const string& name, const string& text) const;
+  string read(const string& name) const;  // empty if it is not there
+  bool has(const string& name) const;
   /// Every file below `name`, by path: its bytes.
-  std::map<std::string, std::string> files(const std::string& name = ".") const;
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::map<string, string> files(const string& name = ".") const;
+  string path(const string& name) const { return folder_ + "/" + name; }
 
   /// Runs `carom words...` here, stdin empty, stdout and stderr files, NO_COLOR not set.
-  Finished carom(const std::vector<std::string>& words) const;
+  Finished carom(const vector<string>& words) const;
   /// The same by a shell, "$CAROM" being the program.
-  Finished shell(const std::string& command) const;
+  Finished shell(const string& command) const;
   /// Starts the program, sends `signal` as soon as the file or folder `sign` is there, and waits.
-  Finished interrupted(const std::vector<std::string>& words, const std::string& sign, int signal) const;
+  Finished interrupted(const vector<string>& words, const string& sign, int signal) const;
   /// Starts the program, sends `signal` after this time, and waits.
-  Finished interrupted_after(const std::vector<std::string>& words, std::chrono::milliseconds time, int signal) const;
+  Finished interrupted_after(const vector<string>& words, std::chrono::milliseconds time, int signal) const;
 
  private:
-  int start(const std::vector<std::string>& words) const;
+  int start(const vector<string>& words) const;
   Finished finish(int process) const;
-  std::string folder_;
+  string folder_;
 };
 
 /// The same files without the run's own manifest, which has times.
-inline std::map<std::string, std::string> without_manifest(std::map<std::string, std::string> files) {
+inline std::map<string, string> without_manifest(std::map<string, string> files) {
   files.erase("manifest.json");
   return files;
 }
 
-inline const std::string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
+inline const string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
 
 /// Two balls that meet at 0.4472... s, small enough for any test. `more`: further top-level lines.
-std::string two_balls(const std::string& more = tables);
+string two_balls(const string& more = tables);
 
 }  // namespace carom::testing

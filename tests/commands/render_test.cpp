@@ -9,18 +9,19 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-using Files = std::map<std::string, std::string>;
-using Words = std::vector<std::string>;
+using Files = std::map<string, string>;
+using Words = vector<string>;
 
-const std::string frames = "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n";
-const std::string near_camera = "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
+const string frames = "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n";
+const string near_camera = "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
 
 /// carom run of a scene of scenes/, small and few pictures, into the folder `to`.
-void run_scene_of_ours(const Workplace& here, const std::string& scene, const std::string& to, const Words& more = {}) {
+void run_scene_of_ours(const Workplace& here, const string& scene, const string& to, const Words& more = {}) {
   Words words = {"run",     SCENES_DIR "/" + scene + ".yaml",
                  "-o",      to,
                  "--only",  "frames,flights,energy",
@@ -48,7 +49,7 @@ TEST_P(Rendered, WithAnotherRateIsWhatARunWithThatRateWrites) {
   ASSERT_EQ(here.carom(to).code, 0);
   EXPECT_EQ(without_manifest(here.files("render")), without_manifest(here.files("fresh")));
   to.back() = "render";
-  EXPECT_NE(here.carom(to).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom(to).out.find("up to date"), string::npos);
 }
 
 TEST_P(Rendered, WithoutAChangeHasTheBytesOfTheRun) {
@@ -63,7 +64,7 @@ TEST_P(Rendered, WithoutAChangeHasTheBytesOfTheRun) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Rendered,
                          ::testing::Values("bouncing_ball", "clay", "rolling_off", "wall_fly_over", "ten_pins", "gust",
                                            "pyramid", "two_bowling_balls_e11", "gas_in_a_room", "slack_pendulum"),
-                         [](const auto& scene) { return std::string(scene.param); });
+                         [](const auto& scene) { return string(scene.param); });
 
 TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   const Workplace here;
@@ -77,20 +78,20 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   render.insert(render.end(), set.begin(), set.end());
   const Finished done = here.carom(render);
   EXPECT_EQ(done.code, 0) << done.err;
-  EXPECT_NE(done.out.find("run: From above\n"), std::string::npos);
+  EXPECT_NE(done.out.find("run: From above\n"), string::npos);
   EXPECT_NE(done.out.find("  wrote       run: animation.glb, manifest.json, scene.yaml, summary.csv, surfaces.vtp,\n"
                           "              trajectory.pvd, 4 pictures in frames/ and 31 instants in vtk/\n"),
-            std::string::npos)
+            string::npos)
       << done.out << "not collisions.csv, energy.csv and flights.bin, which stay";
   Words fresh = {"run", "balls.yaml", "-o", "fresh"};
   fresh.insert(fresh.end(), set.begin(), set.end());
   here.carom(fresh);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(here.files("fresh")));
   EXPECT_FALSE(here.has("run/frames/frame_00004.png"));
-  EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
-  EXPECT_NE(here.carom({"render", "run"}).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), string::npos);
+  EXPECT_NE(here.carom({"render", "run"}).out.find("up to date"), string::npos);
   // All except measurements and the order of the files.
-  const auto facts = [&](const std::string& folder) {
+  const auto facts = [&](const string& folder) {
     auto json = nlohmann::json::parse(here.read(folder + "/manifest.json"));
     json.erase("wall_times_s");
     json.erase("peak_memory_bytes");
@@ -119,7 +120,7 @@ TEST(Render, AFilmOfAnotherFormatReplacesTheFilm) {
   here.write("balls.yaml", two_balls(near_camera + "output: {energy: true, video: {fps: 10, size: [64, 36]}}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
   ASSERT_TRUE(here.has("run/animation.mp4"));
-  for (const std::string file : {"film.gif", "film.webp"}) {
+  for (const string file : {"film.gif", "film.webp"}) {
     const Finished render = here.carom({"render", "run", "--set", "output.video.file=" + file});
     EXPECT_EQ(render.code, 0) << render.err;
     EXPECT_TRUE(here.has("run/" + file) && here.has("run/energy.csv"));
@@ -132,7 +133,7 @@ TEST(Render, SlowMotionIsDrawnFromTheRecordedPaths) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + "output: {video: {fps: 10, size: [64, 36]}}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
-  const auto packets = [&](const std::string& film) {
+  const auto packets = [&](const string& film) {
     return here.shell("ffprobe -v error -count_packets -show_entries stream=nb_read_packets -of csv=p=0 " + film).out;
   };
   EXPECT_EQ(packets("run/animation.mp4"), "11\n");
@@ -145,9 +146,9 @@ TEST(Render, ASettingThatChangesNothingIsSaid) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + "output: {frames: {fps: 2, size: [64, 36]}, video: true}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
-  const std::vector<std::string> words = {"render", "run", "--only", "video", "-o", "other", "--set"};
-  const auto errors = [&](const std::string& setting) {
-    std::vector<std::string> line = words;
+  const vector<string> words = {"render", "run", "--only", "video", "-o", "other", "--set"};
+  const auto errors = [&](const string& setting) {
+    vector<string> line = words;
     line.push_back(setting);
     line.push_back("--force");
     const Finished render = here.carom(line);
@@ -202,14 +203,14 @@ TEST(Render, RefusesChartsAndNamesTheCommandThatDrawsThem) {
             "run: --set output.plots=true: render makes no plots\n  carom plot run makes them\n"
             "carom: 1 error; nothing was run\n");
   EXPECT_EQ(here.files("run"), before);
-  EXPECT_NE(here.carom({"render", "run", "--only", "plots"}).err.find(": carom plot makes plots\n"), std::string::npos);
+  EXPECT_NE(here.carom({"render", "run", "--only", "plots"}).err.find(": carom plot makes plots\n"), string::npos);
 }
 
 TEST(Render, RefusesWhatIsNoWholeRun) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
-  const auto refusal = [&](const std::string& folder) {
+  const auto refusal = [&](const string& folder) {
     const Finished render = here.carom({"render", folder, "--set", "camera.eye.y=2"});
     EXPECT_EQ(render.code, 2);
     return render.err.substr(0, render.err.find('\n'));
@@ -217,11 +218,11 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   EXPECT_EQ(refusal("nowhere"), "nowhere: there is no such folder");
   EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is not a folder");
   EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
-  const std::string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
-  const std::string changed = "run: flights.bin is missing or has changed";
+  const string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
+  const string changed = "run: flights.bin is missing or has changed";
   here.write("run/flights.bin", flights.substr(0, flights.size() - 1));
   EXPECT_EQ(refusal("run"), changed);
-  std::string damaged = flights;
+  string damaged = flights;
   damaged[100] = static_cast<char>(damaged[100] ^ 1);
   here.write("run/flights.bin", damaged);
   EXPECT_EQ(refusal("run"), changed);
@@ -229,7 +230,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   here.write("run/manifest.json", manifest.substr(0, 99));
   EXPECT_EQ(refusal("run"), "run: its manifest.json is damaged, or not written by carom");
   here.write("run/manifest.json", manifest);
-  const std::string scene = here.read("run/scene.yaml");
+  const string scene = here.read("run/scene.yaml");
   here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
   EXPECT_EQ(refusal("run"), "run: its scene.yaml is not the one that was run");
   here.write("run/scene.yaml", scene);
@@ -240,7 +241,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
 
 TEST(Render, SimulatesAgainWhereNoFlightsAreStored) {
   const Workplace here;
-  for (const std::string engine : {"exact", "stepped", "book"}) {
+  for (const string engine : {"exact", "stepped", "book"}) {
     here.write("balls.yaml", two_balls(near_camera + frames));
     ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", engine, "--set", "simulate.engine=" + engine, "--set",
                           "output.flights=false"})
@@ -264,7 +265,7 @@ TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
   EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
   const Finished run = here.carom({"run", "balls.yaml", "--set", "simulate.engine=stepped"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("`flights` need parabolas from impact to impact"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("`flights` need parabolas from impact to impact"), string::npos) << run.err;
   here.write("balls.yaml", two_balls());
   const Finished only = here.carom({"run", "balls.yaml", "--set", "simulate.engine=book", "--only", "flights"});
   EXPECT_EQ(only.code, 2);
@@ -282,7 +283,7 @@ TEST(Render, OfACameraThatFramesTheMotionHasTheBytesOfARun) {
       0);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "camera={fit: motion, fov: 20}", "-o", "fresh"}).code, 0);
   for (int i = 0; i <= 4; ++i) {
-    const std::string frame = "/frames/frame_0000" + std::to_string(i) + ".png";
+    const string frame = "/frames/frame_0000" + std::to_string(i) + ".png";
     EXPECT_EQ(here.read("render" + frame), here.read("fresh" + frame));
     EXPECT_FALSE(here.read("render" + frame).empty());
     EXPECT_NE(here.read("render" + frame), here.read("run" + frame));
@@ -290,12 +291,12 @@ TEST(Render, OfACameraThatFramesTheMotionHasTheBytesOfARun) {
 }
 
 /// The pixels of a PNG file.
-std::vector<std::uint8_t> pixels_of(const std::string& file) {
+vector<uint8_t> pixels_of(const string& file) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()));
   image.format = PNG_FORMAT_RGB;
-  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
+  vector<uint8_t> pixels(PNG_IMAGE_SIZE(image));
   png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
   return pixels;
 }
@@ -309,7 +310,7 @@ TEST(Still, IsTheFrameOfItsTime) {
   EXPECT_EQ(still.out, "run/still_0.75s.png\n");
   EXPECT_EQ(still.err, "");
   EXPECT_EQ(pixels_of(here.read("run/still_0.75s.png")), pixels_of(here.read("run/frames/frame_00003.png")));
-  EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   EXPECT_EQ(here.carom({"render", "run", "--at", "0"}).out, "run/still_0s.png\n");
   EXPECT_EQ(here.carom({"render", "run", "--at", "1"}).out, "run/still_1s.png\n");
 }
@@ -358,7 +359,7 @@ TEST(Still, OutsideTheRunOrBesideOtherOutputsIsRefused) {
   EXPECT_EQ(here.carom({"render", "run", "--at", "0.5", "--only", "frames"}).code, 2);
   const Finished motion = here.carom({"render", "run", "--at", "0.5", "--set", "balls.red.mass=3"});
   EXPECT_EQ(motion.code, 2);
-  EXPECT_NE(motion.err.find("changes the motion"), std::string::npos);
+  EXPECT_NE(motion.err.find("changes the motion"), string::npos);
 }
 
 TEST(Render, OfSeveralRunsPutsEachIntoAFolderOfItsOwn) {
@@ -383,9 +384,9 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
                                              "run/.frames.part/frame_00003.png", signal);
     EXPECT_EQ(render.code, signal == SIGTERM ? 143 : 1000 + SIGKILL) << render.err;
     Files after = here.files("run");
-    std::erase_if(after, [](const auto& file) { return file.first.find(".part") != std::string::npos; });
+    std::erase_if(after, [](const auto& file) { return file.first.find(".part") != string::npos; });
     EXPECT_EQ(after, before);
-    EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
+    EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   }
   EXPECT_EQ(here.carom({"render", "run", "--set", "output.frames.fps=3"}).code, 0);
   EXPECT_FALSE(here.has("run/.frames.part"));
@@ -394,31 +395,30 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
 // The record as another program reads it: 50 lines of Python.
 TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
   const Workplace here;
-  for (const std::string scene : {"two_bowling_balls", "clay", "rolling_off", "gust", "slack_pendulum", "pockets"}) {
+  for (const string scene : {"two_bowling_balls", "clay", "rolling_off", "gust", "slack_pendulum", "pockets"}) {
     const Finished run = here.carom({"run", SCENES_DIR "/" + scene + ".yaml", "-o", scene, "--only",
                                      "trajectory,flights", "--set", "output.trajectory.every=0.37"});
     ASSERT_EQ(run.code, 0) << run.err;
     std::istringstream table(here.read(scene + "/trajectory.csv"));
-    std::map<std::string, std::size_t> number;  // of each body, all of which are there at time 0
-    std::vector<double> message;                // six numbers a body
-    std::string line, time;
+    std::map<string, size_t> number;  // of each body, all of which are there at time 0
+    vector<double> message;           // six numbers a body
+    string line, time;
     std::getline(table, line);
     while (std::getline(table, line)) {
-      std::vector<std::string> cells;
+      vector<string> cells;
       std::istringstream split(line);
-      for (std::string cell; std::getline(split, cell, ',');) cells.push_back(cell);
+      for (string cell; std::getline(split, cell, ',');) cells.push_back(cell);
       if (cells[0] != time) {
         time = cells[0];
         std::istringstream out(
             here.shell("/usr/bin/python3 " SOURCE_DIR "/tests/export/read_flights.py " + scene + "/flights.bin " + time)
                 .out);
         message.clear();
-        for (std::string word; out >> word;) message.push_back(std::stod(word));
+        for (string word; out >> word;) message.push_back(std::stod(word));
       }
-      const std::size_t body = number.emplace(cells[1], number.size()).first->second;
+      const size_t body = number.emplace(cells[1], number.size()).first->second;
       ASSERT_LE(6 * body + 6, message.size()) << scene << ", " << line;
-      for (std::size_t k = 0; k < 6; ++k)
-        EXPECT_EQ(message[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
+      for (size_t k = 0; k < 6; ++k) EXPECT_EQ(message[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
     }
   }
 }

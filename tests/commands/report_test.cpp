@@ -1,12 +1,13 @@
 // Lines of a run's report that have no column in summary.csv.
 #include "commands/report.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
 namespace carom {
 namespace {
 
-RunResult result_with(std::uint64_t collapses, std::uint64_t merges) {
+RunResult result_with(uint64_t collapses, uint64_t merges) {
   RunResult result;
   Summary& s = result.summary;
   s.bodies = 5;
@@ -20,12 +21,12 @@ RunResult result_with(std::uint64_t collapses, std::uint64_t merges) {
   return result;
 }
 
-std::string lines_of(const RunResult& result) {
+string lines_of(const RunResult& result) {
   PlannedScene planned;
   planned.engine.engine = Engine::exact;
   Block block(Palette(false), 100);
   describe(block, planned, result);
-  const std::size_t from = block.text().find("  collisions"), to = block.text().find("  energy");
+  const size_t from = block.text().find("  collisions"), to = block.text().find("  energy");
   return block.text().substr(from, to - from);
 }
 
@@ -51,27 +52,27 @@ TEST(Report, ReportsWhyARunIsDoubtful) {
 
 TEST(Report, ReportsTheImpactsThatContactHasReplaced) {
   RunResult result = result_with(0, 0);
-  EXPECT_EQ(lines_of(result).find("absorbed"), std::string::npos);
+  EXPECT_EQ(lines_of(result).find("absorbed"), string::npos);
   result.summary.contact.taken_up = {3, 0.25, 0.5};
   EXPECT_NE(lines_of(result).find("  absorbed    3 impacts by lasting contact, at 0.25 m/s at most, 0.5 J of"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Report, ReportsWhatRigidBodiesLeaveOpen) {
   RunResult result = result_with(0, 0);
-  EXPECT_EQ(lines_of(result).find("at once"), std::string::npos);
+  EXPECT_EQ(lines_of(result).find("at once"), string::npos);
   result.summary.contact.shared = {2, 1, 0, 0, 0.3, 0, 1, 2};
   result.summary.contact.first_shared = "`cue` with `up` and `low` at 0.3 s";
   EXPECT_NE(lines_of(result).find(
                 "  at once     rigid bodies leave 2 instants open with several impacts on a body, first `cue` with\n"
                 "              `up` and `low` at 0.3 s; at 1 they come from both sides at one speed, where the\n"
                 "              slightest difference decides\n"),
-            std::string::npos)
+            string::npos)
       << lines_of(result);
 
   result.summary.contact.shared = {0, 0, 1, 0.5};
   EXPECT_NE(lines_of(result).find("  no room     bodies could not rebound at 1 instant, and absorbed 0.5 J\n"),
-            std::string::npos)
+            string::npos)
       << lines_of(result);
 }
 

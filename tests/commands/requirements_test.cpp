@@ -6,17 +6,18 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::string pictures = "output: {trajectory: {every: 0.05}, frames: {fps: 10, size: [32, 18]}}\n";
-const std::string film_and_charts = "output: {video: {fps: 10, size: [32, 18], samples: 1}, plots: true}\n";
+const string pictures = "output: {trajectory: {every: 0.05}, frames: {fps: 10, size: [32, 18]}}\n";
+const string film_and_charts = "output: {video: {fps: 10, size: [32, 18], samples: 1}, plots: true}\n";
 
 /// A tetrahedron in the texture wood.png, which is not there. `more`: further top-level lines.
-void put_crate(const Workplace& here, const std::string& more = pictures) {
+void put_crate(const Workplace& here, const string& more = pictures) {
   here.write("m/crate.obj",
              "mtllib crate.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nusemtl a\n"
              "f 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 1/1 4/1 3/1\nf 2/1 3/1 4/1\n");
@@ -28,7 +29,7 @@ void put_crate(const Workplace& here, const std::string& more = pictures) {
 }
 
 /// The error of the crate, with this fault and remedy.
-std::string error_of_crate(const std::string& fault, const std::string& remedy) {
+string error_of_crate(const string& fault, const string& remedy) {
   return "crate.yaml:3:26: error: cannot read the mesh m/crate.obj: " + fault +
          "\n"
          "   3 |   crate: {mass: 1, mesh: m/crate.obj, fit: box, position: [0, 0, 0]}\n"
@@ -37,22 +38,22 @@ std::string error_of_crate(const std::string& fault, const std::string& remedy) 
          remedy + ", or give the body a `color`\n";
 }
 
-const std::string no_texture = error_of_crate("its texture wood.png is not there", "put it beside the mesh");
-const std::string no_programs =
+const string no_texture = error_of_crate("its texture wood.png is not there", "put it beside the mesh");
+const string no_programs =
     "balls.yaml: error: a video needs ffmpeg, which is not on the PATH\n"
     "    = install it (on Debian: apt install ffmpeg), or leave the video out\n"
     "balls.yaml: error: the plots need gnuplot, which is not on the PATH\n"
     "    = install it (on Debian: apt install gnuplot-nox)\n";
 
 /// A PNG file.
-std::string small_png(const Workplace& here) {
+string small_png(const Workplace& here) {
   here.write("small.yaml", two_balls("output: {frames: {fps: 1, size: [32, 18], samples: 1}}\n"));
   here.carom({"run", "small.yaml", "-o", "small", "-q"});
   return here.read("small/frames/frame_00000.png");
 }
 
 /// Runs carom with no other program.
-Finished alone(const Workplace& here, const std::string& words) {
+Finished alone(const Workplace& here, const string& words) {
   return here.shell("PATH=/nowhere; exec \"$CAROM\" " + words);
 }
 
@@ -71,7 +72,7 @@ TEST(Requirements, AMissingTextureIsFoundByCheckAndBeforeTheRun) {
 TEST(Requirements, AFileWhoseNameDiffersInCaseIsNamed) {
   const Workplace here;
   put_crate(here);
-  const std::string remedy = "write its name as on the disk";
+  const string remedy = "write its name as on the disk";
   here.write("m/Wood.PNG", "");
   EXPECT_EQ(here.carom({"check", "crate.yaml"}).err,
             error_of_crate("its texture wood.png is not there, but Wood.PNG is", remedy) + "carom: 1 error\n");
@@ -86,7 +87,7 @@ TEST(Requirements, AFileWhoseNameDiffersInCaseIsNamed) {
 TEST(Requirements, ADamagedTextureIsFoundBeforeTheRun) {
   const Workplace here;
   put_crate(here);
-  const std::string png = small_png(here);
+  const string png = small_png(here);
   here.write("m/wood.png", png.substr(0, png.size() - 20));
   EXPECT_EQ(here.carom({"run", "crate.yaml"}).err,
             error_of_crate("its texture wood.png is damaged", "save it again") + "carom: 1 error; nothing was run\n");
@@ -150,9 +151,9 @@ TEST(Requirements, OfNewPicturesOfARunLeaveItAsItIs) {
   ASSERT_EQ(here.carom({"run", "crate.yaml", "-o", "run", "-q"}).code, 0);
   const auto before = here.files("run");
   for (const char* words : {"render run --only frames", "render run --at 0.05", "render run --only gltf -o other"}) {
-    const Finished render = here.shell(std::string("exec \"$CAROM\" ") + words);
+    const Finished render = here.shell(string("exec \"$CAROM\" ") + words);
     EXPECT_EQ(render.code, 2) << words;
-    EXPECT_NE(render.err.find(": its texture wood.png is not there\n"), std::string::npos) << render.err;
+    EXPECT_NE(render.err.find(": its texture wood.png is not there\n"), string::npos) << render.err;
   }
   const Finished film = alone(here, "render run --only video --set bodies.crate.color=red");
   EXPECT_EQ(film.err,
@@ -166,7 +167,7 @@ TEST(Requirements, OfNewPicturesAreNotThoseOfChartsThatStay) {
   const Workplace here;
   here.write("balls.yaml", two_balls("output: {frames: {fps: 5, size: [32, 18]}, plots: true}\n"));
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run", "-q"}).code, 0);
-  const std::string chart = here.read("run/plots/energy.svg");
+  const string chart = here.read("run/plots/energy.svg");
   EXPECT_EQ(alone(here, "render run --set output.frames.fps=2").code, 0);
   EXPECT_EQ(here.read("run/plots/energy.svg"), chart);
 }

@@ -5,13 +5,14 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::string small_pictures = "output: {frames: {fps: 4, size: [64, 36], samples: 1}}\n";
+const string small_pictures = "output: {frames: {fps: 4, size: [64, 36], samples: 1}}\n";
 
 TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
   const Workplace here;
@@ -19,9 +20,9 @@ TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
   const Finished run = here.carom({"run", "balls.yaml"});
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "");
-  const std::size_t residual = run.out.find(", residual "), next = run.out.find("\n  overlap");  // rounding, not quoted
+  const size_t residual = run.out.find(", residual "), next = run.out.find("\n  overlap");  // rounding, not quoted
   ASSERT_LT(residual, next) << run.out;
-  const std::string until_time = run.out.substr(0, residual) + run.out.substr(next, run.out.find("  time ") - next);
+  const string until_time = run.out.substr(0, residual) + run.out.substr(next, run.out.find("  time ") - next);
   // They touch when their centres are 0.22 m apart: after 1.78 m at 4 m/s. Of 40 J, 1 - 0.9^2 is lost.
   EXPECT_EQ(until_time,
             "balls: Two balls\n"
@@ -32,7 +33,7 @@ TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
             "  overlap     none\n"
             "  wrote       output/balls: collisions.csv, energy.csv, manifest.json, scene.yaml, summary.csv and\n"
             "              trajectory.csv\n");
-  for (const std::string name :
+  for (const string name :
        {"summary.csv", "trajectory.csv", "collisions.csv", "energy.csv", "manifest.json", "scene.yaml"}) {
     EXPECT_TRUE(here.has("output/balls/" + name)) << name;
   }
@@ -60,7 +61,7 @@ TEST(Run, ForceRunsAgainWithTheSameBytes) {
   auto before = here.files("output/balls");
   const Finished again = here.carom({"run", "balls.yaml", "--force"});
   EXPECT_EQ(again.code, 0);
-  EXPECT_NE(again.out.find("  wrote       output/balls: "), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("  wrote       output/balls: "), string::npos) << again.out;
   auto after = here.files("output/balls");
   before.erase("manifest.json");  // it has wall times
   after.erase("manifest.json");
@@ -82,7 +83,7 @@ TEST(Run, FolderOfAnotherRunIsRefusedWithoutForce) {
   EXPECT_EQ(here.files("output"), before);
 
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11", "--force"}).code, 0);
-  EXPECT_NE(here.read("output/balls/scene.yaml").find("red: {mass: 11,"), std::string::npos);
+  EXPECT_NE(here.read("output/balls/scene.yaml").find("red: {mass: 11,"), string::npos);
 }
 
 TEST(Run, FilesThatNoRunWroteAreNeverOverwrittenUnasked) {
@@ -112,8 +113,8 @@ TEST(Run, AllScenesAreCheckedBeforeTheFirstIsRun) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.out, "");
   EXPECT_TRUE(run.err.starts_with("wrong.yaml:8:1: error: ")) << run.err;
-  EXPECT_NE(run.err.find("output"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("missing.yaml: error: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("output"), string::npos) << run.err;
+  EXPECT_NE(run.err.find("missing.yaml: error: "), string::npos) << run.err;
   EXPECT_TRUE(run.err.ends_with("carom: 2 errors in 2 of 3 scenes; nothing was run\n")) << run.err;
   EXPECT_FALSE(here.has("output"));
 }
@@ -125,8 +126,8 @@ TEST(Run, SeveralScenesGetAFolderEachAndATotal) {
   here.carom({"run", "a.yaml", "-o", "all/a"});
   const Finished run = here.carom({"run", "a.yaml", "b.yaml", "-o", "all"});
   EXPECT_EQ(run.code, 0);
-  EXPECT_NE(run.out.find("a: Two balls\n  up to date  all/a\nb: Two balls\n  engine "), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("\n2 scenes: 1 done, 1 up to date, in "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("a: Two balls\n  up to date  all/a\nb: Two balls\n  engine "), string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n2 scenes: 1 done, 1 up to date, in "), string::npos) << run.out;
   EXPECT_TRUE(here.has("all/a/manifest.json") && here.has("all/b/manifest.json"));
 }
 
@@ -144,7 +145,7 @@ TEST(Run, ResolvedSceneRunsToTheSameBytes) {
 
 TEST(Run, MoreOutputTimesDoNotChangeACollision) {
   const Workplace here;
-  const std::string gas =
+  const string gas =
       "scene: 1\n"
       "groups:\n"
       "  gas: {count: 30, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, arrange: random, speed: "
@@ -186,14 +187,14 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   // An output that the scene lacks has default settings.
   here.write("none.yaml", two_balls("output: {collisions: true}\n"));
   EXPECT_EQ(here.carom({"run", "none.yaml", "--only", "trajectory"}).code, 0);
-  const std::string trajectory = here.read("output/none/trajectory.csv");
-  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'),
+  const string trajectory = here.read("output/none/trajectory.csv");
+  EXPECT_EQ(std::ranges::count(trajectory, '\n'),
             1 + 31 * 2);  // every 1/30 s over 1 s, ends included
   EXPECT_FALSE(here.has("output/none/collisions.csv"));
 }
 
 /// The sizes of all pictures of a run, as ffprobe prints them, each once.
-std::string sizes(const Workplace& here, const std::string& pattern) {
+string sizes(const Workplace& here, const string& pattern) {
   return here
       .shell("for p in " + pattern +
              "; do ffprobe -v error -show_entries stream=width,height -of csv=p=0 $p; done | sort -u")
@@ -203,7 +204,7 @@ std::string sizes(const Workplace& here, const std::string& pattern) {
 TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
   const Workplace here;
   here.write("film.yaml", two_balls("output: {video: {fps: 20, size: [64, 64], samples: 1}}\n"));
-  const auto frames = [&](const std::string& folder) { return here.files(folder + "/frames").size(); };
+  const auto frames = [&](const string& folder) { return here.files(folder + "/frames").size(); };
   ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "frames", "-o", "plain"}).code, 0);
   EXPECT_EQ(frames("plain"), 21u);
   EXPECT_EQ(sizes(here, "plain/frames/*"), "64,64\n");
@@ -219,7 +220,7 @@ TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
   const Finished flat =
       here.carom({"run", "film.yaml", "--only", "sheet", "-o", "flat", "--set", "output.video.size=[64, 32]"});
   EXPECT_EQ(flat.code, 0);
-  EXPECT_EQ(flat.err.find("changes nothing"), std::string::npos) << flat.err;
+  EXPECT_EQ(flat.err.find("changes nothing"), string::npos) << flat.err;
   EXPECT_EQ(sizes(here, "flat/sheet.png"), "1920,737\n");
 }
 
@@ -239,14 +240,14 @@ TEST(Run, JobsChangeNoResult) {
 
 TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
   const Workplace here;
-  std::string busy = two_balls("room: {min: [-1.2, -1, -1], max: [1.2, 1, 1]}\n");
+  string busy = two_balls("room: {min: [-1.2, -1, -1], max: [1.2, 1, 1]}\n");
   busy.replace(busy.find("duration: 1}"), 12, "duration: 9, max_collisions: 1}");
   here.write("slow.yaml",
              two_balls("output: {frames: {fps: 100, size: [64, 36], samples: 1}, energy: {every: 0.1}}\n"));
   here.write("fails.yaml", busy);
   here.write("quick.yaml", two_balls());
   here.write("there.yaml", two_balls());
-  const auto run = [&](const std::string& jobs) {
+  const auto run = [&](const string& jobs) {
     here.carom({"run", "there.yaml", "-o", jobs + "/there"});
     const Finished all =
         here.carom({"run", "slow.yaml", "fails.yaml", "quick.yaml", "there.yaml", "-j", jobs, "-o", jobs, "--json"});
@@ -266,19 +267,19 @@ TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
   EXPECT_EQ(one[0]["status"], "done");
   EXPECT_EQ(one[1]["status"], "failed");
   EXPECT_EQ(one[3]["status"], "up to date");
-  std::map<std::string, std::string> files[2] = {here.files("1"), here.files("3")};
+  std::map<string, string> files[2] = {here.files("1"), here.files("3")};
   for (auto& some : files) std::erase_if(some, [](const auto& file) { return file.first.ends_with("manifest.json"); });
   EXPECT_GT(files[0].size(), 110u);
   EXPECT_EQ(files[0], files[1]);
   const Finished text = here.carom({"run", "quick.yaml", "slow.yaml", "there.yaml", "-j", "2", "-o", "2"});
-  const std::size_t quick = text.out.find("quick: "), slow = text.out.find("slow: "), last = text.out.find("there: ");
+  const size_t quick = text.out.find("quick: "), slow = text.out.find("slow: "), last = text.out.find("there: ");
   EXPECT_LT(quick, slow);
   EXPECT_LT(slow, last);
-  EXPECT_NE(text.out.find("3 scenes: 3 done, in "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("3 scenes: 3 done, in "), string::npos) << text.out;
 }
 
 /// A tetrahedron about a radius of a metre, as STL.
-const std::string tetrahedron =
+const string tetrahedron =
     "solid t\n"
     "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex -1 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
     "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex -1 0 -1\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -339,7 +340,7 @@ TEST(Run, OnlyIsHeldToTheBudgetByWhatItLeaves) {
 
 TEST(Run, SetAndSeedChangeTheScene) {
   const Workplace here;
-  const std::string gas =
+  const string gas =
       "scene: 1\n"
       "groups:\n"
       "  gas: {count: 5, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, arrange: random, speed: "
@@ -358,8 +359,8 @@ TEST(Run, SetAndSeedChangeTheScene) {
 TEST(Run, ASettingThatChangesNothingOfWhatIsWrittenIsSaid) {
   const Workplace here;
   here.write("balls.yaml", two_balls("output: {energy: true, frames: {fps: 2, size: [64, 36]}, video: true}\n"));
-  const auto errors = [&](const std::string& only, const std::string& setting, bool quiet = false) {
-    std::vector<std::string> line = {"run", "balls.yaml", "--only", only, "--set", setting, "--force"};
+  const auto errors = [&](const string& only, const string& setting, bool quiet = false) {
+    vector<string> line = {"run", "balls.yaml", "--only", only, "--set", setting, "--force"};
     if (quiet) line.emplace_back("-q");
     const Finished run = here.carom(line);
     EXPECT_EQ(run.code, 0) << run.err;
@@ -377,11 +378,11 @@ TEST(Run, ASettingThatChangesNothingOfWhatIsWrittenIsSaid) {
             "carom: balls.yaml: --set balls.red.color=blue changes nothing: no output is drawn\n");
   EXPECT_EQ(errors("energy", "balls.red.restitution=0.5"), "");
   EXPECT_EQ(errors("frames", "balls.red.color=blue"), "");
-  const std::string mesh = SCENES_DIR "/meshes/duck.obj";
-  for (const std::string& drawn :
-       {std::string("trails={seconds: 0.5}"), std::string("caption=true"), std::string("flash=true"),
-        std::string("arrows=[velocity]"), std::string("shutter=0.5"), std::string("balls.red.color={by: speed}"),
-        std::string("camera={fit: motion}"), std::string("lights={ambient: dimgray}"), "balls.red.mesh=" + mesh}) {
+  const string mesh = SCENES_DIR "/meshes/duck.obj";
+  for (const string& drawn :
+       {string("trails={seconds: 0.5}"), string("caption=true"), string("flash=true"), string("arrows=[velocity]"),
+        string("shutter=0.5"), string("balls.red.color={by: speed}"), string("camera={fit: motion}"),
+        string("lights={ambient: dimgray}"), "balls.red.mesh=" + mesh}) {
     EXPECT_EQ(errors("energy", drawn), "carom: balls.yaml: --set " + drawn + " changes nothing: no output is drawn\n");
     EXPECT_EQ(errors("frames", drawn), "");
   }
@@ -395,7 +396,7 @@ TEST(Run, ASettingOfAMeshThatIsTheBodysVolumeChangesTheMotion) {
              "/meshes/duck.obj, fit: box, position: [0, 1, 0]}}\n"
              "planes: {visible: {point: [0, -9, 0], normal: [0, 1, 0]}}\n"
              "simulate: {duration: 0.1}\noutput: {energy: true}\n");
-  const auto errors = [&](const std::string& setting) {
+  const auto errors = [&](const string& setting) {
     const Finished run = here.carom({"run", "duck.yaml", "--force", "--set", setting});
     EXPECT_EQ(run.code, 0) << run.err;
     return run.err;
@@ -427,8 +428,8 @@ TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   EXPECT_NEAR(a.at("summary").at("energy_lost_J").get<double>(), 7.6, 1e-14);
   EXPECT_GE(a.at("time").at("wall_s").get<double>(), 0);
   // Every column of summary.csv but the run's number, which a run by itself does not have.
-  const std::string summary = here.read("output/a/summary.csv");
-  std::string columns = "run";
+  const string summary = here.read("output/a/summary.csv");
+  string columns = "run";
   const auto ordered = nlohmann::ordered_json::parse(run.out).at("scenes").at(0).at("summary");
   for (const auto& item : ordered.items()) columns += "," + item.key();
   EXPECT_EQ(columns, summary.substr(0, summary.find('\n')));
@@ -445,7 +446,7 @@ TEST(Run, JsonOfWrongScenesIsADocumentToo) {
   EXPECT_EQ(scenes.at(0).at("status"), "not run");
   EXPECT_EQ(scenes.at(1).at("status"), "wrong");
   EXPECT_EQ(scenes.at(1).at("errors").at(0).at("file"), "missing.yaml");
-  EXPECT_EQ(run.out.find("\\u001b"), std::string::npos);
+  EXPECT_EQ(run.out.find("\\u001b"), string::npos);
 }
 
 TEST(Run, NoCollisionLeavesTheTimesNullAndTheCellsEmpty) {
@@ -455,7 +456,7 @@ TEST(Run, NoCollisionLeavesTheTimesNullAndTheCellsEmpty) {
   const Json summary = Json::parse(run.out).at("scenes").at(0).at("summary");
   EXPECT_EQ(summary.at("first_collision_s"), nullptr);
   EXPECT_EQ(summary.at("collisions"), 0);
-  EXPECT_NE(here.read("output/apart/summary.csv").find(",exact,done,0.1,2,0,0,0,,,"), std::string::npos);
+  EXPECT_NE(here.read("output/apart/summary.csv").find(",exact,done,0.1,2,0,0,0,,,"), string::npos);
 }
 
 TEST(Run, ImpulsesBelongToTheStartAndAreNoDrift) {
@@ -500,7 +501,7 @@ TEST(Run, FailedRunDoesNotStopTheNext) {
   here.write("taken/a/manifest.json/x", "");  // a folder in the place of a file
   const Finished run = here.carom({"run", "a.yaml", "b.yaml", "-o", "taken", "--force"});
   EXPECT_EQ(run.code, 1) << run.err;
-  EXPECT_NE(run.out.find("2 scenes: 1 done, 1 failed, in "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("2 scenes: 1 done, 1 failed, in "), string::npos) << run.out;
   EXPECT_TRUE(here.has("taken/b/manifest.json"));
 }
 
@@ -508,10 +509,10 @@ TEST(Run, FailedRunDoesNotStopTheNext) {
 TEST(Run, NoMeshInAPictureNoOpenGl) {
   const Workplace here;
   here.write("balls.yaml", two_balls(small_pictures));
-  std::string meshes = two_balls(small_pictures);
+  string meshes = two_balls(small_pictures);
   meshes.replace(meshes.find("radius:"), 0, "mesh: " SCENES_DIR "/meshes/duck.obj, ");
   here.write("seen.yaml", meshes);
-  const auto peak = [&](const std::string& scene) {
+  const auto peak = [&](const string& scene) {
     const Finished run = here.carom({"run", scene, "--json"});
     EXPECT_EQ(run.code, 0) << run.err;
     return Json::parse(run.out).at("scenes").at(0).at("time").at("peak_memory_bytes").get<double>();

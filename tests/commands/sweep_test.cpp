@@ -8,36 +8,37 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
-using Files = std::map<std::string, std::string>;
+using Files = std::map<string, string>;
 
-const std::string grid =
+const string grid =
     "sweep: 1\ntitle: Offsets\nbase: balls.yaml\n"
     "grid:\n  balls.red.position.z: {from: 0, to: 0.05, count: 3}\n  balls.red.mass: [5, 10]\n"
     "compare: {measures: [energy_lost_J, balls.red.speed_m_per_s]}\n";
 
 /// A folder with balls.yaml and, of this text, offsets.yaml.
-void prepare(const Workplace& here, const std::string& sweep = grid) {
+void prepare(const Workplace& here, const string& sweep = grid) {
   here.write("balls.yaml", two_balls());
   here.write("offsets.yaml", sweep);
 }
 
 /// Files that are equal however a sweep was run: all except the runs' manifests, which have times.
-bool lasts(const std::string& name) {
-  return !(name.find("runs/") != std::string::npos && name.ends_with("manifest.json"));
+bool lasts(const string& name) {
+  return !(name.find("runs/") != string::npos && name.ends_with("manifest.json"));
 }
 
 /// The names of files that differ between two folders but must be equal.
-std::vector<std::string> differing(const Workplace& here, const std::string& a, const std::string& b) {
-  std::vector<std::string> out;
-  const auto hold = [&](const std::string& one, const std::string& other) {
+vector<string> differing(const Workplace& here, const string& a, const string& b) {
+  vector<string> out;
+  const auto hold = [&](const string& one, const string& other) {
     for (const auto& [name, bytes] : here.files(one)) {
-      const std::size_t begin = name.find(one);
-      const std::string within = begin == std::string::npos ? name : name.substr(begin + one.size() + 1);
+      const size_t begin = name.find(one);
+      const string within = begin == string::npos ? name : name.substr(begin + one.size() + 1);
       if (lasts(within) && here.read(other + "/" + within) != bytes) out.push_back(within);
     }
   };
@@ -46,12 +47,12 @@ std::vector<std::string> differing(const Workplace& here, const std::string& a, 
   return out;
 }
 
-using Names = std::vector<std::string>;
+using Names = vector<string>;
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find('\n', i), text.size());
+vector<string> lines_of(const string& text) {
+  vector<string> lines;
+  for (size_t i = 0; i < text.size();) {
+    const size_t end = std::min(text.find('\n', i), text.size());
     lines.push_back(text.substr(i, end - i));
     i = end + 1;
   }
@@ -59,19 +60,19 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// The cells of summary.csv, a map from column to text a run.
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
-  std::vector<std::map<std::string, std::string>> rows;
-  const auto cells = [](const std::string& line) {
-    std::vector<std::string> out(1);
+vector<std::map<string, string>> rows_of(const string& text) {
+  vector<std::map<string, string>> rows;
+  const auto cells = [](const string& line) {
+    vector<string> out(1);
     for (const char c : line) c == ',' ? out.emplace_back() : out.back() += c;
     return out;
   };
-  const std::vector<std::string> lines = lines_of(text);
-  const std::vector<std::string> names = cells(lines.at(0));
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> values = cells(lines[i]);
+  const vector<string> lines = lines_of(text);
+  const vector<string> names = cells(lines.at(0));
+  for (size_t i = 1; i < lines.size(); ++i) {
+    const vector<string> values = cells(lines[i]);
     rows.emplace_back();
-    for (std::size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = values.at(k);
+    for (size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = values.at(k);
   }
   return rows;
 }
@@ -83,17 +84,17 @@ TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
   EXPECT_EQ(sweep.code, 0) << sweep.err;
   EXPECT_EQ(sweep.err, "");
   EXPECT_TRUE(sweep.out.starts_with("offsets: Offsets\n  runs        6 runs; done\n")) << sweep.out;
-  for (const std::string name : {"summary.csv", "comparison.xlsx", "manifest.json", "runs/r0001/trajectory.csv",
-                                 "runs/r0006/manifest.json", "runs/r0006/scene.yaml"})
+  for (const string name : {"summary.csv", "comparison.xlsx", "manifest.json", "runs/r0001/trajectory.csv",
+                            "runs/r0006/manifest.json", "runs/r0006/scene.yaml"})
     EXPECT_TRUE(here.has("output/offsets/" + name)) << name;
-  const std::vector<std::string> rows = lines_of(here.read("output/offsets/summary.csv"));
+  const vector<string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 7u);
   EXPECT_TRUE(
       rows[0].ends_with(",frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,balls.red."
                         "position.z,balls.red.mass,balls.red.speed_m_per_s"))
       << rows[0];
   EXPECT_TRUE(rows[4].starts_with("r0004,")) << rows[4];
-  EXPECT_NE(rows[4].find(",0.025,10,"), std::string::npos) << rows[4];
+  EXPECT_NE(rows[4].find(",0.025,10,"), string::npos) << rows[4];
 }
 
 TEST(Sweep, RunHasTheBytesOfTheSameSceneRunAlone) {
@@ -126,7 +127,7 @@ TEST(Sweep, RunsOnlyWhatIsMissing) {
   here.carom({"sweep", "offsets.yaml", "-q"});
   const Files before = here.files("output");
   here.shell("rm output/offsets/runs/r0002/trajectory.csv output/offsets/runs/r0005/energy.csv");
-  const std::string kept = here.read("output/offsets/runs/r0001/manifest.json");
+  const string kept = here.read("output/offsets/runs/r0001/manifest.json");
   const Json again = Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out);
   EXPECT_EQ(again["made"], 2);
   EXPECT_EQ(here.read("output/offsets/runs/r0001/manifest.json"), kept);
@@ -136,7 +137,7 @@ TEST(Sweep, RunsOnlyWhatIsMissing) {
 
 TEST(Sweep, ReportsAPathWithoutEffectUnlessAMeasureUsesIt) {
   const Workplace here;
-  const auto said = [&](const std::string& measure, const std::string& path) {
+  const auto said = [&](const string& measure, const string& path) {
     here.write("balls.yaml",
                two_balls("let: {k: 2, twice: = 2 * k, idle: 3}\nmeasures: {m: '" + measure + "'}\n" + tables));
     const Finished sweep =
@@ -144,7 +145,7 @@ TEST(Sweep, ReportsAPathWithoutEffectUnlessAMeasureUsesIt) {
     EXPECT_EQ(sweep.code, 0) << sweep.err;
     return sweep.err;
   };
-  const auto idle = [](const std::string& path) {
+  const auto idle = [](const string& path) {
     return "carom: " + path + " has no effect on the motion: its value is not used\n";
   };
   EXPECT_EQ(said("= hits(red)", "let.k=1,2"), idle("let.k"));
@@ -163,7 +164,7 @@ TEST(Sweep, OfARepeatGoesThroughZero) {
              "forces: [{uniform: [1, 0, 0], on: [w]}]\nsimulate: {duration: 1}\noutput: {energy: {every: 1}}\n"
              "measures: {most: max(balls.w.x_m), hit: hits(w), many: count(balls.w.x_m > 0), met: first(w)}\n");
   ASSERT_EQ(here.carom({"sweep", "row.yaml", "--grid", "balls.w.repeat=0:2:3", "-o", "sweep", "-q"}).code, 0);
-  std::string table;
+  string table;
   for (auto& row : rows_of(here.read("sweep/summary.csv")))
     table += row["most"] + "|" + row["hit"] + "|" + row["many"] + "|" + row["met"] + "; ";
   EXPECT_EQ(table, "|0|0|; 0.5|0|1|; 1.5|0|2|; ");  // x = i + t^2 / 2
@@ -174,8 +175,8 @@ TEST(Sweep, PlanShowsRunsAndWritesNothing) {
   prepare(here);
   const Finished plan = here.carom({"sweep", "offsets.yaml", "--plan", "--progress", "none"});
   EXPECT_EQ(plan.code, 0);
-  EXPECT_NE(plan.out.find("\n  r0004    new                 0.025              10\n"), std::string::npos) << plan.out;
-  EXPECT_NE(plan.out.find("to do       6 of 6 runs\n"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("\n  r0004    new                 0.025              10\n"), string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("to do       6 of 6 runs\n"), string::npos) << plan.out;
   EXPECT_FALSE(here.has("output"));
   here.carom({"sweep", "offsets.yaml", "-q"});
   const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--plan", "--json"}).out);
@@ -194,7 +195,7 @@ TEST(Sweep, OneFailingRunStopsNoOther) {
       << sweep.err;
   EXPECT_TRUE(here.has("output/offsets/runs/r0002/error.txt"));
   EXPECT_TRUE(here.has("output/offsets/runs/r0003/trajectory.csv"));
-  const std::vector<std::string> rows = lines_of(here.read("output/offsets/summary.csv"));
+  const vector<string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(rows[2].starts_with("r0002,,,failed,")) << rows[2];
   // It is tried again; the others are not.
@@ -210,7 +211,7 @@ TEST(Sweep, AllScenariosAreCheckedBeforeTheFirstIsRun) {
           "  - {balls.red.position.x: 0.95}\n");
   const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_EQ(sweep.code, 2);
-  EXPECT_NE(sweep.err.find("offsets.yaml:5:6: error: unknown key `mas` in `ball`"), std::string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("offsets.yaml:5:6: error: unknown key `mas` in `ball`"), string::npos) << sweep.err;
   EXPECT_FALSE(here.has("output"));
   const Finished measures = here.carom({"sweep", "offsets.yaml", "--grid", "balls.red.mass=1,2"});
   EXPECT_EQ(measures.code, 2);
@@ -224,7 +225,7 @@ TEST(Sweep, WrongMeasureIsFoundBeforeAnythingIsRun) {
   const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_EQ(sweep.code, 2);
   EXPECT_TRUE(sweep.err.starts_with("offsets.yaml:4:22: error: ")) << sweep.err;
-  EXPECT_NE(sweep.err.find("red"), std::string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("red"), string::npos) << sweep.err;
   EXPECT_FALSE(here.has("output"));
 }
 
@@ -234,7 +235,7 @@ TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
           "sweep: 1\nbase: balls.yaml\nruns:\n  - grid: {balls.red.mass: [5, 7]}\n"
           "  - grid: {balls.red.position.z: [0.05]}\n");
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
-  const std::string summary = here.read("output/offsets/summary.csv");
+  const string summary = here.read("output/offsets/summary.csv");
   auto rows = rows_of(summary);
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0]["balls.red.mass"], "5");
@@ -249,7 +250,7 @@ TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
 }
 
 /// Sweeps of four masses of the red ball that write only energies.
-std::string masses(const std::string& values, const std::string& more = "") {
+string masses(const string& values, const string& more = "") {
   return "sweep: 1\nbase: balls.yaml\nonly: [energy]\ngrid: {balls.red.mass: [" + values + "]}\n" + more;
 }
 
@@ -262,7 +263,7 @@ TEST(Sweep, RunsOfAnotherSweepAreNeverTakenForItsOwn) {
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "1/2", "--force"}).code, 0);
   const Finished gathered = here.carom({"gather", "output/offsets", "-q"});
   EXPECT_EQ(gathered.code, 1);
-  EXPECT_NE(gathered.err.find("2 of 4 runs are missing: r0002 and r0004"), std::string::npos) << gathered.err;
+  EXPECT_NE(gathered.err.find("2 of 4 runs are missing: r0002 and r0004"), string::npos) << gathered.err;
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "2/2"}).code, 0);
   ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
   for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
@@ -290,8 +291,8 @@ TEST(Sweep, ForceRunsAgainAndANewMeasureRunsWhatLacksIt) {
   const Workplace here;
   prepare(here, masses("1, 2"));
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
-  const auto made = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"sweep", "offsets.yaml", "--json", "--progress", "none"};
+  const auto made = [&](const vector<string>& more) {
+    vector<string> words = {"sweep", "offsets.yaml", "--json", "--progress", "none"};
     words.insert(words.end(), more.begin(), more.end());
     return Json::parse(here.carom(words).out)["made"];
   };
@@ -313,7 +314,7 @@ TEST(Sweep, FolderThatCannotBeWrittenIsOneFailingRun) {
   ASSERT_EQ(here.shell("rm output/offsets/runs/r000*/energy.csv").code, 0);
   const Finished sweep = here.shell("flock output/offsets/runs/r0001 $CAROM sweep offsets.yaml -j 1 --progress none");
   EXPECT_EQ(sweep.code, 3) << sweep.err;
-  EXPECT_NE(sweep.err.find("r0001: the run failed: "), std::string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("r0001: the run failed: "), string::npos) << sweep.err;
   const auto rows = rows_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].at("status"), "failed");
@@ -323,7 +324,7 @@ TEST(Sweep, FolderThatCannotBeWrittenIsOneFailingRun) {
 
 TEST(Sweep, MeshesCountByTheirBytes) {
   const Workplace here;
-  const auto tetrahedron = [](const std::string& size) {
+  const auto tetrahedron = [](const string& size) {
     return "v 0 0 0\nv " + size + " 0 0\nv 0 " + size + " 0\nv 0 0 " + size + "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   };
   here.write("a/pin.obj", tetrahedron("1"));
@@ -349,7 +350,7 @@ TEST(Sweep, TextsAndNumbersStandInTheTableAsTheirValues) {
           "grid: {balls.red.position.z: [+0.1, 0], balls.red.color: [\"red\", blue, green]}\n"
           "skip: [{balls.red.color: [red, 'blue'], balls.red.position.z: 0.1}]\n");
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
-  std::string table;
+  string table;
   for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
     table += row["balls.red.position.z"] + " " + row["balls.red.color"] + "; ";
   EXPECT_EQ(table, "0.1 green; 0 red; 0 blue; 0 green; ");
@@ -363,14 +364,14 @@ TEST(Sweep, AllErrorsOfAllScenariosAreShownOnce) {
   const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_EQ(sweep.code, 2);
   for (const char* place : {"3:28", "3:31", "3:56", "3:84"})
-    EXPECT_NE(sweep.err.find(std::string("offsets.yaml:") + place + ": error: "), std::string::npos) << sweep.err;
-  EXPECT_NE(sweep.err.find("carom: 4 errors: nothing was run\n"), std::string::npos) << sweep.err;
+    EXPECT_NE(sweep.err.find(string("offsets.yaml:") + place + ": error: "), string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("carom: 4 errors: nothing was run\n"), string::npos) << sweep.err;
   const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--json"}).out);
   EXPECT_EQ(json["status"], "wrong");
   prepare(here, masses("1, 2", "compare: {measures: [balls.rde.x_m, energy_lst_J]}\n"));
   const Finished measures = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
-  EXPECT_NE(measures.err.find("offsets.yaml:5:22: error: "), std::string::npos) << measures.err;
-  EXPECT_NE(measures.err.find("offsets.yaml:5:37: error: "), std::string::npos) << measures.err;
+  EXPECT_NE(measures.err.find("offsets.yaml:5:22: error: "), string::npos) << measures.err;
+  EXPECT_NE(measures.err.find("offsets.yaml:5:37: error: "), string::npos) << measures.err;
 }
 
 TEST(Sweep, LastValueOfAPathThatIsSetTwiceCounts) {
@@ -409,11 +410,11 @@ TEST(Sweep, MeasureOfABodyThatAScenarioLacksIsAnEmptyCell) {
 TEST(Sweep, PlanOfAPartHasItsRunsAlone) {
   const Workplace here;
   prepare(here, masses("1, 2, 3, 4, 5"));
-  const auto ids = [&](const std::string& part) {
+  const auto ids = [&](const string& part) {
     const Finished plan = here.carom({"sweep", "offsets.yaml", "--plan", "--json", "--shard", part});
     const Json document = Json::parse(plan.out);
-    std::string out;
-    for (const Json& run : document["runs"]) out += run["run"].get<std::string>() + " ";
+    string out;
+    for (const Json& run : document["runs"]) out += run["run"].get<string>() + " ";
     return out;
   };
   EXPECT_EQ(ids("1/2"), "r0001 r0003 r0005 ");
@@ -446,7 +447,7 @@ TEST(Submit, WrongSweepIsExitCode2AndForceIsPassedOn) {
   EXPECT_TRUE(wrong.err.starts_with("offsets.yaml:3:1: error: unknown key `gird`")) << wrong.err;
   prepare(here, masses("1, 2"));
   const Finished forced = here.carom({"submit", "offsets.yaml", "--slurm", "--force"});
-  EXPECT_NE(forced.out.find(" --force --jobs "), std::string::npos) << forced.out;
+  EXPECT_NE(forced.out.find(" --force --jobs "), string::npos) << forced.out;
   EXPECT_EQ(Json::parse(here.carom({"submit", "offsets.yaml", "--slurm", "--force", "--json"}).out)["script"],
             forced.out);
 }
@@ -467,7 +468,7 @@ TEST(Sweep, EqualScenariosAreCopiesAndCamerasShareASimulation) {
   here.write("balls.yaml", two_balls("camera: {eye: [0, 1, -4], target: [0, 0, 0]}\n"
                                      "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
-  const auto run = [&](const std::string& id) { return here.files("output/offsets/runs/" + id); };
+  const auto run = [&](const string& id) { return here.files("output/offsets/runs/" + id); };
   // A copy has the times of its original too.
   EXPECT_EQ(here.read("output/offsets/runs/r0001/manifest.json"), here.read("output/offsets/runs/r0003/manifest.json"));
   EXPECT_EQ(run("r0001").size(), run("r0003").size());
@@ -488,7 +489,7 @@ TEST(Sweep, FolderOfAnotherSweepIsNotOverwrittenWithoutForce) {
   here.write("offsets.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.mass: [1, 2]}\n");
   const Finished refused = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("--force"), string::npos) << refused.err;
   EXPECT_EQ(here.files("output"), before);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--force", "-q"}).code, 0);
   EXPECT_FALSE(here.has("output/offsets/runs/r0003"));
@@ -515,16 +516,16 @@ output: {energy: {every: 0.1}}
   const Finished run = here.carom({"sweep", "row.yaml", "--grid", "let.n=1:3:3", "--grid", "let.r=0.2,= n / 8", "-q"});
   ASSERT_EQ(run.code, 0) << run.err;
   std::istringstream table(here.files("output/row.sweep").at("summary.csv"));
-  std::string line, ends;
+  string line, ends;
   for (std::getline(table, line); std::getline(table, line);) {
-    const std::size_t last = line.rfind(','), before = line.rfind(',', last - 1);
+    const size_t last = line.rfind(','), before = line.rfind(',', last - 1);
     ends += line.substr(before) + "\n";
   }
   EXPECT_EQ(ends, ",1,0.2\n,1,0.125\n,2,0.2\n,2,0.25\n,3,0.2\n,3,0.375\n");
   EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.q=1,2"}).err.find("`let` has no `q`"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.r=1,= q"}).err.find("no number is named `q`"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Sweep, InterruptedIsResumedByTheSameCommand) {
@@ -533,7 +534,7 @@ TEST(Sweep, InterruptedIsResumedByTheSameCommand) {
   const Finished stopped = here.interrupted({"sweep", "offsets.yaml", "--progress", "none"},
                                             "output/offsets/runs/r0005/manifest.json", SIGTERM);
   EXPECT_EQ(stopped.code, 143);
-  EXPECT_NE(stopped.err.find("the same command runs what is missing"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("the same command runs what is missing"), string::npos) << stopped.err;
   EXPECT_FALSE(here.has("output/offsets/summary.csv"));
   for (const auto& [name, bytes] : here.files("output")) EXPECT_FALSE(name.ends_with(".part")) << name;
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
@@ -545,7 +546,7 @@ TEST(Gather, PartsHaveTheBytesOfTheWhole) {
   const Workplace here;
   prepare(here, grid + "repeat: {seeds: 2}\n");
   here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});
-  for (const std::string part : {"1/3", "2/3", "3/3"})
+  for (const string part : {"1/3", "2/3", "3/3"})
     EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--shard", part, "-o", "parts", "-q"}).code, 0);
   EXPECT_FALSE(here.has("parts/summary.csv"));
   const Finished gather = here.carom({"gather", "parts", "--progress", "none"});
@@ -557,12 +558,12 @@ TEST(Gather, KilledPartIsMissedAndRepeated) {
   const Workplace here;
   prepare(here, "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.position.z: {from: 0, to: 0.2, count: 301}}\n");
   here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});
-  const std::vector<std::string> first = {"sweep", "offsets.yaml", "--shard", "1/2", "-o", "parts", "-q"};
+  const vector<string> first = {"sweep", "offsets.yaml", "--shard", "1/2", "-o", "parts", "-q"};
   EXPECT_EQ(here.interrupted(first, "parts/runs/r0003/manifest.json", SIGKILL).code, 1000 + SIGKILL);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--shard", "2/2", "-o", "parts", "-q"}).code, 0);
   const Finished early = here.carom({"gather", "parts", "--progress", "none"});
   EXPECT_EQ(early.code, 1);
-  EXPECT_NE(early.err.find(" of 301 runs are missing: "), std::string::npos) << early.err;
+  EXPECT_NE(early.err.find(" of 301 runs are missing: "), string::npos) << early.err;
   EXPECT_FALSE(here.has("parts/summary.csv"));
   EXPECT_EQ(here.carom(first).code, 0);
   EXPECT_EQ(here.carom({"gather", "parts", "-q"}).code, 0);
@@ -589,7 +590,7 @@ TEST(Gather, TaskOfAJobArrayDoesItsPart) {
       "SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_STEP=3 SLURM_ARRAY_TASK_COUNT=2 "
       "\"$CAROM\" sweep offsets.yaml --progress none");
   EXPECT_EQ(task.code, 0) << task.err;
-  EXPECT_NE(task.out.find("part 2 of 2 done"), std::string::npos) << task.out;
+  EXPECT_NE(task.out.find("part 2 of 2 done"), string::npos) << task.out;
 }
 
 TEST(Submit, ScriptRunsItsPartsAndGathers) {

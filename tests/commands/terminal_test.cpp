@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "commands/program.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -13,14 +14,14 @@ namespace {
 using Json = nlohmann::json;
 
 // Long enough to be interrupted anywhere: 100,000 small pictures.
-std::string long_scene() {
-  std::string text =
+string long_scene() {
+  string text =
       two_balls("output: {frames: {fps: 1, size: [64, 36], samples: 1}, trajectory: {every: 1}, video: true}\n");
   return text.replace(text.find("duration: 1}"), 12, "duration: 99990}");
 }
 
-bool colored(const std::string& text) {
-  return text.find("\x1b[") != std::string::npos;
+bool colored(const string& text) {
+  return text.find("\x1b[") != string::npos;
 }
 
 TEST(Terminal, NoColourAndNoBarWhereThereIsNoTerminal) {
@@ -44,7 +45,7 @@ class OnATerminal : public ::testing::Test {
 
 TEST_F(OnATerminal, ColourIsUsedUnlessNoColor) {
   here.write("a.yaml", two_balls());
-  const auto on_terminal = [&](const std::string& command) {
+  const auto on_terminal = [&](const string& command) {
     return here.shell("TERM=xterm script -qec '" + command + "' /dev/null").out;
   };
   EXPECT_TRUE(colored(on_terminal("$CAROM check a.yaml")));
@@ -59,12 +60,11 @@ TEST_F(OnATerminal, ColourIsUsedUnlessNoColor) {
 TEST_F(OnATerminal, BarIsClearedBeforeTheResult) {
   here.write("a.yaml", two_balls("output: {frames: {fps: 600, size: [64, 36], samples: 1}}\n"));
   const Finished run = here.shell("TERM=xterm script -qec '$CAROM run a.yaml --color never' /dev/null");
-  const std::size_t bar = run.out.find("\ra ["), clear = run.out.find("\r\x1b[K"),
-                    result = run.out.find("a: Two balls");
-  EXPECT_NE(bar, std::string::npos) << run.out;
+  const size_t bar = run.out.find("\ra ["), clear = run.out.find("\r\x1b[K"), result = run.out.find("a: Two balls");
+  EXPECT_NE(bar, string::npos) << run.out;
   EXPECT_LT(bar, clear);
   EXPECT_LT(clear, result);
-  EXPECT_EQ(run.out.find("a [", result), std::string::npos);
+  EXPECT_EQ(run.out.find("a [", result), string::npos);
 }
 
 TEST_F(OnATerminal, BarOfASweepShowsCountRateAndTimeLeft) {
@@ -128,13 +128,12 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
   EXPECT_TRUE(here.has("output/short/manifest.json"));
   EXPECT_FALSE(here.has("output/long/manifest.json") || here.has("output/never"));
   for (const auto& [name, bytes] : here.files("output")) {
-    EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+    EXPECT_EQ(name.find(".part"), string::npos) << name;
     EXPECT_FALSE(name.ends_with(".csv") && name.starts_with("long/")) << name;
     EXPECT_FALSE(name.ends_with(".mp4")) << name;
   }
   const Finished check = here.carom({"check", "long.yaml"});
-  EXPECT_NE(check.out.find("  folder      output/long: incomplete, will be run again\n"), std::string::npos)
-      << check.out;
+  EXPECT_NE(check.out.find("  folder      output/long: incomplete, will be run again\n"), string::npos) << check.out;
 }
 
 TEST_P(Interrupt, EndsAllScenesThatRunAtOnce) {
@@ -152,7 +151,7 @@ TEST_P(Interrupt, EndsAllScenesThatRunAtOnce) {
   EXPECT_EQ(scenes.at(1).at("status"), "interrupted");
   EXPECT_EQ(scenes.at(2).at("status"), "not run");
   EXPECT_FALSE(here.has("output/a/manifest.json") || here.has("output/b/manifest.json") || here.has("output/never"));
-  for (const auto& [name, bytes] : here.files("output")) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+  for (const auto& [name, bytes] : here.files("output")) EXPECT_EQ(name.find(".part"), string::npos) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(BySignal, Interrupt, ::testing::Values(SIGINT, SIGTERM),
@@ -171,15 +170,14 @@ TEST(Terminal, IgnoredSignalStaysIgnored) {
 /// Characters that are invisible or reverse the following text: each is escaped on a terminal.
 TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
   const Workplace here;
-  const std::string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
-  const std::string shown = R"(a\u202eb\u2066\u00ad\u200b\udb40\udc41)";
+  const string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
+  const string shown = R"(a\u202eb\u2066\u00ad\u200b\udb40\udc41)";
   here.write("a.yaml", "scene: 1\ntitle: \"" + turned + "\"\nsimulate: {duration: 1}\n");
   here.write(turned + ".yaml", "scene: 1\n" + turned + ": 1\n");
   const auto raw = [](const Finished& run) {
-    return (run.out + run.err).find("\u202e") != std::string::npos ||
-           (run.out + run.err).find("\u200b") != std::string::npos;
+    return (run.out + run.err).find("\u202e") != string::npos || (run.out + run.err).find("\u200b") != string::npos;
   };
-  const std::vector<std::vector<std::string>> commands = {
+  const vector<vector<string>> commands = {
       {"check", "a.yaml"},
       {"run", "a.yaml"},
       {"run", "a.yaml", "--json"},
@@ -202,7 +200,7 @@ TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
     const Finished run = here.carom(words);
     EXPECT_FALSE(raw(run)) << words.front() << ":\n" << run.out << run.err;
   }
-  EXPECT_NE(here.carom({"check", "a.yaml"}).out.find("a: " + shown), std::string::npos);
+  EXPECT_NE(here.carom({"check", "a.yaml"}).out.find("a: " + shown), string::npos);
   // The document of --json keeps the meaning of the file.
   EXPECT_EQ(Json::parse(here.carom({"check", "a.yaml", "--json"}).out)["scenes"][0]["title"], turned);
 }
@@ -211,13 +209,13 @@ TEST(Terminal, AManifestsVersionIsShownEscaped) {
   const Workplace here;
   here.write("a.yaml", two_balls("output: {frames: {fps: 1, size: [16, 16]}}\n"));
   here.carom({"run", "a.yaml"});
-  std::string manifest = here.read("output/a/manifest.json");
-  const std::string version = "\"version\": \"";
+  string manifest = here.read("output/a/manifest.json");
+  const string version = "\"version\": \"";
   manifest.insert(manifest.find(version) + version.size(), "\u202e\\u001b[2J");
   here.write("output/a/manifest.json", manifest);
   const Finished run = here.carom({"render", "output/a"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find(R"(carom \u202e\x1b[2J)"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(R"(carom \u202e\x1b[2J)"), string::npos) << run.err;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "commands/text.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ TEST(Text, BytesGoUpInPowersOfAThousand) {
   EXPECT_EQ(bytes_text(1000), "1.0 kB");
   EXPECT_EQ(bytes_text(999'600), "1.0 MB");
   EXPECT_EQ(bytes_text(23'400'000), "23 MB");
-  EXPECT_EQ(bytes_text(std::numeric_limits<std::uint64_t>::max()), "18 EB");
+  EXPECT_EQ(bytes_text(std::numeric_limits<uint64_t>::max()), "18 EB");
 }
 
 TEST(Text, WaitsHaveReadableUnits) {
@@ -43,7 +44,7 @@ TEST(Text, WaitsHaveReadableUnits) {
 }
 
 TEST(Text, LongListsHaveTheNumberLeftOut) {
-  using Names = std::vector<std::string>;
+  using Names = vector<string>;
   EXPECT_EQ(listed(Names{}), "");
   EXPECT_EQ(listed(Names{"a"}), "a");
   EXPECT_EQ(listed(Names{"a", "b"}), "a and b");

@@ -10,6 +10,7 @@
 #include "compare/number_look.h"
 #include "compare/outcomes.h"
 #include "compare/scenarios.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -24,8 +25,8 @@ class ComparisonOfSix : public ::testing::Test {
     int number = 0;
     for (const char* e : {"0.5", "0.75", "1"})
       for (const char* mass : {"10", "20"}) {
-        const std::string id = "r" + std::to_string(++number);
-        place->run(two_balls, id, {std::string("restitution.default=") + e, std::string("balls.red.mass=") + mass});
+        const string id = "r" + std::to_string(++number);
+        place->run(two_balls, id, {string("restitution.default=") + e, string("balls.red.mass=") + mass});
         runs.push_back({id, *place / id, {e, mass}});
       }
     plan.title = "Six runs";
@@ -49,22 +50,22 @@ class ComparisonOfSix : public ::testing::Test {
   static inline Place* place;
   static inline Json* kept = nullptr;
   static inline ComparisonPlan plan;
-  static inline std::vector<ComparedRun> runs;
+  static inline vector<ComparedRun> runs;
 };
 
 TEST_F(ComparisonOfSix, SummaryIsEachRunsRowThenWhatVariedThenMeasures) {
   const auto rows = rows_of(place->read("out/summary.csv"));
   ASSERT_EQ(rows.size(), 7u);
   const auto of_run = rows_of(place->read("r3/summary.csv"));
-  const std::size_t columns = of_run[0].size();
+  const size_t columns = of_run[0].size();
   ASSERT_EQ(rows[0].size(), columns + 4);
-  for (std::size_t k = 0; k < columns; ++k) EXPECT_EQ(rows[0][k], of_run[0][k]);
+  for (size_t k = 0; k < columns; ++k) EXPECT_EQ(rows[0][k], of_run[0][k]);
   EXPECT_EQ(rows[0][columns], "restitution.default");
   EXPECT_EQ(rows[0][columns + 1], "balls.red.mass");
   EXPECT_EQ(rows[0][columns + 2], "balls.red.speed_m_per_s");
   EXPECT_EQ(rows[0][columns + 3], "balls.blue.kinetic_J");
   EXPECT_EQ(rows[3][0], "r3");
-  for (std::size_t k = 1; k < columns; ++k) EXPECT_EQ(rows[3][k], of_run[1][k]) << rows[0][k];
+  for (size_t k = 1; k < columns; ++k) EXPECT_EQ(rows[3][k], of_run[1][k]) << rows[0][k];
   EXPECT_EQ(rows[3][columns], "0.75");
   EXPECT_EQ(rows[3][columns + 1], "10");
   // Equal masses at 2 and -2 m/s leave at e times their speeds.
@@ -97,16 +98,16 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
   ASSERT_EQ(charts[4]["series"].size(), 6u);
   EXPECT_EQ(charts[4]["series"][5]["name"], "default = 1, mass = 20 kg");
   // None covers another, or the numbers below.
-  for (std::size_t a = 0; a < charts.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b)
+  for (size_t a = 0; a < charts.size(); ++a)
+    for (size_t b = 0; b < a; ++b)
       EXPECT_TRUE(charts[a]["row"] > charts[b]["last_row"] || charts[b]["row"] > charts[a]["last_row"] ||
                   charts[a]["column"] > charts[b]["last_column"] || charts[b]["column"] > charts[a]["last_column"])
           << a << " and " << b;
   // The first line's points: x and y of the runs with a red ball of 10 kg.
-  const auto cell = [&](const std::string& range, int row) {
+  const auto cell = [&](const string& range, int row) {
     const int first = std::stoi(range.substr(range.find_last_of('$', range.find(':')) + 1));
     const int column = range[range.find('$') + 1] - 'A';
-    return sheet("Compare")["rows"][static_cast<std::size_t>(first - 1 + row)][static_cast<std::size_t>(column)];
+    return sheet("Compare")["rows"][static_cast<size_t>(first - 1 + row)][static_cast<size_t>(column)];
   };
   for (int row = 0; row < 3; ++row) {
     const double e = 0.5 + 0.25 * row;
@@ -120,21 +121,19 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
   const Json& summary = sheet("Summary");
   const auto csv = rows_of(place->read("out/summary.csv"));
   // The columns of the table, by their heads.
-  const std::vector<std::pair<std::string, std::string>> first = {
-      {"run", "run"},
-      {"restitution.default", "restitution.default"},
-      {"balls.red.mass (kg)", "balls.red.mass"},
-      {"energy lost (J)", "energy_lost_J"},
-      {"collisions", "collisions"},
-      {"balls.red speed (m/s)", "balls.red.speed_m_per_s"},
-      {"balls.blue kinetic energy (J)", "balls.blue.kinetic_J"}};
+  const vector<std::pair<string, string>> first = {{"run", "run"},
+                                                   {"restitution.default", "restitution.default"},
+                                                   {"balls.red.mass (kg)", "balls.red.mass"},
+                                                   {"energy lost (J)", "energy_lost_J"},
+                                                   {"collisions", "collisions"},
+                                                   {"balls.red speed (m/s)", "balls.red.speed_m_per_s"},
+                                                   {"balls.blue kinetic energy (J)", "balls.blue.kinetic_J"}};
   const Json& heads = summary["rows"][1];
   ASSERT_GT(heads.size(), first.size());
-  for (std::size_t k = 0; k < first.size(); ++k) {
+  for (size_t k = 0; k < first.size(); ++k) {
     EXPECT_EQ(heads[k], first[k].first);
-    const auto column =
-        static_cast<std::size_t>(std::find(csv[0].begin(), csv[0].end(), first[k].second) - csv[0].begin());
-    for (std::size_t i = 1; i < csv.size(); ++i) {
+    const auto column = static_cast<size_t>(std::ranges::find(csv[0], first[k].second) - csv[0].begin());
+    for (size_t i = 1; i < csv.size(); ++i) {
       const Json& value = summary["rows"][i + 1][k];
       if (k == 0)
         EXPECT_EQ(value, csv[i][column]);
@@ -143,23 +142,23 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
     }
   }
   // A column that is the same in all runs stands in the line above, and no other does.
-  const std::string folded = summary["rows"][0][0];
+  const string folded = summary["rows"][0][0];
   EXPECT_TRUE(
       folded.starts_with("The same in all runs: title: Two balls; engine: exact; status: done; duration (s): 1;"))
       << folded;
-  for (std::size_t k = 1; k < csv[0].size(); ++k) {
+  for (size_t k = 1; k < csv[0].size(); ++k) {
     bool same = true;
-    for (std::size_t i = 2; i < csv.size(); ++i) same = same && csv[i][k] == csv[1][k];
-    const bool is_first = std::any_of(first.begin(), first.end(), [&](auto& one) { return one.second == csv[0][k]; });
-    const std::string label = k < 2 ? csv[0][k] : label_of(csv[0][k]);
-    EXPECT_EQ(folded.find("; " + label + ": ") != std::string::npos || k == 1, same && !is_first && !csv[1][k].empty())
+    for (size_t i = 2; i < csv.size(); ++i) same = same && csv[i][k] == csv[1][k];
+    const bool is_first = std::ranges::any_of(first, [&](auto& one) { return one.second == csv[0][k]; });
+    const string label = k < 2 ? csv[0][k] : label_of(csv[0][k]);
+    EXPECT_EQ(folded.find("; " + label + ": ") != string::npos || k == 1, same && !is_first && !csv[1][k].empty())
         << label;
-    const bool is_column = std::find(heads.begin(), heads.end(), Json(label)) != heads.end();
+    const bool is_column = std::ranges::find(heads, Json(label)) != heads.end();
     EXPECT_TRUE(is_first || is_column != same) << label;
   }
   EXPECT_EQ(summary["tables"].begin().key(), "Runs");
-  EXPECT_TRUE(summary["tables"]["Runs"].get<std::string>().starts_with("A2:"));
-  EXPECT_TRUE(summary["tables"]["Runs"].get<std::string>().ends_with("8"));
+  EXPECT_TRUE(summary["tables"]["Runs"].get<string>().starts_with("A2:"));
+  EXPECT_TRUE(summary["tables"]["Runs"].get<string>().ends_with("8"));
   EXPECT_EQ(summary["frozen"], "B3");
   // Varied columns are tinted, measured ones are not.
   EXPECT_EQ(summary["fills"][1], "FFFFF2CC");
@@ -182,7 +181,7 @@ TEST_F(ComparisonOfSix, PrintedPagesAreWideAndRepeatTheirHeads) {
     const Json& page = sheet(name)["print"];
     EXPECT_EQ(page["orientation"], "landscape") << name;
     EXPECT_TRUE(page["across"].is_null() || page["across"] >= 1) << name;  // 1 is the default
-    EXPECT_EQ(page["rows"], std::string(name) == "Summary" ? "$2:$2" : "$1:$1") << name;
+    EXPECT_EQ(page["rows"], string(name) == "Summary" ? "$2:$2" : "$1:$1") << name;
     EXPECT_EQ(page["columns"], "$A:$A") << name;
   }
   for (const auto& [name, one] : book()["sheets"].items()) {
@@ -198,20 +197,20 @@ TEST_F(ComparisonOfSix, PivotIsTheFirstMeasureByTwoParameters) {
   EXPECT_EQ(pivot["values"][4][2], 20);
   for (int row = 0; row < 3; ++row) {
     const double e = 0.5 + 0.25 * row;
-    const Json& cells = pivot["values"][static_cast<std::size_t>(5 + row)];
+    const Json& cells = pivot["values"][static_cast<size_t>(5 + row)];
     EXPECT_EQ(cells[0], e);
     // Half the reduced mass times the square of the closing speed, (1 - e^2) of it.
     EXPECT_NEAR(cells[1].get<double>(), 0.5 * 5 * 16 * (1 - e * e), 1e-12);
     EXPECT_NEAR(cells[2].get<double>(), 0.5 * 20.0 / 3 * 16 * (1 - e * e), 1e-12);
-    EXPECT_TRUE(pivot["rows"][static_cast<std::size_t>(5 + row)][1].get<std::string>().starts_with("=AVERAGEIFS("));
+    EXPECT_TRUE(pivot["rows"][static_cast<size_t>(5 + row)][1].get<string>().starts_with("=AVERAGEIFS("));
   }
 }
 
 TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
   ComparisonPlan twice = plan;
   twice.measures = {"collisions"};
-  std::vector<ComparedRun> some;
-  for (const char* value : {"1", "2", "3"}) some.push_back({value, runs[0].folder, {value, std::string(value) + ".5"}});
+  vector<ComparedRun> some;
+  for (const char* value : {"1", "2", "3"}) some.push_back({value, runs[0].folder, {value, string(value) + ".5"}});
   place->compare(twice, some, "together");
   EXPECT_EQ(place->workbook("together", true)["order"],
             Json({"Compare", "Summary", "Series", "Collisions", "Parameters", "About"}));
@@ -247,37 +246,36 @@ TEST_F(ComparisonOfSix, WhatDiffersBehindACommaIsNotCommon) {
   place->run(two_balls, "one", {"title=\"Two balls, once\"", "balls.red.color=[0.1, 0.2, 0.3]"});
   place->run(two_balls, "other", {"title=\"Two balls, twice\"", "balls.red.color=[0.1, 0.2, 0.4]"});
   place->compare({"", {}, {}, {}, {}}, {{"a", *place / "one", {}}, {"b", *place / "other", {}}}, "comma");
-  std::string common;
+  string common;
   const Json rows = place->workbook("comma")["sheets"]["Parameters"]["rows"];
   for (const Json& row : rows)
-    if (row[0].is_string()) common += row[0].get<std::string>() + "\n";
-  EXPECT_EQ(common.find("title\n"), std::string::npos) << common;
-  EXPECT_EQ(common.find("balls.red.color\n"), std::string::npos) << common;
-  EXPECT_NE(common.find("balls.red.mass\n"), std::string::npos) << common;
+    if (row[0].is_string()) common += row[0].get<string>() + "\n";
+  EXPECT_EQ(common.find("title\n"), string::npos) << common;
+  EXPECT_EQ(common.find("balls.red.color\n"), string::npos) << common;
+  EXPECT_NE(common.find("balls.red.mass\n"), string::npos) << common;
 }
 
 TEST_F(ComparisonOfSix, AboutDescribesEveryColumn) {
-  std::string all;
+  string all;
   for (const Json& row : sheet("About")["rows"])
-    if (row[1].is_string() && row[3].is_string()) all += row[1].get<std::string>() + "\n";
+    if (row[1].is_string() && row[3].is_string()) all += row[1].get<string>() + "\n";
   const auto summary = rows_of(place->read("out/summary.csv")), collisions = rows_of(place->read("r1/collisions.csv"));
-  for (const std::string& column : summary[0])
-    EXPECT_NE(("\n" + all).find("\n" + column + "\n"), std::string::npos) << column;
-  for (const std::string& column : collisions[0]) EXPECT_NE(all.find(column + "\n"), std::string::npos) << column;
+  for (const string& column : summary[0]) EXPECT_NE(("\n" + all).find("\n" + column + "\n"), string::npos) << column;
+  for (const string& column : collisions[0]) EXPECT_NE(all.find(column + "\n"), string::npos) << column;
 }
 
 TEST_F(ComparisonOfSix, AFailedRunHasItsParametersAndNothingElse) {
   place->write("broken/error.txt", "no luck\n");
-  std::vector<ComparedRun> some = {runs[0], {"r9", *place / "broken", {"-0.5", "=1+1"}}};
+  vector<ComparedRun> some = {runs[0], {"r9", *place / "broken", {"-0.5", "=1+1"}}};
   place->compare(plan, some, "some");
-  const std::string text = place->read("some/summary.csv");
+  const string text = place->read("some/summary.csv");
   const auto rows = rows_of(text);
   EXPECT_TRUE(text.ends_with("\nr9,,,failed,,,,,,,,,,,,,,,,,,,,,,,-0.5,'=1+1,,\n")) << text;
   const Json rows_of_sheet = place->workbook("some")["sheets"]["Summary"]["rows"];
   const Json &heads = rows_of_sheet[rows_of_sheet.size() - 3], &row = rows_of_sheet[rows_of_sheet.size() - 1];
   EXPECT_EQ(row[1], -0.5);
   EXPECT_EQ(row[2], "=1+1");
-  EXPECT_EQ(row[static_cast<std::size_t>(std::find(heads.begin(), heads.end(), "status") - heads.begin())], "failed");
+  EXPECT_EQ(row[static_cast<size_t>(std::ranges::find(heads, "status") - heads.begin())], "failed");
 }
 
 TEST_F(ComparisonOfSix, TextIsNoFormula) {
@@ -288,7 +286,7 @@ TEST_F(ComparisonOfSix, TextIsNoFormula) {
     for (const Json& types : sheet["types"])
       for (const Json& type : types) EXPECT_NE(type, "f") << name;
   EXPECT_EQ(sheets["Summary"]["rows"][1][1], "=1+1");
-  EXPECT_NE(place->read("text/summary.csv").find("\n'=id,'=1+1,"), std::string::npos);
+  EXPECT_NE(place->read("text/summary.csv").find("\n'=id,'=1+1,"), string::npos);
 }
 
 TEST_F(ComparisonOfSix, WhatCannotBeReadIsReportedWithItsRemedy) {
@@ -296,9 +294,9 @@ TEST_F(ComparisonOfSix, WhatCannotBeReadIsReportedWithItsRemedy) {
     try {
       place->compare(plan, {run}, "none");
     } catch (const std::exception& e) {
-      return std::string(e.what());
+      return string(e.what());
     }
-    return std::string();
+    return string();
   };
   EXPECT_TRUE(error({"x", *place / "nowhere", {"1", "1"}}).ends_with("cannot be opened: there is no such folder"));
   std::filesystem::create_directories(*place / "empty");
@@ -308,30 +306,30 @@ TEST_F(ComparisonOfSix, WhatCannotBeReadIsReportedWithItsRemedy) {
   place->run(two_balls, "silent", {"output={collisions: true}"});
   EXPECT_NE(
       error({"x", *place / "silent", {"1", "1"}}).find("silent has no trajectory.csv, needed for balls.red.speed_"),
-      std::string::npos);
+      string::npos);
 }
 
 TEST_F(ComparisonOfSix, AWideTrajectoryGivesTheSame) {
   place->run(two_balls, "wide", {"output.trajectory.layout=wide"});
   place->compare(plan, {{"a", runs[0].folder, {"1", "1"}}, {"b", *place / "wide", {"1", "1"}}}, "wide_out");
   const auto rows = rows_of(place->read("wide_out/summary.csv"));
-  EXPECT_EQ(std::vector(rows[1].begin() + 2, rows[1].end()), std::vector(rows[2].begin() + 2, rows[2].end()));
+  EXPECT_EQ(vector(rows[1].begin() + 2, rows[1].end()), vector(rows[2].begin() + 2, rows[2].end()));
   const Json series = place->workbook("wide_out")["sheets"]["Series"]["rows"];
   EXPECT_EQ(series[0][3], "balls.red speed (m/s): a");
   EXPECT_EQ(series[0][6], "balls.red speed (m/s): b");
-  for (std::size_t row = 1; row < series.size(); ++row) EXPECT_EQ(series[row][3], series[row][6]);
+  for (size_t row = 1; row < series.size(); ++row) EXPECT_EQ(series[row][3], series[row][6]);
 }
 
 TEST_F(ComparisonOfSix, ManyRunsAreStreamed) {
-  std::vector<ComparedRun> many;
+  vector<ComparedRun> many;
   for (int i = 0; i < 2100; ++i)
     many.push_back({"r" + std::to_string(i),
-                    runs[static_cast<std::size_t>(i % 6)].folder,
-                    {std::to_string(i / 6) + ".5", runs[static_cast<std::size_t>(i % 6)].values[1]}});
+                    runs[static_cast<size_t>(i % 6)].folder,
+                    {std::to_string(i / 6) + ".5", runs[static_cast<size_t>(i % 6)].values[1]}});
   place->compare(plan, many, "many");
   const Json sheets = place->workbook("many", true)["sheets"];
   EXPECT_TRUE(sheets["Summary"]["tables"].empty());
-  EXPECT_TRUE(sheets["Summary"]["filter"].get<std::string>().starts_with("A2:"));
+  EXPECT_TRUE(sheets["Summary"]["filter"].get<string>().starts_with("A2:"));
   EXPECT_EQ(sheets["Summary"]["height"], 2102);
   EXPECT_EQ(sheets["Collisions"]["height"], 2101);
   EXPECT_EQ(sheets["Compare"]["charts"], 5);
@@ -379,7 +377,7 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
   EXPECT_EQ(book["order"], Json({"Compare", "Summary", "Series", "Parameters", "About"}));
   const Json& compare = book["sheets"]["Compare"];
   EXPECT_EQ(compare["charts"].size(), 4u);
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(compare["charts"][k]["kind"], "BarChart");
     EXPECT_EQ(compare["charts"][k]["x"], "run");
   }
@@ -392,19 +390,19 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
   EXPECT_EQ(compare["rows"][5][0], "balls.red.mass (kg)");
   EXPECT_EQ(compare["rows"][5][4], "-");
   for (const Json& head : book["sheets"]["Summary"]["rows"][1]) EXPECT_NE(head, "balls.red.mass (kg)");
-  EXPECT_NE(place.read("out/summary.csv").find(",balls.red.mass,"), std::string::npos);
+  EXPECT_NE(place.read("out/summary.csv").find(",balls.red.mass,"), string::npos);
 }
 
 TEST(Collisions, OfEachRunHaveTheSameShareOfTheSheet) {
   const Place place;
-  const std::string gas =
+  const string gas =
       "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1]}\n"
       "groups: {gas: {count: 40, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: 1}}\n"
       "simulate: {duration: 5}\noutput: {collisions: true}\n";
   place.run(gas, "gas");
   ComparisonPlan plan;
   plan.collisions = true;
-  std::vector<ComparedRun> runs;
+  vector<ComparedRun> runs;
   for (int i = 0; i < 100; ++i) runs.push_back({"r" + std::to_string(i), place / "gas", {}});
   ASSERT_GT(rows_of(place.read("gas/collisions.csv")).size(), 201u);
   place.compare(plan, runs, "out");
@@ -444,7 +442,7 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
   plan.parameters = {{"defaults.ball.restitution", ""}, {"balls.red.position.z", "m"}, {"seed", ""}};
   plan.seed = 2;
   Outcomes outcomes(plan, 0, 25 * 40 * 2);
-  std::vector<std::size_t> points;
+  vector<size_t> points;
   for (int e = 0; e < 25; ++e)
     for (int z = 0; z < 40; ++z)
       for (int seed = 0; seed < 2; ++seed)
@@ -457,15 +455,15 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
   // The four corners are among them.
   for (const char* corner : {"restitution = 0, position.z = 0.5 m", "restitution = 0, position.z = 39.5 m",
                              "restitution = 24, position.z = 0.5 m", "restitution = 24, position.z = 39.5 m"})
-    EXPECT_NE(std::find(chosen.names.begin(), chosen.names.end(), corner), chosen.names.end()) << corner;
+    EXPECT_NE(std::ranges::find(chosen.names, corner), chosen.names.end()) << corner;
   // Both repeats of a scenario belong to it.
   EXPECT_EQ(chosen.of_run[0], 0u);
   EXPECT_EQ(chosen.of_run[1], 0u);
-  EXPECT_EQ(std::count(chosen.of_run.begin(), chosen.of_run.end(), ChosenScenarios::none), 2000 - 16);
+  EXPECT_EQ(std::ranges::count(chosen.of_run, ChosenScenarios::none), 2000 - 16);
 }
 
 TEST(ShortNames, AreAsLongAsNeededToTellPathsApart) {
-  using Names = std::vector<std::string>;
+  using Names = vector<string>;
   EXPECT_EQ(short_names({"defaults.ball.restitution", "balls.red.position.z", "let.a"}),
             (Names{"restitution", "position.z", "a"}));
   EXPECT_EQ(short_names({"balls.red.mass", "balls.blue.mass"}), (Names{"red.mass", "blue.mass"}));
@@ -489,27 +487,25 @@ TEST(Spread, IsThatOfTheNumbers) {
 TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
   const Place place;
   ComparisonPlan plan{"Gas", {{"restitution.default", ""}, {"seed", ""}}, {"max_speed_m_per_s"}, {}, 1};
-  const std::string gas =
+  const string gas =
       "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1]}\n"
       "groups: {gas: {count: 5, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: 1}}\n"
       "simulate: {duration: 0.5}\noutput: {collisions: true}\n";
-  std::vector<ComparedRun> runs;
-  std::vector<double> speeds;
+  vector<ComparedRun> runs;
+  vector<double> speeds;
   // The seed varies slowest: a scenario's runs are not adjacent.
   for (const char* seed : {"1", "2", "3"})
     for (const char* e : {"0.9", "1"}) {
-      const std::string id = "r" + std::to_string(runs.size() + 1);
-      const RunResult result =
-          place.run(gas, id, {std::string("seed=") + seed, std::string("restitution.default=") + e});
-      if (std::string(e) == "0.9") speeds.push_back(result.summary.max_speed);
+      const string id = "r" + std::to_string(runs.size() + 1);
+      const RunResult result = place.run(gas, id, {string("seed=") + seed, string("restitution.default=") + e});
+      if (string(e) == "0.9") speeds.push_back(result.summary.max_speed);
       runs.push_back({id, place / id, {e, seed}});
     }
   place.compare(plan, runs, "out");
   const auto rows = rows_of(place.read("out/repeats.csv"));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0],
-            (std::vector<std::string>{"restitution.default", "n", "max_speed_m_per_s.mean", "max_speed_m_per_s.sd",
-                                      "max_speed_m_per_s.min", "max_speed_m_per_s.max"}));
+  EXPECT_EQ(rows[0], (vector<string>{"restitution.default", "n", "max_speed_m_per_s.mean", "max_speed_m_per_s.sd",
+                                     "max_speed_m_per_s.min", "max_speed_m_per_s.max"}));
   const double mean = (speeds[0] + speeds[1] + speeds[2]) / 3;
   double squares = 0;
   for (const double speed : speeds) squares += (speed - mean) * (speed - mean);
@@ -517,8 +513,8 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
   EXPECT_EQ(rows[1][1], "3");
   EXPECT_NEAR(std::stod(rows[1][2]), mean, 1e-14);
   EXPECT_NEAR(std::stod(rows[1][3]), std::sqrt(squares / 2), 1e-14);
-  EXPECT_EQ(std::stod(rows[1][4]), *std::min_element(speeds.begin(), speeds.end()));
-  EXPECT_EQ(std::stod(rows[1][5]), *std::max_element(speeds.begin(), speeds.end()));
+  EXPECT_EQ(std::stod(rows[1][4]), *std::ranges::min_element(speeds));
+  EXPECT_EQ(std::stod(rows[1][5]), *std::ranges::max_element(speeds));
   const Json book = place.workbook("out");
   EXPECT_EQ(book["order"][2], "Repeats");
   EXPECT_EQ(book["sheets"]["Repeats"]["rows"].size(), 3u);

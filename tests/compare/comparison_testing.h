@@ -4,17 +4,15 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "compare/comparison.h"
 #include "files/open_folder.h"
 #include "run/run_scene.h"
 #include "scene/load.h"
+#include "std.h"
 
 namespace carom::testing {
 
@@ -22,26 +20,26 @@ namespace carom::testing {
 class Place {
  public:
   Place() {
-    std::string name = (std::filesystem::temp_directory_path() / "carom-study-XXXXXX").string();
+    string name = (std::filesystem::temp_directory_path() / "carom-study-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
   ~Place() { std::filesystem::remove_all(path_); }
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  string operator/(const string& name) const { return (path_ / name).string(); }
 
-  std::string read(const std::string& name) const {
+  string read(const string& name) const {
     std::ifstream in(path_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  void write(const std::string& name, const std::string& text) const {
+  void write(const string& name, const string& text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << text;
   }
 
   /// Runs a scene with settings into a folder.
-  RunResult run(const std::string& yaml, const std::string& folder, const std::vector<std::string>& set = {}) const {
+  RunResult run(const string& yaml, const string& folder, const vector<string>& set = {}) const {
     write(folder + ".yaml", yaml);
     LoadOptions options;
     options.set = set;
@@ -50,19 +48,19 @@ class Place {
   }
 
   /// Compares runs into the folder `out`.
-  void compare(const ComparisonPlan& plan, const std::vector<ComparedRun>& runs, const std::string& out) const {
+  void compare(const ComparisonPlan& plan, const vector<ComparedRun>& runs, const string& out) const {
     std::filesystem::create_directories(path_ / out);
     const Descriptor folder = open_folder(AT_FDCWD, *this / out, true);
-    const auto files = write_comparison({folder.get(), *this / out}, plan, runs.size(),
-                                        [&](std::size_t number) { return runs[number]; });
+    const auto files =
+        write_comparison({folder.get(), *this / out}, plan, runs.size(), [&](size_t number) { return runs[number]; });
     for (const auto& file : files) file->publish();
   }
 
   /// The workbook of the folder `out`, by openpyxl; brief: without its cells.
-  nlohmann::json workbook(const std::string& out, bool brief = false) const {
-    const std::string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/compare/workbook_as_json.py' '" +
-                                (*this / (out + "/comparison.xlsx")) + (brief ? "' brief" : "'") + " > '" +
-                                (*this / "book.json") + "'";
+  nlohmann::json workbook(const string& out, bool brief = false) const {
+    const string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/compare/workbook_as_json.py' '" +
+                           (*this / (out + "/comparison.xlsx")) + (brief ? "' brief" : "'") + " > '" +
+                           (*this / "book.json") + "'";
     if (std::system(command.c_str()) != 0) throw std::runtime_error("openpyxl cannot read the workbook");
     return nlohmann::json::parse(read("book.json"));
   }
@@ -72,13 +70,13 @@ class Place {
 };
 
 /// Rows of a CSV text without quotes.
-inline std::vector<std::vector<std::string>> rows_of(const std::string& text) {
-  std::vector<std::vector<std::string>> rows;
+inline vector<vector<string>> rows_of(const string& text) {
+  vector<vector<string>> rows;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  for (string line; std::getline(lines, line);) {
     rows.emplace_back();
-    for (std::size_t begin = 0; begin <= line.size();) {
-      const std::size_t end = std::min(line.find(',', begin), line.size());
+    for (size_t begin = 0; begin <= line.size();) {
+      const size_t end = std::min(line.find(',', begin), line.size());
       rows.back().push_back(line.substr(begin, end - begin));
       begin = end + 1;
     }
@@ -87,7 +85,7 @@ inline std::vector<std::vector<std::string>> rows_of(const std::string& text) {
 }
 
 /// Two balls that meet at 0.445 s, all tables.
-inline const std::string two_balls =
+inline const string two_balls =
     "scene: 1\n"
     "title: Two balls\n"
     "gravity: [0, 0, 0]\n"

@@ -10,23 +10,24 @@
 #include "compare/compared_run.h"
 #include "compare/comparison_testing.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-const std::string mixed =
+const string mixed =
     "scene: 1\ngravity: [0, 0, 0]\n"
     "balls: {red: {mass: 3, radius: 0.1, position: [-1, 0, 0], velocity: [0.3, 0.4, 1.2]}}\n"
     "bodies: {box: {mass: 1, box: [0.1, 0.1, 0.1], position: [5, 0, 0]}}\n"
     "groups: {gas: {count: 3, ball: {mass: 2, radius: 0.1}, in: {min: [7, 0, 0], max: [9, 1, 1]}, speed: 1}}\n"
     "simulate: {duration: 1}\noutput: {trajectory: {every: 0.5}}\n";
 
-Scene scene_of(const Place& place, const std::string& yaml) {
+Scene scene_of(const Place& place, const string& yaml) {
   place.write("scene.yaml", yaml);
   return load_scene(place / "scene.yaml");
 }
 
-std::string error_of(const std::string& name, const Scene& scene) {
+string error_of(const string& name, const Scene& scene) {
   try {
     parse_measure(name, scene);
   } catch (const MeasureError& error) {
@@ -78,16 +79,16 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
 }
 
 /// The text that the error of a scene's own measure marks.
-std::string marked(const Place& place, const std::string& measure) {
+string marked(const Place& place, const string& measure) {
   place.write("scene.yaml", mixed + "let: {k: 2}\nmeasures:\n  m: \"" + measure + "\"\n");
   LoadOptions options;
   options.measure_fault = measure_fault;
   try {
     load_scene(place / "scene.yaml", options);
   } catch (const SceneError& error) {
-    const std::string text = error.what();
-    const std::size_t line = text.find('\n') + 1, marks = text.find('\n', line) + 1;
-    const std::size_t first = text.find('^', marks), end = text.find_first_not_of("^~", first);
+    const string text = error.what();
+    const size_t line = text.find('\n') + 1, marks = text.find('\n', line) + 1;
+    const size_t first = text.find('^', marks), end = text.find_first_not_of("^~", first);
     return text.substr(line + first - marks, end - first);
   }
   return "no error";
@@ -95,7 +96,7 @@ std::string marked(const Place& place, const std::string& measure) {
 
 TEST(OwnMeasures, ErrorsMarkTheFaultyPartOfAnExpression) {
   const Place place;
-  const std::pair<std::string, std::string> all[] = {
+  const std::pair<string, string> all[] = {
       {"= 1 + let.q", "let.q"},
       {"= hits(red) + nothing", "nothing"},
       {"=  2 * hits(red, rde) / 3", "hits(red, rde)"},
@@ -116,38 +117,38 @@ TEST(OwnMeasures, ErrorsMarkTheFaultyPartOfAnExpression) {
 }
 
 /// The values of measures, as the run itself finds them.
-std::vector<Measured> measured(const Place& place, const std::string& yaml, const std::vector<std::string>& names) {
+vector<Measured> measured(const Place& place, const string& yaml, const vector<string>& names) {
   const Scene scene = scene_of(place, yaml);
   RunSettings settings;
-  for (const std::string& name : names) settings.measures.push_back(parse_measure(name, scene));
+  for (const string& name : names) settings.measures.push_back(parse_measure(name, scene));
   return run_scene({&scene, place / "run", 0}, choose_engine(scene), settings, {[] {}, [](const RunProgress&) {}})
       .facts.measures;
 }
 
 TEST(MeasureValues, AreTheSameFromTheRunAndFromItsTables) {
   const Place place;
-  const std::vector<std::string> names = {"balls.red.y_m",
-                                          "balls.red.speed_m_per_s",
-                                          "groups.gas.1.vx_m_per_s",
-                                          "groups.gas.2.kinetic_J",
-                                          "hits(red, gas)",
-                                          "first(gas, red)",
-                                          "hits(room)",
-                                          "hits(gas, room.x_max)",
-                                          "count(x_m > 7.5)",
-                                          "count(groups.gas.y_m <= 1 / 2)",
-                                          "= hits(room) / max(1, collisions)"};
-  const std::string yaml = mixed + "room: {min: [-2, -1, -1], max: [9, 1, 2]}\n";
-  const std::string long_run =
+  const vector<string> names = {"balls.red.y_m",
+                                "balls.red.speed_m_per_s",
+                                "groups.gas.1.vx_m_per_s",
+                                "groups.gas.2.kinetic_J",
+                                "hits(red, gas)",
+                                "first(gas, red)",
+                                "hits(room)",
+                                "hits(gas, room.x_max)",
+                                "count(x_m > 7.5)",
+                                "count(groups.gas.y_m <= 1 / 2)",
+                                "= hits(room) / max(1, collisions)"};
+  const string yaml = mixed + "room: {min: [-2, -1, -1], max: [9, 1, 2]}\n";
+  const string long_run =
       std::regex_replace(yaml, std::regex("duration: 1\\}\noutput: \\{"), "duration: 40}\noutput: {collisions: true, ");
-  const std::vector<Measured> of_run = measured(place, long_run, names);
+  const vector<Measured> of_run = measured(place, long_run, names);
   ASSERT_EQ(of_run.size(), names.size());
   const RunRecord with = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
   // The same run without its own measures: its tables have them.
   place.write("run/manifest.json", std::regex_replace(place.read("run/manifest.json"),
                                                       std::regex("\"measures\": \\{[^}]*\\}"), "\"measures\": {}"));
   const RunRecord without = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  for (size_t k = 0; k < names.size(); ++k) {
     EXPECT_EQ(with.measures[k], of_run[k].value) << names[k];
     EXPECT_EQ(without.measures[k], of_run[k].value) << names[k];
   }
@@ -156,11 +157,10 @@ TEST(MeasureValues, AreTheSameFromTheRunAndFromItsTables) {
 
 TEST(MeasureValues, OfAStringCountForBothOfItsBodies) {
   const Place place;
-  const std::vector<std::string> names = {"first(red, line)", "first(line, blue)", "hits(red, line)",
-                                          "hits(blue, line)", "hits(line)",        "hits(blue)",
-                                          "first(red, blue)"};
+  const vector<string> names = {"first(red, line)", "first(line, blue)", "hits(red, line)", "hits(blue, line)",
+                                "hits(line)",       "hits(blue)",        "first(red, blue)"};
   // 3 m apart after 2 s, they exchange their velocities, and again where they meet.
-  const std::string yaml =
+  const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\n"
       "balls:\n"
       "  red: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [-1, 0, 0]}\n"
@@ -168,11 +168,11 @@ TEST(MeasureValues, OfAStringCountForBothOfItsBodies) {
       "strings: {line: {from: red, to: blue, length: 3, restitution: 1}}\n"
       "simulate: {duration: 6}\noutput: {collisions: true}\n";
   const double expected[] = {2, 2, 1, 1, 1, 2, 4.8};
-  const std::vector<Measured> of_run = measured(place, yaml, names);
+  const vector<Measured> of_run = measured(place, yaml, names);
   place.write("run/manifest.json", std::regex_replace(place.read("run/manifest.json"),
                                                       std::regex("\"measures\": \\{[^}]*\\}"), "\"measures\": {}"));
   const RunRecord stored = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  for (size_t k = 0; k < names.size(); ++k) {
     EXPECT_NEAR(of_run[k].value, expected[k], 1e-14) << names[k];
     EXPECT_EQ(stored.measures[k], of_run[k].value) << names[k];
   }
@@ -186,8 +186,7 @@ TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
        "time_of_min(balls.red.x_m)", "= 2 * balls.red.kinetic_J / balls.red.speed_m_per_s ^ 2", "first(red, gas)",
        "= hits(red) / hits(gas, red)", "count(x_m < 0)"});
   const double expected[] = {-0.7, 1.2, 1.3, 1.5 * 1.69, -0.7, 0, 3};
-  for (std::size_t k = 0; k < std::size(expected); ++k)
-    EXPECT_DOUBLE_EQ(values[k].value, expected[k]) << values[k].name;
+  for (size_t k = 0; k < std::size(expected); ++k) EXPECT_DOUBLE_EQ(values[k].value, expected[k]) << values[k].name;
   EXPECT_TRUE(std::isnan(values[7].value)) << "they never meet";
   EXPECT_TRUE(std::isnan(values[8].value)) << "0 / 0";
   EXPECT_EQ(values[9].value, 1);
@@ -195,20 +194,20 @@ TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
 
 TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
   const Place place;
-  const std::vector<std::pair<std::string, std::string>> all = {{"hits(THING)", "0"},
-                                                                {"hits(THING, v)", "0"},
-                                                                {"count(KIND.THING.x_m < 9)", "0"},
-                                                                {"first(THING)", "nan"},
-                                                                {"min(KIND.THING.x_m)", "nan"},
-                                                                {"max(KIND.THING.x_m)", "nan"},
-                                                                {"= hits(THING) + 1", "1"},
-                                                                {"hits(s)", "0"},
-                                                                {"hits(p)", "0"},
-                                                                {"regions.r.entries", "0"},
-                                                                {"regions.r.inside", "0"},
-                                                                {"regions.r.first_s", "nan"},
-                                                                {"time_of_max(KIND.THING.y_m)", "nan"}};
-  const std::string yaml =
+  const vector<std::pair<string, string>> all = {{"hits(THING)", "0"},
+                                                 {"hits(THING, v)", "0"},
+                                                 {"count(KIND.THING.x_m < 9)", "0"},
+                                                 {"first(THING)", "nan"},
+                                                 {"min(KIND.THING.x_m)", "nan"},
+                                                 {"max(KIND.THING.x_m)", "nan"},
+                                                 {"= hits(THING) + 1", "1"},
+                                                 {"hits(s)", "0"},
+                                                 {"hits(p)", "0"},
+                                                 {"regions.r.entries", "0"},
+                                                 {"regions.r.inside", "0"},
+                                                 {"regions.r.first_s", "nan"},
+                                                 {"time_of_max(KIND.THING.y_m)", "nan"}};
+  const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\n"
       "balls: {v: {mass: 1, radius: 0.1, position: [0, 0, 0]},\n"
       "  w: {repeat: 0, mass: 1, radius: 0.1, position: [= i, 0, 9]}}\n"
@@ -218,14 +217,13 @@ TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
       "regions: {r: {repeat: 0, radius: 1, position: [= i, 0, 0]}}\n"
       "simulate: {duration: 1, stop: [{region: r}]}\noutput: {collisions: true}\n";
   for (const auto& [kind, thing] : {std::pair("balls", "w"), std::pair("groups", "g")}) {
-    std::vector<std::string> names;
+    vector<string> names;
     for (const auto& [name, value] : all)
       names.push_back(
           std::regex_replace(std::regex_replace(name, std::regex("THING"), thing), std::regex("KIND"), kind));
-    const std::vector<Measured> values = measured(place, yaml, names);
+    const vector<Measured> values = measured(place, yaml, names);
     ASSERT_EQ(values.size(), all.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-      EXPECT_EQ(fmt::format("{}", values[i].value), all[i].second) << names[i];
+    for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(fmt::format("{}", values[i].value), all[i].second) << names[i];
   }
   const Scene scene = scene_of(place, yaml);
   EXPECT_TRUE(scene.world.regions.empty());
@@ -240,9 +238,9 @@ TEST(OwnMeasures, AreTheLastColumnsOfTheSummary) {
                                "scene: 1\nlet: {twice: 2}\nmeasures: {end: balls.red.x_m, more: '= twice * let.twice', "
                                "twice: '= 2 * end'}"),
             "run");
-  const std::string summary = place.read("run/summary.csv");
-  EXPECT_NE(summary.find(",ended_by,energy_absorbed_J,contact_made_J,end,more,twice\n"), std::string::npos) << summary;
-  EXPECT_NE(summary.find(",duration,0,0,-0.7,-2.8,-1.4\n"), std::string::npos) << summary;
+  const string summary = place.read("run/summary.csv");
+  EXPECT_NE(summary.find(",ended_by,energy_absorbed_J,contact_made_J,end,more,twice\n"), string::npos) << summary;
+  EXPECT_NE(summary.find(",duration,0,0,-0.7,-2.8,-1.4\n"), string::npos) << summary;
 }
 
 TEST(OwnMeasures, AreColumnsOfAComparisonByTheirNames) {
@@ -257,7 +255,7 @@ TEST(OwnMeasures, AreColumnsOfAComparisonByTheirNames) {
 
 TEST(MeasureValues, OfAJointBodyArePartOfNoOther) {
   const Place place;
-  const std::string sticking =
+  const string sticking =
       "scene: 1\ngravity: [0, 0, 0]\n"
       "balls:\n"
       "  red: {mass: 1, radius: 0.1, position: [-1, 0, 0], velocity: [2, 0, 0]}\n"
@@ -289,9 +287,8 @@ TEST(MeasureLabels, HaveTheirUnits) {
 TEST(SummaryColumns, AreThoseOfTheFile) {
   const Place place;
   place.run(two_balls, "run");
-  std::string header;
-  for (const SummaryColumn& column : summary_columns())
-    header += (header.empty() ? "" : ",") + std::string(column.name);
+  string header;
+  for (const SummaryColumn& column : summary_columns()) header += (header.empty() ? "" : ",") + string(column.name);
   EXPECT_TRUE(place.read("run/summary.csv").starts_with(header + "\n"));
 }
 

@@ -9,18 +9,17 @@
 #include <xlsxwriter.h>
 
 #include <csignal>
-#include <functional>
-#include <string>
 
 #include "compare/comparison_testing.h"
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 using testing::Place;
 
-std::string error_of(const std::function<void()>& action) {
+string error_of(const function<void()>& action) {
   try {
     action();
   } catch (const ExportError& error) {
@@ -30,11 +29,11 @@ std::string error_of(const std::function<void()>& action) {
 }
 
 /// An archive with these parts.
-Descriptor archive(const Place& place, const std::vector<std::string>& parts) {
-  const std::string path = place / "archive.zip";
+Descriptor archive(const Place& place, const vector<string>& parts) {
+  const string path = place / "archive.zip";
   const zipFile zip = zipOpen(path.c_str(), APPEND_STATUS_CREATE);
   int number = 0;
-  for (const std::string& part : parts) {
+  for (const string& part : parts) {
     zipOpenNewFileInZip(zip, std::to_string(number++).c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
     zipWriteInFileInZip(zip, part.data(), static_cast<unsigned>(part.size()));
     zipCloseFileInZip(zip);
@@ -46,13 +45,13 @@ Descriptor archive(const Place& place, const std::vector<std::string>& parts) {
 class WorkbookFilesTest : public ::testing::Test {
  protected:
   /// A temporary file of the library's with this text.
-  static void put(const std::string& text) {
+  static void put(const string& text) {
     FILE* const file = lxw_tmpfile(nullptr);
     ASSERT_NE(file, nullptr);
     std::fputs(text.c_str(), file);
     std::fclose(file);
   }
-  std::string checked(const Descriptor& found) {
+  string checked(const Descriptor& found) {
     return error_of([&] { files_.check_archive(found.get()); });
   }
 
@@ -62,7 +61,7 @@ class WorkbookFilesTest : public ::testing::Test {
 };
 
 TEST_F(WorkbookFilesTest, APartThatIsNotToTheByteWhatWasWrittenIsFound) {
-  const std::string other = "cannot write out/book.xlsx: the workbook differs from what was written";
+  const string other = "cannot write out/book.xlsx: the workbook differs from what was written";
   put("rows");
   files_.begin_parts();
   put("<one/>");

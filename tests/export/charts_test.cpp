@@ -10,6 +10,7 @@
 #include "export/run_charts.h"
 #include "scene/fields.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using namespace testing_export;
 
 /// So many bodies of one mass or several, at rest at y = 0, 1, ...
-Scene scene_of(Entity bodies, const std::vector<double>& masses = {1}) {
+Scene scene_of(Entity bodies, const vector<double>& masses = {1}) {
   Scene scene = small_scene();
   scene.world.mass.clear();
   scene.initial.position.clear();
@@ -33,7 +34,7 @@ Scene scene_of(Entity bodies, const std::vector<double>& masses = {1}) {
 }
 
 /// Velocities in so many dimensions, spread evenly.
-Vec3 some_velocity(std::size_t body, int dimensions) {
+Vec3 some_velocity(size_t body, int dimensions) {
   Vec3 v = Vec3::Zero();
   for (int axis = 0; axis < dimensions; ++axis) v[axis] = 3 * std::sin(static_cast<double>(body) * (axis + 1) + axis);
   return v;
@@ -41,14 +42,14 @@ Vec3 some_velocity(std::size_t body, int dimensions) {
 
 SpeedsChart speeds_of(const Scene& scene, int dimensions) {
   SpeedsChart speeds(scene);
-  for (std::size_t body = 0; body < scene.world.mass.size(); ++body)
+  for (size_t body = 0; body < scene.world.mass.size(); ++body)
     speeds.add(scene.world.mass[body], some_velocity(body, dimensions));
   return speeds;
 }
 
 double integral_of_curve(const PlotSeries& curve) {
   double sum = 0;
-  for (std::size_t i = 1; i < curve.points.size(); ++i)
+  for (size_t i = 1; i < curve.points.size(); ++i)
     sum += (curve.points[i].x - curve.points[i - 1].x) * (curve.points[i].y + curve.points[i - 1].y) / 2;
   return sum;
 }
@@ -67,7 +68,7 @@ TEST(SpeedsChart, BarsHoldEveryBodyOnce) {
 
 TEST(SpeedsChart, MaxwellsCurveIntegratesToTheNumberOfBodiesInEveryDimension) {
   for (const int dimensions : {1, 2, 3}) {
-    for (const auto& masses : {std::vector<double>{1}, {0.5, 2, 7}}) {
+    for (const auto& masses : {vector<double>{1}, {0.5, 2, 7}}) {
       const Scene scene = scene_of(600, masses);
       const SpeedsChart speeds = speeds_of(scene, dimensions);
       const Plot plot = speeds.plot();
@@ -88,7 +89,7 @@ TEST(SpeedsChart, MaxwellsCurveHasTheKineticEnergyOfTheBodies) {
   const Scene scene = scene_of(600);
   const SpeedsChart speeds = speeds_of(scene, 3);
   double energy = 0, of_curve = 0;
-  for (std::size_t body = 0; body < 600; ++body) energy += some_velocity(body, 3).squaredNorm() / 2;
+  for (size_t body = 0; body < 600; ++body) energy += some_velocity(body, 3).squaredNorm() / 2;
   constexpr double width = 0.001;
   for (double v = width / 2; v < 40; v += width) of_curve += speeds.maxwell(v, width) * v * v / 2;
   EXPECT_NEAR(of_curve / energy, 1, 1e-6);
@@ -112,16 +113,16 @@ TEST(CollisionsChart, RatesTimesTheirIntervalsSumToTheCollisions) {
       chart.add(scene.simulate.duration * i / count, i % 3 == 0 ? CollisionKind::body_fixed : CollisionKind::body_body);
     // The end of the run belongs to the last interval, and the end of bounces is no collision.
     chart.add(scene.simulate.duration, CollisionKind::merge);
-    chart.add(0.2, CollisionKind::string);
+    chart.add(0.2, CollisionKind::taut);
     chart.add(0.1, CollisionKind::rest);
     double collisions = 0;
     for (const PlotSeries& series : chart.plot().series)
-      for (std::size_t i = 1; i < series.points.size(); i += 2)
+      for (size_t i = 1; i < series.points.size(); i += 2)
         collisions += (series.points[i].high - series.points[i].low) * (series.points[i].x - series.points[i - 1].x);
     EXPECT_NEAR(collisions, count + 2, 1e-12 * (count + 2));
-    EXPECT_EQ(chart.histogram(CollisionKind::body_fixed).total(), static_cast<std::uint64_t>((count + 2) / 3));
+    EXPECT_EQ(chart.histogram(CollisionKind::body_fixed).total(), static_cast<uint64_t>((count + 2) / 3));
     EXPECT_EQ(chart.histogram(CollisionKind::merge).total(), 1u);
-    EXPECT_EQ(chart.histogram(CollisionKind::string).total(), 1u);
+    EXPECT_EQ(chart.histogram(CollisionKind::taut).total(), 1u);
   }
 }
 
@@ -143,7 +144,7 @@ TEST(ThinnedLine, KeepsEveryExtremeWithAFewPointsForEachColumn) {
     highest = std::max(highest, y);
     line.add(i / static_cast<double>(instants), y);
   }
-  const std::vector<PlotPoint> points = line.points();
+  const vector<PlotPoint> points = line.points();
   EXPECT_LE(points.size(), 4u * ThinnedLine::columns);
   const auto [low, high] =
       std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
@@ -182,9 +183,9 @@ TEST(HeightsChart, OfManyBodiesHasTheirMedianAndQuarters) {
 TEST(HeightsChart, OfAnyNumberOfInstantsHasOneForEachColumnAndTheLast) {
   const Scene scene = scene_of(9);
   HeightsChart heights(scene);
-  const std::vector<double> some(9, 1.0);
+  const vector<double> some(9, 1.0);
   for (int i = 0; i <= 50'000; ++i) heights.add(scene.simulate.duration * i / 50'000, some);
-  const std::vector<PlotPoint> points = heights.plot().series[2].points;
+  const vector<PlotPoint> points = heights.plot().series[2].points;
   EXPECT_EQ(points.size(), ThinnedLine::columns + 1u);
   EXPECT_EQ(points.back().x, scene.simulate.duration);
 }
@@ -206,11 +207,11 @@ TEST(HeightsChart, LeavesOutBodiesThatBecamePartOfOthers) {
 
 TEST(PlotAxis, TicksAreRoundAndTheirTextsExact) {
   const auto texts = [](const PlotAxis& axis) {
-    std::vector<std::string> all;
+    vector<string> all;
     for (const PlotTick& tick : axis.ticks) all.push_back(tick.text);
     return all;
   };
-  using Texts = std::vector<std::string>;
+  using Texts = vector<string>;
   EXPECT_EQ(texts(linear_axis(0, 0.3, 6)), (Texts{"0", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30"}));
   EXPECT_EQ(texts(linear_axis(-1, 1, 6)), (Texts{"-1.0", "-0.5", "0", "0.5", "1.0"}));
   EXPECT_EQ(texts(linear_axis(0, 3, 6, 1)), (Texts{"0", "1", "2", "3"}));
@@ -231,11 +232,11 @@ TEST(PlotAxis, OfValuesThatDifferByRoundingHasRoomAroundThem) {
 }
 
 TEST(Charts, AreThoseOfTheTableOfOutputs) {
-  std::vector<std::string> names;
+  vector<string> names;
   for (const RunChart& chart : run_charts())
-    for (const char* ending : {".svg", ".png"}) names.push_back(std::string(chart.name) + ending);
+    for (const char* ending : {".svg", ".png"}) names.push_back(string(chart.name) + ending);
   const auto listed = parts_of(plot_files.names);
-  EXPECT_EQ(names, std::vector<std::string>(listed.begin(), listed.end()));
+  EXPECT_EQ(names, vector<string>(listed.begin(), listed.end()));
   EXPECT_TRUE(plot_files.has("speeds.svg"));
   for (const char* name : {"speeds", "speeds.pdf", "energy.svg|energy.png", ""}) EXPECT_FALSE(plot_files.has(name));
 }
@@ -260,11 +261,11 @@ TEST(Charts, OfARunAreFilesOfItsFolderWithTheSameBytesEachTime) {
   const TempFolder here;
   run(scene, here / "a");
   run(scene, here / "b");
-  std::set<std::string> listed;
+  std::set<string> listed;
   const auto manifest = nlohmann::json::parse(read(here / "a/manifest.json"));
   for (const auto& file : manifest["files"]) listed.insert(file["name"]);
-  for (const std::string_view name : parts_of(plot_files.names)) {
-    const std::string path = "plots/" + std::string(name), bytes = read(here / ("a/" + path));
+  for (const string_view name : parts_of(plot_files.names)) {
+    const string path = "plots/" + string(name), bytes = read(here / ("a/" + path));
     EXPECT_EQ(bytes, read(here / ("b/" + path))) << path;
     EXPECT_TRUE(bytes.starts_with(path.ends_with(".png") ? "\x89PNG\r\n\x1a\n" : "<?xml")) << path;
     EXPECT_TRUE(listed.contains(path)) << path;
@@ -275,7 +276,7 @@ TEST(Charts, WithoutGnuplotAreRefusedBeforeTheFolderIsMade) {
   Scene scene = small_scene();
   scene.output.plots = true;
   const TempFolder here;
-  const std::string path = std::getenv("PATH");
+  const string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   EXPECT_EQ(error_of([&] { Exports(scene, here / "run"); }),
             "the plots need gnuplot, which is not on the PATH\n  install it (on Debian: apt install gnuplot-nox)");

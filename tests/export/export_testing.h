@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
-#include <string>
-#include <vector>
 
 #include "export/exports.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::testing_export {
 
@@ -22,7 +20,7 @@ namespace fs = std::filesystem;
 class TempFolder {
  public:
   TempFolder() {
-    std::string name = ::testing::TempDir() + "carom_export_XXXXXX";
+    string name = ::testing::TempDir() + "carom_export_XXXXXX";
     if (!mkdtemp(name.data())) ADD_FAILURE() << "mkdtemp";
     path_ = name;
   }
@@ -30,30 +28,30 @@ class TempFolder {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
   }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
+  string operator/(const string& name) const { return path_ + "/" + name; }
+  const string& path() const { return path_; }
 
  private:
-  std::string path_;
+  string path_;
 };
 
-inline std::string read(const std::string& path) {
+inline string read(const string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-inline void write(const std::string& path, const std::string& text) {
+inline void write(const string& path, const string& text) {
   fs::create_directories(fs::path(path).parent_path());
   std::ofstream(path, std::ios::binary) << text;
 }
 
 /// All entries below a folder, hidden files included, sorted.
-inline std::vector<std::string> names_in(const std::string& folder) {
-  std::vector<std::string> names;
+inline vector<string> names_in(const string& folder) {
+  vector<string> names;
   if (fs::exists(folder))
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       names.push_back(fs::relative(entry.path(), folder).string());
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 
@@ -79,23 +77,22 @@ inline Scene small_scene() {
 /// A smooth picture that differs from pixel to pixel and from `phase` to `phase`.
 inline Image picture(Size size, int phase) {
   Image image{size.width, size.height, {}};
-  image.pixels.reserve(static_cast<std::size_t>(size.width * size.height) * 3);
+  image.pixels.reserve(static_cast<size_t>(size.width * size.height) * 3);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
-      for (const int value : {x + phase, y + 2 * phase, x + y})
-        image.pixels.push_back(static_cast<std::uint8_t>(value));
+      for (const int value : {x + phase, y + 2 * phase, x + y}) image.pixels.push_back(static_cast<uint8_t>(value));
   return image;
 }
 
 /// Runs through a timeline as `run` does, with the scene's initial state throughout.
-inline void play(const Scene& scene, Exports& exports, const std::vector<ContactForce>& contacts = {}) {
+inline void play(const Scene& scene, Exports& exports, const vector<ContactForce>& contacts = {}) {
   while (exports.tables().timeline().advance()) exports.tables().sample(scene.initial, contacts);
   if (!exports.draws()) return;
   exports.begin_drawings();
   const Timeline& timeline = exports.drawings().timeline();
   while (exports.drawings().timeline().advance()) {
     exports.drawings().sample(scene.initial);
-    for (std::size_t i = 0; i < exports.pictures().size(); ++i)
+    for (size_t i = 0; i < exports.pictures().size(); ++i)
       if (const auto due = timeline.due(exports.pictures()[i].timeline_stream))
         exports.picture(i, picture(exports.pictures()[i].size, static_cast<int>(*due)));
   }
@@ -111,7 +108,7 @@ inline Summary some_summary(const Scene& scene) {
 }
 
 /// A whole run.
-inline void run(const Scene& scene, const std::string& folder, const std::vector<ContactForce>& contacts = {}) {
+inline void run(const Scene& scene, const string& folder, const vector<ContactForce>& contacts = {}) {
   Exports exports(scene, folder);
   play(scene, exports, contacts);
   Summary summary = some_summary(scene);
@@ -119,7 +116,7 @@ inline void run(const Scene& scene, const std::string& folder, const std::vector
   exports.finish(summary, {});
 }
 
-inline std::string error_of(const std::function<void()>& action) {
+inline string error_of(const function<void()>& action) {
   try {
     action();
   } catch (const ExportError& error) {

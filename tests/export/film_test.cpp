@@ -9,14 +9,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
-#include <functional>
 
 #include "export/export_testing.h"
 #include "export/picture_streams.h"
 #include "export/webp.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,7 +25,7 @@ using std::chrono::milliseconds;
 
 constexpr Size small = {64, 36};
 
-Scene scene_with_film(const std::string& file = "animation.mp4") {
+Scene scene_with_film(const string& file = "animation.mp4") {
   Scene scene = small_scene();
   VideoOutput video;
   video.file = file;
@@ -37,7 +36,7 @@ Scene scene_with_film(const std::string& file = "animation.mp4") {
 }
 
 /// ffprobe's facts of a film's picture stream.
-std::string probe(const std::string& film, const std::string& entries) {
+string probe(const string& film, const string& entries) {
   const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   Child child({find_film_tools().ffprobe, "-v", "error", "-select_streams", "v:0", "-count_frames", "-show_entries",
                "stream=" + entries, "-of", "default=noprint_wrappers=1:nokey=1", "file:" + film},
@@ -47,7 +46,7 @@ std::string probe(const std::string& film, const std::string& entries) {
 }
 
 /// The pixels of a film's first frame, as ffmpeg decodes them.
-std::string first_frame(const std::string& film) {
+string first_frame(const string& film) {
   const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   Child child({find_film_tools().ffmpeg, "-nostdin", "-v", "error", "-i", "file:" + film, "-frames:v", "1", "-vf",
                "scale=in_color_matrix=bt709:in_range=tv:flags=accurate_rnd+full_chroma_int", "-pix_fmt", "rgb24", "-f",
@@ -62,13 +61,12 @@ TEST(Film, IsWhatEveryPlayerPlays) {
   Scene scene = scene_with_film();
   scene.simulate.duration = 1;
   run(scene, temp / "run");
-  EXPECT_EQ(names_in(temp / "run"),
-            (std::vector<std::string>{"animation.mp4", "manifest.json", "scene.yaml", "summary.csv"}));
+  EXPECT_EQ(names_in(temp / "run"), (vector<string>{"animation.mp4", "manifest.json", "scene.yaml", "summary.csv"}));
   EXPECT_EQ(probe(temp / "run/animation.mp4", "codec_name,width,height,pix_fmt"), "h264\n64\n36\nyuv420p\n");
   EXPECT_EQ(probe(temp / "run/animation.mp4", "color_range,color_space,color_transfer,color_primaries"),
             "tv\nbt709\nbt709\nbt709\n");
   EXPECT_EQ(probe(temp / "run/animation.mp4", "avg_frame_rate,duration,nb_read_frames"), "25/1\n1.040000\n26\n");
-  const std::string bytes = read(temp / "run/animation.mp4");
+  const string bytes = read(temp / "run/animation.mp4");
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));  // the index in front, so that it plays while it loads
   EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::this_run);
 }
@@ -76,7 +74,7 @@ TEST(Film, IsWhatEveryPlayerPlays) {
 TEST(Film, FrameRatesAreKept) {
   TempFolder temp;
   Scene scene = scene_with_film();
-  for (const auto& [fps, expected] : std::vector<std::pair<double, std::string>>{
+  for (const auto& [fps, expected] : vector<std::pair<double, string>>{
            {30, "30/1\n"},
            {29.97, "2997/100\n"},
 
@@ -91,8 +89,8 @@ TEST(Film, FrameRatesAreKept) {
 TEST(Film, ColoursComeBack) {
   TempFolder temp;
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  const std::vector<std::array<int, 3>> colours = {{255, 255, 255}, {0, 0, 0},   {128, 128, 128}, {255, 0, 0},
-                                                   {0, 255, 0},     {0, 0, 255}, {220, 20, 60},   {65, 105, 225}};
+  const vector<array<int, 3>> colours = {{255, 255, 255}, {0, 0, 0},   {128, 128, 128}, {255, 0, 0},
+                                         {0, 255, 0},     {0, 0, 255}, {220, 20, 60},   {65, 105, 225}};
   VideoOutput video;
   video.size = {16 * static_cast<int>(colours.size()), 16};
   video.crf = 1;
@@ -100,17 +98,17 @@ TEST(Film, ColoursComeBack) {
   for (int y = 0; y < 16; ++y)
     for (const auto& colour : colours)
       for (int x = 0; x < 16; ++x)
-        for (const int c : colour) image.pixels.push_back(static_cast<std::uint8_t>(c));
+        for (const int c : colour) image.pixels.push_back(static_cast<uint8_t>(c));
   Film film({folder.get(), temp.path()}, video, find_film_tools());
   film.add(image);
   film.complete();
   film.file().publish();
-  const std::string pixels = first_frame(temp / "animation.mp4");
+  const string pixels = first_frame(temp / "animation.mp4");
   ASSERT_EQ(pixels.size(), image.pixels.size());
   int worst = 0;
-  for (std::size_t i = 0; i < colours.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = 3 * (8 * 16 * colours.size() + 16 * i + 8) + c;
+  for (size_t i = 0; i < colours.size(); ++i)
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t at = 3 * (8 * 16 * colours.size() + 16 * i + 8) + c;
       worst = std::max(worst, std::abs(static_cast<unsigned char>(pixels[at]) - image.pixels[at]));
     }
   EXPECT_LE(worst, 3);  // measured: 1; limited range has 219 levels for 256
@@ -123,7 +121,7 @@ TEST(Film, OddSizesRepeatTheirLastPixel) {
   scene.output.video->crf = 1;
   run(scene, temp / "run");
   EXPECT_EQ(probe(temp / "run/animation.mp4", "width,height"), "66\n38\n");
-  const std::string pixels = first_frame(temp / "run/animation.mp4");
+  const string pixels = first_frame(temp / "run/animation.mp4");
   ASSERT_EQ(pixels.size(), 66u * 38 * 3);
   EXPECT_NEAR(static_cast<unsigned char>(pixels[3 * (66 * 20 + 65)]),
               static_cast<unsigned char>(pixels[3 * (66 * 20 + 64)]), 3);
@@ -172,7 +170,7 @@ TEST(Film, FramesAndFilmOfOneKindAreDrawnOnce) {
 TEST(Film, OfSpeedAnEighthLastsEightTimesAsLong) {
   TempFolder temp;
   Scene scene = scene_with_film();
-  for (const auto& [speed, frames] : std::vector<std::pair<double, int>>{{1, 6}, {0.125, 41}, {2, 3}}) {
+  for (const auto& [speed, frames] : vector<std::pair<double, int>>{{1, 6}, {0.125, 41}, {2, 3}}) {
     scene.output.video->speed = speed;
     run(scene, temp / "run");
     // From the first picture to the last: 0.2 s of motion.
@@ -195,15 +193,14 @@ TEST(Film, HasAWindowOfItsOwnAndBeginsThere) {
 TEST(Film, AGifHasEveryPictureForItsTime) {
   TempFolder temp;
   Scene scene = scene_with_film("film.gif");
-  for (const auto& [fps, facts] : std::vector<std::pair<double, std::string>>{
+  for (const auto& [fps, facts] : vector<std::pair<double, string>>{
            {50, "0.220000\n11\n"}, {25, "0.240000\n6\n"}, {12.5, "0.240000\n3\n"}, {100.0 / 3, "0.210000\n7\n"}}) {
     scene.output.video->fps = fps;
     run(scene, temp / "run");
     EXPECT_EQ(probe(temp / "run/film.gif", "duration,nb_read_frames"), facts) << fps;
   }
   EXPECT_EQ(probe(temp / "run/film.gif", "codec_name,width,height"), "gif\n64\n36\n");
-  EXPECT_EQ(names_in(temp / "run"),
-            (std::vector<std::string>{"film.gif", "manifest.json", "scene.yaml", "summary.csv"}));
+  EXPECT_EQ(names_in(temp / "run"), (vector<string>{"film.gif", "manifest.json", "scene.yaml", "summary.csv"}));
 }
 
 TEST(Film, AGifsColoursAreThoseOfThePictures) {
@@ -214,18 +211,17 @@ TEST(Film, AGifsColoursAreThoseOfThePictures) {
   video.fps = 25;
   video.size = {64, 16};
   Image image{64, 16, {}};
-  const std::array<std::array<int, 3>, 4> colours = {{{255, 255, 255}, {220, 20, 60}, {65, 105, 225}, {0, 0, 0}}};
+  const array<array<int, 3>, 4> colours = {{{255, 255, 255}, {220, 20, 60}, {65, 105, 225}, {0, 0, 0}}};
   for (int i = 0; i < 64 * 16; ++i)
-    for (const int c : colours[static_cast<std::size_t>(i % 64 / 16)])
-      image.pixels.push_back(static_cast<std::uint8_t>(c));
+    for (const int c : colours[static_cast<size_t>(i % 64 / 16)]) image.pixels.push_back(static_cast<uint8_t>(c));
   Film film({folder.get(), temp.path()}, video, find_film_tools());
   for (int i = 0; i < 3; ++i) film.add(image);
   film.complete();
   film.file().publish();
-  const std::string pixels = first_frame(temp / "film.gif");
+  const string pixels = first_frame(temp / "film.gif");
   ASSERT_EQ(pixels.size(), image.pixels.size());
   EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), image.pixels.begin(),
-                         [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }));
+                         [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; }));
 }
 
 TEST(Film, AWebpHasEveryPictureForItsTime) {
@@ -236,7 +232,7 @@ TEST(Film, AWebpHasEveryPictureForItsTime) {
   video.size = {64, 36};
   for (const double fps : {30.0, 25.0, 60.0})
     // Equal pictures in a row are stored as one, at the end, too.
-    for (const std::vector<int>& phases : {std::vector<int>{0, 1, 2, 3, 4}, {0, 0, 0, 1, 1}, {0, 1, 1, 1, 1, 1, 1}}) {
+    for (const vector<int>& phases : {vector<int>{0, 1, 2, 3, 4}, {0, 0, 0, 1, 1}, {0, 1, 1, 1, 1, 1, 1}}) {
       video.fps = fps;
       Film film({folder.get(), temp.path()}, video, find_film_tools());
       for (const int phase : phases) film.add(picture(video.size, 40 * phase));
@@ -257,7 +253,7 @@ TEST(Film, AWebpInWhichNothingMovesIsAStillPicture) {
     for (int i = 0; i < pictures; ++i) film.add(picture(video.size, 0));
     EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << pictures;
     film.file().publish();
-    EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "film.webp", video.fps), std::nullopt);
+    EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "film.webp", video.fps), nullopt);
   }
 }
 
@@ -265,9 +261,8 @@ TEST(Film, ADamagedWebpHasNoPictures) {
   TempFolder temp;
   run(scene_with_film("film.webp"), temp / "run");
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  const std::string whole = read(temp / "run/film.webp");
-  for (const std::string& damaged :
-       {std::string(), std::string("RIFF"), whole.substr(0, whole.size() / 2), "x" + whole}) {
+  const string whole = read(temp / "run/film.webp");
+  for (const string& damaged : {string(), string("RIFF"), whole.substr(0, whole.size() / 2), "x" + whole}) {
     write(temp / "film.webp", damaged);
     EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "film.webp", 25), 0U);
   }
@@ -277,7 +272,7 @@ TEST(Film, ADamagedWebpHasNoPictures) {
 TEST(Film, OpacityStaysInAGifAndAWebp) {
   TempFolder temp;
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  for (const std::string name : {"film.gif", "film.webp", "film.mp4"}) {
+  for (const string name : {"film.gif", "film.webp", "film.mp4"}) {
     VideoOutput video;
     video.file = name;
     video.fps = 25;
@@ -287,24 +282,23 @@ TEST(Film, OpacityStaysInAGifAndAWebp) {
     for (int i = 0; i < 3; ++i) {
       Image image{32, 32, {}, 4};
       for (int k = 0; k < 32 * 32; ++k)
-        for (const int c : {200, 40 * i, 50, k % 16 < 8 ? 0 : 255})
-          image.pixels.push_back(static_cast<std::uint8_t>(c));
+        for (const int c : {200, 40 * i, 50, k % 16 < 8 ? 0 : 255}) image.pixels.push_back(static_cast<uint8_t>(c));
       film.add(image);
     }
     EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << name;
     film.file().publish();
   }
-  const std::string rgb = first_frame(temp / "film.mp4");
+  const string rgb = first_frame(temp / "film.mp4");
   EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * (32 * 16 + 4)]), 0, 8);  // on black
   EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * (32 * 16 + 12)]), 200, 8);
-  const std::string webp = read(temp / "film.webp");
+  const string webp = read(temp / "film.webp");
   ASSERT_EQ(webp.substr(12, 4), "VP8X");
   EXPECT_TRUE(webp[20] & 0x10) << "the container names no opacity";
   Child child({find_film_tools().ffmpeg, "-nostdin", "-v", "error", "-i", "film.gif", "-frames:v", "1", "-pix_fmt",
                "rgba", "-f", "rawvideo", "pipe:1"},
               folder.get(), false);
   EXPECT_EQ(child.wait(std::chrono::seconds(60)), 0) << child.errors();
-  const std::string rgba = child.output();
+  const string rgba = child.output();
   ASSERT_EQ(rgba.size(), 32U * 32 * 4);
   EXPECT_EQ(static_cast<unsigned char>(rgba[4 * (32 * 16 + 4) + 3]), 0);
   EXPECT_EQ(static_cast<unsigned char>(rgba[4 * (32 * 16 + 12) + 3]), 255);
@@ -334,8 +328,8 @@ TEST(Film, FramesOfNoInstantAreRefusedBeforeAnythingIsWritten) {
 TEST(Film, WithoutFfmpegNothingIsBegun) {
   TempFolder temp;
   const Scene scene = scene_with_film();
-  const std::string path = std::getenv("PATH");
-  const std::string remedy =
+  const string path = std::getenv("PATH");
+  const string remedy =
       ", which is not on the PATH\n  install it (on Debian: apt install ffmpeg), or leave the video out";
   setenv("PATH", "", 1);
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffmpeg" + remedy);
@@ -351,11 +345,11 @@ TEST(Film, WithoutFfmpegNothingIsBegun) {
 
 TEST(Film, AnyFileNameIsJustAName) {
   TempFolder temp;
-  for (const std::string name : {"-i.mp4", "http:%d;'\"`$(touch x).mp4"}) {
+  for (const string name : {"-i.mp4", "http:%d;'\"`$(touch x).mp4"}) {
     run(scene_with_film(name), temp / "run");
     EXPECT_EQ(names_in(temp / "run"), ([&] {
-                std::vector<std::string> names = {name, "manifest.json", "scene.yaml", "summary.csv"};
-                std::sort(names.begin(), names.end());
+                vector<string> names = {name, "manifest.json", "scene.yaml", "summary.csv"};
+                std::ranges::sort(names);
                 return names;
               }()));
   }
@@ -363,10 +357,10 @@ TEST(Film, AnyFileNameIsJustAName) {
 
 TEST(Film, ANameThatIsNoPlainOneOrAnotherOutputsIsRefused) {
   TempFolder temp;
-  for (const std::string name : {"../x.mp4", "/tmp/x.mp4", "a/b.mp4", "..", ".x", "", "a\nb.mp4"})
+  for (const string name : {"../x.mp4", "/tmp/x.mp4", "a/b.mp4", "..", ".x", "", "a\nb.mp4"})
     EXPECT_EQ(error_of([&] { Exports exports(scene_with_film(name), temp / "run"); }),
               "cannot make the film " + name + ": that is no plain file name");
-  for (const std::string name : {"summary.csv", "manifest.json", "frames", "scene.yaml"})
+  for (const string name : {"summary.csv", "manifest.json", "frames", "scene.yaml"})
     EXPECT_EQ(error_of([&] { Exports exports(scene_with_film(name), temp / "run"); }),
               "cannot make the film " + name + ": another output has that name");
   EXPECT_FALSE(fs::exists(temp / "run"));
@@ -375,24 +369,23 @@ TEST(Film, ANameThatIsNoPlainOneOrAnotherOutputsIsRefused) {
 /// A film whose ffmpeg is a shell script, in a folder of its own.
 class ScriptedFfmpeg : public ::testing::Test {
  protected:
-  std::string film(const std::string& script, int pictures, FilmPatience patience = {}) {
+  string film(const string& script, int pictures, FilmPatience patience = {}) {
     write(temp_ / "ffmpeg", "#!/bin/sh\n" + script + "\n");
     chmod((temp_ / "ffmpeg").c_str(), 0755);
     fs::create_directory(temp_ / "out");
     const Descriptor folder(open((temp_ / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     VideoOutput video;
     video.size = {320, 180};
-    const std::string error = error_of([&] {
+    const string error = error_of([&] {
       Film film({folder.get(), "out"}, video, {temp_ / "ffmpeg", find_film_tools().ffprobe}, patience);
       for (int i = 0; i < pictures; ++i) film.add(picture(video.size, i));
       film.complete();
       film.file().publish();
     });
-    EXPECT_EQ(names_in(temp_ / "out"),
-              error == "no error" ? std::vector<std::string>{"animation.mp4"} : std::vector<std::string>{});
+    EXPECT_EQ(names_in(temp_ / "out"), error == "no error" ? vector<string>{"animation.mp4"} : vector<string>{});
     return error;
   }
-  std::string real() const { return find_film_tools().ffmpeg + " \"$@\""; }
+  string real() const { return find_film_tools().ffmpeg + " \"$@\""; }
   TempFolder temp_;
 };
 
@@ -422,7 +415,7 @@ TEST_F(ScriptedFfmpeg, HalfAFilmIsReported) {
 }
 
 TEST_F(ScriptedFfmpeg, NoFilmAtAllIsReported) {
-  const std::string error = film("cat >/dev/null", 3);
+  const string error = film("cat >/dev/null", 3);
   EXPECT_TRUE(error.starts_with("cannot make the film out/animation.mp4: ffprobe cannot read it: ")) << error;
 }
 
@@ -463,7 +456,7 @@ TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
   TempFolder temp;
   const Scene scene = scene_with_film();
   run(scene, temp / "whole");
-  const std::string whole = read(temp / "whole/animation.mp4");
+  const string whole = read(temp / "whole/animation.mp4");
   for (const int pictures : {1, 3, 6}) {
     const pid_t child = fork();
     if (child == 0) {
@@ -488,7 +481,7 @@ TEST_F(ScriptedFfmpeg, ItInheritsNoFileOfTheRun) {
   write(temp_ / "bin/ffmpeg", "#!/bin/sh\nls -l /proc/$$/fd | grep '/run' >&2 && exit 9\nexec " + real() + "\n");
   chmod((temp_ / "bin/ffmpeg").c_str(), 0755);
   fs::create_symlink(find_film_tools().ffprobe, temp_ / "bin/ffprobe");
-  const std::string path = std::getenv("PATH");
+  const string path = std::getenv("PATH");
   setenv("PATH", (temp_ / "bin:" + path).c_str(), 1);
   Scene scene = scene_with_film();
   scene.output.trajectory.emplace();

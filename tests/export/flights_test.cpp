@@ -4,15 +4,14 @@
 #include <fcntl.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <optional>
 
 #include "export/export_testing.h"
 #include "export/same_piece.h"
 #include "files/hash.h"
 #include "files/open_folder.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -20,8 +19,8 @@ namespace {
 using namespace testing_export;
 
 /// A piece of each kind.
-std::vector<PathPiece> pieces() {
-  std::vector<PathPiece> all;
+vector<PathPiece> pieces() {
+  vector<PathPiece> all;
   for (Entity i = 0; i < 4; ++i) all.push_back({i, 0, {0, 0}, Vec3(i, 1, -0.0), Vec3(1, -0.0, 0), Vec3(0, -10, 0)});
   all.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -0.0, 0)});
   all.push_back({2, 0.125, {0.0625, 0}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -10, 0)});
@@ -33,7 +32,7 @@ std::vector<PathPiece> pieces() {
   PathPiece curved{2, 0.17, {0.17, 0}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3(0, -10, 0)};
   PolynomialPath curve;
   curve.length = 0.5;
-  for (std::size_t k = 0; k < PolynomialPath::terms; ++k)
+  for (size_t k = 0; k < PolynomialPath::terms; ++k)
     curve.displacement[k] = Vec3(0.25, -0.0, -3) / static_cast<double>(k + 1);
   curved.curve = std::make_shared<PolynomialPath>(curve);
   all.push_back(curved);
@@ -83,8 +82,8 @@ Descriptor open(const TempFolder& folder) {
 }
 
 /// Writes flights.bin; returns what it left out.
-std::vector<LeftOut> store(const TempFolder& folder, const Scene& scene, const std::vector<PathPiece>& recorded,
-                           std::uint64_t most = largest_flights) {
+vector<LeftOut> store(const TempFolder& folder, const Scene& scene, const vector<PathPiece>& recorded,
+                      uint64_t most = largest_flights) {
   const Descriptor opened = open(folder);
   FlightsFile file({opened.get(), folder.path()}, scene, most);
   file.record_paths(recorded);
@@ -93,11 +92,11 @@ std::vector<LeftOut> store(const TempFolder& folder, const Scene& scene, const s
   return file.left_out();
 }
 
-std::vector<LeftOut> store(const TempFolder& folder, const Scene& scene, std::uint64_t most = largest_flights) {
+vector<LeftOut> store(const TempFolder& folder, const Scene& scene, uint64_t most = largest_flights) {
   return store(folder, scene, pieces(), most);
 }
 
-std::string refusal(const TempFolder& folder, const Scene& scene) {
+string refusal(const TempFolder& folder, const Scene& scene) {
   try {
     const Descriptor opened = open(folder);
     FlightsReader reader(opened.get(), "run", scene);
@@ -140,8 +139,8 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
 }
 
 /// A crowd's steps of 1/1024 s, in which gravity changes drifts, and the impact of each ball with its neighbour.
-std::vector<PathPiece> falling_crowd(int steps) {
-  std::vector<PathPiece> all;
+vector<PathPiece> falling_crowd(int steps) {
+  vector<PathPiece> all;
   const double length = 0x1p-10;
   Vec3 x[4];
   for (int k = 0; k < steps; ++k)
@@ -166,7 +165,7 @@ TEST(Flights, TakeHardlyAByteForAStepThatFollowsFromTheStepBefore) {
 
 /// Two balls that approach, part at an impact, and approach again from walls.
 TEST(Flights, TakeFewBytesForAnImpactOfTwo) {
-  std::vector<PathPiece> all = {pieces()[0], pieces()[1]};
+  vector<PathPiece> all = {pieces()[0], pieces()[1]};
   for (PathPiece& piece : all) piece.a = Vec3::Zero();
   double time = 0;
   const int impacts = 1'000;
@@ -204,8 +203,8 @@ TEST(Flights, HaveTheSameBytesOnEveryProcessorWithSse42) {
 
 /// What an advance gives: collisions, each with the pieces that begin with it.
 struct Event {
-  std::optional<Collision> collision;
-  std::vector<PathPiece> pieces;
+  optional<Collision> collision;
+  vector<PathPiece> pieces;
 };
 
 Collision collision_at(double time, CollisionKind kind, Entity a, Entity b) {
@@ -218,14 +217,14 @@ Collision collision_at(double time, CollisionKind kind, Entity a, Entity b) {
 }
 
 /// The file of two advances, the second one from this event on, or from its pieces on.
-std::string recorded_in_two(const std::vector<Event>& events, std::size_t first, bool cuts_an_event) {
+string recorded_in_two(const vector<Event>& events, size_t first, bool cuts_an_event) {
   const TempFolder folder;
   Scene scene = small_scene();
   scene.overlay.flash = true;
   const Descriptor opened = open(folder);
   FlightsFile file({opened.get(), folder.path()}, scene);
-  std::vector<Collision> collisions;
-  std::vector<PathPiece> pieces;
+  vector<Collision> collisions;
+  vector<PathPiece> pieces;
   const auto advance = [&] {
     file.record(collisions);
     file.record_paths(pieces);
@@ -233,7 +232,7 @@ std::string recorded_in_two(const std::vector<Event>& events, std::size_t first,
     pieces.clear();
   };
 
-  for (std::size_t k = 0; k < events.size(); ++k) {
+  for (size_t k = 0; k < events.size(); ++k) {
     if (k == first && !cuts_an_event) advance();
     if (events[k].collision) collisions.push_back(*events[k].collision);
     if (k == first && cuts_an_event) advance();
@@ -246,7 +245,7 @@ std::string recorded_in_two(const std::vector<Event>& events, std::size_t first,
 }
 
 TEST(Flights, HaveTheSameBytesWhereverAnAdvanceEnds) {
-  std::vector<Event> events = {{{}, {}}};
+  vector<Event> events = {{{}, {}}};
   for (Entity i = 0; i < 4; ++i) events[0].pieces.push_back(pieces()[i]);
   const auto event = [&](double hi, double lo, Entity a, Entity b) {
     Event& added = events.emplace_back();
@@ -264,8 +263,8 @@ TEST(Flights, HaveTheSameBytesWhereverAnAdvanceEnds) {
   event(0.75, -1e-18, 3, 0);
   events.push_back({collision_at(0.875, CollisionKind::body_fixed, 1, 0), {}});
 
-  const std::string bytes = recorded_in_two(events, 0, false);
-  for (std::size_t first = 1; first < events.size(); ++first)
+  const string bytes = recorded_in_two(events, 0, false);
+  for (size_t first = 1; first < events.size(); ++first)
     for (const bool cuts : {false, true}) EXPECT_EQ(recorded_in_two(events, first, cuts), bytes) << first << cuts;
 }
 
@@ -273,8 +272,8 @@ TEST(Flights, CutOffAnywhereAreRefused) {
   const TempFolder folder;
   const Scene scene = small_scene();
   store(folder, scene);
-  const std::string whole = read(folder / "flights.bin");
-  for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 13) {
+  const string whole = read(folder / "flights.bin");
+  for (size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 13) {
     write(folder / "flights.bin", whole.substr(0, size));
     EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is truncated") << size;
   }
@@ -284,13 +283,13 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
   const TempFolder folder;
   Scene scene = small_scene();
   store(folder, scene);
-  const std::string whole = read(folder / "flights.bin");
+  const string whole = read(folder / "flights.bin");
   EXPECT_EQ(refusal(folder, scene), "");
   scene.simulate.duration = 3;
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it belongs to another scene");
   scene = small_scene();
-  const auto with = [&](std::size_t at, char byte) {
-    std::string other = whole;
+  const auto with = [&](size_t at, char byte) {
+    string other = whole;
     other[at] = byte;
     write(folder / "flights.bin", other);
     return refusal(folder, scene);
@@ -307,9 +306,9 @@ TEST(Flights, WithAChangedByteAreRefused) {
   const TempFolder folder;
   const Scene scene = small_scene();
   store(folder, scene);
-  const std::string whole = read(folder / "flights.bin");
-  for (std::size_t at = 32; at < whole.size() - 216; at += at < 32 + 24 ? 1 : 13) {
-    std::string damaged = whole;
+  const string whole = read(folder / "flights.bin");
+  for (size_t at = 32; at < whole.size() - 216; at += at < 32 + 24 ? 1 : 13) {
+    string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
     write(folder / "flights.bin", damaged);
     EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is damaged") << at;
@@ -320,13 +319,13 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   const TempFolder folder;
   const Scene scene = small_scene();
   const double infinite = std::numeric_limits<double>::infinity();
-  const auto refused_with = [&](std::size_t which, const std::function<void(PathPiece&)>& change) {
-    std::vector<PathPiece> changed = pieces();
+  const auto refused_with = [&](size_t which, const function<void(PathPiece&)>& change) {
+    vector<PathPiece> changed = pieces();
     change(changed[which]);
     store(folder, scene, changed);
     return refusal(folder, scene) == "cannot use run/flights.bin: it is damaged";
   };
-  const std::size_t first = 0, step = 6, curve = 7, part = 8, joint = 9, fading = 10, frame = 13;
+  const size_t first = 0, step = 6, curve = 7, part = 8, joint = 9, fading = 10, frame = 13;
   EXPECT_FALSE(refused_with(first, [](PathPiece&) {}));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.from = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.hi = -infinite; }));
@@ -344,7 +343,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   EXPECT_TRUE(refused_with(fading, [&](PathPiece& piece) { piece.fade = infinite; }));
   EXPECT_TRUE(refused_with(frame, [&](PathPiece& piece) { piece.rounding = infinite; }));
 
-  const auto bend = [](PathPiece& piece, const std::function<void(PolynomialPath&)>& change) {
+  const auto bend = [](PathPiece& piece, const function<void(PolynomialPath&)>& change) {
     auto other = std::make_shared<PolynomialPath>(*piece.curve);
     change(*other);
     piece.curve = other;
@@ -371,7 +370,7 @@ TEST(Flights, WithAnImpactOfABodyWithoutAPathAreDamaged) {
   target.v[0] = 4.0 / 3;
   writer.write(impact, ball, &target, scene.world);
 
-  std::vector<char> packed;
+  vector<char> packed;
   impact.pack(packed);
   ColumnReader columns;
   ASSERT_TRUE(columns.unpack(packed));
@@ -383,7 +382,7 @@ TEST(Flights, WithAnImpactOfABodyWithoutAPathAreDamaged) {
 TEST(Flights, ThatGoBackInTimeAreRefused) {
   const TempFolder folder;
   const Scene scene = small_scene();
-  std::vector<PathPiece> changed = pieces();
+  vector<PathPiece> changed = pieces();
   changed[5].from = 0.0625;
   store(folder, scene, changed);
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is damaged");
@@ -395,15 +394,14 @@ TEST(Flights, FromATimeOnBeginWithThePresentPieceOfEveryBody) {
   store(folder, scene);
   const Descriptor opened = open(folder);
   FlightsReader reader(opened.get(), folder.path(), scene);
-  const std::vector<PathPiece> all = pieces();
+  const vector<PathPiece> all = pieces();
   for (const double time : {0.19, 0.0, 0.15, 0.16, 1.0}) {
     SCOPED_TRACE(time);
     reader.seek(time);
-    std::vector<PathPiece> expected;
-    for (std::size_t k = 0; k < all.size(); ++k) {
+    vector<PathPiece> expected;
+    for (size_t k = 0; k < all.size(); ++k) {
       const auto replaced = [&](const PathPiece& later) { return later.body == all[k].body && later.from <= time; };
-      if (std::none_of(all.begin() + static_cast<std::ptrdiff_t>(k) + 1, all.end(), replaced))
-        expected.push_back(all[k]);
+      if (std::none_of(all.begin() + static_cast<ptrdiff_t>(k) + 1, all.end(), replaced)) expected.push_back(all[k]);
     }
     Recorded recorded;
     for (const PathPiece& piece : expected) {
@@ -416,7 +414,7 @@ TEST(Flights, FromATimeOnBeginWithThePresentPieceOfEveryBody) {
 
 TEST(Flights, ThatGrowTooLargeAreLeftOut) {
   const TempFolder folder;
-  const std::vector<LeftOut> left_out = store(folder, small_scene(), 900);
+  const vector<LeftOut> left_out = store(folder, small_scene(), 900);
   ASSERT_EQ(left_out.size(), 1u);
   EXPECT_EQ(left_out[0].name, "flights.bin");
   EXPECT_EQ(left_out[0].why, "larger than 9e-07 GB");
@@ -436,9 +434,9 @@ TEST(Flights, ThatWereLeftOutDoNotMakeARunIncomplete) {
     exports.finish(some_summary(scene), facts);
   }
   fs::remove(folder / "run/flights.bin");
-  std::string manifest = read(folder / "run/manifest.json");
-  EXPECT_NE(manifest.find("\"left_out\": {\n    \"flights.bin\": \"larger than 1 GB\"\n  }"), std::string::npos);
-  const std::size_t entry = manifest.find("    {\n      \"name\": \"flights.bin\"");
+  string manifest = read(folder / "run/manifest.json");
+  EXPECT_NE(manifest.find("\"left_out\": {\n    \"flights.bin\": \"larger than 1 GB\"\n  }"), string::npos);
+  const size_t entry = manifest.find("    {\n      \"name\": \"flights.bin\"");
   manifest.erase(manifest.rfind(',', entry), manifest.find('}', entry) + 1 - manifest.rfind(',', entry));
   write(folder / "run/manifest.json", manifest);
   EXPECT_EQ(inspect_folder(folder / "run", scene), FolderContent::this_run);

@@ -4,6 +4,7 @@
 #include "export/forecast.h"
 #include "numerics/whole.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -36,8 +37,7 @@ TEST(Forecast, BytesAreOfTheRightSize) {
     for (Vec3& v : *vectors) v = Vec3(1.0 / 3, 1.0 / 7, -1.0 / 11);
   run(scene, temp / "run");
   double bytes = 0;
-  for (const std::string& name : names_in(temp / "run"))
-    bytes += static_cast<double>(fs::file_size(temp / "run/" + name));
+  for (const string& name : names_in(temp / "run")) bytes += static_cast<double>(fs::file_size(temp / "run/" + name));
   EXPECT_NEAR(static_cast<double>(forecast(scene).bytes) / bytes, 1, 0.2);
 }
 
@@ -46,9 +46,9 @@ TEST(Forecast, SenselessRequestsDoNotOverflow) {
   scene.simulate.duration = 1e300;
   scene.output.trajectory = TrajectoryOutput{1e-300, false};
   scene.output.frames = FramesOutput{1e300, {16384, 16384}, 4, 0, {}};
-  EXPECT_GT(forecast(scene).rows, std::uint64_t{1} << 53);
-  EXPECT_GE(forecast(scene).frames, std::uint64_t{1} << 53);
-  EXPECT_EQ(forecast(scene).bytes, static_cast<std::uint64_t>(most_whole));
+  EXPECT_GT(forecast(scene).rows, uint64_t{1} << 53);
+  EXPECT_GE(forecast(scene).frames, uint64_t{1} << 53);
+  EXPECT_EQ(forecast(scene).bytes, static_cast<uint64_t>(most_whole));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "export/export_testing.h"
 #include "files/run_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,9 +27,9 @@ Plot small_plot() {
   return plot;
 }
 
-std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t k = at; k < at + 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[k]);
+uint32_t big_endian(const string& bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t k = at; k < at + 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[k]);
   return value;
 }
 
@@ -43,14 +44,14 @@ TEST(Plot, IsAPngAndAnSvgWithTheSameBytesEachTime) {
   EXPECT_TRUE(once.svg.ends_with("</svg>\n\n") || once.svg.ends_with("</svg>\n"));
   for (const char* text : {"Orders 1 and 2", "made up", "time (s)", "error (m)", ">first<", ">second<", ">rounding<",
                            ">1/16 s<", ">1/64 s<"})
-    EXPECT_NE(once.svg.find(text), std::string::npos) << text;
+    EXPECT_NE(once.svg.find(text), string::npos) << text;
 }
 
 TEST(Plot, TakesAnyTextToTheLetter) {
   Plot plot = small_plot();
   plot.title = "it's `x` $HOME \"q\" {/Symbol a} x^2_3 <b> \\n %d\n!touch";
-  const std::string svg = draw_plot(plot, find_gnuplot()).svg;
-  EXPECT_NE(svg.find("it's `x` $HOME \"q\" {/Symbol a} x^2_3 &lt;b> \\n %d !touch"), std::string::npos) << svg;
+  const string svg = draw_plot(plot, find_gnuplot()).svg;
+  EXPECT_NE(svg.find("it's `x` $HOME \"q\" {/Symbol a} x^2_3 &lt;b> \\n %d !touch"), string::npos) << svg;
 }
 
 TEST(Plot, OfNothingAndOfOnePointIsDrawn) {
@@ -62,7 +63,7 @@ TEST(Plot, OfNothingAndOfOnePointIsDrawn) {
 }
 
 TEST(Plot, WithoutGnuplotNamesTheRemedy) {
-  const std::string path = std::getenv("PATH");
+  const string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   EXPECT_EQ(error_of([] { find_gnuplot(); }),
             "the plots need gnuplot, which is not on the PATH\n  install it (on Debian: apt install gnuplot-nox)");

@@ -12,6 +12,7 @@
 #include "export/sheet.h"
 #include "files/hash.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 using namespace testing_export;
 
 /// Reads a PNG back with libpng's own simple reader.
-Image decode(const std::string& bytes) {
+Image decode(const string& bytes) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) << png.message;
@@ -33,11 +34,11 @@ Image decode(const std::string& bytes) {
 /// The picture with an opacity that goes from 0 to 255 from left to right.
 Image with_opacity(const Image& rgb) {
   Image image{rgb.width, rgb.height, {}, 4};
-  for (std::size_t i = 0; i < rgb.pixels.size(); i += 3) {
-    image.pixels.insert(image.pixels.end(), rgb.pixels.begin() + static_cast<std::ptrdiff_t>(i),
-                        rgb.pixels.begin() + static_cast<std::ptrdiff_t>(i) + 3);
-    image.pixels.push_back(static_cast<std::uint8_t>(i / 3 % static_cast<std::size_t>(rgb.width) * 255 /
-                                                     static_cast<std::size_t>(std::max(rgb.width - 1, 1))));
+  for (size_t i = 0; i < rgb.pixels.size(); i += 3) {
+    image.pixels.insert(image.pixels.end(), rgb.pixels.begin() + static_cast<ptrdiff_t>(i),
+                        rgb.pixels.begin() + static_cast<ptrdiff_t>(i) + 3);
+    image.pixels.push_back(static_cast<uint8_t>(i / 3 % static_cast<size_t>(rgb.width) * 255 /
+                                                static_cast<size_t>(std::max(rgb.width - 1, 1))));
   }
   return image;
 }
@@ -57,8 +58,8 @@ TEST(Png, ReadsBackPixelForPixelWithAndWithoutOpacity) {
 Image noise(Size size) {
   Image image{size.width, size.height, {}};
   std::mt19937 random(7);
-  image.pixels.resize(static_cast<std::size_t>(size.height) * image.row_size());
-  for (std::uint8_t& value : image.pixels) value = static_cast<std::uint8_t>(random());
+  image.pixels.resize(static_cast<size_t>(size.height) * image.row_size());
+  for (uint8_t& value : image.pixels) value = static_cast<uint8_t>(random());
   return image;
 }
 
@@ -66,7 +67,7 @@ TEST(Png, OfNoiseReadsBackAndGrowsByLittle) {
   // 21845 pixels are 65535 bytes, as many as a stored block can have.
   for (const Size size : {Size{1, 1}, Size{5, 1}, Size{300, 72}, Size{21'844, 1}, Size{21'845, 1}, Size{640, 360}}) {
     const Image image = noise(size);
-    const std::string bytes = encode_png(image);
+    const string bytes = encode_png(image);
     EXPECT_TRUE(decode(bytes).pixels == image.pixels) << size.width << " x " << size.height;
     EXPECT_LT(bytes.size(), 1.01 * static_cast<double>(image.pixels.size()) + 100)
         << size.width << " x " << size.height;
@@ -74,8 +75,8 @@ TEST(Png, OfNoiseReadsBackAndGrowsByLittle) {
 }
 
 TEST(Png, IsMarkedAsSrgb) {
-  const std::string bytes = encode_png(picture({4, 4}, 0));
-  EXPECT_NE(bytes.find("sRGB"), std::string::npos);
+  const string bytes = encode_png(picture({4, 4}, 0));
+  EXPECT_NE(bytes.find("sRGB"), string::npos);
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
@@ -99,22 +100,22 @@ TEST(Png, HasTheSameBytesOnEveryProcessorWithSse42) {
 }
 
 /// Leaves such numbers where the next calls have their variables.
-[[gnu::noinline]] void fill_stack(std::uint32_t number) {
-  volatile std::uint32_t numbers[65536];
-  for (volatile std::uint32_t& place : numbers) place = number;
+[[gnu::noinline]] void fill_stack(uint32_t number) {
+  volatile uint32_t numbers[65536];
+  for (volatile uint32_t& place : numbers) place = number;
 }
 
 TEST(Png, HasTheSameBytesWhateverMemoryHeld) {
   const Image image = picture({48, 32}, 3);
-  const std::string bytes = encode_png(image);
-  for (std::uint32_t bits = 1; bits < 15; ++bits) {
+  const string bytes = encode_png(image);
+  for (uint32_t bits = 1; bits < 15; ++bits) {
     fill_stack(bits << 16 | bits);
     EXPECT_EQ(encode_png(image), bytes) << bits;
   }
 }
 
 /// The bytes of the picture, encoded so many times 64 KiB further down the stack.
-[[gnu::noinline]] std::string encoded_below(const Image& image, int depth) {
+[[gnu::noinline]] string encoded_below(const Image& image, int depth) {
   volatile char room[65536];
   room[0] = 0;
   return depth == room[0] ? encode_png(image) : encoded_below(image, depth - 1);
@@ -124,17 +125,17 @@ TEST(Png, HasTheSameBytesWhereverTheStackIs) {
   for (int width = 6; width < 10; ++width) {
     Image image{width, 1, {}};
     image.pixels.assign(image.row_size(), 0);
-    for (std::size_t i = 2; i < image.pixels.size(); i += 5) image.pixels[i] = 128;
-    const std::string bytes = encode_png(image);
+    for (size_t i = 2; i < image.pixels.size(); i += 5) image.pixels[i] = 128;
+    const string bytes = encode_png(image);
     for (int depth = 0; depth < 64; ++depth) EXPECT_EQ(encoded_below(image, depth), bytes) << width << ", " << depth;
   }
 }
 
 TEST(Png, AnImageThatIsNoneIsRefused) {
   EXPECT_THROW(encode_png({0, 0, {}}), ExportError);
-  EXPECT_THROW(encode_png({2, 2, std::vector<std::uint8_t>(11)}), ExportError);
-  EXPECT_THROW(encode_png({-1, -1, std::vector<std::uint8_t>(3)}), ExportError);
-  EXPECT_THROW(encode_png({1, 1, std::vector<std::uint8_t>(2), 2}), ExportError);
+  EXPECT_THROW(encode_png({2, 2, vector<uint8_t>(11)}), ExportError);
+  EXPECT_THROW(encode_png({-1, -1, vector<uint8_t>(3)}), ExportError);
+  EXPECT_THROW(encode_png({1, 1, vector<uint8_t>(2), 2}), ExportError);
 }
 
 TEST(Frames, FrameIIsTickIAndKeepsItsNumber) {
@@ -144,8 +145,8 @@ TEST(Frames, FrameIIsTickIAndKeepsItsNumber) {
   scene.output.frames = FramesOutput{10, {32, 18}, 1, 0.3, 0.5};
   run(scene, temp / "run");
   EXPECT_EQ(names_in(temp / "run"),
-            (std::vector<std::string>{"frames", "frames/frame_00003.png", "frames/frame_00004.png",
-                                      "frames/frame_00005.png", "manifest.json", "scene.yaml", "summary.csv"}));
+            (vector<string>{"frames", "frames/frame_00003.png", "frames/frame_00004.png", "frames/frame_00005.png",
+                            "manifest.json", "scene.yaml", "summary.csv"}));
   for (int i = 3; i <= 5; ++i)
     EXPECT_TRUE(decode(read(temp / "run/frames/frame_0000" + std::to_string(i) + ".png")).pixels ==
                 picture({32, 18}, i).pixels);
@@ -170,7 +171,7 @@ TEST(Sheet, ShowsThePicturesInOrderWithGaps) {
     const Image one = picture(size, number);
     const int left = 8 + number % 3 * 488, top = 8 + number / 3 * 368;
     for (int y = 0; y < one.height; ++y)
-      ASSERT_EQ(std::memcmp(sheet.row(top + y) + 3 * left, one.row(y), static_cast<std::size_t>(one.width) * 3), 0)
+      ASSERT_EQ(std::memcmp(sheet.row(top + y) + 3 * left, one.row(y), static_cast<size_t>(one.width) * 3), 0)
           << "picture " << number << ", row " << y;
   }
   for (const int x : {0, 7, 488, 495, 1471}) EXPECT_EQ(sheet.row(20)[3 * x], 24) << x;
@@ -245,14 +246,14 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
   }
   EXPECT_EQ(number, 5);
   exports.finish(some_summary(scene), {});
-  const std::string first = read(temp / "run/frames/frame_00000.png");
+  const string first = read(temp / "run/frames/frame_00000.png");
   EXPECT_EQ(first, encode_png(picture({32, 18}, 0)));
   EXPECT_EQ(read(temp / "run/frames/frame_00001.png"), first);
   EXPECT_EQ(read(temp / "run/frames/frame_00002.png"), encode_png(picture({32, 18}, 2)));
 }
 
 /// Writes 40 frames with so many threads, and gives the records.
-std::vector<FileRecord> frames_by(std::size_t threads, const std::string& path) {
+vector<FileRecord> frames_by(size_t threads, const string& path) {
   OpenFolder folder(path, Durability::deferred);
   FrameFiles frames(folder, threads);
   for (int i = 0; i < 40; ++i) frames.put(i, picture({64, 36}, i / 3), i % 3 > 0);
@@ -263,13 +264,13 @@ std::vector<FileRecord> frames_by(std::size_t threads, const std::string& path) 
 
 TEST(Frames, AnyNumberOfThreadsWritesTheSameFiles) {
   TempFolder temp;
-  const std::vector<FileRecord> one = frames_by(1, temp / "one");
+  const vector<FileRecord> one = frames_by(1, temp / "one");
   ASSERT_EQ(one.size(), 40U);
-  for (const std::size_t threads : {2U, 5U}) {
-    const std::string path = temp / std::to_string(threads);
-    const std::vector<FileRecord> several = frames_by(threads, path);
+  for (const size_t threads : {2U, 5U}) {
+    const string path = temp / std::to_string(threads);
+    const vector<FileRecord> several = frames_by(threads, path);
     ASSERT_EQ(several.size(), one.size());
-    for (std::size_t i = 0; i < one.size(); ++i) {
+    for (size_t i = 0; i < one.size(); ++i) {
       EXPECT_EQ(several[i].name, one[i].name);
       EXPECT_EQ(several[i].sha256, one[i].sha256);
       EXPECT_EQ(read(path + "/" + one[i].name), read(temp / "one/" + one[i].name));
@@ -278,17 +279,17 @@ TEST(Frames, AnyNumberOfThreadsWritesTheSameFiles) {
 }
 
 TEST(Frames, AFrameThatCannotBeWrittenIsNamedWhateverTheThreads) {
-  for (const std::size_t threads : {1U, 4U}) {
+  for (const size_t threads : {1U, 4U}) {
     TempFolder temp;
     fs::create_directories(temp / "run/frames/frame_00007.png/in_the_way");
     OpenFolder folder(temp / "run", Durability::deferred);
-    const std::string error = error_of([&] {
+    const string error = error_of([&] {
       FrameFiles frames(folder, threads);
       for (int i = 0; i < 40; ++i) frames.put(i, picture({64, 36}, i), false);
       frames.finish();
     });
     EXPECT_TRUE(error.starts_with("cannot write " + (temp / "run/frames/frame_00007.png") + ": ")) << error;
-    for (const std::string& name : names_in(temp / "run")) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+    for (const string& name : names_in(temp / "run")) EXPECT_EQ(name.find(".part"), string::npos) << name;
     // All frames before it are there, and whole.
     for (int i = 0; i < 7; ++i)
       EXPECT_TRUE(decode(read(temp / "run/" + frame_files.folder.data() + ("/" + frame_files.name(i)))).pixels ==
@@ -299,7 +300,7 @@ TEST(Frames, AFrameThatCannotBeWrittenIsNamedWhateverTheThreads) {
 TEST(Sheet, OfTransparentPicturesIsTransparentBetweenThem) {
   Sheet sheet({2, 1}, {48, 32});
   Image clear{sheet.picture_size().width, sheet.picture_size().height, {}, 4};
-  clear.pixels.assign(static_cast<std::size_t>(clear.height) * clear.row_size(), 99);
+  clear.pixels.assign(static_cast<size_t>(clear.height) * clear.row_size(), 99);
   sheet.put(0, clear);
   sheet.put(1, clear);
   const Image& whole = sheet.image();
@@ -316,7 +317,7 @@ TEST(Film, OfTransparentPicturesIsNoMp4) {
   EXPECT_EQ(error_of([&] { Exports(scene, temp / "run"); }),
             "cannot make animation.mp4: an MP4 has no transparency, and `background` is `none`; write frames, a .gif "
             "or a .webp, or give the background a colour");
-  EXPECT_EQ(names_in(temp.path()), std::vector<std::string>());
+  EXPECT_EQ(names_in(temp.path()), vector<string>());
   scene.output.video->file = "animation.webp";
   EXPECT_NO_THROW(plan_pictures(scene));
 }

@@ -1,14 +1,14 @@
 #pragma once
 // Whether two pieces are the same to the last bit.
 #include <bit>
-#include <cstdint>
 
 #include "physics/path_piece.h"
+#include "std.h"
 
 namespace carom::testing_export {
 
 inline bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
 }
 inline bool same_bits(const Vec3& a, const Vec3& b) {
   return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
@@ -19,8 +19,7 @@ inline bool same_bits(const DoubleDouble& a, const DoubleDouble& b) {
 
 inline bool same_bits(const PolynomialPath& a, const PolynomialPath& b) {
   bool same = same_bits(a.length, b.length) && a.is_parabola == b.is_parabola && same_bits(a.ahead, b.ahead);
-  for (std::size_t k = 0; k < PolynomialPath::terms; ++k)
-    same = same && same_bits(a.displacement[k], b.displacement[k]);
+  for (size_t k = 0; k < PolynomialPath::terms; ++k) same = same && same_bits(a.displacement[k], b.displacement[k]);
   return same;
 }
 

@@ -8,15 +8,16 @@
 #include "export/export_testing.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 using namespace testing_export;
 
-std::string number(double value) {
+string number(double value) {
   char text[number_size];
-  return std::string(text, put_number(text, value));
+  return string(text, put_number(text, value));
 }
 
 TEST(Csv, NumbersAreTheShortestThatReadBack) {
@@ -93,10 +94,10 @@ TEST(Tables, CollisionsNameBothBodies) {
   scene.output.collisions = true;
   {
     Exports exports(scene, temp / "run");
-    const std::vector<Collision> first = {
+    const vector<Collision> first = {
         {0.1, CollisionKind::body_body, 0, 3, Vec3(1, 2, 3), Vec3(1, 0, 0), 2, 1, 0.5, 3, 0.25},
         {0.125, CollisionKind::body_fixed, 2, 4, Vec3(0, 0, 0), Vec3(0, -1, 0), 1, 1, 1, 2, -0.0}};
-    const std::vector<Collision> second = {
+    const vector<Collision> second = {
         {0.15, CollisionKind::rest, 1, 4, Vec3(0, 0, 0), Vec3(0, -1, 0), 0, 0, std::nan(""), 0, 1e-9},
         {0.2, CollisionKind::merge, 0, 1, Vec3(0, 0, 0), Vec3(0, 0, 1), 1, 0, 0, 1, 1}};
     exports.tables().record(first);
@@ -122,12 +123,12 @@ TEST(Tables, CollisionsNameStrings) {
   scene.roster.strings = {"line"};
   {
     Exports exports(scene, temp / "run");
-    const Collision taut{0.1, CollisionKind::string, 0, 5, Vec3(0, 1, 0), Vec3(0, 1, 0), 2, 0, 0, 3, 4};
+    const Collision taut{0.1, CollisionKind::taut, 0, 5, Vec3(0, 1, 0), Vec3(0, 1, 0), 2, 0, 0, 3, 4};
     exports.tables().record({&taut, 1});
     play(scene, exports);
     exports.finish(some_summary(scene), {});
   }
-  const std::string text = read(temp / "run/collisions.csv");
+  const string text = read(temp / "run/collisions.csv");
   EXPECT_EQ(text.substr(text.find('\n') + 1), "0.1,string,red,line,0,1,0,0,1,0,2,0,0,3,4\n");
 }
 
@@ -145,7 +146,7 @@ TEST(Tables, BodiesThatHaveBecomePartOfAnotherHaveNoRows) {
             "0,gas.1,3,1,0,0,0,0\n");
   scene.output.trajectory->wide = true;
   run(scene, temp / "wide");
-  const std::string wide = read(temp / "wide/trajectory.csv");
+  const string wide = read(temp / "wide/trajectory.csv");
   EXPECT_EQ(wide.substr(wide.find('\n') + 1), "0,0,1,0,1,0,0,1,1,0,0,0,0,,,,,,,3,1,0,0,0,0\n");
 }
 
@@ -234,8 +235,8 @@ TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {
   scene.simulate.duration = 0;
   scene.output.trajectory = TrajectoryOutput{0.1, false};
   run(scene, temp / "run");
-  const std::string text = read(temp / "run/trajectory.csv");
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 200'001);
+  const string text = read(temp / "run/trajectory.csv");
+  EXPECT_EQ(std::ranges::count(text, '\n'), 200'001);
   EXPECT_TRUE(text.ends_with("\n0,gas.199999,0,0,0,0,0,0\n"));
 }
 

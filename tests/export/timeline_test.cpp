@@ -1,17 +1,17 @@
 #include "export/timeline.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace carom {
 namespace {
 
-std::vector<double> times(const Ticks& ticks) {
-  std::vector<double> all;
-  for (std::int64_t i = ticks.first(); i <= ticks.last(); ++i) all.push_back(ticks.at(i));
+vector<double> times(const Ticks& ticks) {
+  vector<double> all;
+  for (int64_t i = ticks.first(); i <= ticks.last(); ++i) all.push_back(ticks.at(i));
   return all;
 }
 
@@ -42,15 +42,15 @@ TEST(Ticks, AnyOtherIntervalIsMultipliedNotSummed) {
 
 TEST(Ticks, NothingDriftsInAMillionSteps) {
   const Ticks ticks = Ticks::every(0.001, 1e6);
-  for (std::int64_t second = 0; second < 1'000'000; second += 997)
+  for (int64_t second = 0; second < 1'000'000; second += 997)
     EXPECT_EQ(ticks.at(second * 1000), static_cast<double>(second));
 }
 
 TEST(Ticks, TheLastOneIsTheDurationAndNoneIsBesideIt) {
-  EXPECT_EQ(times(Ticks::every(0.5, 2)), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
-  EXPECT_EQ(times(Ticks::every(0.6, 2)), (std::vector<double>{0, 0.6, 1.2, 1.8, 2}));
-  EXPECT_EQ(times(Ticks::every(5, 2)), (std::vector<double>{0, 2}));
-  EXPECT_EQ(times(Ticks::every(2, 2)), (std::vector<double>{0, 2}));
+  EXPECT_EQ(times(Ticks::every(0.5, 2)), (vector<double>{0, 0.5, 1, 1.5, 2}));
+  EXPECT_EQ(times(Ticks::every(0.6, 2)), (vector<double>{0, 0.6, 1.2, 1.8, 2}));
+  EXPECT_EQ(times(Ticks::every(5, 2)), (vector<double>{0, 2}));
+  EXPECT_EQ(times(Ticks::every(2, 2)), (vector<double>{0, 2}));
   // 3 * 0.1 is above 0.3, and 0.3 - 1 ulp is the same instant to an author.
   EXPECT_EQ(Ticks::every(0.1, 0.3).count(), 4);
   EXPECT_EQ(Ticks::every(0.1, std::nextafter(0.3, 0)).count(), 4);
@@ -73,14 +73,14 @@ TEST(Ticks, EveryCountOfDecimalStepsIsRight) {
 }
 
 TEST(Ticks, NoDurationIsOneTickAtZero) {
-  EXPECT_EQ(times(Ticks::every(0.1, 0)), (std::vector<double>{0}));
+  EXPECT_EQ(times(Ticks::every(0.1, 0)), (vector<double>{0}));
 }
 
 TEST(Ticks, HugeCountsNeitherLoopNorOverflow) {
-  EXPECT_GT(Ticks::every(1e-300, 1e300).count(), std::int64_t{1} << 52);
+  EXPECT_GT(Ticks::every(1e-300, 1e300).count(), int64_t{1} << 52);
   EXPECT_EQ(Ticks::every(1e-300, 1e300).at(Ticks::every(1e-300, 1e300).last()), 1e300);
-  EXPECT_GT(Ticks::rate(1e300, 0, 1e300).count(), std::int64_t{1} << 52);
-  EXPECT_GT(Ticks::film(1e300, 1e-6, 0, 1e300).count(), std::int64_t{1} << 52);
+  EXPECT_GT(Ticks::rate(1e300, 0, 1e300).count(), int64_t{1} << 52);
+  EXPECT_GT(Ticks::film(1e300, 1e-6, 0, 1e300).count(), int64_t{1} << 52);
   EXPECT_EQ(Ticks::every(1e300, 1).count(), 2);
   EXPECT_EQ(Ticks::every(5e-324, 1e-323).count(), 3);
 }
@@ -112,8 +112,8 @@ TEST(Ticks, AFilmsPictureIStandsAtFromPlusITimesSpeedOverFps) {
   const Ticks lapse = Ticks::film(25, 10, 0.1, 1e6);
   for (int i = 0; i <= 1000; ++i) EXPECT_EQ(lapse.at(i), (1 + 4 * i) / 10.0) << i;
   EXPECT_EQ(Ticks::film(30, 1.0 / 3, 0, 1).at(45), 0.5);
-  EXPECT_EQ(times(Ticks::film(10, 1, 0.13, 0.34)), (std::vector<double>{0.13, 0.23, 0.33}));
-  EXPECT_EQ(times(Ticks::film(10, 0.5, 2, 2)), (std::vector<double>{2}));
+  EXPECT_EQ(times(Ticks::film(10, 1, 0.13, 0.34)), (vector<double>{0.13, 0.23, 0.33}));
+  EXPECT_EQ(times(Ticks::film(10, 0.5, 2, 2)), (vector<double>{2}));
   EXPECT_EQ(Ticks::film(10, 0.5, 2, 1).count(), 0);
 }
 
@@ -147,12 +147,12 @@ TEST(Ticks, FramesLieWithinFromAndUntilEndsIncluded) {
 }
 
 TEST(Ticks, EvenOnesIncludeBothEnds) {
-  EXPECT_EQ(times(Ticks::even(5, 0, 2)), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  EXPECT_EQ(times(Ticks::even(5, 0, 2)), (vector<double>{0, 0.5, 1, 1.5, 2}));
   EXPECT_EQ(times(Ticks::even(12, 0, 0.7)).back(), 0.7);
-  EXPECT_EQ(times(Ticks::even(1, 0, 2)), (std::vector<double>{2}));
+  EXPECT_EQ(times(Ticks::even(1, 0, 2)), (vector<double>{2}));
   EXPECT_EQ(Ticks::even(0, 0, 2).count(), 0);
-  EXPECT_EQ(times(Ticks::even(3, 0.5, 1.5)), (std::vector<double>{0.5, 1, 1.5}));
-  EXPECT_EQ(times(Ticks::even(1, 0.5, 1.5)), (std::vector<double>{1.5}));
+  EXPECT_EQ(times(Ticks::even(3, 0.5, 1.5)), (vector<double>{0.5, 1, 1.5}));
+  EXPECT_EQ(times(Ticks::even(1, 0.5, 1.5)), (vector<double>{1.5}));
 }
 
 TEST(Ticks, AreWrittenWithAllTheirDecimalsOrToATwentiethOfTheirInterval) {
@@ -178,9 +178,9 @@ TEST(Timeline, KnowsTheNextTickOfAStream) {
   Timeline timeline(0.5);
   const int a = timeline.add(Ticks::rate(10, 0.1, 0.3));
   EXPECT_EQ(timeline.next(a), 0.1);
-  std::vector<double> next;
+  vector<double> next;
   while (timeline.advance()) next.push_back(timeline.next(a).value_or(-1));
-  EXPECT_EQ(next, (std::vector<double>{0.1, 0.2, 0.3, -1}));
+  EXPECT_EQ(next, (vector<double>{0.1, 0.2, 0.3, -1}));
 }
 
 TEST(Timeline, WithoutOutputsItStillEndsAtTheDuration) {
@@ -197,14 +197,14 @@ TEST(Timeline, MergesStreamsInOrderAndJoinsEqualInstants) {
   const int b = timeline.add(Ticks::rate(10, 0.1, 0.4));  // 0.1 0.2 0.3 0.4: ticks 1 .. 4
   struct Step {
     double time;
-    std::int64_t a, b;  // -1: not due
+    int64_t a, b;  // -1: not due
     bool operator==(const Step&) const = default;
   };
-  std::vector<Step> steps;
+  vector<Step> steps;
   EXPECT_FALSE(timeline.due(a));
   while (timeline.advance())
     steps.push_back({timeline.time(), timeline.due(a).value_or(-1), timeline.due(b).value_or(-1)});
-  const std::vector<Step> expected = {{0, 0, -1}, {0.1, -1, 1}, {0.2, 1, 2}, {0.3, -1, 3}, {0.4, 2, 4}, {0.5, 3, -1}};
+  const vector<Step> expected = {{0, 0, -1}, {0.1, -1, 1}, {0.2, 1, 2}, {0.3, -1, 3}, {0.4, 2, 4}, {0.5, 3, -1}};
   EXPECT_TRUE(steps == expected);
   EXPECT_FALSE(timeline.due(a));
 }
@@ -222,13 +222,13 @@ TEST(Timeline, DecimalAndRateTicksMeetBitForBit) {
 TEST(Timeline, TicksAfterTheDurationAreNeverDue) {
   Timeline timeline(1);
   const int stream = timeline.add(Ticks::rate(10, 0.9, 5));
-  std::vector<std::int64_t> due;
+  vector<int64_t> due;
   double last = 0;
   while (timeline.advance()) {
     if (const auto i = timeline.due(stream)) due.push_back(*i);
     last = timeline.time();
   }
-  EXPECT_EQ(due, (std::vector<std::int64_t>{9, 10}));
+  EXPECT_EQ(due, (vector<int64_t>{9, 10}));
   EXPECT_EQ(last, 1);
 }
 

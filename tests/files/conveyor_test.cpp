@@ -13,14 +13,13 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "export/export_testing.h"
 #include "export/tables.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -28,7 +27,7 @@ namespace {
 using namespace testing_export;
 
 TEST(Conveyor, UsesWhatIsSentInOrder) {
-  std::vector<int> used;
+  vector<int> used;
   std::set<const int*> items;
   Conveyor<int> conveyor(
       [&](int& item) {
@@ -42,7 +41,7 @@ TEST(Conveyor, UsesWhatIsSentInOrder) {
   }
   conveyor.finish();
   ASSERT_EQ(used.size(), 1000U);
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(used[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(used[static_cast<size_t>(i)], i);
   EXPECT_EQ(items.size(), conveyor.items());
 }
 
@@ -95,7 +94,7 @@ TEST(Conveyor, OfSeveralFailuresTheFirstItemsIsThrown) {
           if (item >= 7) throw std::runtime_error(std::to_string(item));
         },
         0, 4);
-    std::string failure;
+    string failure;
     try {
       for (int i = 0; i < 20; ++i) {
         conveyor.item() = i;
@@ -134,7 +133,7 @@ TEST(Conveyor, LittleWorkStartsNoThread) {
 }
 
 TEST(Conveyor, WhatFailsThereIsThrownHere) {
-  for (const std::uint64_t alone : {0U, 100U}) {
+  for (const uint64_t alone : {0U, 100U}) {
     int used = 0;
     Conveyor<int> conveyor(
         [&](int&) {
@@ -191,11 +190,11 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
     TempFolder temp;
     Scene scene = many_bodies_scene(count);
     scene.output.trajectory = TrajectoryOutput{0.1, wide};
-    std::string expected = wide ? "" : "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n";
+    string expected = wide ? "" : "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n";
     const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
     TrajectoryTable table({folder.get(), temp.path()}, scene);
     char text[number_size];
-    const auto number = [&](double x) { return std::string(text, put_number(text, x)); };
+    const auto number = [&](double x) { return string(text, put_number(text, x)); };
     for (const double time : {0.0, 0.1, 0.2, 0.3}) {
       State state = many_bodies(count, time);
       if (time > 0.1) {
@@ -215,7 +214,7 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
       if (wide) expected += "\n";
     }
     table.files().front()->publish();
-    std::string written = read(temp / "trajectory.csv");
+    string written = read(temp / "trajectory.csv");
     if (wide) written.erase(0, written.find('\n') + 1);
     ASSERT_EQ(written.size(), expected.size());
     EXPECT_TRUE(written == expected);
@@ -248,10 +247,10 @@ TEST(Conveyor, AFullDiskIsAnErrorOfTheRun) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{rlim_t{1} << 20, before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
-  for (const std::size_t size : {std::size_t{2} << 20, std::size_t{8} << 20}) {  // without a thread; with one
+  for (const size_t size : {size_t{2} << 20, size_t{8} << 20}) {  // without a thread; with one
     OutputFile file({folder.get(), temp.path()}, "large.csv");
     const auto fill = [&] {
-      for (std::size_t done = 0; done < size; done += 1000) file.write(std::string(1000, 'x'));
+      for (size_t done = 0; done < size; done += 1000) file.write(string(1000, 'x'));
       file.complete();
     };
     EXPECT_THROW(fill(), ExportError);

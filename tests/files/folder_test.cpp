@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "export/export_testing.h"
@@ -18,12 +17,13 @@
 #include "files/open_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 using namespace testing_export;
-using Names = std::vector<std::string>;
+using Names = vector<string>;
 
 Scene scene_with_tables() {
   Scene scene = small_scene();
@@ -161,12 +161,12 @@ TEST(Manifest, NamesEveryFileWithItsSizeAndHash) {
   EXPECT_EQ(manifest["counts"]["frames"], 3);
   Names names;
   for (const auto& file : manifest["files"]) {
-    const std::string text = read(temp / "run/" + file["name"].get<std::string>());
+    const string text = read(temp / "run/" + file["name"].get<string>());
     names.push_back(file["name"]);
     EXPECT_EQ(file["bytes"], text.size()) << file["name"];
     EXPECT_EQ(file["sha256"], sha256(text)) << file["name"];
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   EXPECT_EQ(names, (Names{"collisions.csv", "energy.csv", "frames/frame_00000.png", "frames/frame_00001.png",
                           "frames/frame_00002.png", "scene.yaml", "sheet.png", "summary.csv", "trajectory.csv"}));
 }
@@ -184,7 +184,7 @@ TEST(Manifest, OnlyNamesThatARunWritesAreAccepted) {
        {"", ".", "..", ".hidden", "../x", "/etc/passwd", "a/b", "frames/x.png", "frames/../x", "frames/frame_0000.png",
         "frames/frame_0000x.png", "frames/frame_00000.png/x", "a\nb", "a\\b"})
     EXPECT_FALSE(is_run_file(name)) << name;
-  EXPECT_FALSE(is_run_file(std::string(201, 'a')));
+  EXPECT_FALSE(is_run_file(string(201, 'a')));
 }
 
 TEST(Folder, WhatIsNotThereOrEmptyIsNothing) {
@@ -230,7 +230,7 @@ TEST(Folder, ForeignFilesAreAnotherRun) {
   EXPECT_EQ(inspect_folder(temp / "b", scene), FolderContent::other_run);
   write(temp / "c/manifest.json", "{\"tool\": \"carom\", ");
   EXPECT_EQ(inspect_folder(temp / "c", scene), FolderContent::other_run);
-  write(temp / "d/manifest.json", std::string(1 << 20, '['));
+  write(temp / "d/manifest.json", string(1 << 20, '['));
   EXPECT_EQ(inspect_folder(temp / "d", scene), FolderContent::other_run);
   write(temp / "e/scene.yaml", "scene: 1\n");
   EXPECT_EQ(inspect_folder(temp / "e", scene), FolderContent::other_run);
@@ -240,12 +240,12 @@ TEST(Folder, ForeignFilesAreAnotherRun) {
 
 TEST(Folder, AChangedFileMakesItTouchedAndALostOneIncomplete) {
   const Scene scene = scene_with_frames();
-  for (const std::string name : {"summary.csv", "scene.yaml", "frames/frame_00001.png"}) {
+  for (const string name : {"summary.csv", "scene.yaml", "frames/frame_00001.png"}) {
     TempFolder temp;
-    const std::string file = temp / "run/" + name;
+    const string file = temp / "run/" + name;
     run(scene, temp / "run");
-    const std::string text = read(file);
-    std::string changed = text;
+    const string text = read(file);
+    string changed = text;
     changed[changed.size() / 2] ^= 1;  // one bit, the same size
     write(file, changed);
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::touched) << name;
@@ -331,8 +331,8 @@ TEST(Folder, AHostileManifestRemovesNothingOutside) {
   TempFolder temp;
   const Scene scene = scene_with_tables();
   run(scene, temp / "run");
-  const std::string whole = read(temp / "run/manifest.json");
-  for (const std::string name : {"../victim", "/tmp/carom_victim", "frames/../../victim", "..", "sub/victim"}) {
+  const string whole = read(temp / "run/manifest.json");
+  for (const string name : {"../victim", "/tmp/carom_victim", "frames/../../victim", "..", "sub/victim"}) {
     write(temp / "victim", "mine");
     write(temp / "run/sub/victim", "mine");
     auto manifest = nlohmann::json::parse(whole);
@@ -391,7 +391,7 @@ TEST(Folder, ANamedPipeInAFilesPlaceDoesNotBlock) {
 TEST(OutputFile, ANameThatLeadsElsewhereIsRefused) {
   TempFolder temp;
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
-  for (const std::string name : {"../x", "a/b", "/x", ".", "..", "", ".x"})
+  for (const string name : {"../x", "a/b", "/x", ".", "..", "", ".x"})
     EXPECT_THROW(OutputFile(FilePlace{folder.get(), temp.path()}, name), ExportError) << name;
   EXPECT_EQ(names_in(temp.path()), Names{});
 }
@@ -399,12 +399,12 @@ TEST(OutputFile, ANameThatLeadsElsewhereIsRefused) {
 TEST(OutputFile, AnySizeArrivesWhole) {
   TempFolder temp;
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
-  for (const std::size_t size : {0u, 1u, 262143u, 262144u, 262145u, 1000000u}) {
-    std::string text;
-    for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(i * i % 251);
+  for (const size_t size : {0u, 1u, 262143u, 262144u, 262145u, 1000000u}) {
+    string text;
+    for (size_t i = 0; i < size; ++i) text += static_cast<char>(i * i % 251);
     OutputFile file({folder.get(), temp.path()}, "file");
-    file.write(std::string_view(text).substr(0, size / 3));
-    file.written(put_text(file.room(size - size / 3), std::string_view(text).substr(size / 3)));
+    file.write(string_view(text).substr(0, size / 3));
+    file.written(put_text(file.room(size - size / 3), string_view(text).substr(size / 3)));
     EXPECT_FALSE(fs::exists(temp / "file") && size == 0);
     file.publish();
     EXPECT_EQ(read(temp / "file"), text);
@@ -414,7 +414,7 @@ TEST(OutputFile, AnySizeArrivesWhole) {
 }
 
 /// Runs `action` in a child process; gives its wait status.
-int in_child(const std::function<void()>& action) {
+int in_child(const function<void()>& action) {
   const pid_t child = fork();
   if (child == 0) {
     action();
@@ -433,7 +433,7 @@ TEST(OutputFile, AFullDiskIsReported) {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{100, 100};
     setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string error = error_of([&] { run(scene, temp / "run"); });
+    const string error = error_of([&] { run(scene, temp / "run"); });
     _exit(error == "cannot write " + temp / "run/summary.csv" + ": File too large" ? 0 : 1);
   });
   EXPECT_EQ(status, 0);
@@ -445,8 +445,8 @@ TEST(OutputFile, KilledAtAnyMomentNoFinalFileIsIncomplete) {
   Scene scene = scene_with_tables();
   scene.output.frames = FramesOutput{100, {64, 36}, 1, 0, {}};
   run(scene, temp / "whole");
-  std::vector<std::pair<std::string, std::string>> expected;
-  for (const std::string& name : names_in(temp / "whole"))
+  vector<std::pair<string, string>> expected;
+  for (const string& name : names_in(temp / "whole"))
     if (fs::is_regular_file(temp / "whole/" + name)) expected.emplace_back(name, read(temp / "whole/" + name));
   for (int i = 0; i < 40; ++i) {
     const pid_t child = fork();

@@ -5,19 +5,20 @@
 
 #include "export/export_testing.h"
 #include "files/open_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 using namespace testing_export;
 
-std::optional<Manifest> read_back(const std::string& text) {
+optional<Manifest> read_back(const string& text) {
   const TempFolder folder;
   write(folder / manifest_name, text);
   return read_manifest(open_folder(AT_FDCWD, folder.path(), true).get(), manifest_name);
 }
 
-std::string with(const std::string& members) {
+string with(const string& members) {
   return R"({"tool": "carom", "version": "0.1.0", "outputs": {}, "files": [], )" + members + "}";
 }
 
@@ -28,11 +29,11 @@ TEST(Manifest, HasTheNumberOfCollisions) {
 TEST(Manifest, HasNoCollisionsWhereTheirNumberIsNoWholeNumber) {
   for (const char* odd : {R"({"collisions": "7"})", R"({"collisions": -7})", R"({"collisions": 1e300})",
                           R"({"collisions": null})", R"({"collisions": [7]})", "7", "[]"})
-    EXPECT_EQ(read_back(with(R"("counts": )" + std::string(odd)))->collisions, 0u) << odd;
+    EXPECT_EQ(read_back(with(R"("counts": )" + string(odd)))->collisions, 0u) << odd;
 }
 
 TEST(Manifest, OfBracketsWithinBracketsWithoutEndIsNone) {
-  const std::string open(200'000, '['), close(200'000, ']');
+  const string open(200'000, '['), close(200'000, ']');
   EXPECT_FALSE(read_back(R"({"tool": "carom", "version": "0.1.0", "files": [], "outputs": )" + open + close + "}"));
   EXPECT_TRUE(
       read_back(with(R"("version": "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\"[[[[")")));

@@ -1,6 +1,7 @@
 // A run's folder keeps the meshes of its scene.
 #include "export/export_testing.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -25,7 +26,7 @@ TEST(Meshes, AreCopiedIntoTheRunsFolder) {
 }
 
 TEST(Meshes, ThatHaveChangedMakeAnotherRun) {
-  for (const std::string name : {"pin.stl", "other.gltf"}) {
+  for (const string name : {"pin.stl", "other.gltf"}) {
     TempFolder temp;
     const Scene scene = scene_with_mesh(temp);
     run(scene, temp / "run");
@@ -69,7 +70,7 @@ TEST(Meshes, ThatAreGoneAreReportedBeforeAnythingIsTouched) {
     Exports exports(scene, temp / "run");
     FAIL();
   } catch (const ExportError& error) {
-    EXPECT_EQ(std::string(error.what()), "cannot read the mesh " + (temp / "pin.stl") + ": No such file or directory");
+    EXPECT_EQ(string(error.what()), "cannot read the mesh " + (temp / "pin.stl") + ": No such file or directory");
   }
   EXPECT_FALSE(fs::exists(temp / "run"));
 }

@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <functional>
 #include <map>
 
 #include "export/export_testing.h"
@@ -15,14 +14,15 @@
 #include "files/open_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 using namespace testing_export;
-using Names = std::vector<std::string>;
+using Names = vector<string>;
 
-Scene scene_with_frames(const std::string& title, int fps) {
+Scene scene_with_frames(const string& title, int fps) {
   Scene scene = small_scene();
   scene.resolved = "scene: 1\ntitle: " + title + "\n";
   scene.output.collisions = true;
@@ -31,17 +31,17 @@ Scene scene_with_frames(const std::string& title, int fps) {
 }
 
 /// Every file beneath a folder: its bytes.
-std::map<std::string, std::string> bytes_in(const std::string& folder) {
-  std::map<std::string, std::string> bytes;
-  for (const std::string& name : names_in(folder))
+std::map<string, string> bytes_in(const string& folder) {
+  std::map<string, string> bytes;
+  for (const string& name : names_in(folder))
     if (fs::is_regular_file(folder + "/" + name)) bytes[name] = read(folder + "/" + name);
   return bytes;
 }
 
 /// The folder `to` as it is when a publication was committed: all of the former run, and the next one's parts.
-void commit(const std::string& former, const std::string& next, const std::string& to) {
+void commit(const string& former, const string& next, const string& to) {
   fs::copy(former, to, fs::copy_options::recursive);
-  for (const std::string name : {"collisions.csv", "scene.yaml", "summary.csv"})
+  for (const string name : {"collisions.csv", "scene.yaml", "summary.csv"})
     fs::copy(next + "/" + name, to + "/" + part_name(name));
   fs::copy(next + "/frames", to + "/.frames.part", fs::copy_options::recursive);
   fs::copy(next + "/manifest.json", to + "/" + next_manifest);
@@ -53,22 +53,22 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   run(scene_with_frames("Next", 10), temp / "next");
   const auto wanted = bytes_in(temp / "next");
   // Each step that a publication makes, one after the other; the rest is settled after each.
-  const std::vector<std::function<void(const std::string&)>> steps = {
-      [](const std::string& at) { fs::rename(at + "/.collisions.csv.part", at + "/collisions.csv"); },
-      [](const std::string& at) { fs::rename(at + "/.frames.part/frame_00000.png", at + "/frames/frame_00000.png"); },
-      [](const std::string& at) {
+  const vector<function<void(const string&)>> steps = {
+      [](const string& at) { fs::rename(at + "/.collisions.csv.part", at + "/collisions.csv"); },
+      [](const string& at) { fs::rename(at + "/.frames.part/frame_00000.png", at + "/frames/frame_00000.png"); },
+      [](const string& at) {
         fs::rename(at + "/.frames.part/frame_00001.png", at + "/frames/frame_00001.png");
         fs::rename(at + "/.frames.part/frame_00002.png", at + "/frames/frame_00002.png");
       },
-      [](const std::string& at) { fs::rename(at + "/.scene.yaml.part", at + "/scene.yaml"); },
-      [](const std::string& at) { fs::rename(at + "/.summary.csv.part", at + "/summary.csv"); },
-      [](const std::string& at) { fs::remove(at + "/frames/frame_00004.png"); },
-      [](const std::string& at) { fs::remove(at + "/.frames.part"); },
+      [](const string& at) { fs::rename(at + "/.scene.yaml.part", at + "/scene.yaml"); },
+      [](const string& at) { fs::rename(at + "/.summary.csv.part", at + "/summary.csv"); },
+      [](const string& at) { fs::remove(at + "/frames/frame_00004.png"); },
+      [](const string& at) { fs::remove(at + "/.frames.part"); },
   };
-  for (std::size_t made = 0; made <= steps.size(); ++made) {
-    const std::string at = temp / std::to_string(made);
+  for (size_t made = 0; made <= steps.size(); ++made) {
+    const string at = temp / std::to_string(made);
     commit(temp / "former", temp / "next", at);
-    for (std::size_t k = 0; k < made; ++k) steps[k](at);
+    for (size_t k = 0; k < made; ++k) steps[k](at);
     settle_folder(at);
     EXPECT_EQ(bytes_in(at), wanted) << made;
     EXPECT_EQ(names_in(at), names_in(temp / "next")) << made;
@@ -80,7 +80,7 @@ TEST(Publication, BeforeTheCommitNothingIsChanged) {
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
   commit(temp / "former", temp / "next", temp / "run");
-  fs::rename(temp / "run/" + std::string(next_manifest), temp / "run/.manifest.json.part");
+  fs::rename(temp / "run/" + string(next_manifest), temp / "run/.manifest.json.part");
   const auto before = bytes_in(temp / "run");
   settle_folder(temp / "run");
   EXPECT_EQ(bytes_in(temp / "run"), before);
@@ -106,7 +106,7 @@ TEST(Publication, WhatStandsInTheWayIsNamedAndOnceItIsGoneTheNextCommandGoesOn) 
   commit(temp / "former", temp / "next", temp / "run");
   fs::remove(temp / "run/summary.csv");
   fs::create_directories(temp / "run/summary.csv/x");
-  const std::string message =
+  const string message =
       "cannot write " + (temp / "run/summary.csv") + ": a folder of that name stands there; remove it";
   EXPECT_EQ(error_of([&] { settle_folder(temp / "run"); }), message);
   EXPECT_EQ(error_of([&] { settle_folder(temp / "run"); }), message);
@@ -130,7 +130,7 @@ TEST(Folder, AFolderInAFilesPlaceIsNamedBeforeAnythingIsTouched) {
 TEST(Folder, ALoopOfLinksIsNoMissingFolder) {
   TempFolder temp;
   ASSERT_EQ(symlink("loop", (temp / "loop").c_str()), 0);
-  const std::string reason = ": Too many levels of symbolic links";
+  const string reason = ": Too many levels of symbolic links";
   EXPECT_EQ(error_of([&] { open_folder(AT_FDCWD, temp / "loop", true); }), "cannot open " + (temp / "loop") + reason);
   EXPECT_EQ(error_of([&] { what_stands(temp / "loop"); }), "cannot look at " + (temp / "loop") + reason);
   EXPECT_EQ(error_of([&] { inspect_folder(temp / "loop", small_scene()); }), "cannot open " + (temp / "loop") + reason);
@@ -139,12 +139,12 @@ TEST(Folder, ALoopOfLinksIsNoMissingFolder) {
 }
 
 /// Calls `action` when no file can be opened any more.
-std::string without_descriptors(const std::function<void()>& action) {
+string without_descriptors(const function<void()>& action) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
   const rlimit none{0, before.rlim_max};
   setrlimit(RLIMIT_NOFILE, &none);
-  const std::string error = error_of(action);
+  const string error = error_of(action);
   setrlimit(RLIMIT_NOFILE, &before);
   return error;
 }
@@ -153,7 +153,7 @@ TEST(Folder, AFileThatCannotBeOpenedIsNoMissingFile) {
   TempFolder temp;
   run(small_scene(), temp / "run");
   const Descriptor folder = open_folder(AT_FDCWD, temp / "run", true);
-  const std::string reason = ": Too many open files";
+  const string reason = ": Too many open files";
   EXPECT_EQ(without_descriptors([&] { read_manifest(folder.get(), manifest_name); }),
             "cannot read " + (temp / "run/manifest.json") + reason);
   EXPECT_EQ(without_descriptors([&] { read_record(folder.get(), "scene.yaml"); }),

@@ -7,38 +7,39 @@
 #include <unistd.h>
 
 #include "files/csv.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-Descriptor table_file(const std::string& text) {
+Descriptor table_file(const string& text) {
   Descriptor file(memfd_create("table", 0));
   EXPECT_EQ(::write(file.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
   lseek(file.get(), 0, SEEK_SET);
   return file;
 }
 
-std::vector<std::vector<std::string>> all_rows(const std::string& text) {
+vector<vector<string>> all_rows(const string& text) {
   StoredTable table(table_file(text));
-  std::vector<std::vector<std::string>> rows = {table.columns()};
+  vector<vector<string>> rows = {table.columns()};
   while (const auto* cells = table.next()) rows.emplace_back(cells->begin(), cells->end());
   return rows;
 }
 
-std::vector<std::string> from_end(const std::string& text, std::size_t most) {
+vector<string> from_end(const string& text, size_t most) {
   const Descriptor file = table_file(text);
-  std::vector<std::string> lines;
-  lines_from_end(file.get(), [&](std::string_view line) {
+  vector<string> lines;
+  lines_from_end(file.get(), [&](string_view line) {
     lines.emplace_back(line);
     return lines.size() < most;
   });
   return lines;
 }
 
-using Rows = std::vector<std::vector<std::string>>;
+using Rows = vector<vector<string>>;
 
 TEST(StoredTable, GivesBackWhatACellHeld) {
-  for (const std::string text : {"plain", "a, b", "say \"so\"", "two\nlines", "\"", ""})
+  for (const string text : {"plain", "a, b", "say \"so\"", "two\nlines", "\"", ""})
     EXPECT_EQ(all_rows("x,y,z\n1," + text_cell(text) + ",3\n"), (Rows{{"x", "y", "z"}, {"1", text, "3"}})) << text;
 }
 
@@ -51,25 +52,25 @@ TEST(StoredTable, TakesMissingEndsAndEmptyFiles) {
 }
 
 TEST(StoredTable, ReadsRowsThatArePiecesApart) {
-  std::string text = "n,text\n";
+  string text = "n,text\n";
   for (int i = 0; i < 30'000; ++i) text += std::to_string(i) + ",row\n";
-  text += "last," + std::string(200'000, 'x') + "\n";
+  text += "last," + string(200'000, 'x') + "\n";
   const Rows rows = all_rows(text);
   ASSERT_EQ(rows.size(), 30'002u);
-  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(rows[static_cast<std::size_t>(i + 1)][0], std::to_string(i));
+  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(rows[static_cast<size_t>(i + 1)][0], std::to_string(i));
   EXPECT_EQ(rows.back()[1].size(), 200'000u);
 }
 
 TEST(LinesFromEnd, AreTheLastOnesWithoutTheFirst) {
-  EXPECT_EQ(from_end("head\n1\n2\n3\n", 9), (std::vector<std::string>{"3", "2", "1"}));
-  EXPECT_EQ(from_end("head\n1\n2\n3", 2), (std::vector<std::string>{"3", "2"}));
+  EXPECT_EQ(from_end("head\n1\n2\n3\n", 9), (vector<string>{"3", "2", "1"}));
+  EXPECT_EQ(from_end("head\n1\n2\n3", 2), (vector<string>{"3", "2"}));
   EXPECT_TRUE(from_end("head\n", 9).empty());
   EXPECT_TRUE(from_end("", 9).empty());
-  std::string text = "head\n";
+  string text = "head\n";
   for (int i = 0; i < 30'000; ++i) text += "line " + std::to_string(i) + "\n";
   const auto lines = from_end(text, 40'000);
   ASSERT_EQ(lines.size(), 30'000u);
-  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(lines[static_cast<std::size_t>(29'999 - i)], "line " + std::to_string(i));
+  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(lines[static_cast<size_t>(29'999 - i)], "line " + std::to_string(i));
 }
 
 }  // namespace

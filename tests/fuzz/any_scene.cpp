@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 #include "stress/make_scene.h"
 
 namespace carom::fuzz {
@@ -88,7 +89,7 @@ ForceLaw any_law(Maker& m, const Units& u, double light) {
 
 void forces(Maker& m, const Units& u) {
   World& world = m.scene.world;
-  const double light = world.mass.empty() ? u.mass : *std::min_element(world.mass.begin(), world.mass.end());
+  const double light = world.mass.empty() ? u.mass : *std::ranges::min_element(world.mass);
   const double duration = m.scene.options.duration;
   for (int k = m.whole(-2, 3); k > 0; --k) {
     const double from = m.chance(0.6) ? 0 : duration * m.uniform(0, 1);
@@ -135,7 +136,7 @@ void strings(Maker& m, const Units& u) {
     if (!string.rod && m.chance(0.5)) string.length *= m.uniform(1, 2);
     string.restitution = m.chance(0.6) ? 0 : m.restitution();
     if (string.rod && string.length > 0) {  // it moves across itself
-      std::vector<Vec3>& v = m.scene.initial.velocity;
+      vector<Vec3>& v = m.scene.initial.velocity;
       const Vec3 along = (m.scene.initial.position[string.body] - to) / string.length;
       const Vec3 other_v = string.other == no_entity ? Vec3(Vec3::Zero()) : v[string.other];
       v[string.body] -= (v[string.body] - other_v).dot(along) * along;
@@ -178,26 +179,24 @@ void everything(Maker& m, bool tied) {
   regions(m, u);
   if (tied) strings(m, u);
   World& world = m.scene.world;
-  const bool spheres =
-      std::all_of(world.volume.begin(), world.volume.end(), [](const Volume& v) { return v.shape == Shape::sphere; });
+  const bool spheres = std::ranges::all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
   if (spheres) world.volume.clear();
 }
 
 }  // namespace
 
-AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes) {
-  const std::size_t families = stress::family_names().size();
-  const std::size_t kind =
-      bytes.empty() ? seed % (3 * families) : static_cast<unsigned char>(bytes[0]) % (3 * families);
+AnyScene make_any_scene(uint64_t seed, string_view bytes) {
+  const size_t families = stress::family_names().size();
+  const size_t kind = bytes.empty() ? seed % (3 * families) : static_cast<unsigned char>(bytes[0]) % (3 * families);
   // Many swings take longer than a fuzzer of bytes waits.
   const bool tied = bytes.empty();
-  bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
+  bytes.remove_prefix(std::min<size_t>(bytes.size(), 1));
   AnyScene made;
   if (kind < families) {
     // Families have only constant forces; stress/ runs them by the exact engine.
     made.scene = stress::make_scene(kind + families * seed, bytes);
     stress::RandomScene unused;
-    Maker maker(seed, unused, bytes.substr(std::min<std::size_t>(bytes.size(), 64)));
+    Maker maker(seed, unused, bytes.substr(std::min<size_t>(bytes.size(), 64)));
     choose(maker, made);
     return made;
   }

@@ -1,9 +1,8 @@
 #pragma once
 // Random small scenes of everything at once: all volumes, surfaces, forces, engines, and odd numbers, within bounds
 // where rounding does not dominate.
-#include <string>
-#include <string_view>
 
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom::fuzz {
@@ -18,14 +17,14 @@ inline constexpr double longest_in_default_steps = 20;  // s: they take a millis
 
 struct AnyScene {
   stress::RandomScene scene;
-  std::string simulate;  // keys beside those of scene.options: ", engine: stepped, step: 0.01"
-  std::string engine;    // as those say
+  string simulate;  // keys beside those of scene.options: ", engine: stepped, step: 0.01"
+  string engine;    // as those say
 
-  std::string yaml() const { return stress::as_yaml(scene, simulate); }
+  string yaml() const { return stress::as_yaml(scene, simulate); }
 };
 
 /// A scene of one of the families of random scenes, or one of everything at once. It is made of the bytes while they
 /// last, then of the seed.
-AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes = {});
+AnyScene make_any_scene(uint64_t seed, string_view bytes = {});
 
 }  // namespace carom::fuzz

@@ -12,6 +12,7 @@
 #include "physics/world.h"
 #include "render/mesh_reply.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::fuzz {
 
@@ -22,10 +23,10 @@ const OwnFolder& folder() {
   return own;
 }
 
-void hold(const MeshPaint& paint, std::size_t vertices, std::size_t triangles) {
+void hold(const MeshPaint& paint, size_t vertices, size_t triangles) {
   if (paint.parts.empty()) return;
   if (paint.uv.size() != vertices || paint.tint.size() != vertices) throw Finding("a paint of other vertices");
-  std::size_t in_parts = 0;
+  size_t in_parts = 0;
   for (const MeshPart& part : paint.parts) {
     in_parts += part.triangles;
     if (part.texture > paint.textures.size()) throw Finding("a part has a texture that is not there");
@@ -36,14 +37,14 @@ void hold(const MeshPaint& paint, std::size_t vertices, std::size_t triangles) {
   for (const auto& uv : paint.uv)
     if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) throw Finding("a place in a texture is not finite");
   for (const MeshTexture& texture : paint.textures)
-    if (texture.width == 0 || texture.rgba.size() != std::size_t{4} * texture.width * texture.height)
+    if (texture.width == 0 || texture.rgba.size() != size_t{4} * texture.width * texture.height)
       throw Finding("a texture has other pixels");
 }
 
 void hold(const Mesh& mesh) {
   if (mesh.normals.size() != mesh.vertices.size()) throw Finding("normals of other vertices");
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) throw Finding("no whole triangles");
-  for (const std::uint32_t i : mesh.triangles)
+  for (const uint32_t i : mesh.triangles)
     if (i >= mesh.vertices.size()) throw Finding("a triangle has a vertex that is not there");
   for (const auto* vectors : {&mesh.vertices, &mesh.normals})
     for (const Vec3& v : *vectors)
@@ -52,7 +53,7 @@ void hold(const Mesh& mesh) {
 }
 
 template <typename T>
-void put(std::string& bytes, const std::vector<T>& values) {
+void put(string& bytes, const vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
@@ -73,8 +74,8 @@ Scene small_scene() {
 }
 
 /// flights.bin with a piece of each kind.
-std::string flights() {
-  std::vector<PathPiece> pieces;
+string flights() {
+  vector<PathPiece> pieces;
   for (Entity i = 0; i < 4; ++i) pieces.push_back({i, 0, {0, 0}, Vec3(i, 1, 0), Vec3(1, 0, 0), Vec3(0, -10, 0)});
   pieces.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -1, 0)});
   PathPiece step{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
@@ -116,23 +117,23 @@ std::string flights() {
 }
 
 /// The same, whose only block is repeated as a key.
-std::string flights_with_key() {
-  const std::string whole = flights();
-  const std::size_t header = 32, tail = 216;
-  std::string block = whole.substr(header, whole.size() - header - tail), end = whole.substr(whole.size() - tail);
+string flights_with_key() {
+  const string whole = flights();
+  const size_t header = 32, tail = 216;
+  string block = whole.substr(header, whole.size() - header - tail), end = whole.substr(whole.size() - tail);
   block[0] = 1;
   end[8] = 1;
   const double time = 0.15;
-  const std::uint64_t place = whole.size() - tail, entries = 0;
-  std::string key(24, '\0');
+  const uint64_t place = whole.size() - tail, entries = 0;
+  string key(24, '\0');
   std::memcpy(key.data(), &time, 8);
   std::memcpy(key.data() + 8, &place, 8);
   std::memcpy(key.data() + 16, &entries, 8);
   return whole.substr(0, place) + block + key + end;
 }
 
-std::uint32_t crc_of(std::string_view bytes) {
-  std::uint32_t crc = ~0u;
+uint32_t crc_of(string_view bytes) {
+  uint32_t crc = ~0u;
   for (const char byte : bytes) {
     crc ^= static_cast<unsigned char>(byte);
     for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xedb88320u : 0);
@@ -141,77 +142,77 @@ std::uint32_t crc_of(std::string_view bytes) {
 }
 
 /// The same with the checksums that its blocks should have, so that the entries are read.
-std::string with_checksums(std::string bytes) {
-  constexpr std::size_t header = 32, block_head = 24, tail = 216;
-  const auto number = [&](std::size_t at) {
-    std::uint32_t value;
+string with_checksums(string bytes) {
+  constexpr size_t header = 32, block_head = 24, tail = 216;
+  const auto number = [&](size_t at) {
+    uint32_t value;
     std::memcpy(&value, bytes.data() + at, sizeof value);
     return value;
   };
-  for (std::size_t at = header; at + block_head + tail <= bytes.size();) {
-    const std::size_t size = block_head + number(at + 8);
+  for (size_t at = header; at + block_head + tail <= bytes.size();) {
+    const size_t size = block_head + number(at + 8);
     if (at + size + tail > bytes.size()) break;
     std::memset(bytes.data() + at + 12, 0, 4);
-    const std::uint32_t crc = crc_of(std::string_view(bytes).substr(at, size));
+    const uint32_t crc = crc_of(string_view(bytes).substr(at, size));
     std::memcpy(bytes.data() + at + 12, &crc, sizeof crc);
     at += size;
   }
   return bytes;
 }
 
-std::string manifest(const Output& output) {
+string manifest(const Output& output) {
   Scene scene = small_scene();
   scene.output = output;
   RunFacts facts;
   facts.measures = {{"balls.red.speed_m_per_s", 1.5}, {"balls.red.kinetic_J", std::nan("")}};
   facts.left_out = {{flights_name, "it would be too large"}};
-  const std::string hash(64, 'a');
+  const string hash(64, 'a');
   return manifest_text(scene, Summary{}, facts,
                        {{"scene.yaml", 11, hash}, {"summary.csv", 200, hash}, {"frames/frame_00000.png", 3, hash}});
 }
 
 }  // namespace
 
-void read_mesh_reply_bytes(std::string_view bytes) {
+void read_mesh_reply_bytes(string_view bytes) {
   MeshLimits limits;
   limits.vertices = limits.triangles = 10'000;
   limits.texture_bytes = 100'000;
-  std::string_view left = bytes;
-  const auto receive = [&](void* to, std::size_t size) {
+  string_view left = bytes;
+  const auto receive = [&](void* to, size_t size) {
     if (size > left.size()) return false;
     if (size > 0) std::memcpy(to, left.data(), size);
     left.remove_prefix(size);
     return true;
   };
   try {
-    hold(receive_mesh({receive, [] { return std::string("it is cut off"); }}, limits));
+    hold(receive_mesh({receive, [] { return string("it is cut off"); }}, limits));
   } catch (const std::runtime_error& error) {
-    const std::string text = error.what();
-    if (text.empty() || !std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; }))
+    const string text = error.what();
+    if (text.empty() || !std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; }))
       throw Finding("trouble with a mesh is told in bytes that are no text");
   }
 }
 
-std::vector<std::string> mesh_reply_seeds() {
-  std::string mesh, painted, trouble;
-  put<std::uint32_t>(mesh, {3, 1, 0, 0, 0});
+vector<string> mesh_reply_seeds() {
+  string mesh, painted, trouble;
+  put<uint32_t>(mesh, {3, 1, 0, 0, 0});
   put<float>(mesh, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1});
-  put<std::uint32_t>(mesh, {0, 1, 2});
-  put<std::uint32_t>(painted, {3, 1, 0, 1, 1});
+  put<uint32_t>(mesh, {0, 1, 2});
+  put<uint32_t>(painted, {3, 1, 0, 1, 1});
   painted += mesh.substr(sizeof(MeshReplyHead));
   put<MeshPart>(painted, {{1, 1, {Wrap::mirror, Wrap::clamp}, 1, 1, 0.5F, {1, 0.5F, 0, 1}}});
   put<float>(painted, {0, 0, 1, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0.5F, 0.5F, 0.5F});
-  put<std::uint32_t>(painted, {1, 2});
-  painted += std::string(8, '\x7f');
-  put<std::uint32_t>(trouble, {0, 0, 13, 0, 0});
+  put<uint32_t>(painted, {1, 2});
+  painted += string(8, '\x7f');
+  put<uint32_t>(trouble, {0, 0, 13, 0, 0});
   return {mesh, painted, trouble + "it is damaged"};
 }
 
 /// The first byte chooses the ending.
-void read_mesh_bytes(std::string_view bytes) {
+void read_mesh_bytes(string_view bytes) {
   static constexpr const char* names[] = {"a.obj", "a.stl", "a.glb", "a.gltf"};
-  const std::string name = bytes.empty() ? names[0] : names[static_cast<unsigned char>(bytes[0]) % 4];
-  folder().put(name, bytes.substr(std::min<std::size_t>(bytes.size(), 1)));
+  const string name = bytes.empty() ? names[0] : names[static_cast<unsigned char>(bytes[0]) % 4];
+  folder().put(name, bytes.substr(std::min<size_t>(bytes.size(), 1)));
   MeshLimits limits;
   limits.seconds = 3;
   limits.vertices = limits.triangles = 10'000;
@@ -221,22 +222,22 @@ void read_mesh_bytes(std::string_view bytes) {
     for (const Vec3& n : mesh.normals)
       if (n != Vec3::Zero() && !(std::abs(n.norm() - 1) < 1e-5)) throw Finding("a normal is not a unit vector");
   } catch (const std::runtime_error& error) {
-    if (std::string_view(error.what()).find(folder().path()) == std::string_view::npos)
-      throw Finding("trouble with a mesh without its path: " + std::string(error.what()));
+    if (string_view(error.what()).find(folder().path()) == string_view::npos)
+      throw Finding("trouble with a mesh without its path: " + string(error.what()));
   }
 }
 
-std::vector<std::string> mesh_seeds() {
-  std::vector<std::string> seeds;
-  const std::string data = SOURCE_DIR "/tests/data/meshes";
+vector<string> mesh_seeds() {
+  vector<string> seeds;
+  const string data = SOURCE_DIR "/tests/data/meshes";
   for (const auto& [ending, first] :
        {std::pair{".obj", '\0'}, std::pair{".stl", '\1'}, std::pair{".glb", '\2'}, std::pair{".gltf", '\3'}})
-    for (const std::string& path : files_below(data, ending))
-      if (const std::string bytes = bytes_of(path); bytes.size() < 20'000) seeds.push_back(first + bytes);
-  seeds.push_back(std::string(1, '\0') +
+    for (const string& path : files_below(data, ending))
+      if (const string bytes = bytes_of(path); bytes.size() < 20'000) seeds.push_back(first + bytes);
+  seeds.push_back(string(1, '\0') +
                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 4\nf 1 2 3 4\n");
-  seeds.push_back(std::string(1, '\0') + "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
-  seeds.push_back(std::string(1, '\1') +
+  seeds.push_back(string(1, '\0') + "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  seeds.push_back(string(1, '\1') +
                   "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
                   "0\nendloop\nendfacet\nendsolid a\n");
   return seeds;
@@ -264,27 +265,27 @@ void hold_flights(FlightsReader& reader, const Scene& scene) {
   }
 }
 
-void read_flights_bytes(std::string_view bytes) {
+void read_flights_bytes(string_view bytes) {
   static const Scene scene = small_scene();
-  folder().put(flights_name, with_checksums(std::string(bytes)));
+  folder().put(flights_name, with_checksums(string(bytes)));
   try {
     FlightsReader reader(folder().descriptor(), folder().path(), scene);
     hold_flights(reader, scene);
     reader.seek(0.16);
     hold_flights(reader, scene);
   } catch (const ExportError& error) {
-    if (std::string_view(error.what()).find(flights_name) == std::string_view::npos)
-      throw Finding("a refusal that does not name the file: " + std::string(error.what()));
+    if (string_view(error.what()).find(flights_name) == string_view::npos)
+      throw Finding("a refusal that does not name the file: " + string(error.what()));
   }
 }
 
-std::vector<std::string> flights_seeds() {
+vector<string> flights_seeds() {
   return {flights(), flights_with_key()};
 }
 
-void read_manifest_bytes(std::string_view bytes) {
+void read_manifest_bytes(string_view bytes) {
   folder().put(manifest_name, bytes);
-  const std::optional<Manifest> manifest = read_manifest(folder().descriptor(), manifest_name);
+  const optional<Manifest> manifest = read_manifest(folder().descriptor(), manifest_name);
   if (!manifest) return;
   for (const FileRecord& file : manifest->files) {
     if (!is_run_file(file.name) || file.name.starts_with('/') || file.name.starts_with("../"))
@@ -293,7 +294,7 @@ void read_manifest_bytes(std::string_view bytes) {
   }
 }
 
-std::vector<std::string> manifest_seeds() {
+vector<string> manifest_seeds() {
   Output some;
   some.collisions = true;
   return {manifest(Output{}), manifest(some),
@@ -301,25 +302,25 @@ std::vector<std::string> manifest_seeds() {
 }
 
 /// The lines from the end are the rows from the start, where nothing is in quotes.
-void read_table_bytes(std::string_view bytes) {
+void read_table_bytes(string_view bytes) {
   const MemoryFile file(bytes);
   StoredTable table(file.open());
-  std::vector<std::string> rows;
-  while (const std::vector<std::string_view>* cells = table.next()) {
-    std::string row;
-    for (std::size_t k = 0; k < cells->size(); ++k) {
-      const std::string_view cell = (*cells)[k];
+  vector<string> rows;
+  while (const vector<string_view>* cells = table.next()) {
+    string row;
+    for (size_t k = 0; k < cells->size(); ++k) {
+      const string_view cell = (*cells)[k];
       if (const auto number = number_in(cell); number && !std::isfinite(*number)) throw Finding("a number without end");
-      row += (k == 0 ? "" : ",") + std::string(cell);
+      row += (k == 0 ? "" : ",") + string(cell);
     }
     rows.push_back(std::move(row));
     if (rows.size() > bytes.size()) throw Finding("more rows than bytes");
   }
-  if (bytes.find('"') != std::string_view::npos) return;
+  if (bytes.find('"') != string_view::npos) return;
   // Empty lines at the end, and between rows, are no lines from the end.
   std::erase(rows, "");
-  lines_from_end(file.open().get(), [&](std::string_view line) {
-    if (rows.empty() || rows.back() != line) throw Finding("another line from the end: " + std::string(line));
+  lines_from_end(file.open().get(), [&](string_view line) {
+    if (rows.empty() || rows.back() != line) throw Finding("another line from the end: " + string(line));
     rows.pop_back();
     return true;
   });
@@ -327,8 +328,8 @@ void read_table_bytes(std::string_view bytes) {
     throw Finding("lines from the end stop before the first row");
 }
 
-std::vector<std::string> table_seeds() {
-  std::string many = "time_s,body,x_m\n";
+vector<string> table_seeds() {
+  string many = "time_s,body,x_m\n";
   for (int k = 0; k < 300; ++k) many += std::to_string(k) + ",red,1e-3\n";
   return {"time_s,body,x_m\n0,red,1.5\n0.01,\"a, \"\"b\"\"\",-2\n", "a,b\n1,2\n3,4", "a\n\n\n", "\"a\nb\",c\n1,2\r\n",
           many};

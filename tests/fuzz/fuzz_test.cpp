@@ -3,6 +3,7 @@
 
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
+#include "std.h"
 
 namespace carom::fuzz {
 namespace {
@@ -11,7 +12,7 @@ class AnyBytes : public ::testing::TestWithParam<const char*> {
  protected:
   const Target& target() const { return *find_target(GetParam()); }
 
-  void run(const std::string& input) const {
+  void run(const string& input) const {
     try {
       target().run(input);
     } catch (const std::exception& error) {
@@ -21,23 +22,23 @@ class AnyBytes : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(AnyBytes, OfSeedsKeepGuarantees) {
-  const std::vector<std::string> seeds = target().seeds();
+  const vector<string> seeds = target().seeds();
   EXPECT_FALSE(seeds.empty());
-  for (const std::string& seed : seeds) run(seed);
+  for (const string& seed : seeds) run(seed);
 }
 
 TEST_P(AnyBytes, KeepGuarantees) {
-  const std::vector<std::string> seeds = target().seeds(), all_words = words();
+  const vector<string> seeds = target().seeds(), all_words = words();
   Mutator mutator(1, seeds, all_words);
   // A mesh's reader is a process, a simulation takes milliseconds.
-  const bool slow = std::string_view(GetParam()) == "mesh" || std::string_view(GetParam()) == "simulators";
+  const bool slow = string_view(GetParam()) == "mesh" || string_view(GetParam()) == "simulators";
   for (int k = slow ? 200 : 3000; k > 0 && !HasFailure(); --k) run(mutator.next(target().longest));
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, AnyBytes,
                          ::testing::Values("scene", "sweep", "settings", "mesh_reply", "mesh", "flights", "manifest",
                                            "table", "simulators"),
-                         [](const auto& target) { return std::string(target.param); });
+                         [](const auto& target) { return string(target.param); });
 
 TEST(Targets, AreAllInTheShortPart) {
   EXPECT_EQ(targets().size(), 9u);

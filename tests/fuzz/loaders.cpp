@@ -8,52 +8,51 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/sweep.h"
+#include "std.h"
 #include "yaml/source.h"
 
 namespace carom::fuzz {
 
 namespace {
 
-constexpr std::size_t longest_seed = 8000;  // bytes; of longer ones an input would have only the beginning
+constexpr size_t longest_seed = 8000;  // bytes; of longer ones an input would have only the beginning
 
 LoadOptions options() {
   LoadOptions options;
   options.budget.bodies = 300;  // groups are laid out one by one
-  options.mesh_points = [](const std::string&) {
-    return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
-  };
+  options.mesh_points = [](const string&) { return vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}; };
   return options;
 }
 
 /// The text of an error is whole: valid UTF-8, without bytes that control a terminal, with the right count.
 void hold(const SceneError& error) {
-  const std::string text = error.what();
+  const string text = error.what();
   if (text.empty() || error.count == 0) throw Finding("an error without a text");
-  for (std::size_t i = 0; i < text.size();) {
+  for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);
     if (length == 0) throw Finding("an error's text is not UTF-8: " + text);
     if (code != '\n' && (code < ' ' || (code >= 0x7F && code < 0xA0)))
       throw Finding("an error's text has a control character: " + text);
-    i += static_cast<std::size_t>(length);
+    i += static_cast<size_t>(length);
   }
 }
 
-bool all_finite(const std::vector<Vec3>& vectors) {
-  return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return v.allFinite(); });
+bool all_finite(const vector<Vec3>& vectors) {
+  return std::ranges::all_of(vectors, [](const Vec3& v) { return v.allFinite(); });
 }
 
 /// The guarantees of a loaded scene.
 void hold(const Scene& scene) {
   const World& world = scene.world;
-  const std::size_t n = world.body_count();
+  const size_t n = world.body_count();
   if (world.radius.size() != n || world.restitution.size() != n || scene.initial.position.size() != n ||
       scene.initial.velocity.size() != n || (!world.volume.empty() && world.volume.size() != n) ||
       (!world.impulse.empty() && world.impulse.size() != n))
     throw Finding("arrays by body differ in length");
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  if (!std::all_of(world.mass.begin(), world.mass.end(), positive)) throw Finding("a mass is not above 0");
-  if (!std::all_of(world.radius.begin(), world.radius.end(), positive)) throw Finding("a radius is not above 0");
+  if (!std::ranges::all_of(world.mass, positive)) throw Finding("a mass is not above 0");
+  if (!std::ranges::all_of(world.radius, positive)) throw Finding("a radius is not above 0");
   if (!all_finite(scene.initial.position) || !all_finite(scene.initial.velocity) || !all_finite(world.impulse))
     throw Finding("a body starts nowhere");
   if (!(scene.simulate.duration >= 0) || !std::isfinite(scene.simulate.duration)) throw Finding("no duration");
@@ -63,31 +62,31 @@ void hold(const Scene& scene) {
 void hold_resolved(const Scene& scene) {
   hold(scene);
   const MemoryFile again(scene.resolved);
-  std::string text;
+  string text;
   try {
     text = load_scene(again.path(), options()).resolved;
   } catch (const SceneError& error) {
-    throw Finding("the resolved scene does not load: " + std::string(error.what()) + "\n" + scene.resolved);
+    throw Finding("the resolved scene does not load: " + string(error.what()) + "\n" + scene.resolved);
   }
   if (text != scene.resolved) throw Finding("the resolved scene is another:\n" + scene.resolved + "---\n" + text);
 }
 
 /// Texts in quotes R"( )" in the tests' sources that have this word.
-void add_texts_of_tests(const std::string& word, std::vector<std::string>& seeds) {
-  for (const std::string& path : files_below(SOURCE_DIR "/tests", ".cpp")) {
-    const std::string source = bytes_of(path);
-    for (std::size_t at = 0; (at = source.find("R\"(", at)) != std::string::npos;) {
-      const std::size_t end = source.find(")\"", at += 3);
-      if (end == std::string::npos) break;
-      std::string text = source.substr(at, end - at);
-      if (text.find(word) != std::string::npos && text.size() < longest_seed) seeds.push_back(std::move(text));
+void add_texts_of_tests(const string& word, vector<string>& seeds) {
+  for (const string& path : files_below(SOURCE_DIR "/tests", ".cpp")) {
+    const string source = bytes_of(path);
+    for (size_t at = 0; (at = source.find("R\"(", at)) != string::npos;) {
+      const size_t end = source.find(")\"", at += 3);
+      if (end == string::npos) break;
+      string text = source.substr(at, end - at);
+      if (text.find(word) != string::npos && text.size() < longest_seed) seeds.push_back(std::move(text));
     }
   }
 }
 
 }  // namespace
 
-void load_scene_bytes(std::string_view bytes) {
+void load_scene_bytes(string_view bytes) {
   const MemoryFile file(bytes);
   try {
     hold_resolved(load_scene(file.path(), options()));
@@ -96,10 +95,10 @@ void load_scene_bytes(std::string_view bytes) {
   }
 }
 
-std::vector<std::string> scene_seeds() {
-  std::vector<std::string> seeds;
-  for (const std::string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
-    if (std::string text = bytes_of(path); text.size() < longest_seed) seeds.push_back(std::move(text));
+vector<string> scene_seeds() {
+  vector<string> seeds;
+  for (const string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
+    if (string text = bytes_of(path); text.size() < longest_seed) seeds.push_back(std::move(text));
   add_texts_of_tests("scene: 1", seeds);
   seeds.emplace_back(R"(scene: 1
 let: {n: 3, r: 0.1, gap: '= r / 10'}
@@ -117,14 +116,14 @@ simulate: {duration: 1}
   return seeds;
 }
 
-void load_sweep_bytes(std::string_view bytes) {
+void load_sweep_bytes(string_view bytes) {
   const MemoryFile file(bytes);
   try {
     const Sweep sweep = load_sweep(file.path());
     if (sweep.size() == 0) throw Finding("a sweep without runs");
-    for (const std::size_t k : {std::size_t{0}, sweep.size() / 2, sweep.size() - 1})
+    for (const size_t k : {size_t{0}, sweep.size() / 2, sweep.size() - 1})
       if (sweep.run(k).values.size() != sweep.paths.size()) throw Finding("a run has values of other paths");
-    const std::string resolved = sweep.resolved("base.yaml");
+    const string resolved = sweep.resolved("base.yaml");
     const MemoryFile again(resolved);
     const Sweep same = load_sweep(again.path());
     if (same.size() != sweep.size()) throw Finding("the resolved sweep has other runs:\n" + resolved);
@@ -134,16 +133,15 @@ void load_sweep_bytes(std::string_view bytes) {
   }
 }
 
-std::vector<std::string> sweep_seeds() {
-  std::vector<std::string> seeds;
-  for (const std::string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
-    if (std::string text = bytes_of(path); text.find("\nsweep: 1") != std::string::npos)
-      seeds.push_back(std::move(text));
+vector<string> sweep_seeds() {
+  vector<string> seeds;
+  for (const string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
+    if (string text = bytes_of(path); text.find("\nsweep: 1") != string::npos) seeds.push_back(std::move(text));
   add_texts_of_tests("sweep: 1", seeds);
   return seeds;
 }
 
-void apply_settings_bytes(std::string_view bytes) {
+void apply_settings_bytes(string_view bytes) {
   static const MemoryFile base(R"(scene: 1
 let: {r: 0.1, n: 2}
 bodies: {row: {repeat: = n, mass: 1, radius: = r, position: [= 10 + i, 0, 0]}}
@@ -158,10 +156,10 @@ simulate: {duration: 1}
 output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
 )");
   static SceneFile scene(base.path(), options());
-  std::vector<Setting> settings;
-  for (std::size_t at = 0; at <= bytes.size() && settings.size() < 4;) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    settings.push_back({std::string(bytes.substr(at, end - at)), settings.size() % 2 == 0 ? "" : "sweep.yaml:7:3"});
+  vector<Setting> settings;
+  for (size_t at = 0; at <= bytes.size() && settings.size() < 4;) {
+    const size_t end = std::min(bytes.find('\n', at), bytes.size());
+    settings.push_back({string(bytes.substr(at, end - at)), settings.size() % 2 == 0 ? "" : "sweep.yaml:7:3"});
     at = end + 1;
   }
   try {
@@ -171,7 +169,7 @@ output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
   }
 }
 
-std::vector<std::string> settings_seeds() {
+vector<string> settings_seeds() {
   return {
       "balls.red.mass=2",
       "defaults.ball.restitution=0.5\nsimulate.duration=2",

@@ -10,20 +10,22 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "std.h"
+
 namespace carom::fuzz {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-void write_all(int file, std::string_view bytes) {
+void write_all(int file, string_view bytes) {
   if (ftruncate(file, 0) != 0 || pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     throw std::runtime_error("the input cannot be written");
 }
 
 }  // namespace
 
-MemoryFile::MemoryFile(std::string_view bytes)
+MemoryFile::MemoryFile(string_view bytes)
     : file_(memfd_create("input", MFD_CLOEXEC)), path_("/proc/self/fd/" + std::to_string(file_.get())) {
   write_all(file_.get(), bytes);
 }
@@ -46,21 +48,21 @@ OwnFolder::~OwnFolder() {
   fs::remove_all(path_, ignored);
 }
 
-void OwnFolder::put(const std::string& name, std::string_view bytes) const {
+void OwnFolder::put(const string& name, string_view bytes) const {
   const Descriptor file(openat(descriptor(), name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
   write_all(file.get(), bytes);
 }
 
-std::string bytes_of(const std::string& path) {
+string bytes_of(const string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::vector<std::string> files_below(const std::string& folder, const std::string& ending) {
-  std::vector<std::string> paths;
+vector<string> files_below(const string& folder, const string& ending) {
+  vector<string> paths;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file() && entry.path().extension() == ending) paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
+  std::ranges::sort(paths);
   return paths;
 }
 

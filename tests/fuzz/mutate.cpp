@@ -2,15 +2,17 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom::fuzz {
 
-std::uint64_t Mutator::draw(std::uint64_t below) {
+uint64_t Mutator::draw(uint64_t below) {
   state_ = state_ * 6364136223846793005u + 1442695040888963407u;
   return (state_ >> 33) % below;
 }
 
-void Mutator::change(std::string& bytes) {
-  const std::size_t at = draw(bytes.size() + 1), length = std::min<std::size_t>(1 + draw(16), bytes.size() - at);
+void Mutator::change(string& bytes) {
+  const size_t at = draw(bytes.size() + 1), length = std::min<size_t>(1 + draw(16), bytes.size() - at);
   switch (draw(8)) {
     case 0:
       if (length > 0) bytes[at] = static_cast<char>(bytes[at] ^ (1 << draw(8)));
@@ -28,13 +30,13 @@ void Mutator::change(std::string& bytes) {
       bytes.resize(at);
       break;
     case 5: {  // a piece of another one
-      const std::string& other = seeds_[draw(seeds_.size())];
-      const std::size_t from = draw(other.size() + 1);
+      const string& other = seeds_[draw(seeds_.size())];
+      const size_t from = draw(other.size() + 1);
       bytes.insert(at, other.substr(from, 1 + draw(64)));
       break;
     }
     case 6:  // an odd number in place of digits
-      for (std::size_t k = at; k < bytes.size(); ++k)
+      for (size_t k = at; k < bytes.size(); ++k)
         if (bytes[k] >= '0' && bytes[k] <= '9') {
           static constexpr const char* odd[] = {"0", "-1", "1e308", "4294967296", "1e-320", "0.1", "999999999", "nan"};
           bytes.replace(k, 1, odd[draw(std::size(odd))]);
@@ -46,9 +48,9 @@ void Mutator::change(std::string& bytes) {
   }
 }
 
-std::string Mutator::next(std::size_t longest) {
-  std::string bytes = seeds_[draw(seeds_.size())];
-  for (std::uint64_t k = 1 + draw(4); k > 0; --k) change(bytes);
+string Mutator::next(size_t longest) {
+  string bytes = seeds_[draw(seeds_.size())];
+  for (uint64_t k = 1 + draw(4); k > 0; --k) change(bytes);
   if (bytes.size() > longest) bytes.resize(longest);
   return bytes;
 }

@@ -1,26 +1,24 @@
 #pragma once
 // Mutated inputs: bytes changed, removed, doubled, joined, words inserted. Determined by the seed on every machine.
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
+
+#include "std.h"
 
 namespace carom::fuzz {
 
 class Mutator {
  public:
-  Mutator(std::uint64_t seed, std::span<const std::string> seeds, std::span<const std::string> words)
+  Mutator(uint64_t seed, span<const string> seeds, span<const string> words)
       : state_(seed), seeds_(seeds), words_(words) {}
 
   /// Another input of at most this many bytes.
-  std::string next(std::size_t longest);
+  string next(size_t longest);
 
  private:
-  std::uint64_t draw(std::uint64_t below);  // 0 ... below - 1
-  void change(std::string& bytes);
+  uint64_t draw(uint64_t below);  // 0 ... below - 1
+  void change(string& bytes);
 
-  std::uint64_t state_;
-  std::span<const std::string> seeds_, words_;
+  uint64_t state_;
+  span<const string> seeds_, words_;
 };
 
 }  // namespace carom::fuzz

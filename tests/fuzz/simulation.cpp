@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <memory>
 
 #include "physics/body_now.h"
 #include "physics/force.h"
@@ -13,6 +12,7 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "simulate/loop/exact_simulator.h"
+#include "std.h"
 
 namespace carom::fuzz {
 
@@ -61,19 +61,19 @@ class Run {
   void transitions() {
     const auto* const exact = dynamic_cast<const ExactSimulator*>(simulator_.get());
     if (exact == nullptr) return;
-    for (std::size_t from = 0; from < number_of_modes; ++from)
-      for (std::size_t to = 0; to < number_of_modes; ++to)
+    for (size_t from = 0; from < number_of_modes; ++from)
+      for (size_t to = 0; to < number_of_modes; ++to)
         if (exact->modes().counts()[from][to] > 0 && !may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
           fail(fmt::format("a body changes from mode {} to {}", from, to));
   }
 
-  void fail(std::string what) {
+  void fail(string what) {
     if (outcome_.violations.size() < 12) outcome_.violations.push_back(std::move(what));
   }
 
   /// FNV-1a.
-  void hash(const void* bytes, std::size_t size) {
-    for (std::size_t k = 0; k < size; ++k)
+  void hash(const void* bytes, size_t size) {
+    for (size_t k = 0; k < size; ++k)
       outcome_.hash = (outcome_.hash ^ static_cast<const unsigned char*>(bytes)[k]) * 0x100000001b3u;
   }
   void hash(double x) { hash(&x, sizeof x); }
@@ -179,7 +179,7 @@ class Run {
   }
 
   void record(const Collision& c) {
-    const std::string what = fmt::format("record of {} and {} at {} s: ", c.a, c.b, c.time);
+    const string what = fmt::format("record of {} and {} at {} s: ", c.a, c.b, c.time);
     if (!(c.time >= last_) || c.time < 0 || c.time > scene_.simulate.duration)
       fail(what + fmt::format("it comes after one at {} s", last_));
     last_ = std::max(last_, c.time);
@@ -209,14 +209,14 @@ class Run {
   const double patience_;  // s
   Outcome& outcome_;
   const std::clock_t begin_ = std::clock();
-  std::unique_ptr<Simulator> simulator_;
+  unique_ptr<Simulator> simulator_;
   bool exact_ = false, book_ = false;
   double last_ = 0;       // s, of the last record
   double extent_ = 0;     // m, of the farthest place
   double size_ = 0;       // J, without signs
   long double lost_ = 0;  // J, by the records
   double turned_ = 0;     // J, the same without signs
-  std::uint64_t counted_ = 0;
+  uint64_t counted_ = 0;
 };
 
 }  // namespace

@@ -8,17 +8,18 @@
 #include "run/engine.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::fuzz {
 namespace {
 
 TEST(SnapshotOfAnyScene, GoesOnWithTheSameBits) {
   int run = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
     const MemoryFile file(make_any_scene(seed).yaml());
-    std::unique_ptr<Scene> scene;
+    unique_ptr<Scene> scene;
     try {
-      scene = std::make_unique<Scene>(load_scene(file.path()));
+      scene = make_unique<Scene>(load_scene(file.path()));
       make_simulator(*scene);
     } catch (const std::runtime_error&) {
       continue;  // refused
@@ -29,10 +30,10 @@ TEST(SnapshotOfAnyScene, GoesOnWithTheSameBits) {
     std::mt19937_64 random(seed);
     Recording records{random() % 2 == 0, random() % 2 == 0};
     if (random() % 2 == 0) records.watch = {{Quantity::x, 0, scene->world.body_count()}};
-    std::vector<double> times;
+    vector<double> times;
     for (int k = 0; k < 6; ++k)
       times.push_back(scene->simulate.duration * static_cast<double>(random() >> 11) * 0x1p-53);
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     times.push_back(scene->simulate.duration);
     expect_same_when_restored([&] { return make_simulator(*scene, records); }, times, random());
   }

@@ -4,10 +4,11 @@
 #include <set>
 
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom::fuzz {
 
-std::span<const Target> targets() {
+span<const Target> targets() {
   static const Target all[] = {
       {"scene", load_scene_bytes, scene_seeds, 4096},
       {"sweep", load_sweep_bytes, sweep_seeds, 2048},
@@ -22,24 +23,23 @@ std::span<const Target> targets() {
   return all;
 }
 
-const Target* find_target(std::string_view name) {
+const Target* find_target(string_view name) {
   for (const Target& target : targets())
     if (target.name == name) return &target;
   return nullptr;
 }
 
-std::vector<std::string> words() {
-  std::set<std::string> all = {
-      "[0, 0, 0]", "[1e3, -2, .5]", "{",         "}",           "[",   "]",    ": ",  "- ",
-      "\n  ",      "1e308",         "-0",        "0x10",        "~",   "yes",  "off", "&a",
-      "*a",        "!!x",           "|",         ">",           "# ",  "\"",   "'",   ",",
-      "<<",        "...",           "\n---",     "null",        "nan", ".inf", "= ",  "'= i * r'",
-      "= sin(",    "{i}",           "repeat: 3", "let: {r: 1}", "none"};
-  for (const std::span<const Kind>& family : families())
+vector<string> words() {
+  std::set<string> all = {"[0, 0, 0]", "[1e3, -2, .5]", "{",         "}",           "[",   "]",    ": ",  "- ",
+                          "\n  ",      "1e308",         "-0",        "0x10",        "~",   "yes",  "off", "&a",
+                          "*a",        "!!x",           "|",         ">",           "# ",  "\"",   "'",   ",",
+                          "<<",        "...",           "\n---",     "null",        "nan", ".inf", "= ",  "'= i * r'",
+                          "= sin(",    "{i}",           "repeat: 3", "let: {r: 1}", "none"};
+  for (const span<const Kind>& family : families())
     for (const Kind& kind : family)
       for (const Field& field : kind.fields) {
-        all.insert(std::string(field.key) + ": ");
-        for (const std::string_view choice : choices(field)) all.emplace(choice);
+        all.insert(string(field.key) + ": ");
+        for (const string_view choice : choices(field)) all.emplace(choice);
         if (!field.example.empty()) all.emplace(field.example);
       }
   all.erase("");

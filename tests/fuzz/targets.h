@@ -1,11 +1,9 @@
 #pragma once
 // Fuzz targets: functions of arbitrary bytes. Each passes the bytes to a part of the program as the content of a file,
 // and checks the result against the guarantees of that part. A refusal by the part's own error is fine.
-#include <span>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom::fuzz {
 
@@ -16,36 +14,36 @@ struct Finding : std::logic_error {
 
 struct Target {
   const char* name;
-  void (*run)(std::string_view bytes);  // throws Finding; any other exception is a finding too
-  std::vector<std::string> (*seeds)();  // initial inputs
-  std::size_t longest;                  // bytes of an input
+  void (*run)(string_view bytes);  // throws Finding; any other exception is a finding too
+  vector<string> (*seeds)();       // initial inputs
+  size_t longest;                  // bytes of an input
 };
 
-std::span<const Target> targets();
+span<const Target> targets();
 /// Null: there is none of this name.
-const Target* find_target(std::string_view name);
+const Target* find_target(string_view name);
 
 /// Words for inputs: keys, choices, punctuation.
-std::vector<std::string> words();
+vector<string> words();
 
 // One function for each target, and its seeds.
-void load_scene_bytes(std::string_view bytes);
-void load_sweep_bytes(std::string_view bytes);
-void apply_settings_bytes(std::string_view bytes);
-void read_mesh_reply_bytes(std::string_view bytes);
-void read_mesh_bytes(std::string_view bytes);
-void read_flights_bytes(std::string_view bytes);
-void read_manifest_bytes(std::string_view bytes);
-void read_table_bytes(std::string_view bytes);
-void simulate_bytes(std::string_view bytes);
-std::vector<std::string> scene_seeds();
-std::vector<std::string> sweep_seeds();
-std::vector<std::string> settings_seeds();
-std::vector<std::string> mesh_reply_seeds();
-std::vector<std::string> mesh_seeds();
-std::vector<std::string> flights_seeds();
-std::vector<std::string> manifest_seeds();
-std::vector<std::string> table_seeds();
-std::vector<std::string> simulator_seeds();
+void load_scene_bytes(string_view bytes);
+void load_sweep_bytes(string_view bytes);
+void apply_settings_bytes(string_view bytes);
+void read_mesh_reply_bytes(string_view bytes);
+void read_mesh_bytes(string_view bytes);
+void read_flights_bytes(string_view bytes);
+void read_manifest_bytes(string_view bytes);
+void read_table_bytes(string_view bytes);
+void simulate_bytes(string_view bytes);
+vector<string> scene_seeds();
+vector<string> sweep_seeds();
+vector<string> settings_seeds();
+vector<string> mesh_reply_seeds();
+vector<string> mesh_seeds();
+vector<string> flights_seeds();
+vector<string> manifest_seeds();
+vector<string> table_seeds();
+vector<string> simulator_seeds();
 
 }  // namespace carom::fuzz

@@ -4,6 +4,7 @@
 
 #include "geometry/conservative_advancement.h"
 #include "physics/world.h"
+#include "std.h"
 #include "volumes_by_hand.h"
 
 namespace carom {
@@ -110,7 +111,7 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
         const double size = a.half.sum() + b.half.sum();
         double horizon;
         Path path = random_path(world, random, false, horizon);
-        std::uint8_t left = no_feature;
+        uint8_t left = no_feature;
         for (int bounce = 0; bounce < 9; ++bounce) {
           const RelativeMotion motion{path.d, path.w, path.a, path.w.cwiseAbs().sum(), false};
           const FeatureTime m = time_of_impact(world, 0, 1, motion, left, horizon);

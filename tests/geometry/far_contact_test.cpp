@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "std.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

@@ -1,23 +1,22 @@
 // The tightest volumes: closed forms, degenerate clouds, and spheres known by construction.
 #include "geometry/fit.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 namespace carom {
 namespace {
 
 constexpr double eps = 0x1p-52;
 
-double noise(std::uint64_t& seed) {  // -1 to 1
+double noise(uint64_t& seed) {  // -1 to 1
   seed = seed * 6364136223846793005U + 1442695040888963407U;
   return static_cast<double>(seed >> 11U) * 0x1p-52 - 1;
 }
 
-Vec3 direction(std::uint64_t& seed) {
+Vec3 direction(uint64_t& seed) {
   while (true) {
     const double x = noise(seed), y = noise(seed), z = noise(seed);
     const Vec3 v(x, y, z);
@@ -39,11 +38,11 @@ bool holds(const Fit& fit, const Vec3& p) {
   return (d.cwiseAbs().array() <= half.array()).all();
 }
 
-void expect_holds(const Fit& fit, const std::vector<Vec3>& points) {
+void expect_holds(const Fit& fit, const vector<Vec3>& points) {
   for (const Vec3& p : points) ASSERT_TRUE(holds(fit, p)) << p.transpose();
 }
 
-std::string error_of(Shape shape, const std::vector<Vec3>& points) {
+string error_of(Shape shape, const vector<Vec3>& points) {
   try {
     tightest(shape, points);
   } catch (const std::invalid_argument& error) {
@@ -53,7 +52,7 @@ std::string error_of(Shape shape, const std::vector<Vec3>& points) {
 }
 
 TEST(TightestSphere, OfACubesCornersIsItsCircumsphere) {
-  std::vector<Vec3> points;
+  vector<Vec3> points;
   for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? 3 : 1, i & 2 ? 3 : 1, i & 4 ? 3 : 1);
   const Fit fit = tightest(Shape::sphere, points);
   EXPECT_NEAR(fit.volume.half.x(), std::sqrt(3.0), 8 * eps);  // measured: 5
@@ -62,13 +61,13 @@ TEST(TightestSphere, OfACubesCornersIsItsCircumsphere) {
 }
 
 TEST(TightestSphere, OfAnObtuseTriangleStandsOnItsLongestSide) {
-  const std::vector<Vec3> points{{-1, 0, 0}, {1, 0, 0}, {0.3, 0.4, 0.1}};
+  const vector<Vec3> points{{-1, 0, 0}, {1, 0, 0}, {0.3, 0.4, 0.1}};
   EXPECT_NEAR(tightest(Shape::sphere, points).volume.half.x(), 1, 2 * eps);
 }
 
 TEST(TightestSphere, OfAnAcuteTriangleIsItsCircumcircle) {
   // Sides 13, 14, 15: area 84, circumradius 13 * 14 * 15 / (4 * 84).
-  const std::vector<Vec3> points{{0, 0, 7}, {14, 0, 7}, {5, 12, 7}};
+  const vector<Vec3> points{{0, 0, 7}, {14, 0, 7}, {5, 12, 7}};
   const Fit fit = tightest(Shape::sphere, points);
   EXPECT_NEAR(fit.volume.half.x(), 8.125, 16 * eps);
   EXPECT_LT((fit.center - Vec3(7, 4.125, 7)).norm(), 16 * eps);
@@ -76,12 +75,12 @@ TEST(TightestSphere, OfAnAcuteTriangleIsItsCircumcircle) {
 
 // A sphere is the smallest around points on it if its centre lies between them: around any hull of the centre.
 TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
-  std::uint64_t seed = 3;
+  uint64_t seed = 3;
   double worst = 0, worst_center = 0;
   for (int round = 0; round < 2000; ++round) {
     const Vec3 center = std::ldexp(1.0, round % 21 - 10) * Vec3(noise(seed), noise(seed), noise(seed));
     const double radius = std::ldexp(1.0 + 0.5 * noise(seed), round % 31 - 15);
-    std::vector<Vec3> on;
+    vector<Vec3> on;
     const int support = 2 + round % 3;
     for (int i = 0; i + 1 < support; ++i) on.push_back(direction(seed));
     Vec3 against = Vec3::Zero();
@@ -90,7 +89,7 @@ TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
     if (support == 4)
       against = -(on[0] + (0.6 + 0.4 * noise(seed)) * on[1] + (0.6 + 0.4 * noise(seed)) * on[2]).normalized();
     on.push_back(against);
-    std::vector<Vec3> points;
+    vector<Vec3> points;
     for (int i = 0; i < round % 50; ++i) points.push_back(center + 0.999 * radius * direction(seed));
     for (const Vec3& v : on)
       points.insert(points.begin() + round % (static_cast<int>(points.size()) + 1), center + radius * v);
@@ -106,9 +105,9 @@ TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
 }
 
 TEST(TightestSphere, OfManyPointsOnOneSphereOrCircleOrLineIsThatOne) {
-  std::uint64_t seed = 5;
+  uint64_t seed = 5;
   for (const Vec3& stretch : {Vec3(1, 1, 1), Vec3(1, 0, 1), Vec3(1, 0, 0)}) {
-    std::vector<Vec3> points;
+    vector<Vec3> points;
     for (int i = 0; i < 5000; ++i) {
       const Vec3 v = direction(seed).cwiseProduct(stretch);
       points.push_back(v.norm() > 0 ? Vec3(v.normalized()) : v);
@@ -122,9 +121,9 @@ TEST(TightestSphere, OfManyPointsOnOneSphereOrCircleOrLineIsThatOne) {
 }
 
 TEST(TightestSphere, OfNearlyFlatAndNearlyStraightCloudsIsNoLargerThanNeeded) {
-  std::uint64_t seed = 9;
+  uint64_t seed = 9;
   for (const double thin : {1e-3, 1e-8, 1e-15, 1e-30, 1e-200}) {
-    std::vector<Vec3> disc, line;
+    vector<Vec3> disc, line;
     for (int i = 0; i < 1000; ++i) {
       const double angle = noise(seed) * M_PI;
       disc.emplace_back(std::cos(angle), thin * noise(seed), std::sin(angle));
@@ -142,13 +141,13 @@ TEST(TightestSphere, OfNearlyFlatAndNearlyStraightCloudsIsNoLargerThanNeeded) {
 }
 
 TEST(Tightest, ScaledByPowersOfTwoHasTheSameBits) {
-  std::uint64_t seed = 11;
-  std::vector<Vec3> points;
+  uint64_t seed = 11;
+  vector<Vec3> points;
   for (int i = 0; i < 300; ++i) points.push_back(Vec3(noise(seed), 2 * noise(seed), noise(seed)));
   for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::box}) {
     const Fit one = tightest(shape, points);
     for (const int power : {-600, -40, 7, 600}) {
-      std::vector<Vec3> scaled;
+      vector<Vec3> scaled;
       for (const Vec3& p : points) scaled.push_back(std::ldexp(1.0, power) * p);
       const Fit fit = tightest(shape, scaled);
       EXPECT_EQ(fit.volume.half, Vec3(std::ldexp(1.0, power) * one.volume.half));
@@ -159,7 +158,7 @@ TEST(Tightest, ScaledByPowersOfTwoHasTheSameBits) {
 
 TEST(TightestCylinder, HasTheSmallestCircleSeenFromAboveAndTheWholeHeight) {
   // From above the triangle 13, 14, 15, at different heights.
-  const std::vector<Vec3> points{{0, -1, 0}, {14, 5, 0}, {5, 2, 12}, {7, 3, 4}};
+  const vector<Vec3> points{{0, -1, 0}, {14, 5, 0}, {5, 2, 12}, {7, 3, 4}};
   const Fit fit = tightest(Shape::cylinder, points);
   EXPECT_EQ(fit.volume.shape, Shape::cylinder);
   EXPECT_NEAR(fit.volume.half.x(), 8.125, 16 * eps);
@@ -170,17 +169,17 @@ TEST(TightestCylinder, HasTheSmallestCircleSeenFromAboveAndTheWholeHeight) {
 }
 
 TEST(TightestBox, SpansTheExtremes) {
-  const std::vector<Vec3> points{{0, -1, 3}, {14, 5, 0}, {5, 2, 12}};
+  const vector<Vec3> points{{0, -1, 3}, {14, 5, 0}, {5, 2, 12}};
   const Fit fit = tightest(Shape::box, points);
   EXPECT_EQ(fit.volume.half, Vec3(7, 3, 6));
   EXPECT_EQ(fit.center, Vec3(7, 2, 6));
 }
 
 TEST(Tightest, HoldsEveryPointOfAnyCloud) {
-  std::uint64_t seed = 13;
+  uint64_t seed = 13;
   for (int round = 0; round < 300; ++round) {
     const Vec3 far = std::ldexp(1.0, round % 40) * Vec3(noise(seed), noise(seed), noise(seed));
-    std::vector<Vec3> points;
+    vector<Vec3> points;
     for (int i = 0; i < 3 + round; ++i) points.push_back(far + Vec3(noise(seed), noise(seed), noise(seed)));
     for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::box})
       expect_holds(tightest(shape, points), points);
@@ -204,8 +203,8 @@ TEST(Tightest, ReportsErrorsOfItsPoints) {
 }
 
 TEST(TightestSphere, OfAMillionPointsTakesAFewPasses) {
-  std::uint64_t seed = 17;
-  std::vector<Vec3> points;
+  uint64_t seed = 17;
+  vector<Vec3> points;
   for (int i = 0; i < 1'000'000; ++i) points.push_back(direction(seed));
   EXPECT_NEAR(tightest(Shape::sphere, points).volume.half.x(), 1, 8 * eps);  // 0.02 s; a pass for each would be hours
 }

@@ -3,6 +3,7 @@
 
 #include "geometry/round_prism.h"
 #include "physics/world.h"
+#include "std.h"
 #include "volumes_by_hand.h"
 
 namespace carom {
@@ -10,11 +11,11 @@ namespace {
 
 using namespace by_hand;
 
-std::uint8_t feature(int x, int y, int z) {
+uint8_t feature(int x, int y, int z) {
   return PrismFeature{x, y, z}.code();
 }
 
-FeatureTime leave(const Volume& a, const Volume& b, std::uint8_t from, const Vec3& d, const Vec3& w,
+FeatureTime leave(const Volume& a, const Volume& b, uint8_t from, const Vec3& d, const Vec3& w,
                   const Vec3& acceleration = Vec3::Zero()) {
   return leave_feature(body_and_obstacle(a, b), 0, 1, from, {d, w, acceleration, w.norm(), false}, 100);
 }

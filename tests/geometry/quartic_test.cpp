@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "physics/world.h"
+#include "std.h"
 #include "volumes_by_hand.h"
 
 namespace carom {
@@ -13,23 +13,23 @@ namespace {
 
 using by_hand::Sampler;
 __extension__ typedef __float128 Quad;
-using Coefficients = std::vector<Quad>;  // ascending
+using Coefficients = vector<Quad>;  // ascending
 
 Quad value(const Coefficients& f, Quad t) {
   Quad sum = 0;
-  for (std::size_t k = f.size(); k-- > 0;) sum = sum * t + f[k];
+  for (size_t k = f.size(); k-- > 0;) sum = sum * t + f[k];
   return sum;
 }
 
 /// All sign changes in (0, end), by bisection between the roots of the derivative.
-std::vector<Quad> roots(const Coefficients& f, Quad end) {
+vector<Quad> roots(const Coefficients& f, Quad end) {
   if (f.size() < 2) return {};
   Coefficients slope;
-  for (std::size_t k = 1; k < f.size(); ++k) slope.push_back(static_cast<Quad>(static_cast<double>(k)) * f[k]);
-  std::vector<Quad> corners = roots(slope, end), found;
+  for (size_t k = 1; k < f.size(); ++k) slope.push_back(static_cast<Quad>(static_cast<double>(k)) * f[k]);
+  vector<Quad> corners = roots(slope, end), found;
   corners.insert(corners.begin(), 0);
   corners.push_back(end);
-  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+  for (size_t k = 0; k + 1 < corners.size(); ++k) {
     Quad low = corners[k], high = corners[k + 1];
     const bool positive = value(f, low) > 0;
     if (positive == (value(f, high) > 0)) continue;
@@ -53,7 +53,7 @@ Quad reference(const RelativeMotion& m, double s, bool left, double end) {
   if (left) f.erase(f.begin());
   for (Quad t : roots(f, end)) {
     Quad slope = 0;
-    for (std::size_t k = f.size() - 1; k > 0; --k) slope = slope * t + static_cast<Quad>(static_cast<double>(k)) * f[k];
+    for (size_t k = f.size() - 1; k > 0; --k) slope = slope * t + static_cast<Quad>(static_cast<double>(k)) * f[k];
     if (slope < 0) return t;
   }
   return -1;
@@ -76,7 +76,7 @@ Scenario thrown(Sampler& random, double g, double flight, double spread) {
   return {m, s};
 }
 
-Scenario scenario(const std::string& family, Sampler& random) {
+Scenario scenario(const string& family, Sampler& random) {
   constexpr double g = 9.80665;
   if (family == "generic") return thrown(random, g, random.uniform(0.2, 2), 2);
   if (family == "fast") return thrown(random, g, random.log_uniform(1e-4, 1e-2), 1.6);
@@ -118,11 +118,11 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
   world.mass = {1};
   world.restitution = {1};
   world.radius = {0.5};
-  world.obstacles = {{Vec3::Zero(), Volume::sphere(0.5), std::nullopt}};
+  world.obstacles = {{Vec3::Zero(), Volume::sphere(0.5), nullopt}};
   for (const Row& row : rows) {
     Sampler random(7);
     int hits = 0, missed = 0, invented = 0;
-    std::vector<double> errors;
+    vector<double> errors;
     for (int k = 0; k < 400; ++k) {
       const Scenario c = scenario(row.family, random);
       world.radius[0] = 0.5 * c.s;
@@ -138,7 +138,7 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
         errors.push_back(std::abs(static_cast<double>(error)));
       }
     }
-    std::sort(errors.begin(), errors.end());
+    std::ranges::sort(errors);
     const double median = errors[errors.size() / 2], worst = errors.back();
     printf("%-14s %3d hits, %d missed, %d invented, relative error: median %.2g, worst %.2g\n", row.family, hits,
            missed, invented, median, worst);

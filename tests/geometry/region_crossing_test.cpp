@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <vector>
 
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -29,7 +28,7 @@ WorldRegion side_of(const Vec3& point, const Vec3& normal) {
 using Long = long double;
 
 /// How far a point of the path is outside, on no particular scale; below 0: inside.
-Long outside(const WorldRegion& region, const std::function<Long(int, Long)>& path, Long t) {
+Long outside(const WorldRegion& region, const function<Long(int, Long)>& path, Long t) {
   Long d[3];
   for (int k = 0; k < 3; ++k) d[k] = path(k, t) - Long{region.position[k]};
   if (region.is_side())
@@ -45,9 +44,9 @@ Long outside(const WorldRegion& region, const std::function<Long(int, Long)>& pa
 }
 
 /// The times of all changes of sign between samples.
-std::vector<double> changes(const WorldRegion& region, const std::function<Long(int, Long)>& path, double length) {
+vector<double> changes(const WorldRegion& region, const function<Long(int, Long)>& path, double length) {
   constexpr int samples = 4000;
-  std::vector<double> times;
+  vector<double> times;
   for (int i = 0; i < samples; ++i) {
     Long l = Long{length} * i / samples, r = Long{length} * (i + 1) / samples;
     const bool before = outside(region, path, l) < 0;
@@ -62,8 +61,8 @@ std::vector<double> changes(const WorldRegion& region, const std::function<Long(
 }
 
 /// All crossings of a path by the program, as the simulator follows them.
-std::vector<double> crossings(const WorldRegion& region, const CenterPath& path, bool inside, double margin) {
-  std::vector<double> times;
+vector<double> crossings(const WorldRegion& region, const CenterPath& path, bool inside, double margin) {
+  vector<double> times;
   double from = 0;
   while (const auto next = next_crossing(region, path, from, inside, margin)) {
     times.push_back(next->at);
@@ -74,7 +73,7 @@ std::vector<double> crossings(const WorldRegion& region, const CenterPath& path,
 }
 
 /// Regions of every shape, about as large as the cube of edge 2.
-std::vector<WorldRegion> regions_near(Random& random) {
+vector<WorldRegion> regions_near(Random& random) {
   const Vec3 at = in_cube(random, 1);
   return {side_of(at, in_cube(random, 1).normalized()), region_of(at, Volume::sphere(random(0.2, 1))),
           region_of(at, Volume::cylinder(random(0.2, 1), random(0.3, 2))),
@@ -88,11 +87,11 @@ TEST(RegionCrossing, OfAParabolaIsRightToTheRoundingOfItsTime) {
     const Vec3 x = in_cube(random, 2), v = in_cube(random, 1) - x, a = in_cube(random, 1);
     const auto path = [&](int k, Long t) { return Long{x[k]} + t * (Long{v[k]} + t * Long{a[k]} / 2); };
     for (const WorldRegion& region : regions_near(random)) {
-      const std::vector<double> expected = changes(region, path, 3);
-      const std::vector<double> times =
+      const vector<double> expected = changes(region, path, 3);
+      const vector<double> times =
           crossings(region, CenterPath::along(x, v, a, 3), outside(region, path, 0) < 0, 1e-15);
       ASSERT_EQ(times.size(), expected.size()) << "trial " << trial;
-      for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 4e-16 * expected[i]);
+      for (size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 4e-16 * expected[i]);
       found += static_cast<int>(times.size());
     }
   }
@@ -109,15 +108,15 @@ TEST(RegionCrossing, OfAPolynomialIsRightToItsRounding) {
     terms[0] -= 2 * x;
     const auto path = [&](int k, Long t) {
       Long sum = 0;
-      for (std::size_t n = terms.size(); n-- > 0;) sum = (sum + Long{terms[n][k]}) * (t / 3);
+      for (size_t n = terms.size(); n-- > 0;) sum = (sum + Long{terms[n][k]}) * (t / 3);
       return Long{x[k]} + sum;
     };
     for (const WorldRegion& region : regions_near(random)) {
-      const std::vector<double> expected = changes(region, path, 3);
-      const std::vector<double> times =
+      const vector<double> expected = changes(region, path, 3);
+      const vector<double> times =
           crossings(region, CenterPath::along(x, terms, 3), outside(region, path, 0) < 0, 1e-14);
       ASSERT_EQ(times.size(), expected.size()) << "trial " << trial;
-      for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 1e-13);  // measured: 2e-14
+      for (size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 1e-13);  // measured: 2e-14
       found += static_cast<int>(times.size());
     }
   }
@@ -144,14 +143,14 @@ TEST(RegionCrossing, GrazingIsNone) {
   // Up to the plane, and back.
   const CenterPath thrown = CenterPath::along({0, 0, 0}, {0, 4, 0}, {0, -8, 0}, 1);
   EXPECT_TRUE(crossings(side_of({0, 1, 0}, {0, 1, 0}), thrown, false, 1e-15).empty());
-  EXPECT_EQ(crossings(side_of({0, 0.75, 0}, {0, 1, 0}), thrown, false, 1e-15), (std::vector<double>{0.25, 0.75}));
+  EXPECT_EQ(crossings(side_of({0, 0.75, 0}, {0, 1, 0}), thrown, false, 1e-15), (vector<double>{0.25, 0.75}));
 }
 
 TEST(RegionCrossing, OneCornerOfABoxIsCutOff) {
   // Along x + y = 1.5 in the square from 0 to 1: in at y = 1, out at x = 1.
   const WorldRegion box = region_of({0.5, 0.5, 0.5}, Volume::box({1, 1, 1}));
   const CenterPath path = CenterPath::along({-1, 2.5, 0.5}, {1, -1, 0}, Vec3::Zero(), 8);
-  EXPECT_EQ(crossings(box, path, false, 1e-15), (std::vector<double>{1.5, 2}));
+  EXPECT_EQ(crossings(box, path, false, 1e-15), (vector<double>{1.5, 2}));
   // Through the edge itself: nothing.
   const CenterPath edge = CenterPath::along({-1, 3, 0.5}, {1, -1, 0}, Vec3::Zero(), 8);
   EXPECT_TRUE(crossings(box, edge, false, 1e-15).empty());
@@ -160,11 +159,11 @@ TEST(RegionCrossing, OneCornerOfABoxIsCutOff) {
 TEST(RegionCrossing, FromTheBoundaryAPathEntersAtOnceOrNever) {
   const WorldRegion up = side_of(Vec3::Zero(), {0, 1, 0});
   const auto along = [](double speed) { return CenterPath::along(Vec3::Zero(), {1, speed, 0}, Vec3::Zero(), 1); };
-  EXPECT_EQ(crossings(up, along(1), false, 1e-15), (std::vector<double>{0}));
+  EXPECT_EQ(crossings(up, along(1), false, 1e-15), (vector<double>{0}));
   EXPECT_TRUE(crossings(up, along(-1), false, 1e-15).empty());
   EXPECT_TRUE(crossings(up, along(0), false, 1e-15).empty());
   EXPECT_TRUE(crossings(up, along(1), true, 1e-15).empty());
-  EXPECT_EQ(crossings(up, along(-1), true, 1e-15), (std::vector<double>{0}));
+  EXPECT_EQ(crossings(up, along(-1), true, 1e-15), (vector<double>{0}));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "geometry/round_prism.h"
 #include "physics/world.h"
+#include "std.h"
 #include "volumes_by_hand.h"
 
 namespace carom {
@@ -53,7 +54,7 @@ TEST(TimeOfImpact, APlaneIsMetByTheVolumesForemostPoint) {
   for (const Volume& v : {ball, can, brick}) {
     World world = two_bodies(v, ball);
     const Vec3 n(0.6, 0.8, 0);
-    world.planes = {{none, n, std::nullopt}};
+    world.planes = {{none, n, nullopt}};
     const double reach = v.support(n);
     const FeatureTime m = time_of_impact(world, 0, 2, motion(-(reach + 5) * n, none, 10 * n), no_feature, 10);
     EXPECT_NEAR(m.time, 1, 3e-16);
@@ -112,7 +113,7 @@ TEST(TimeOfImpact, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
 
 TEST(TimeOfImpact, ABallThatFallsOffABoxesFaceStrikesItsEdgeOnlyWhereItIsSlow) {
   const World world = two_bodies(brick, ball);
-  const auto after = [&](double speed, std::uint8_t left) {
+  const auto after = [&](double speed, uint8_t left) {
     return time_of_impact(world, 0, 1, motion({0.5, 1.5, 0}, speed * right, -10 * up), left, 10).time;
   };
   const FeatureTime rim =

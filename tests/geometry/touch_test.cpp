@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
+#include "std.h"
 #include "volumes_by_hand.h"
 
 namespace carom {
@@ -66,7 +67,7 @@ TEST(Touch, BoxesThatTouchAtAnEdgeOnlyHaveOneFacesNormal) {
 TEST(Touch, APlaneIsMetWithTheVolumesReachAlongItsNormal) {
   World world = body_and_obstacle(can, ball);
   world.obstacles.clear();
-  world.planes = {{Vec3::Zero(), Vec3(0.6, 0.8, 0), std::nullopt}};
+  world.planes = {{Vec3::Zero(), Vec3(0.6, 0.8, 0), nullopt}};
   const Touch t = touch(world, 0, Vec3(0.6, 0.8, 0) * 3, 1, Vec3::Zero());
   EXPECT_NEAR(t.gap, 3 - (0.5 * 0.6 + 0.8), 4e-16);
   EXPECT_EQ(t.normal, Vec3(-0.6, -0.8, 0));

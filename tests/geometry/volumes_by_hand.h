@@ -7,6 +7,7 @@
 
 #include "geometry/contact_time.h"
 #include "geometry/touch.h"
+#include "std.h"
 
 namespace carom::by_hand {
 
@@ -134,7 +135,7 @@ inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double le
       if (movable) {
         add(b);
       } else {
-        world.obstacles.push_back({Vec3::Zero(), volume(b), std::nullopt});
+        world.obstacles.push_back({Vec3::Zero(), volume(b), nullopt});
       }
       break;
     case Kind::tilted_wall:
@@ -173,7 +174,7 @@ inline World body_and_obstacle(const Volume& a, const Volume& b) {
   world.restitution = {1};
   world.radius = {a.reach()};
   world.volume = {a};
-  world.obstacles = {{Vec3::Zero(), b, std::nullopt}};
+  world.obstacles = {{Vec3::Zero(), b, nullopt}};
   return world;
 }
 

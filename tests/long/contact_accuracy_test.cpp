@@ -9,6 +9,7 @@
 #include "bench/reference.h"
 #include "run/accuracy.h"
 #include "run/contact_scenes.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,8 +27,8 @@ double stated_with_tolerance(Scene scene, double tolerance, StepChoice& steps) {
 TEST(ContactAccuracy, OfTwoHundredScenesIsContainedInWhatIsStated) {
   int scenes = 0, met = 0, known = 0;
   double greatest = 0, of_tolerances = 0, of_benches = 0;  // true error over what is stated
-  for (std::uint64_t seed = 0; scenes < 200; ++seed) {
-    const std::optional<SceneWithTruth> of = ContactScenes(seed).make();
+  for (uint64_t seed = 0; scenes < 200; ++seed) {
+    const optional<SceneWithTruth> of = ContactScenes(seed).make();
     if (!of) continue;
     ++scenes;
     const double error = of->error();
@@ -49,7 +50,7 @@ TEST(ContactAccuracy, OfTwoHundredScenesIsContainedInWhatIsStated) {
       of_tolerances = std::max(of_tolerances, of->error(steps) / with_tolerance);
     }
 
-    const Reference reference = make_reference(of->scene, {}, {[] {}, [](double, const std::string&) {}});
+    const Reference reference = make_reference(of->scene, {}, {[] {}, [](double, const string&) {}});
     if (reference.chaotic) continue;
     EXPECT_LE(error, 10 * reference.error.position) << seed << ": " << of->what;
     of_benches = std::max(of_benches, error / reference.error.position);

@@ -1,4 +1,5 @@
 #include "simulate/floors.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@ namespace {
 TEST(LongFloors, ABodyAndThoseThatItCarriesCrossTenThousandOfThemUnharmed) {
   for (const Sliding kind : {Sliding::ball, Sliding::box, Sliding::cylinder})
     for (const int riders : {0, 1, 2})
-      for (std::uint64_t seed = 1; seed <= 10'000; ++seed)
+      for (uint64_t seed = 1; seed <= 10'000; ++seed)
         EXPECT_EQ(fault_of(random_crossing(kind, seed, riders)), "")
             << seed << ", body " << static_cast<int>(kind) << ", " << riders;
 }

@@ -1,5 +1,6 @@
 // A hundred thousand random clusters of 2 to 60 bodies that are struck at one instant.
 #include "simulate/impact_clusters.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ using namespace impact_clusters;
 TEST(ImpactClusters, AHundredThousandKeepAllGuarantees) {
   Findings all;
   double longest = 0;  // s, of one with its images
-  for (std::uint64_t seed = 0; seed < 100'000; ++seed) {
+  for (uint64_t seed = 0; seed < 100'000; ++seed) {
     const auto start = std::chrono::steady_clock::now();
     examine(seed, 60, all, seed % 2 == 0 ? Walls::still : Walls::moving);
     longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -7,6 +7,7 @@
 #include "run/accuracy.h"
 #include "scene/scene.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -38,7 +39,7 @@ void add_force(Scene& scene, Random& random) {
   }
 }
 
-Scene random_scene(std::uint64_t seed) {
+Scene random_scene(uint64_t seed) {
   Random random(seed);
   Scene scene;
   scene.world.gravity = Vec3::Zero();
@@ -69,7 +70,7 @@ double true_error(const Scene& scene, const EngineChoice& engine) {
   for (int k = 1; k <= 20; ++k) {
     for (Simulator* one : {run.get(), truth.get()})
       while (one->time() < 0.05 * k) one->advance_to(0.05 * k);
-    for (std::size_t i = 0; i < scene.world.mass.size(); ++i)
+    for (size_t i = 0; i < scene.world.mass.size(); ++i)
       most = std::max(most, (run->state().position[i] - truth->state().position[i]).norm());
   }
   return most;
@@ -77,7 +78,7 @@ double true_error(const Scene& scene, const EngineChoice& engine) {
 
 TEST(RandomAccuracy, OfAThousandScenesIsAsReported) {
   int met = 0, unmet = 0, refused = 0;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+  for (uint64_t seed = 0; seed < 1000; ++seed) {
     const Scene scene = random_scene(seed);
     EngineChoice engine = choose_engine(scene);
     try {

@@ -1,4 +1,5 @@
 #include "numerics/lazy_array.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ TEST(SparseArray, KeepsReferencesWhileOthersAreWritten) {
   SparseArray<int> array(1000);
   int& first = array.write(500);
   first = 3;
-  for (std::size_t i = 0; i < 500; ++i) array.write(i) = 1;
+  for (size_t i = 0; i < 500; ++i) array.write(i) = 1;
   EXPECT_EQ(&array.write(500), &first);
   EXPECT_EQ(array[500], 3);
   EXPECT_EQ(array[999], 0);

@@ -1,4 +1,5 @@
 #include "numerics/monotone_cubic.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ TEST(MonotoneCubic, NeverLeavesTheRangeOfTwoPoints) {
 
 TEST(MonotoneCubic, PiecesAreTheCurve) {
   const MonotoneCubic curve({0, 1, 1.5, 4}, {0, 3, 3.5, -2});
-  const std::array<double, 4> c = curve.piece(2);
+  const array<double, 4> c = curve.piece(2);
   for (const double s : {0.1, 0.5, 0.9})
     EXPECT_NEAR(c[0] + s * (c[1] + s * (c[2] + s * c[3])), curve(1.5 + 2.5 * s), 1e-14);
 }

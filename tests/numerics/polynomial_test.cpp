@@ -1,4 +1,5 @@
 #include "numerics/polynomial.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,8 @@ Polynomial from_roots(std::initializer_list<double> roots) {
   for (double r : roots) {
     Polynomial q{{}, p.degree + 1};
     for (int k = 0; k <= p.degree; ++k) {
-      q.c[static_cast<std::size_t>(k + 1)] += p.c[static_cast<std::size_t>(k)];
-      q.c[static_cast<std::size_t>(k)] -= r * p.c[static_cast<std::size_t>(k)];
+      q.c[static_cast<size_t>(k + 1)] += p.c[static_cast<size_t>(k)];
+      q.c[static_cast<size_t>(k)] -= r * p.c[static_cast<size_t>(k)];
     }
     p = q;
   }
@@ -24,7 +25,7 @@ TEST(Roots, FourRootsAreAllFound) {
   const Roots roots = roots_between(from_roots({1, 2, 4, 8}), 0, 10);
   ASSERT_EQ(roots.count, 4);
   const double expected[] = {1, 2, 4, 8};
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(roots.at[k], expected[k], 4e-15 * expected[k]);
+  for (size_t k = 0; k < 4; ++k) EXPECT_NEAR(roots.at[k], expected[k], 4e-15 * expected[k]);
 }
 
 TEST(Roots, OnlyThoseInTheIntervalCount) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "numerics/dormand_prince.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -15,12 +16,12 @@ struct OnABall {
   double fade;
   Vec3 wind{2, 0, 0};
 
-  static void hold(const std::vector<Vec3>& x, double, std::vector<Vec3>& u) {
+  static void hold(const vector<Vec3>& x, double, vector<Vec3>& u) {
     const Vec3 n = x[0].normalized();
     u[0] -= n.dot(u[0]) * n;
   }
-  std::vector<RadauCollocation::Forces> forces() const { return {{fade * wind, fade}}; }
-  std::vector<Vec3> accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
+  vector<RadauCollocation::Forces> forces() const { return {{fade * wind, fade}}; }
+  vector<Vec3> accelerate(const vector<Vec3>& x, const vector<Vec3>& v) const {
     Vec3 a = fade * (wind - v[0]);
     const Vec3 n = x[0].normalized();
     a -= (n.dot(a) + v[0].squaredNorm() / x[0].norm()) * n;
@@ -29,7 +30,7 @@ struct OnABall {
   /// Position and velocity after t (s) in many steps of the explicit method.
   std::pair<Vec3, Vec3> after(double t, Vec3 x, Vec3 v) const {
     const int steps = std::max(static_cast<int>(20 * fade * t), 200);
-    const auto a = [this](const std::vector<Vec3>& p, const std::vector<Vec3>& u) { return accelerate(p, u); };
+    const auto a = [this](const vector<Vec3>& p, const vector<Vec3>& u) { return accelerate(p, u); };
     for (int k = 0; k < steps; ++k) {
       DormandPrince motion({x}, {v}, accelerate({x}, {v}));
       motion.step(t / steps, a, 1, 1);
@@ -45,8 +46,8 @@ TEST(RadauCollocation, OfAPointThatDragStopsIsTheClosedForm) {
   for (const double fade : {0.1, 1.0, 3.0}) {
     const double h = 0.05;
     RadauCollocation motion({Vec3::Zero()}, {Vec3(1, 0, 0)});
-    const std::vector<RadauCollocation::Forces> forces{{Vec3(0, -9, 0), fade}};
-    const auto free = [](const std::vector<Vec3>&, double, std::vector<Vec3>&) {};
+    const vector<RadauCollocation::Forces> forces{{Vec3(0, -9, 0), fade}};
+    const auto free = [](const vector<Vec3>&, double, vector<Vec3>&) {};
     EXPECT_LT(motion.step(h, forces, free, 1e-11, 1e-11), 1) << fade;
     for (const double t : {0.0125, 0.025, h}) {
       const double s = -std::expm1(-fade * t) / fade;

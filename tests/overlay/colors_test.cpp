@@ -4,11 +4,12 @@
 #include "overlay/body_colors.h"
 #include "overlay/drawing_maker.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::string scene_by(const std::string& coloring, const std::string& more = "") {
+string scene_by(const string& coloring, const string& more = "") {
   return "scene: 1\nsimulate: {duration: 1}\ngravity: [0, 0, 0]\noutput: {frames: true}\n"
          "defaults: {ball: {color: {" +
          coloring + "}}}\nballs:\n  a: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [2, 0, 0]}\n" +
@@ -26,11 +27,11 @@ Color viridis(double at) {
 }
 
 TEST(ColourMap, EndsWithTheColoursOfItsTable) {
-  const std::pair<ColorMap, std::pair<std::string, std::string>> ends[] = {{ColorMap::viridis, {"#440154", "#fde725"}},
-                                                                           {ColorMap::cividis, {"#00224e", "#fee838"}},
-                                                                           {ColorMap::magma, {"#000004", "#fcfdbf"}},
-                                                                           {ColorMap::plasma, {"#0d0887", "#f0f921"}},
-                                                                           {ColorMap::inferno, {"#000004", "#fcffa4"}}};
+  const std::pair<ColorMap, std::pair<string, string>> ends[] = {{ColorMap::viridis, {"#440154", "#fde725"}},
+                                                                 {ColorMap::cividis, {"#00224e", "#fee838"}},
+                                                                 {ColorMap::magma, {"#000004", "#fcfdbf"}},
+                                                                 {ColorMap::plasma, {"#0d0887", "#f0f921"}},
+                                                                 {ColorMap::inferno, {"#000004", "#fcffa4"}}};
   for (const auto& [map, colors] : ends) {
     EXPECT_EQ(hex_text(color_in(map, 0)), colors.first);
     EXPECT_EQ(hex_text(color_in(map, 1)), colors.second);
@@ -58,7 +59,7 @@ TEST(ColourMap, BecomesLighterAllAlongForPrintWithoutColours) {
 TEST(BodyColours, AreTheEndsOfTheMapAtMinAndMaxAndBeyond) {
   const Scene scene = load_text(scene_by("by: speed, min: 2, max: 3"));
   const History history(scene, picture_needs(scene));
-  const std::vector<Color> colors = BodyColors(scene).at(scene.initial, history);
+  const vector<Color> colors = BodyColors(scene).at(scene.initial, history);
   EXPECT_EQ(colors[0], viridis(0));  // 2 m/s
   EXPECT_EQ(colors[1], viridis(1));  // 3 m/s
   EXPECT_EQ(colors[2], viridis(0));  // 0, below the scale
@@ -70,7 +71,7 @@ TEST(BodyColours, FollowTheStateBetweenTheEnds) {
   const History history(scene, picture_needs(scene));
   State state = scene.initial;
   state.velocity[0] = Vec3(0, 6, 0);  // 18 J
-  const std::vector<Color> colors = BodyColors(scene).at(state, history);
+  const vector<Color> colors = BodyColors(scene).at(state, history);
   EXPECT_EQ(colors[0], color_in(ColorMap::plasma, 0.9));
   EXPECT_EQ(colors[1], color_in(ColorMap::plasma, 0.9));  // 4 kg at 3 m/s
   EXPECT_EQ(colors[2], color_in(ColorMap::plasma, 0));
@@ -78,8 +79,8 @@ TEST(BodyColours, FollowTheStateBetweenTheEnds) {
 
 TEST(BodyColours, ByMassAndRadiusSpanThoseOfTheScene) {
   for (const char* by : {"mass", "radius"}) {
-    const Scene scene = load_text(scene_by(std::string("by: ") + by));
-    const std::vector<Color> colors = BodyColors(scene).at(scene.initial, History(scene, picture_needs(scene)));
+    const Scene scene = load_text(scene_by(string("by: ") + by));
+    const vector<Color> colors = BodyColors(scene).at(scene.initial, History(scene, picture_needs(scene)));
     EXPECT_EQ(colors[0], viridis(0)) << by;
     EXPECT_EQ(colors[2], viridis(1)) << by;
   }
@@ -88,9 +89,9 @@ TEST(BodyColours, ByMassAndRadiusSpanThoseOfTheScene) {
 TEST(BodyColours, ByCollisionsCountEachImpactOfABody) {
   const Scene scene = load_text(scene_by("by: collisions, max: 4"));
   History history(scene, picture_needs(scene));
-  const std::vector<Collision> first = {hit(0.1, 0, 1), hit(0.2, 0, 2), hit(0.3, 0, 9, CollisionKind::rest)};
+  const vector<Collision> first = {hit(0.1, 0, 1), hit(0.2, 0, 2), hit(0.3, 0, 9, CollisionKind::rest)};
   history.record(first);
-  const std::vector<Color> colors = BodyColors(scene).at(scene.initial, history);
+  const vector<Color> colors = BodyColors(scene).at(scene.initial, history);
   EXPECT_EQ(colors[0], viridis(0.5));
   EXPECT_EQ(colors[1], viridis(0.25));
 }
@@ -98,7 +99,7 @@ TEST(BodyColours, ByCollisionsCountEachImpactOfABody) {
 TEST(BodyColours, OfATrailAreThoseOfItsTime) {
   const Scene scene = load_text(scene_by("by: collisions, max: 4", "trails: {seconds: 1}\n"));
   History history(scene, picture_needs(scene));
-  const std::vector<Collision> hits = {hit(0.1, 0, 1), hit(0.2, 0, 2)};
+  const vector<Collision> hits = {hit(0.1, 0, 1), hit(0.2, 0, 2)};
   history.record(hits);
   const BodyColors colors(scene);
   EXPECT_EQ(colors.of(0, 0.15, Vec3::Zero(), scene.initial, history), viridis(0.25));
@@ -116,11 +117,11 @@ TEST(Flash, LastsATenthOfASecondOfTheFilm) {
   const Scene scene = load_text(scene_by("by: mass", "flash: true\n"));
   for (const double speed : {1.0, 0.125}) {
     History history(scene, picture_needs(scene));
-    const std::vector<Collision> one = {hit(0.5, 0, 2)};
+    const vector<Collision> one = {hit(0.5, 0, 2)};
     history.record(one);
     const DrawingMaker maker(scene, history, {64, 36}, speed);
     State state = scene.initial;
-    const auto glow_at = [&](double time, std::size_t body) {
+    const auto glow_at = [&](double time, size_t body) {
       state.time = time;
       return maker.at(state, camera_of(scene)).glow[body];
     };

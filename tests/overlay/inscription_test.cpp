@@ -9,11 +9,12 @@
 
 #include "render/renderer.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string two_balls =
+const string two_balls =
     "scene: 1\ntitle: Balls\nsimulate: {duration: 1}\ngravity: [0, 0, 0]\noutput: {frames: true}\nballs:\n"
     "  red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [3, 0, 0], color: {by: speed, min: -1, max: 2.5}}\n"
     "  blue: {mass: 1, radius: 0.1, position: [1, 1, 0], color: {by: speed, min: -1, max: 2.5}}\n";
@@ -21,17 +22,17 @@ const std::string two_balls =
 /// A picture in which neighbouring pixels differ.
 Image noise(Size size) {
   Image image{size.width, size.height, {}};
-  image.pixels.resize(static_cast<std::size_t>(size.width * size.height) * 3);
+  image.pixels.resize(static_cast<size_t>(size.width * size.height) * 3);
   unsigned value = 1;
-  for (std::uint8_t& byte : image.pixels) {
+  for (uint8_t& byte : image.pixels) {
     value = value * 1664525 + 1013904223;
-    byte = static_cast<std::uint8_t>(value >> 24);
+    byte = static_cast<uint8_t>(value >> 24);
   }
   return image;
 }
 
 /// The coverage of a text, glyph by glyph, its base line starting at (x, y).
-Coverage by_freetype(const std::string& text, double size, double x, double y, Size picture) {
+Coverage by_freetype(const string& text, double size, double x, double y, Size picture) {
   Coverage all(picture.width, picture.height);
   FT_Library library = nullptr;
   FT_Face face = nullptr;
@@ -51,10 +52,9 @@ Coverage by_freetype(const std::string& text, double size, double x, double y, S
     const FT_Bitmap& bitmap = face->glyph->bitmap;
     for (unsigned row = 0; row < bitmap.rows; ++row)
       for (unsigned column = 0; column < bitmap.width; ++column) {
-        std::uint8_t& pixel =
-            all.at(static_cast<int>(std::floor(x)) + face->glyph->bitmap_left + static_cast<int>(column),
-                   static_cast<int>(std::floor(y)) - face->glyph->bitmap_top + static_cast<int>(row));
-        pixel = static_cast<std::uint8_t>(
+        uint8_t& pixel = all.at(static_cast<int>(std::floor(x)) + face->glyph->bitmap_left + static_cast<int>(column),
+                                static_cast<int>(std::floor(y)) - face->glyph->bitmap_top + static_cast<int>(row));
+        pixel = static_cast<uint8_t>(
             std::min(255, pixel + bitmap.buffer[row * static_cast<unsigned>(bitmap.pitch) + column]));
       }
     x += face->glyph->linearHoriAdvance / 65536.0;
@@ -116,11 +116,11 @@ TEST(Caption, LeavesTheRestOfThePictureAlone) {
 
 TEST(Caption, NeverLeavesThePicture) {
   Font font(find_font());
-  std::string text = "a";
+  string text = "a";
   for (int i = 0; i < 60; ++i) text += i % 7 == 0 ? " Donaudampfschifffahrt" : " bounces of a ball";
   for (const auto& [width, height] :
        {std::pair(16, 16), {32, 18}, {64, 36}, {480, 20}, {20, 480}, {640, 360}, {1280, 720}}) {
-    for (const std::string& its : {text, std::string(500, 'W'), std::string("x")}) {
+    for (const string& its : {text, string(500, 'W'), string("x")}) {
       const TextBlock block(font, its, std::max(height / 28.0, 10.0), width, height);
       if (block.canvas() == nullptr) continue;
       EXPECT_LE(block.canvas()->width(), width) << width << " x " << height;
@@ -134,50 +134,50 @@ TEST(Caption, NeverLeavesThePicture) {
 TEST(Caption, BreaksAtSpacesAndShrinksBeforeItIsCutOff) {
   const Font font(find_font(), 20);
   Font other(find_font());
-  EXPECT_EQ(wrapped(font, "one two", 1000).lines, std::vector<std::string>{"one two"});
-  EXPECT_EQ(wrapped(font, "one   two", font.width("one  t")).lines, (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(wrapped(font, "one two", 1000).lines, vector<string>{"one two"});
+  EXPECT_EQ(wrapped(font, "one   two", font.width("one  t")).lines, (vector<string>{"one", "two"}));
   EXPECT_EQ(TextBlock(other, "one two", 20, 1000, 100).size(), 20);
-  const TextBlock small(other, std::string(40, 'm'), 20, 400, 100);
+  const TextBlock small(other, string(40, 'm'), 20, 400, 100);
   EXPECT_LT(small.size(), 20);
   EXPECT_GT(small.size(), TextBlock::least_size);
-  EXPECT_EQ(TextBlock(other, std::string(400, 'm'), 20, 400, 100).size(), TextBlock::least_size);
+  EXPECT_EQ(TextBlock(other, string(400, 'm'), 20, 400, 100).size(), TextBlock::least_size);
   EXPECT_EQ(shortened(font, "abc", 1000), "abc");
   EXPECT_EQ(shortened(font, "abcdef", font.width("ab\u2026")), "ab\u2026");
 }
 
 TEST(Caption, IsOpaqueWhereAPictureIsTransparent) {
-  Image image{60, 30, std::vector<std::uint8_t>(60 * 30 * 4, 0), 4};
+  Image image{60, 30, vector<uint8_t>(60 * 30 * 4, 0), 4};
   Canvas canvas(10, 10);
   canvas.add(3, 4, Color{1, 1, 1});
   canvas.add(5, 4, Color{0, 0, 0}, 153);
   canvas.lay_onto(image, 2, 2);
   const auto pixel = [&](int x, int y) {
-    const std::uint8_t* p = image.row(y) + 4 * x;
-    return std::vector<int>(p, p + 4);
+    const uint8_t* p = image.row(y) + 4 * x;
+    return vector<int>(p, p + 4);
   };
-  EXPECT_EQ(pixel(5, 6), (std::vector<int>{255, 255, 255, 255}));
-  EXPECT_EQ(pixel(7, 6), (std::vector<int>{0, 0, 0, 153}));
-  EXPECT_EQ(pixel(0, 0), (std::vector<int>{0, 0, 0, 0}));
+  EXPECT_EQ(pixel(5, 6), (vector<int>{255, 255, 255, 255}));
+  EXPECT_EQ(pixel(7, 6), (vector<int>{0, 0, 0, 153}));
+  EXPECT_EQ(pixel(0, 0), (vector<int>{0, 0, 0, 0}));
 }
 
 TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
   const Scene scene = load_text(start + "caption: true\noutput: {frames: true}\n");
   const Scene without = load_text(start + "output: {frames: true}\n");
-  const std::string folder = test_folder();
+  const string folder = test_folder();
   const char* names[] = {"HOME", "XDG_DATA_HOME", "XDG_DATA_DIRS"};
-  std::vector<std::string> kept;
+  vector<string> kept;
   for (const char* name : names) {
     kept.emplace_back(std::getenv(name) != nullptr ? std::getenv(name) : "");
     setenv(name, folder.c_str(), 1);
   }
-  std::string error;
+  string error;
   try {
     check_font(scene);
   } catch (const RenderError& thrown) {
     error = thrown.what();
   }
   EXPECT_NO_THROW(check_font(without));
-  for (std::size_t i = 0; i < 3; ++i) setenv(names[i], kept[i].c_str(), 1);
+  for (size_t i = 0; i < 3; ++i) setenv(names[i], kept[i].c_str(), 1);
   EXPECT_EQ(error,
             "text in pictures needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n  install it "
             "(on Debian: apt install fonts-dejavu-core), or leave out `caption`, `arrows` and `color: {by: ...}`");
@@ -187,9 +187,9 @@ TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
 TEST(Legend, HasTheEndsOfItsMapAtTheEndsOfItsStrip) {
   const Size size{640, 360};
   for (const char* map : {"viridis", "cividis", "magma", "plasma", "inferno"}) {
-    std::string text = two_balls;
-    for (std::size_t i = text.find("max: 2.5"); i != std::string::npos; i = text.find("max: 2.5", i + 20))
-      text.insert(i, std::string("map: ") + map + ", ");
+    string text = two_balls;
+    for (size_t i = text.find("max: 2.5"); i != string::npos; i = text.find("max: 2.5", i + 20))
+      text.insert(i, string("map: ") + map + ", ");
     const Scene scene = load_text(text);
     Inscription inscription(scene, size);
     Image image = noise(size);
@@ -198,8 +198,8 @@ TEST(Legend, HasTheEndsOfItsMapAtTheEndsOfItsStrip) {
     const PixelBox strip = inscription.legends()->strips()[0];
     const ColorMap its = scene.roster.bodies[0].coloring->map;
     const auto color_at = [&](int column) {
-      const std::uint8_t* p = image.row(inscription.legends_top() + strip.top + strip.height / 2) +
-                              3 * (inscription.margin() + strip.left + column);
+      const uint8_t* p = image.row(inscription.legends_top() + strip.top + strip.height / 2) +
+                         3 * (inscription.margin() + strip.left + column);
       return hex_text({p[0] / 255.0, p[1] / 255.0, p[2] / 255.0});
     };
     EXPECT_EQ(color_at(0), hex_text(color_in(its, 0))) << map;
@@ -209,7 +209,7 @@ TEST(Legend, HasTheEndsOfItsMapAtTheEndsOfItsStrip) {
 }
 
 TEST(Legend, OfEqualColouringsIsOneAndHasItsNumbersAndUnit) {
-  const std::vector<Legend> legends = legends_of(load_text(two_balls));
+  const vector<Legend> legends = legends_of(load_text(two_balls));
   ASSERT_EQ(legends.size(), 1u);
   EXPECT_EQ(legends[0].title, "speed (m/s)");
   EXPECT_EQ(legends[0].min, "-1");
@@ -222,7 +222,7 @@ TEST(Legend, OfGroupsListsTheirNamesAndColours) {
                                 "defaults: {ball: {mass: 1, radius: 0.1, color: {by: group}}}\n"
                                 "balls: {red: {position: [9, 0, 0]}}\n"
                                 "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [2, 2, 2]}, ball: {}}}\n");
-  const std::vector<Legend> legends = legends_of(scene);
+  const vector<Legend> legends = legends_of(scene);
   ASSERT_EQ(legends.size(), 1u);
   ASSERT_EQ(legends[0].entries.size(), 2u);
   EXPECT_EQ(legends[0].entries[0].name, "red");
@@ -232,15 +232,15 @@ TEST(Legend, OfGroupsListsTheirNamesAndColours) {
 }
 
 TEST(Legend, OfManyNamesEndsWithTheNumberOfTheOthers) {
-  std::string text = start + "defaults: {ball: {mass: 1, radius: 0.1, color: {by: group}}}\nballs:\n";
+  string text = start + "defaults: {ball: {mass: 1, radius: 0.1, color: {by: group}}}\nballs:\n";
   for (int i = 0; i < 20; ++i) text += "  b" + std::to_string(i) + ": {position: [" + std::to_string(i) + ", 0, 0]}\n";
-  const std::vector<Legend> legends = legends_of(load_text(text));
+  const vector<Legend> legends = legends_of(load_text(text));
   ASSERT_EQ(legends[0].entries.size(), 12u);
   EXPECT_EQ(legends[0].entries.back().name, "9 more");
 }
 
 TEST(Legend, NeverLeavesThePicture) {
-  const std::vector<Legend> legends(4, {"kinetic energy (J)", ColorMap::magma, "0", "1200", {}});
+  const vector<Legend> legends(4, {"kinetic energy (J)", ColorMap::magma, "0", "1200", {}});
   Font font(find_font());
   for (const auto& [width, height] : {std::pair(16, 16), {64, 36}, {100, 200}, {640, 360}}) {
     const LegendBlock block(font, legends, 20, width, height);

@@ -5,6 +5,7 @@
 
 #include "overlay/light_mean.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -23,7 +24,7 @@ TEST(LightMean, IsThatOfLinearLight) {
   LightMean mean;
   for (int a = 0; a < 256; a += 5) {
     for (const int b : {0, 3, 128, 255}) {
-      const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
+      const auto byte = [](int value) { return static_cast<uint8_t>(value); };
       mean.add({1, 1, {byte(a), byte(b), byte(a)}});
       mean.add({1, 1, {byte(b), byte(b), byte(a)}});
       const Image& image = mean.take();
@@ -45,7 +46,7 @@ TEST(LightMean, WeighsColoursByTheirOpacity) {
   LightMean mean;
   mean.add({1, 1, {200, 10, 0, 255}, 4});
   mean.add({1, 1, {0, 0, 0, 0}, 4});
-  EXPECT_EQ(mean.take().pixels, (std::vector<std::uint8_t>{200, 10, 0, 128}));
+  EXPECT_EQ(mean.take().pixels, (vector<uint8_t>{200, 10, 0, 128}));
 }
 
 TEST(Shutter, OpensForAPartOfTheIntervalUntilThePicture) {
@@ -54,10 +55,10 @@ TEST(Shutter, OpensForAPartOfTheIntervalUntilThePicture) {
   EXPECT_EQ(shutter.next(), 0.75);
   EXPECT_TRUE(shutter.opens());
   shutter.open_for(4);
-  std::vector<double> instants;
+  vector<double> instants;
   for (; std::isfinite(shutter.next()); shutter.pass()) instants.push_back(shutter.next());
   // The fourth is the picture's own time.
-  EXPECT_EQ(instants, (std::vector<double>{0.8125, 0.875, 0.9375}));
+  EXPECT_EQ(instants, (vector<double>{0.8125, 0.875, 0.9375}));
 }
 
 TEST(Shutter, OfOneInstantIsThePicturesOwn) {

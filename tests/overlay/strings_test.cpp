@@ -6,6 +6,7 @@
 #include "overlay/drawing_maker.h"
 #include "overlay/hanging_curve.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -20,19 +21,19 @@ TEST(HangingCurve, IsACatenary) {
     return Vec3(from + 2 * (u + 0.5) * level - 2 * (std::cosh(u) - std::cosh(0.5)) * down);
   };
   const double length = 2 * (std::sinh(1.5) + std::sinh(0.5));
-  const std::vector<Vec3> points = hanging_curve(from, at(1.5), length, down, 1e-9);
+  const vector<Vec3> points = hanging_curve(from, at(1.5), length, down, 1e-9);
   ASSERT_EQ(points.size(), 64u) << "as many as are allowed";
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (size_t i = 0; i < points.size(); ++i)
     EXPECT_LT((points[i] - at(-0.5 + 2 * static_cast<double>(i + 1) / 64)).norm(), 1e-13) << i;
 }
 
 TEST(HangingCurve, HasStrokesWithinTheError) {
   const double length = 2 * std::sinh(1.0), error = 1e-3;
-  std::vector<Vec3> points = hanging_curve(Vec3(-1, 0, 0), Vec3(1, 0, 0), length, down, error);
+  vector<Vec3> points = hanging_curve(Vec3(-1, 0, 0), Vec3(1, 0, 0), length, down, error);
   points.insert(points.begin(), Vec3(-1, 0, 0));
   const auto height = [](double x) { return std::cosh(x) - std::cosh(1.0); };
   double worst = 0;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  for (size_t i = 0; i + 1 < points.size(); ++i)
     for (int k = 0; k <= 50; ++k) {
       const Vec3 p = points[i] + k / 50.0 * (points[i + 1] - points[i]);
       worst = std::max(worst, std::abs(p.y() - height(p.x())) / std::cosh(p.x()));
@@ -44,13 +45,13 @@ TEST(HangingCurve, HasStrokesWithinTheError) {
 
 TEST(HangingCurve, IsStraightWhereItIsTautOrWithoutGravity) {
   const Vec3 a(0, 0, 0), b(3, 4, 0);
-  EXPECT_EQ(hanging_curve(a, b, 5, down, 0.01), std::vector<Vec3>{b});
-  EXPECT_EQ(hanging_curve(a, b, 4.9, down, 0.01), std::vector<Vec3>{b});
-  EXPECT_EQ(hanging_curve(a, b, 7, Vec3::Zero(), 0.01), std::vector<Vec3>{b});
+  EXPECT_EQ(hanging_curve(a, b, 5, down, 0.01), vector<Vec3>{b});
+  EXPECT_EQ(hanging_curve(a, b, 4.9, down, 0.01), vector<Vec3>{b});
+  EXPECT_EQ(hanging_curve(a, b, 7, Vec3::Zero(), 0.01), vector<Vec3>{b});
 }
 
 TEST(HangingCurve, HangsDoubleBetweenEndsAboveOneAnother) {
-  const std::vector<Vec3> points = hanging_curve(Vec3(1, 0, 0), Vec3(1, 2, 0), 6, down, 0.01);
+  const vector<Vec3> points = hanging_curve(Vec3(1, 0, 0), Vec3(1, 2, 0), 6, down, 0.01);
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[0], Vec3(1, -2, 0));
   EXPECT_EQ(points[1], Vec3(1, 2, 0));
@@ -76,12 +77,12 @@ TEST(HangingCurve, KeepsItsLengthInEveryShape) {
     }
 }
 
-const std::string tied_balls =
+const string tied_balls =
     "scene: 1\nsimulate: {duration: 9}\nbackground: black\noutput: {frames: true}\n"
     "balls:\n  red: {mass: 2, radius: 0.1, position: [0, 0, 0]}\n  blue: {mass: 2, radius: 0.2, position: [1, 0, 0]}\n"
     "camera: {eye: [0, 0, 5], target: [0, 0, 0]}\n";
 
-std::vector<Stroke> strokes_of(const Scene& scene, const State& state) {
+vector<Stroke> strokes_of(const Scene& scene, const State& state) {
   const History history(scene, picture_needs(scene));
   return DrawingMaker(scene, history, of_picture).at(state, *scene.camera).strokes;
 }
@@ -92,7 +93,7 @@ TEST(Strings, AreDrawnBetweenTheirEndsUnlessHidden) {
                                 "  line: {from: [0, 1, 0], to: red}\n"
                                 "  bar: {from: blue, to: red, rod: true}\n"
                                 "  unseen: {from: [0, 2, 0], to: red, visible: false}\n");
-  const std::vector<Stroke> strokes = strokes_of(scene, scene.initial);
+  const vector<Stroke> strokes = strokes_of(scene, scene.initial);
   ASSERT_EQ(strokes.size(), 2u);
   EXPECT_EQ(strokes[0].from, Vec3(0, 0, 0));
   EXPECT_EQ(strokes[0].to, Vec3(0, 1, 0));
@@ -103,10 +104,10 @@ TEST(Strings, AreDrawnBetweenTheirEndsUnlessHidden) {
 
 TEST(Strings, HangWhenSlack) {
   const Scene scene = load_text(tied_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
-  const std::vector<Stroke> strokes = strokes_of(scene, scene.initial);
+  const vector<Stroke> strokes = strokes_of(scene, scene.initial);
   ASSERT_GT(strokes.size(), 4u);
   double length = 0, lowest = 0;
-  for (std::size_t i = 0; i < strokes.size(); ++i) {
+  for (size_t i = 0; i < strokes.size(); ++i) {
     EXPECT_EQ(strokes[i].from, i > 0 ? strokes[i - 1].to : Vec3(0, 0, 0));
     length += (strokes[i].to - strokes[i].from).norm();
     lowest = std::min(lowest, strokes[i].to.y());
@@ -127,7 +128,7 @@ TEST(Strings, CountForTheCollisionsOfBothBodies) {
                                 "strings: {line: {from: blue, to: red, length: 3}}\nflash: true\n"
                                 "defaults: {ball: {color: {by: collisions}}}\n");
   History history(scene, picture_needs(scene));
-  const Collision taut{0.5, CollisionKind::string, 0, 2, Vec3::Zero(), Vec3::UnitX(), 1, 0, 0, 1, 1};
+  const Collision taut{0.5, CollisionKind::taut, 0, 2, Vec3::Zero(), Vec3::UnitX(), 1, 0, 0, 1, 1};
   history.record({&taut, 1});
   EXPECT_EQ(history.last_collision(0), 0.5);
   EXPECT_EQ(history.last_collision(1), 0.5);

@@ -9,13 +9,14 @@
 #include "overlay/springs.h"
 #include "overlay/trails.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr Size size{1280, 720};
 
-std::string ball_scene(const std::string& more) {
+string ball_scene(const string& more) {
   return "scene: 1\nsimulate: {duration: 9}\nbackground: black\noutput: {frames: true}\n"
          "balls: {red: {mass: 2, radius: 0.1, position: [0, 0, 0], velocity: [1, 2, 0], color: gold}}\n"
          "camera: {eye: [0, 0, 5], target: [0, 0, 0]}\n" +
@@ -26,16 +27,16 @@ PathPiece piece(double from, const Vec3& x, const Vec3& v, const Vec3& a) {
   return {.body = 0, .from = from, .start = {from, 0}, .x = x, .v = v, .a = a};
 }
 
-std::vector<Stroke> trails_of(const Scene& scene, const History& history, const State& state) {
+vector<Stroke> trails_of(const Scene& scene, const History& history, const State& state) {
   const BodyColors colors(scene);
   const DrawingMaker maker(scene, history, size);
-  std::vector<Stroke> strokes;
+  vector<Stroke> strokes;
   add_trails({scene, state, history, colors, Eye(camera_of(scene), size)}, strokes);
   return strokes;
 }
 
 /// The distance in pixels from a point to the nearest stroke.
-double pixels_off(const Vec3& point, const std::vector<Stroke>& strokes, const Eye& eye) {
+double pixels_off(const Vec3& point, const vector<Stroke>& strokes, const Eye& eye) {
   const auto place = [&](const Vec3& x) {
     const Vec3 p = eye.point(x);
     return Vec3(p.x() / p.z() / eye.pixel, p.y() / p.z() / eye.pixel, 0);
@@ -57,7 +58,7 @@ TEST(Trail, LiesWithinAQuarterPixelOfTheParabola) {
   history.record_paths({&path, 1});
   State state = scene.initial;
   state.time = 1;
-  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const vector<Stroke> strokes = trails_of(scene, history, state);
   const Eye eye(*scene.camera, size);
   const auto exact = [&](double t) { return Vec3(path.x + t * (path.v + t / 2 * path.a)); };
   double worst = 0;
@@ -76,10 +77,10 @@ TEST(Trail, FadesWithAgeAndIsOneLine) {
   history.record_paths({&path, 1});
   State state = scene.initial;
   state.time = 1;
-  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const vector<Stroke> strokes = trails_of(scene, history, state);
   EXPECT_EQ(strokes.front().from_opacity, 0.5);  // 1 s of 2 s
   EXPECT_EQ(strokes.back().to_opacity, 1);
-  for (std::size_t i = 0; i < strokes.size(); ++i) {
+  for (size_t i = 0; i < strokes.size(); ++i) {
     EXPECT_EQ(strokes[i].from_radius, 0.02);
     EXPECT_EQ(strokes[i].color, parse_color("gold"));
     if (i == 0) continue;
@@ -96,7 +97,7 @@ TEST(Trail, TurnsWhereItsBodyBounces) {
   history.record_paths(pieces);
   State state = scene.initial;
   state.time = 1;
-  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const vector<Stroke> strokes = trails_of(scene, history, state);
   ASSERT_EQ(strokes.size(), 2u);
   EXPECT_EQ(strokes[0].to, Vec3(0.5, -1, 0));
   EXPECT_EQ(strokes[1].from, Vec3(0.5, -1, 0));
@@ -112,7 +113,7 @@ TEST(Trail, OfManyShortStepsHasNoStrokesShorterThanAnEighthOfAPixel) {
   }
   State state = scene.initial;
   state.time = 1;
-  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const vector<Stroke> strokes = trails_of(scene, history, state);
   EXPECT_LT(strokes.size(), 20u);  // 0.01 m are 1.7 pixels: 14
   EXPECT_GT(strokes.size(), 5u);
 }
@@ -125,7 +126,7 @@ TEST(Trail, EndsWhereABodyBecomesPartOfAnother) {
   history.record_paths(pieces);
   State state = scene.initial;
   state.time = 1;
-  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const vector<Stroke> strokes = trails_of(scene, history, state);
   ASSERT_EQ(strokes.size(), 1u);
   EXPECT_EQ(strokes[0].to, Vec3(0.5, 0, 0));
 }
@@ -136,7 +137,7 @@ TEST(Trail, IsOfTheNamedBodiesAlone) {
       "balls: {red: {position: [0, 0, 0]}, blue: {position: [1, 0, 0]}, green: {position: [2, 0, 0]}}\n"
       "trails: {on: [green, red]}\n");
   const History history(scene, picture_needs(scene));
-  EXPECT_EQ(history.tracks()->bodies(), (std::vector<Entity>{0, 2}));
+  EXPECT_EQ(history.tracks()->bodies(), (vector<Entity>{0, 2}));
 }
 
 TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
@@ -155,7 +156,7 @@ TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
   int samples = 0;
   for (double time = 0; time < 2; time = history.next_sample(), ++samples) history.sample(at(time));
   history.sample(at(2));
-  const std::vector<Stroke> strokes = trails_of(scene, history, at(2));
+  const vector<Stroke> strokes = trails_of(scene, history, at(2));
   const Eye eye(*scene.camera, size);
   double worst = 0;
   for (int i = 0; i <= 200; ++i) worst = std::max(worst, pixels_off(at(0.01 * i).position[0], strokes, eye));
@@ -183,9 +184,9 @@ TEST(Trail, FromStatesDoesNotDependOnThePicturesBefore) {
     history.sample(at(1));
     return trails_of(scene, history, at(1));
   };
-  const std::vector<Stroke> few = strokes(2), many = strokes(0.013);
+  const vector<Stroke> few = strokes(2), many = strokes(0.013);
   ASSERT_EQ(few.size(), many.size());
-  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_TRUE(few[i].from == many[i].from && few[i].to == many[i].to);
+  for (size_t i = 0; i < few.size(); ++i) EXPECT_TRUE(few[i].from == many[i].from && few[i].to == many[i].to);
 }
 
 TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
@@ -205,7 +206,7 @@ TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
   const Collision hit{1, CollisionKind::body_fixed, 0, 1, corner, -Vec3::UnitY(), 3, 2, 1, 1, 0};
   history.record({&hit, 1});
   sample(1.02);
-  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const vector<Stroke> strokes = trails_of(scene, history, state);
   double nearest = 1e9;
   for (const Stroke& stroke : strokes) nearest = std::min(nearest, (stroke.to - corner).norm());
   EXPECT_LT(nearest, 1e-6);
@@ -217,11 +218,11 @@ TEST(Spring, BeginsAtItsAnchorAndEndsAtItsBody) {
   for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.5, 0.3, -0.4), Vec3(-1, 3, 1)}) {
     State state = scene.initial;
     state.position[0] = x;
-    const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(state, camera_of(scene)).strokes;
+    const vector<Stroke> strokes = DrawingMaker(scene, history, size).at(state, camera_of(scene)).strokes;
     ASSERT_GT(strokes.size(), 40u);
     EXPECT_EQ(strokes.front().from, Vec3(0, 2, 0));
     EXPECT_EQ(strokes.back().to, x);
-    for (std::size_t i = 1; i < strokes.size(); ++i) EXPECT_EQ(strokes[i].from, strokes[i - 1].to);
+    for (size_t i = 1; i < strokes.size(); ++i) EXPECT_EQ(strokes[i].from, strokes[i - 1].to);
     // The wire stays within its coil, 0.4 of the body's radius from the axis.
     const Vec3 along = (x - Vec3(0, 2, 0)).normalized();
     for (const Stroke& stroke : strokes) EXPECT_LT((stroke.to - Vec3(0, 2, 0)).cross(along).norm(), 0.04 + 1e-12);
@@ -250,8 +251,8 @@ TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
 }
 
 TEST(Spring, ThatIsNotVisibleOrNotActingIsNotDrawn) {
-  const std::string spring = "spring: {anchor: [0, 2, 0], stiffness: 40}";
-  for (const std::string& more : {spring + ", visible: false", spring + ", from: 5", spring + ", until: 0.5"}) {
+  const string spring = "spring: {anchor: [0, 2, 0], stiffness: 40}";
+  for (const string& more : {spring + ", visible: false", spring + ", from: 5", spring + ", until: 0.5"}) {
     const Scene scene = load_text(ball_scene("forces: [{" + more + "}]\n"));
     const History history(scene, picture_needs(scene));
     State state = scene.initial;
@@ -263,11 +264,11 @@ TEST(Spring, ThatIsNotVisibleOrNotActingIsNotDrawn) {
 TEST(Arrows, StartAtTheSurfaceAndAreAsLongAsTheirLegend) {
   const Scene scene = load_text(ball_scene("gravity: [0, 0, 0]\narrows: [velocity]\n"));
   const History history(scene, picture_needs(scene));
-  const std::vector<ArrowScale> scales = arrow_scales(scene);
+  const vector<ArrowScale> scales = arrow_scales(scene);
   ASSERT_EQ(scales.size(), 1u);
   EXPECT_EQ(scales[0].typical, 2.5);  // sqrt(5) m/s, rounded up
   EXPECT_DOUBLE_EQ(scales[0].length, 0.6);
-  const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  const vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
   ASSERT_EQ(strokes.size(), 2u);
   const Vec3 v(1, 2, 0);
   EXPECT_LT((strokes.front().from - 0.1 * v.normalized()).norm(), 1e-15);
@@ -278,18 +279,18 @@ TEST(Arrows, StartAtTheSurfaceAndAreAsLongAsTheirLegend) {
 TEST(Arrows, OfForceAreGravityAndForcesTogether) {
   const Scene scene = load_text(ball_scene("gravity: [0, -10, 0]\nforces: [{uniform: [15, 0, 0]}]\narrows: [force]\n"));
   const History history(scene, picture_needs(scene));
-  const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  const vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
   ASSERT_EQ(strokes.size(), 2u);
   // 2 kg: (15, -20) N, 25 N in all, as long as six radii.
   EXPECT_LT((strokes.back().to - strokes.front().from - 0.6 * Vec3(0.6, -0.8, 0)).norm(), 1e-12);
 }
 
 TEST(Arrows, OfForceHaveNoScaleWhereNoForceIs) {
-  const std::string arrows = "gravity: [0, 0, 0]\narrows: [force]\n";
+  const string arrows = "gravity: [0, 0, 0]\narrows: [force]\n";
   EXPECT_TRUE(arrow_scales(load_text(ball_scene(arrows))).empty());
   EXPECT_TRUE(legends_of(load_text(ball_scene(arrows))).empty());
   // A spring that is slack at time 0 pulls later.
-  const std::string spring = "forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 2}}]\n";
+  const string spring = "forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 2}}]\n";
   EXPECT_EQ(arrow_scales(load_text(ball_scene(arrows + spring))).size(), 1u);
 }
 
@@ -298,7 +299,7 @@ TEST(Arrows, StartAtTheSurfaceOfABox) {
       "scene: 1\nsimulate: {duration: 1}\noutput: {frames: true}\ngravity: [0, 0, 0]\narrows: [velocity]\n"
       "bodies: {box: {mass: 1, box: [0.4, 0.2, 0.2], position: [0, 0, 0], velocity: [1, 1, 0]}}\n");
   const History history(scene, picture_needs(scene));
-  const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  const vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
   EXPECT_LT((strokes.front().from - Vec3(0.1, 0.1, 0)).norm(), 1e-15);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "std.h"
 #include "stiff_reference.h"
 
 namespace carom {
@@ -49,7 +50,7 @@ struct Motion {
   int steps = 0, rejected = 0;
   double off = 0, fast = 0;  // m, m/s: from the exact motion at most
 
-  using Exact = std::function<Place(double t)>;
+  using Exact = function<Place(double t)>;
 
   void go(const Forces& forces, double duration, double h, const Exact& exact, double velocity = tolerance) {
     ImplicitStep method;
@@ -273,7 +274,7 @@ TEST(ImplicitStep, AcrossADamperIsWhatALongReferenceComesTo) {
   Motion run{Vec3(1, 0, 0), Vec3(0.5, 2, 0)};
   run.go(damper_and_attractor(damping), 1, 0.05 / damping, nullptr);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto p = static_cast<std::size_t>(axis);
+    const auto p = static_cast<size_t>(axis);
     EXPECT_LT(std::abs(static_cast<double>(run.x[axis] - s.x[p])), 1e-12) << axis;
     EXPECT_LT(std::abs(static_cast<double>(run.v[axis] - s.v[p])), 2e-12) << axis;
   }
@@ -297,7 +298,7 @@ LongState slow_motion(LongState s, long double damping, long double duration, in
   };
   for (int k = 0; k < steps; ++k) {
     const Long3 a = rates(y), b = rates(moved(y, h / 2, a)), c = rates(moved(y, h / 2, b)), d = rates(moved(y, h, c));
-    for (std::size_t p = 0; p < 3; ++p) y[p] += h / 6 * (a[p] + 2 * b[p] + 2 * c[p] + d[p]);
+    for (size_t p = 0; p < 3; ++p) y[p] += h / 6 * (a[p] + 2 * b[p] + 2 * c[p] + d[p]);
   }
   const long double c = std::cos(y[1]), d = std::sin(y[1]), outward = rates(y)[0];
   return {{y[0] * c, y[0] * d, 0}, {outward * c - y[2] * d, outward * d + y[2] * c, 0}};
@@ -312,7 +313,7 @@ TEST(ImplicitStep, AcrossAStiffDamperIsTheSlowMotion) {
     Motion run{Vec3(1, 0, 0), Vec3(outward, 2, 0)};
     run.go(damper_and_attractor(damping), 1, first, nullptr);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto p = static_cast<std::size_t>(axis);
+      const auto p = static_cast<size_t>(axis);
       EXPECT_LT(std::abs(static_cast<double>(run.x[axis] - s.x[p])), 1e-12) << axis;
       EXPECT_LT(std::abs(static_cast<double>(run.v[axis] - s.v[p])), 2e-12) << axis;
     }
@@ -391,7 +392,7 @@ TEST(ImplicitStep, HasTheSameBitsInUnitsOfPowersOfTwo) {
         const double same = scaled(forces, l, t).step(other, t * h, l * x, l / t * v, l * 1e-12, l / t * 1e-10);
         EXPECT_EQ(error, same) << h;
         const PolynomialPath path = method.path(), in_units = other.path();
-        for (std::size_t k = 0; k < PolynomialPath::terms; ++k)
+        for (size_t k = 0; k < PolynomialPath::terms; ++k)
           EXPECT_EQ(Vec3(l * path.displacement[k]), in_units.displacement[k]) << h;
       }
 }
@@ -415,7 +416,7 @@ TEST(ImplicitStep, ErrorIsWhatIsMissedWithinTheStep) {
       s = extrapolated_step(s, static_cast<long double>(h) / 40, exact);
       const Vec3 v = v0 + path.change_at(h * k / 40);
       for (int axis = 0; axis < 2; ++axis)
-        missed = std::max(missed, std::abs(static_cast<double>(s.v[static_cast<std::size_t>(axis)] - v[axis])));
+        missed = std::max(missed, std::abs(static_cast<double>(s.v[static_cast<size_t>(axis)] - v[axis])));
     }
     if (missed < 1e-13) continue;             // the stages are no better
     EXPECT_LT(missed, 1.2 * estimated) << h;  // measured: 0.92 to 0.99

@@ -1,5 +1,6 @@
 // Motion about a centre, against values of mpmath (100 digits, by the anomalies of each conic).
 #include "physics/kepler_orbit.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,6 @@
 #include <numbers>
 #include <random>
 #include <utility>
-#include <vector>
 
 namespace carom {
 namespace {
@@ -47,10 +47,10 @@ struct Case {
   Moving start;
   double t;
 };
-std::vector<Case> cases(int count) {
+vector<Case> cases(int count) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
-  std::vector<Case> all;
+  vector<Case> all;
   for (int n = 0; n < count; ++n) {
     const Vec3 x(any(random), any(random), any(random)), v(any(random), any(random), any(random));
     const double speed = std::pow(10, 1.5 * any(random));

@@ -10,12 +10,13 @@
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 TEST(Restitution, EveryRuleGivesTheReferencesNumber) {
-  std::ifstream file(std::string(DATA_DIR) + "/references/restitution_rules.json");
+  std::ifstream file(string(DATA_DIR) + "/references/restitution_rules.json");
   const auto all = nlohmann::json::parse(file);
   for (const auto& r : all["rows"]) {
     const double a = r["e1"], b = r["e2"];
@@ -35,7 +36,7 @@ World two_balls_and_a_floor() {
   world.mass = {1, 3};
   world.radius = {1, 1};
   world.restitution = {0.5, 0.9};
-  world.planes = {{Vec3::Zero(), Vec3::Unit(1), std::nullopt}};
+  world.planes = {{Vec3::Zero(), Vec3::Unit(1), nullopt}};
   return world;
 }
 

@@ -1,16 +1,16 @@
 #pragma once
 // A motion in long double by extrapolation of the midpoint rule (Gragg, Bulirsch & Stoer; Hairer, Norsett & Wanner,
 // Solving Ordinary Differential Equations I, II.9): a reference that shares no coefficient with the methods under test.
-#include <array>
-#include <functional>
+
+#include "std.h"
 
 namespace carom {
 
-using Long3 = std::array<long double, 3>;
+using Long3 = array<long double, 3>;
 struct LongState {
   Long3 x, v;
 };
-using LongForce = std::function<Long3(const Long3& x, const Long3& v)>;
+using LongForce = function<Long3(const Long3& x, const Long3& v)>;
 
 /// One step of h (s) with `columns` extrapolations: order 2 columns.
 inline LongState extrapolated_step(const LongState& s, long double h, const LongForce& a, int columns = 8) {
@@ -23,7 +23,7 @@ inline LongState extrapolated_step(const LongState& s, long double h, const Long
     }
     return z;
   };
-  std::array<LongState, 16> t;
+  array<LongState, 16> t;
   for (int k = 0; k < columns; ++k) {
     const int n = 2 * (k + 1);
     const long double dt = h / n;

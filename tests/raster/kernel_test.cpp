@@ -1,5 +1,6 @@
 // The kernel that draws a tile: equal bytes in every vector width, and edges against supersampling.
 #include "raster/tile.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 namespace carom::raster {
 namespace {
 
-double noise(std::uint64_t& seed) {
+double noise(uint64_t& seed) {
   seed = seed * 6364136223846793005U + 1442695040888963407U;
   return static_cast<double>(seed >> 11U) * 0x1p-53;
 }
@@ -29,17 +30,17 @@ Shot shot_of(int width, int height, double tan_x) {
   return shot;
 }
 
-std::vector<std::uint8_t> drawn(const Shot& shot, TileKernel kernel, int channels = 3) {
+vector<uint8_t> drawn(const Shot& shot, TileKernel kernel, int channels = 3) {
   Silhouettes silhouettes;
   silhouettes.fill(shot);
   Bins bins;
   bins.fill(shot, silhouettes);
   LightGrid lights;
   lights.fill(shot);
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(channels) * static_cast<std::size_t>(shot.lens.width) *
-                                   static_cast<std::size_t>(shot.lens.height));
-  std::vector<Line> lines{{10, 10, 90, 60, 1, 3, 0.3F, 0.2F, {1, 1, 0}, 1, 0.2F, false}};
-  std::vector<std::vector<std::uint32_t>> by_tile(static_cast<std::size_t>(bins.count()), {0U});
+  vector<uint8_t> pixels(static_cast<size_t>(channels) * static_cast<size_t>(shot.lens.width) *
+                         static_cast<size_t>(shot.lens.height));
+  vector<Line> lines{{10, 10, 90, 60, 1, 3, 0.3F, 0.2F, {1, 1, 0}, 1, 0.2F, false}};
+  vector<vector<uint32_t>> by_tile(static_cast<size_t>(bins.count()), {0U});
   const Picture picture{&shot, &silhouettes, &bins, &lights, &lines, &by_tile, pixels.data(), channels};
   TileMemory memory;
   for (int tile = 0; tile < bins.count(); ++tile) kernel(picture, memory.data(), tile);
@@ -55,7 +56,7 @@ Solid ball(const Float3& center, float radius) {
 /// Solids of all kinds, many and few, small and large, before a room.
 Shot crowded(int balls, bool lamp) {
   Shot shot = shot_of(203, 121, 0.5);
-  std::uint64_t seed = 3;
+  uint64_t seed = 3;
   const auto any = [&](double low, double high) { return static_cast<float>(low + (high - low) * noise(seed)); };
   for (int i = 0; i < balls; ++i) {
     const Float3 center{any(-2, 2), any(-1, 1), any(2, 7)};
@@ -83,16 +84,16 @@ TEST(Kernel, HasTheSameBytesInEveryWidth) {
   for (const int balls : {3, 40, 4000})
     for (const bool lamp : {false, true}) {
       const Shot shot = crowded(balls, lamp);
-      const std::vector<TileKernel> kernels = tile_kernels();
-      const std::vector<std::uint8_t> first = drawn(shot, kernels[0]);
+      const vector<TileKernel> kernels = tile_kernels();
+      const vector<uint8_t> first = drawn(shot, kernels[0]);
       for (const TileKernel kernel : kernels) EXPECT_TRUE(drawn(shot, kernel) == first) << balls << ' ' << lamp;
     }
 }
 
 /// FNV-1a.
-std::uint64_t hash_of(const std::vector<std::uint8_t>& bytes) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211U;
+uint64_t hash_of(const vector<uint8_t>& bytes) {
+  uint64_t hash = 14695981039346656037U;
+  for (const uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211U;
   return hash;
 }
 
@@ -102,7 +103,7 @@ TEST(Kernel, HasTheSameBytesByEveryCompiler) {
 }
 
 /// The light of a byte.
-double linear(std::uint8_t byte) {
+double linear(uint8_t byte) {
   const double c = byte / 255.0;
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
@@ -110,7 +111,7 @@ double linear(std::uint8_t byte) {
 TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
   // Balls that glow, on black: the light of a pixel is its covered share.
   Shot shot = shot_of(160, 120, 0.7);
-  std::uint64_t seed = 5;
+  uint64_t seed = 5;
   for (int i = 0; i < 40; ++i) {
     const double z = 3 + 4 * noise(seed);
     shot.solids.push_back(ball({static_cast<float>((1.4 * noise(seed) - 0.7) * z),
@@ -118,7 +119,7 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
                                static_cast<float>(0.05 + 0.4 * noise(seed))));
     shot.solids.back().glow = 1;
   }
-  const std::vector<std::uint8_t> pixels = drawn(shot, tile_kernels().back());
+  const vector<uint8_t> pixels = drawn(shot, tile_kernels().back());
   double worst = 0, square = 0;
   int edges = 0;
   for (int y = 64; y < shot.lens.height; ++y)  // below the line that drawn() adds

@@ -13,39 +13,41 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "std.h"
+
 namespace carom::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-Page read_page(const std::string& path) {
+Page read_page(const string& path) {
   return {path, read_file(fs::path(SOURCE_DIR) / path)};
 }
 
-std::vector<Page> read_pages() {
-  std::vector<std::string> paths;
-  for (const std::string folder : {"output", "scenes"}) paths.push_back(folder + "/README.md");
+vector<Page> read_pages() {
+  vector<string> paths;
+  for (const string folder : {"output", "scenes"}) paths.push_back(folder + "/README.md");
   paths.push_back("scenes/format.md");
-  for (const std::string folder : {"src", "tests"}) {
+  for (const string folder : {"src", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(SOURCE_DIR "/" + folder))
       if (entry.path().extension() == ".md") paths.push_back(fs::relative(entry.path(), SOURCE_DIR).generic_string());
   }
-  std::sort(paths.begin(), paths.end());
+  std::ranges::sort(paths);
   paths.insert(paths.begin(), "README.md");
-  std::vector<Page> all;
-  for (const std::string& path : paths) all.push_back(read_page(path));
+  vector<Page> all;
+  for (const string& path : paths) all.push_back(read_page(path));
   return all;
 }
 
 /// 2 of "## Units"; 0: no heading.
-std::size_t level_of(const std::string& line) {
-  const std::size_t level = line.find_first_not_of('#');
-  return level != std::string::npos && level > 0 && line[level] == ' ' ? level : 0;
+size_t level_of(const string& line) {
+  const size_t level = line.find_first_not_of('#');
+  return level != string::npos && level > 0 && line[level] == ' ' ? level : 0;
 }
 
 /// Lower case, spaces as hyphens, no other marks.
-std::string anchor_of(const std::string& heading) {
-  std::string anchor;
+string anchor_of(const string& heading) {
+  string anchor;
   for (const char c : heading) {
     if (c == ' ')
       anchor += '-';
@@ -56,11 +58,11 @@ std::string anchor_of(const std::string& heading) {
 }
 
 /// A page's lines outside of fenced blocks.
-std::vector<std::string> prose_lines(const Page& page) {
-  std::vector<std::string> lines;
+vector<string> prose_lines(const Page& page) {
+  vector<string> lines;
   std::istringstream in(page.text);
   bool fenced = false;
-  for (std::string line; std::getline(in, line);) {
+  for (string line; std::getline(in, line);) {
     if (line.starts_with("```"))
       fenced = !fenced;
     else if (!fenced)
@@ -71,16 +73,16 @@ std::vector<std::string> prose_lines(const Page& page) {
 
 }  // namespace
 
-std::string Page::folder() const {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash);
+string Page::folder() const {
+  const size_t slash = path.rfind('/');
+  return slash == string::npos ? "" : path.substr(0, slash);
 }
 
-std::vector<PageBlock> Page::blocks() const {
-  std::vector<PageBlock> found;
+vector<PageBlock> Page::blocks() const {
+  vector<PageBlock> found;
   std::istringstream in(text);
   bool inside = false;
-  for (std::string line; std::getline(in, line);) {
+  for (string line; std::getline(in, line);) {
     if (line.starts_with("```")) {
       inside = !inside;
       if (inside) found.push_back({line.substr(3), ""});
@@ -92,18 +94,18 @@ std::vector<PageBlock> Page::blocks() const {
   return found;
 }
 
-std::vector<std::string> Page::blocks(const std::string& language) const {
-  std::vector<std::string> found;
+vector<string> Page::blocks(const string& language) const {
+  vector<string> found;
   for (const PageBlock& block : blocks())
     if (block.language == language) found.push_back(block.text);
   return found;
 }
 
-std::string Page::section(const std::string& heading) const {
-  std::string found;
-  std::size_t level = 0;
-  for (const std::string& line : prose_lines(*this)) {
-    const std::size_t other = level_of(line);
+string Page::section(const string& heading) const {
+  string found;
+  size_t level = 0;
+  for (const string& line : prose_lines(*this)) {
+    const size_t other = level_of(line);
     if (level > 0 && other > 0 && other <= level) break;
     if (other > 0 && line.substr(other + 1) == heading) level = other;
     if (level > 0) found += line + "\n";
@@ -112,45 +114,45 @@ std::string Page::section(const std::string& heading) const {
   return found;
 }
 
-std::vector<std::string> Page::anchors() const {
-  std::vector<std::string> found;
-  std::map<std::string, int> times;
-  for (const std::string& line : prose_lines(*this)) {
-    const std::size_t level = level_of(line);
+vector<string> Page::anchors() const {
+  vector<string> found;
+  std::map<string, int> times;
+  for (const string& line : prose_lines(*this)) {
+    const size_t level = level_of(line);
     if (level == 0) continue;
-    const std::string anchor = anchor_of(line.substr(level + 1));
+    const string anchor = anchor_of(line.substr(level + 1));
     const int before = times[anchor]++;
     found.push_back(before == 0 ? anchor : anchor + "-" + std::to_string(before));
   }
   return found;
 }
 
-const std::vector<Page>& pages() {
-  static const std::vector<Page> all = read_pages();
+const vector<Page>& pages() {
+  static const vector<Page> all = read_pages();
   return all;
 }
 
-const Page& page_at(const std::string& path) {
+const Page& page_at(const string& path) {
   for (const Page& one : pages())
     if (one.path == path) return one;
   throw std::runtime_error("there is no page " + path);
 }
 
-std::string read_file(const fs::path& path) {
+string read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string one_line(const std::string& text) {
+string one_line(const string& text) {
   return std::regex_replace(text, std::regex("\\s+"), " ");
 }
 
-double stated(const std::string& phrase) {
-  std::vector<std::string> found;  // what follows the phrase
+double stated(const string& phrase) {
+  vector<string> found;  // what follows the phrase
   for (const Page& one : pages()) {
     if (one.generated()) continue;
-    const std::string line = one_line(one.text);
-    for (std::size_t at = line.find(phrase); at != std::string::npos; at = line.find(phrase, at + 1))
+    const string line = one_line(one.text);
+    for (size_t at = line.find(phrase); at != string::npos; at = line.find(phrase, at + 1))
       found.push_back(line.substr(at + phrase.size(), 40));
   }
   if (found.size() != 1) {

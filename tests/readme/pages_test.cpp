@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "readme/pages.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -19,19 +20,19 @@ namespace fs = std::filesystem;
 
 const fs::path root = SOURCE_DIR;
 
-std::vector<std::string> matches(const std::string& text, const std::regex& what, int group = 0) {
+vector<string> matches(const string& text, const std::regex& what, int group = 0) {
   return {std::sregex_token_iterator(text.begin(), text.end(), what, group), {}};
 }
 
 TEST(Pages, TheFirstOneHasAtMost140Lines) {
-  const std::string& text = page_at("README.md").text;
-  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 140);
+  const string& text = page_at("README.md").text;
+  EXPECT_LE(std::ranges::count(text, '\n'), 140);
 }
 
 TEST(Pages, NameOnlyFilesThatAreThere) {
   const std::regex path("(?:scenes|src|tests)/[A-Za-z0-9_/.]+");
   for (const Page& page : pages()) {
-    for (std::string name : matches(page.text, path)) {
+    for (string name : matches(page.text, path)) {
       while (name.ends_with('.')) name.pop_back();
       // A link on a page of src/ or tests/ goes from there.
       EXPECT_TRUE(fs::exists(root / name) || fs::exists(root / page.folder() / name)) << page.path << ": " << name;
@@ -40,8 +41,8 @@ TEST(Pages, NameOnlyFilesThatAreThere) {
 }
 
 /// Path of each source file: "src/physics/world.h" for "world.h".
-std::multimap<std::string, std::string> source_files() {
-  std::multimap<std::string, std::string> found;
+std::multimap<string, string> source_files() {
+  std::multimap<string, string> found;
   for (const auto& entry : fs::recursive_directory_iterator(root / "src"))
     found.emplace(entry.path().filename(), fs::relative(entry.path(), root).generic_string());
   return found;
@@ -52,8 +53,8 @@ TEST(Pages, NameOnlySourcesThatAreThereAndOfAFolderItsOwn) {
   const std::regex source("`([a-z0-9_/]+\\.(?:h|cpp))`");
   for (const Page& page : pages()) {
     const bool of_a_folder = page.folder().starts_with("src/");
-    for (const std::string& name : matches(page.text, source, 1)) {
-      if (name.find('/') != std::string::npos)
+    for (const string& name : matches(page.text, source, 1)) {
+      if (name.find('/') != string::npos)
         EXPECT_TRUE(fs::exists(root / page.folder() / name) || fs::exists(root / name)) << page.path << ": " << name;
       else if (of_a_folder)
         EXPECT_TRUE(fs::exists(root / page.folder() / name)) << page.path << ": " << name;
@@ -65,12 +66,12 @@ TEST(Pages, NameOnlySourcesThatAreThereAndOfAFolderItsOwn) {
 
 TEST(Pages, LinksReachPagesFilesAndHeadings) {
   const std::regex link("\\]\\(([^)#]*)(#[^)]*)?\\)");
-  std::size_t links = 0;
+  size_t links = 0;
   for (const Page& page : pages()) {
     for (std::sregex_iterator i(page.text.begin(), page.text.end(), link), end; i != end; ++i, ++links) {
-      const std::string target = (*i)[1], anchor = (*i)[2];
+      const string target = (*i)[1], anchor = (*i)[2];
       if (target.starts_with("http")) continue;
-      const std::string path =
+      const string path =
           target.empty() ? page.path : (fs::path(page.folder()) / target).lexically_normal().generic_string();
       EXPECT_TRUE(fs::exists(root / path)) << page.path << ": " << i->str();
       if (anchor.empty()) continue;
@@ -78,53 +79,53 @@ TEST(Pages, LinksReachPagesFilesAndHeadings) {
           std::find_if(pages().begin(), pages().end(), [&](const Page& other) { return other.path == path; });
       ASSERT_NE(there, pages().end()) << page.path << ": " << i->str();
       const auto anchors = there->anchors();
-      EXPECT_TRUE(std::count(anchors.begin(), anchors.end(), anchor.substr(1))) << page.path << ": " << i->str();
+      EXPECT_TRUE(std::ranges::count(anchors, anchor.substr(1))) << page.path << ": " << i->str();
     }
   }
   EXPECT_GT(links, 50u);
 }
 
 TEST(Pages, OfTheReadmeAllCanBeReached) {
-  const std::string& text = page_at("README.md").text;
+  const string& text = page_at("README.md").text;
   for (const Page& other : pages()) {
     const bool of_a_folder = other.folder().starts_with("src/");  // src/README.md has these
-    const std::string& from = of_a_folder ? page_at("src/README.md").text : text;
-    const std::string path = of_a_folder ? other.path.substr(4) : other.path;
-    EXPECT_TRUE(other.path == "README.md" || from.find("](" + path) != std::string::npos) << other.path;
+    const string& from = of_a_folder ? page_at("src/README.md").text : text;
+    const string path = of_a_folder ? other.path.substr(4) : other.path;
+    EXPECT_TRUE(other.path == "README.md" || from.find("](" + path) != string::npos) << other.path;
   }
 }
 
 /// The first paragraph under a page's title, in one line.
-std::string first_paragraph(const Page& page) {
-  const std::size_t start = page.text.find("\n\n") + 2;
+string first_paragraph(const Page& page) {
+  const size_t start = page.text.find("\n\n") + 2;
   return one_line(page.text.substr(start, page.text.find("\n\n", start) - start));
 }
 
 TEST(Pages, OfEachSourceFolderBeginWithItsSentenceInTheTable) {
   const std::regex row("\\| \\[(\\w+)/\\]\\(\\w+/README.md\\) \\| ([^|\n]+) \\|\n");
-  std::map<std::string, std::string> sentences;
-  const std::string& text = page_at("src/README.md").text;
+  std::map<string, string> sentences;
+  const string& text = page_at("src/README.md").text;
   for (std::sregex_iterator i(text.begin(), text.end(), row), end; i != end; ++i) sentences[(*i)[1]] = (*i)[2];
-  std::set<std::string> folders;
+  std::set<string> folders;
   for (const auto& entry : fs::directory_iterator(root / "src"))
     if (entry.is_directory()) folders.insert(entry.path().filename());
-  for (const std::string& folder : folders) EXPECT_TRUE(sentences.contains(folder)) << folder;
+  for (const string& folder : folders) EXPECT_TRUE(sentences.contains(folder)) << folder;
   for (const auto& [folder, sentence] : sentences) {
     ASSERT_TRUE(folders.contains(folder)) << folder;
-    std::string paragraph = first_paragraph(page_at("src/" + folder + "/README.md"));
+    string paragraph = first_paragraph(page_at("src/" + folder + "/README.md"));
     while (paragraph.ends_with(' ')) paragraph.pop_back();
     EXPECT_EQ(paragraph, sentence) << folder;
-    EXPECT_EQ(sentence.find(". "), std::string::npos) << folder << " has more than one sentence";
+    EXPECT_EQ(sentence.find(". "), string::npos) << folder << " has more than one sentence";
   }
 }
 
 /// The suite and the name of every test in the sources, as "Suite.Name".
-std::set<std::string> all_tests() {
+std::set<string> all_tests() {
   static const std::regex test(R"(TEST(?:_[PF])?\(\s*(\w+),\s*(\w+)\s*\))");
-  std::set<std::string> found;
+  std::set<string> found;
   for (const auto& entry : fs::recursive_directory_iterator(root / "tests")) {
     if (entry.path().extension() != ".cpp") continue;
-    const std::string text = read_file(entry.path());
+    const string text = read_file(entry.path());
     for (std::sregex_iterator it(text.begin(), text.end(), test), end; it != end; ++it)
       found.insert((*it)[1].str() + "." + (*it)[2].str());
   }
@@ -132,12 +133,12 @@ std::set<std::string> all_tests() {
 }
 
 TEST(PageOfPromises, NamesTestsThatAreThere) {
-  const std::string& text = page_at("output/README.md").text;
-  const std::set<std::string> tests = all_tests();
+  const string& text = page_at("output/README.md").text;
+  const std::set<string> tests = all_tests();
   static const std::regex name(R"(`(?:\w+/)?([A-Z]\w*\.)(\w*)(\*?)`)");
-  std::size_t named = 0;
+  size_t named = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it, ++named) {
-    const std::string start = (*it)[1].str() + (*it)[2].str();
+    const string start = (*it)[1].str() + (*it)[2].str();
     const auto found = tests.lower_bound(start);
     EXPECT_TRUE(found != tests.end() && ((*it)[3].length() > 0 ? found->starts_with(start) : *found == start))
         << it->str();

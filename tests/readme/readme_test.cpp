@@ -27,33 +27,34 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/book.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_of_the_program(const std::string& command) {
-  return command.find("build/release/carom ") != std::string::npos || command.starts_with("./dev run ");
+bool is_of_the_program(const string& command) {
+  return command.find("build/release/carom ") != string::npos || command.starts_with("./dev run ");
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
+vector<string> lines_of(const string& text) {
+  vector<string> lines;
   std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  for (string line; std::getline(in, line);) lines.push_back(line);
   return lines;
 }
 
 /// Commands of a page, in order.
-std::vector<std::string> commands(const Page& page) {
-  std::vector<std::string> all;
-  for (const std::string& block : page.blocks("sh"))
-    for (const std::string& line : lines_of(block)) all.push_back(line);
+vector<string> commands(const Page& page) {
+  vector<string> all;
+  for (const string& block : page.blocks("sh"))
+    for (const string& line : lines_of(block)) all.push_back(line);
   return all;
 }
 
 /// Whether `shown` is the start of `printed`, but that its last line may be "...".
-bool shows(std::string shown, const std::string& printed) {
+bool shows(string shown, const string& printed) {
   if (shown.ends_with("\n...\n"))
     shown.resize(shown.size() - 4);
   else if (shown != printed)
@@ -65,25 +66,25 @@ bool shows(std::string shown, const std::string& printed) {
 class Clone {
  public:
   Clone() {
-    std::string pattern = (fs::temp_directory_path() / "carom-readme-XXXXXX").string();
+    string pattern = (fs::temp_directory_path() / "carom-readme-XXXXXX").string();
     root_ = ::mkdtemp(pattern.data());
     fs::copy(SCENES_DIR, root_ / "scenes", fs::copy_options::recursive);
     fs::create_directories(root_ / "build/release");
     fs::create_symlink(CAROM_PROGRAM, root_ / "build/release/carom");
   }
   ~Clone() { fs::remove_all(root_); }
-  fs::path operator/(const std::string& name) const { return root_ / name; }
+  fs::path operator/(const string& name) const { return root_ / name; }
 
   /// Runs a command of a page; `./dev run` is the program's run (./dev itself is run by tests/bare_debian.sh).
-  int run(std::string command) const {
+  int run(string command) const {
     if (command.starts_with("./dev run ")) command.replace(0, 6, "build/release/carom ");
     std::ofstream(root_ / "command") << command << "\n";
     command = "cd '" + root_.string() + "' && bash command > out 2> err < /dev/null";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  std::string out() const { return read_file(root_ / "out"); }
-  std::string err() const { return read_file(root_ / "err"); }
+  string out() const { return read_file(root_ / "out"); }
+  string err() const { return read_file(root_ / "err"); }
 
  private:
   fs::path root_;
@@ -91,7 +92,7 @@ class Clone {
 
 struct Pixels {
   png_image image{};
-  std::vector<std::uint8_t> rgb;
+  vector<uint8_t> rgb;
 };
 
 Pixels read_png(const fs::path& path) {
@@ -110,8 +111,8 @@ State run_to(const Scene& scene, double time) {
   return simulator->state();
 }
 
-Scene scene_of(const std::string& yaml) {
-  std::string path = (fs::temp_directory_path() / "carom-readme-XXXXXX.yaml").string();
+Scene scene_of(const string& yaml) {
+  string path = (fs::temp_directory_path() / "carom-readme-XXXXXX.yaml").string();
   close(mkstemps(path.data(), 5));
   std::ofstream(path) << yaml;
   Scene scene = load_scene(path);
@@ -124,20 +125,20 @@ nlohmann::json slips() {
 }
 
 /// Column names in the first line of a CSV file.
-std::set<std::string> header_of(const fs::path& path) {
-  const std::string text = read_file(path), line = text.substr(0, text.find('\n'));
+std::set<string> header_of(const fs::path& path) {
+  const string text = read_file(path), line = text.substr(0, text.find('\n'));
   const std::regex name("[^,\r]+");
-  return std::set<std::string>(std::sregex_token_iterator(line.begin(), line.end(), name), {});
+  return std::set<string>(std::sregex_token_iterator(line.begin(), line.end(), name), {});
 }
 
 /// Column names in the first cells of the table with this beginning.
-std::set<std::string> columns_in(const Page& page, const std::string& head) {
-  std::set<std::string> found;
+std::set<string> columns_in(const Page& page, const string& head) {
+  std::set<string> found;
   bool inside = false;
-  for (const std::string& line : lines_of(page.text)) {
+  for (const string& line : lines_of(page.text)) {
     inside = line == head || (inside && line.starts_with("|"));
     if (!inside || line == head) continue;
-    const std::string cell = line.substr(1, line.find('|', 1) - 1);
+    const string cell = line.substr(1, line.find('|', 1) - 1);
     const std::regex name("[A-Za-z_]+");
     found.insert(std::sregex_token_iterator(cell.begin(), cell.end(), name), {});
   }
@@ -145,7 +146,7 @@ std::set<std::string> columns_in(const Page& page, const std::string& head) {
 }
 
 /// A command adapted for the test: the longest pictures are smaller, and `man` need not be installed.
-std::string shortened(std::string command) {
+string shortened(string command) {
   if (command == "./dev run scenes/two_bowling_balls.yaml") command += " --set output.frames.size=[64,64]";
   if (command.ends_with(" --only video,flights")) command += " --set output.video.size=[64,64]";
   return command.substr(0, command.find(" | man "));
@@ -158,7 +159,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
     bool printed = false;  // by a command of this page
     for (const PageBlock& block : page.blocks()) {
       if (block.language == "sh") {
-        for (const std::string& command : lines_of(block.text)) {
+        for (const string& command : lines_of(block.text)) {
           if (!is_of_the_program(command)) continue;
           EXPECT_EQ(clone.run(shortened(command)), 0) << page.path << ": " << command << "\n" << clone.err();
           printed = true;
@@ -180,52 +181,51 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
         "billiard_break/animation.mp4", "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg", "gas_2/energy.csv",
         "gas/plots/speeds.png", "charts/plots/collisions.svg", "comparison/comparison.xlsx",
         "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
-    EXPECT_TRUE(fs::exists(clone / (std::string("output/") + file))) << file;
+    EXPECT_TRUE(fs::exists(clone / (string("output/") + file))) << file;
   }
   EXPECT_FALSE(fs::exists(clone / "output/two_bowling_balls.sweep/runs/r0007"));
   for (const char* file : {"scene.schema.json", "sweep.schema.json", "format.md"})
-    EXPECT_EQ(read_file(clone / (std::string("scenes/") + file)), read_file(SCENES_DIR "/" + std::string(file)))
+    EXPECT_EQ(read_file(clone / (string("scenes/") + file)), read_file(SCENES_DIR "/" + string(file)))
         << "scenes/" << file << " is not made anew";
   EXPECT_EQ(header_of(clone / "output/raindrops.bench/bench.csv"),
             columns_in(page_at("src/bench/README.md"), "| column of `bench.csv` | content |"));
 }
 
 TEST(PageCommands, OfDevAreThoseOfDev) {
-  const std::string script = read_file(SOURCE_DIR "/dev"), usage = script.substr(0, script.find("\nEND\n"));
+  const string script = read_file(SOURCE_DIR "/dev"), usage = script.substr(0, script.find("\nEND\n"));
   const std::regex row("\\| `\\./dev (\\w+)"), line("\n  (\\w+)  *(\\[|[A-Z]|  )"), named("\\./dev ([a-z]+)");
-  const auto all = [](const std::string& text, const std::regex& what) {
-    return std::set<std::string>(std::sregex_token_iterator(text.begin(), text.end(), what, 1), {});
+  const auto all = [](const string& text, const std::regex& what) {
+    return std::set<string>(std::sregex_token_iterator(text.begin(), text.end(), what, 1), {});
   };
-  const std::set<std::string> known = all(usage, line);
+  const std::set<string> known = all(usage, line);
   EXPECT_EQ(all(page_at("tests/README.md").section("All commands of ./dev"), row), known);
   for (const Page& page : pages()) {
-    std::string code;  // sh blocks, and text in backticks
-    for (const std::string& block : page.blocks("sh")) code += block;
+    string code;  // sh blocks, and text in backticks
+    for (const string& block : page.blocks("sh")) code += block;
     const std::regex ticks("`[^`\n]+`");
     for (std::sregex_iterator i(page.text.begin(), page.text.end(), ticks), end; i != end; ++i) code += i->str();
-    for (const std::string& command : all(code, named))
-      EXPECT_TRUE(known.contains(command)) << page.path << ": " << command;
+    for (const string& command : all(code, named)) EXPECT_TRUE(known.contains(command)) << page.path << ": " << command;
   }
 }
 
 TEST(PageCommands, OfCmakeUsePresetsThatAreThere) {
   const auto presets = nlohmann::json::parse(std::ifstream(SOURCE_DIR "/CMakePresets.json"));
   const auto names = [&](const char* kind) {
-    std::set<std::string> all;
-    for (const auto& preset : presets[kind]) all.insert(preset["name"].get<std::string>());
+    std::set<string> all;
+    for (const auto& preset : presets[kind]) all.insert(preset["name"].get<string>());
     return all;
   };
   const auto all = commands(page_at("README.md"));
-  EXPECT_TRUE(std::count(all.begin(), all.end(), "cmake --preset release && cmake --build --preset release") == 1);
+  EXPECT_TRUE(std::ranges::count(all, "cmake --preset release && cmake --build --preset release") == 1);
   EXPECT_TRUE(names("configurePresets").contains("release"));
   EXPECT_TRUE(names("buildPresets").contains("release"));
 }
 
 TEST(ReadmeFirstScene, IsTheFileWithoutItsComment) {
-  std::string body;
-  for (const std::string& line : lines_of(read_file(SCENES_DIR "/two_bowling_balls.yaml")))
+  string body;
+  for (const string& line : lines_of(read_file(SCENES_DIR "/two_bowling_balls.yaml")))
     if (!line.starts_with('#')) body += line + "\n";
-  EXPECT_EQ(page_at("README.md").blocks("yaml"), std::vector<std::string>{body});
+  EXPECT_EQ(page_at("README.md").blocks("yaml"), vector<string>{body});
 }
 
 TEST(ReadmeFirstScene, NumbersAreTheRuns) {
@@ -247,8 +247,7 @@ TEST(ReadmePicture, IsWhatTheProgramDraws) {
   ASSERT_LT(fs::file_size(SCENES_DIR "/billiard_break.png"), 200'000u);
   const Clone clone;
   const auto all = commands(page_at("README.md"));
-  const auto command =
-      std::find_if(all.begin(), all.end(), [](const auto& c) { return c.ends_with("-o output/picture"); });
+  const auto command = std::ranges::find_if(all, [](const auto& c) { return c.ends_with("-o output/picture"); });
   ASSERT_NE(command, all.end());
   ASSERT_EQ(clone.run(*command), 0) << clone.err();
   const Pixels kept = read_png(SCENES_DIR "/billiard_break.png");
@@ -256,18 +255,18 @@ TEST(ReadmePicture, IsWhatTheProgramDraws) {
   ASSERT_EQ(kept.image.width, drawn.image.width);
   ASSERT_EQ(kept.rgb.size(), drawn.rgb.size());
   // Loosely: another light or another edge may shift a shade, another scene may not.
-  std::size_t far_off = 0;
-  for (std::size_t i = 0; i < kept.rgb.size(); ++i) far_off += std::abs(kept.rgb[i] - drawn.rgb[i]) > 24;
+  size_t far_off = 0;
+  for (size_t i = 0; i < kept.rgb.size(); ++i) far_off += std::abs(kept.rgb[i] - drawn.rgb[i]) > 24;
   EXPECT_LT(far_off, kept.rgb.size() / 100);  // measured: 0
 }
 
-BenchResult bench(const std::string& scene, double longest, double shortest) {
+BenchResult bench(const string& scene, double longest, double shortest) {
   BenchOptions options;
   options.longest = longest;
   options.shortest = shortest;
   options.repeat = 1;
   options.budget = 1e6;
-  return run_bench(load_scene(SCENES_DIR "/" + scene), options, {[] {}, [](double, const std::string&) {}});
+  return run_bench(load_scene(SCENES_DIR "/" + scene), options, {[] {}, [](double, const string&) {}});
 }
 
 // All except the times, which depend on the machine, to the given digits.
@@ -276,10 +275,10 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
   const std::regex line(
       R"(\| (exact|euler|verlet|rk4) \| (?:1/(\d+) s)? ?\| \S+ ms \| (\S+) m \| (\S+) m/s \| (\S+) J \|)");
   int lines = 0;
-  const std::string& text = page_at("src/bench/README.md").text;
+  const string& text = page_at("src/bench/README.md").text;
   for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i, ++lines) {
-    const std::string name = (*i)[1], per_second = (*i)[2];
-    const auto row = std::find_if(result.rows.begin(), result.rows.end(), [&](const BenchRow& r) {
+    const string name = (*i)[1], per_second = (*i)[2];
+    const auto row = std::ranges::find_if(result.rows, [&](const BenchRow& r) {
       if (r.method.engine == Engine::exact) return name == "exact";
       return name == name_of(r.method.integrator) &&
              per_second == std::to_string(std::lround(1 / r.method.steps.length.value_or(1e9)));
@@ -302,14 +301,14 @@ TEST(ReadmeBench, DeviationsAreMeasured) {
 }
 
 TEST(ReadmeScenes, DescribeEveryKey) {
-  const std::string& table = page_at("scenes/README.md").text;
+  const string& table = page_at("scenes/README.md").text;
   for (const Kind& kind : kinds()) {
     for (const Field& field : kind.fields) {
-      const std::string name = "`" + std::string(field.key) + "`";
-      EXPECT_NE(table.find(name), std::string::npos) << kind.name << "." << field.key;
+      const string name = "`" + string(field.key) + "`";
+      EXPECT_NE(table.find(name), string::npos) << kind.name << "." << field.key;
       if (field.type != Type::choice || kind.name == "restitution") continue;
-      for (const std::string_view choice : choices(field)) {
-        EXPECT_NE(table.find(field.key == "samples" ? "`samples`" : "`" + std::string(choice) + "`"), std::string::npos)
+      for (const string_view choice : choices(field)) {
+        EXPECT_NE(table.find(field.key == "samples" ? "`samples`" : "`" + string(choice) + "`"), string::npos)
             << field.key << ": " << choice;
       }
     }
@@ -317,9 +316,9 @@ TEST(ReadmeScenes, DescribeEveryKey) {
 }
 
 TEST(ReadmeScenes, TheExampleOfColoursAndTextIsAScene) {
-  const std::vector<std::string> blocks = page_at("scenes/README.md").blocks("yaml");
-  const auto block = std::find_if(blocks.begin(), blocks.end(),
-                                  [](const std::string& text) { return text.find("caption:") != std::string::npos; });
+  const vector<string> blocks = page_at("scenes/README.md").blocks("yaml");
+  const auto block =
+      std::ranges::find_if(blocks, [](const string& text) { return text.find("caption:") != string::npos; });
   ASSERT_NE(block, blocks.end());
   const Scene scene = scene_of("scene: 1\nsimulate: {duration: 1}\nballs: {red: {position: [0, 0, 0]}}\n" + *block);
   EXPECT_EQ(scene.overlay.caption, "{title}, t = {time} s, e = 1");
@@ -327,13 +326,13 @@ TEST(ReadmeScenes, TheExampleOfColoursAndTextIsAScene) {
 }
 
 TEST(ReadmeScenes, RulesOfRestitutionGiveTheTablesNumbers) {
-  const std::map<std::string, Combine> rules = {{"| `average` (default) | ", Combine::average},
-                                                {"| `minimum` | ", Combine::minimum},
-                                                {"| `maximum` | ", Combine::maximum},
-                                                {"| `product` | ", Combine::product},
-                                                {"| `geometric_mean` | ", Combine::geometric_mean},
-                                                {"here 1 kg and 3 kg | ", Combine::mass_weighted},
-                                                {"| `book`, e1 e2 / 2 | ", Combine::book}};
+  const std::map<string, Combine> rules = {{"| `average` (default) | ", Combine::average},
+                                           {"| `minimum` | ", Combine::minimum},
+                                           {"| `maximum` | ", Combine::maximum},
+                                           {"| `product` | ", Combine::product},
+                                           {"| `geometric_mean` | ", Combine::geometric_mean},
+                                           {"here 1 kg and 3 kg | ", Combine::mass_weighted},
+                                           {"| `book`, e1 e2 / 2 | ", Combine::book}};
   for (const auto& [row, rule] : rules)
     EXPECT_NEAR(combine_restitution(rule, 0.9, 1, 0.5, 3), stated(row), 1e-15) << row;
 }
@@ -347,12 +346,11 @@ TEST(ReadmeFiles, HaveTheHeadersItShows) {
   const fs::path folder = clone / "output/two_bowling_balls";
   const Page& files = page_at("output/README.md");
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_NE(files.text.find("`" + name + "`"), std::string::npos) << name;
+    const string name = entry.path().filename().string();
+    EXPECT_NE(files.text.find("`" + name + "`"), string::npos) << name;
     if (entry.path().extension() != ".csv" || name == "summary.csv") continue;
-    const std::string text = read_file(entry.path());
-    EXPECT_NE(files.text.find("| `" + name + "` | `" + text.substr(0, text.find('\n')) + "` |"), std::string::npos)
-        << name;
+    const string text = read_file(entry.path());
+    EXPECT_NE(files.text.find("| `" + name + "` | `" + text.substr(0, text.find('\n')) + "` |"), string::npos) << name;
   }
   EXPECT_EQ(header_of(folder / "summary.csv"), columns_in(files, "| columns of `summary.csv` | meaning |"));
 }
@@ -362,31 +360,31 @@ TEST(ReadmeFiles, TheResolvedSceneGivesTheSameBytes) {
   ASSERT_EQ(clone.run("./dev run scenes/billiard_break.yaml --only trajectory,collisions -o first"), 0);
   ASSERT_EQ(clone.run("./dev run first/scene.yaml --only trajectory,collisions -o second"), 0) << clone.err();
   for (const char* name : {"/trajectory.csv", "/collisions.csv"}) {
-    EXPECT_EQ(read_file(clone / (std::string("first") + name)), read_file(clone / (std::string("second") + name)));
+    EXPECT_EQ(read_file(clone / (string("first") + name)), read_file(clone / (string("second") + name)));
   }
 }
 
 TEST(ReadmeCharts, HaveTheLimitsOfTheProgram) {
-  const std::string text = page_at("output/README.md").section("Charts of a run");
+  const string text = page_at("output/README.md").section("Charts of a run");
   for (const RunChart& chart : run_charts())
-    EXPECT_NE(text.find("| `" + std::string(chart.name) + "` | "), std::string::npos) << chart.name;
-  for (const std::string& stated :
+    EXPECT_NE(text.find("| `" + string(chart.name) + "` | "), string::npos) << chart.name;
+  for (const string& stated :
        {fmt::format("SVG\nof {} x {} pixels", plot_width, plot_height),
         fmt::format("at most {} bodies", HeightsChart::most_lines),
         fmt::format("otherwise {} equal steps", plot_instants - 1), fmt::format("in {} columns", ThinnedLine::columns),
         fmt::format("fewer than {} bodies", SpeedsChart::least_bodies)})
-    EXPECT_NE(text.find(stated), std::string::npos) << stated;
+    EXPECT_NE(text.find(stated), string::npos) << stated;
 }
 
 TEST(ReadmeOptions, AreThoseOfTheHelp) {
   const Clone clone;
   ASSERT_EQ(clone.run("build/release/carom run --help"), 0);
   const std::regex option("--[a-z]+");
-  const auto all = [&](const std::string& text) {
-    return std::set<std::string>(std::sregex_token_iterator(text.begin(), text.end(), option), {});
+  const auto all = [&](const string& text) {
+    return std::set<string>(std::sregex_token_iterator(text.begin(), text.end(), option), {});
   };
-  std::string rows;
-  for (const std::string& line : lines_of(page_at("output/README.md").section("Options and exit codes")))
+  string rows;
+  for (const string& line : lines_of(page_at("output/README.md").section("Options and exit codes")))
     if (line.starts_with("| `--")) rows += line + "\n";
   EXPECT_EQ(all(rows), all(clone.out()));
 }
@@ -466,7 +464,7 @@ TEST(ReadmeAccuracy, IsMeasured) {
 
 TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
   const auto last = [](const char* file) {
-    const Scene scene = load_scene(std::string(SCENES_DIR "/") + file);
+    const Scene scene = load_scene(string(SCENES_DIR "/") + file);
     const auto simulator = make_simulator(scene, {.collisions = true});
     while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
     return std::pair(simulator->tally(), kinetic_energy(scene.world, simulator->state()));
@@ -482,15 +480,15 @@ TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
 
 TEST(ReadmeBook, TheSlipsTableIsTheReferences) {
   const auto table = slips()["closed_form_single_call"];
-  const auto row = [](const std::string& start, const nlohmann::json& velocity, const nlohmann::json& energy) {
+  const auto row = [](const string& start, const nlohmann::json& velocity, const nlohmann::json& energy) {
     std::ostringstream line;
     line.precision(10);
     line << " | " << velocity[0].get<double>() << ", " << velocity[1].get<double>() << " | " << energy.get<double>()
          << " |";
-    const std::string words = one_line(page_at("src/simulate/README.md").section("The book's engine"));
-    const std::size_t at = words.find(start);
-    ASSERT_NE(at, std::string::npos) << start;
-    EXPECT_NE(words.find(line.str(), at), std::string::npos) << start << line.str();
+    const string words = one_line(page_at("src/simulate/README.md").section("The book's engine"));
+    const size_t at = words.find(start);
+    ASSERT_NE(at, string::npos) << start;
+    EXPECT_NE(words.find(line.str(), at), string::npos) << start << line.str();
   };
   const auto& velocity = table["right_angle"];
   const auto& energy = table["KE_ratio"]["right_angle"];

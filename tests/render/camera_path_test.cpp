@@ -1,4 +1,5 @@
 #include "render/camera_path.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 namespace carom {
 namespace {
 
-std::vector<Keyframe> keys() {
+vector<Keyframe> keys() {
   return {{0.5, Vec3(5, 1, 0), Vec3(0, 0, 0), 40},
           {1, Vec3(0, 2, 5), Vec3(0, 1, 0), 30},
           {3, Vec3(-5, 3, 0), Vec3(0, 1, 1), 30},

@@ -1,15 +1,14 @@
 #pragma once
 // Small mesh files with colours, made as text: a square from (-1, -1, 0) to (1, 1, 0).
-#include <string>
-#include <string_view>
 
 #include "render/mesh_folder.h"
+#include "std.h"
 
 namespace carom::test {
 
-inline std::string from_base64(std::string_view text) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
+inline string from_base64(string_view text) {
+  constexpr string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  string bytes;
   unsigned bits = 0, count = 0;
   for (const char c : text) {
     if (c == '=') break;
@@ -21,40 +20,39 @@ inline std::string from_base64(std::string_view text) {
 }
 
 /// PNG, 2 x 2 pixels: red, green; blue, white.
-inline const std::string four_colors =
+inline const string four_colors =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR42mP4z8DAAMIM/4EAAB/uBfvxq7p3AAAAAElFTkSuQmCC";
 /// PNG, 2 x 2 white pixels with opacity 255, 0; 120, 255.
-inline const std::string four_opacities =
+inline const string four_opacities =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAEklEQVR42mP4DwEMDECiAsQCAILpDmsEOdd0AAAAAElFTkSuQmCC";
 /// PNG, 64 x 64 pixels: black, white, black, ...
-inline const std::string checkers =
+inline const string checkers =
     "iVBORw0KGgoAAAANSUhEUgAAAEAAAABACAIAAAAlC+aJAAAAWElEQVR42u3RoQ0AAAgDwe6/dBHMgCC5itdNLknaPu7v9zsCBAgQIECAAAEC"
     "BAgQIECAAAECBAgQIECAAAECBAgQIECAAAECBAgQIECAAAECBAgQIEDgtgP9QulaQI5ysQAAAABJRU5ErkJggg==";
 /// JPEG, 8 x 8 pixels: the upper half red, the lower half blue.
-inline const std::string red_over_blue =
+inline const string red_over_blue =
     "/9j//gAQTGF2YzU5LjM3LjEwMAD/2wBDAAgEBAQEBAUFBQUFBQYGBgYGBgYGBgYGBgYHBwcICAgHBwcGBgcHCAgICAkJCQgICAgJCQoKCgwMCwsO"
     "Dg4RERT/xABUAAEBAAAAAAAAAAAAAAAAAAAFBwEBAQAAAAAAAAAAAAAAAAAABgcQAQADAQAAAAAAAAAAAAAAAAAWZOOjEQEAAwEAAAAAAAAAAAAA"
     "AAAAGGblpf/AABEIAAgACAMBEgACEgADEgD/2gAMAwEAAhEDEQA/AJpKqffEOVRltfH1FVNZDVnq5qav/9k=";
 
-inline std::string data_uri(const std::string& base64, const std::string& kind = "image/png") {
+inline string data_uri(const string& base64, const string& kind = "image/png") {
   return "data:" + kind + ";base64," + base64;
 }
 
 /// A glTF file of the square. `image`: the URI of its texture; `material`: further members of the material; `texture`:
 /// of its baseColorTexture; `metallic`: of its pbrMetallicRoughness; `sampler`: members of the sampler.
 struct GltfSquare {
-  std::string image;
-  std::string material{}, metallic{}, texture{};
-  std::string sampler = R"("magFilter": 9728)";
+  string image;
+  string material{}, metallic{}, texture{};
+  string sampler = R"("magFilter": 9728)";
   bool has_material = true, vertex_colors = false;
 
-  std::string text() const {
-    std::string json =
-        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],)";
+  string text() const {
+    string json = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],)";
     json += R"("extensionsUsed": ["KHR_texture_transform"],)";
     json += R"("meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1)";
     if (vertex_colors) json += R"(, "COLOR_0": 3)";
-    json += R"(}, "indices": 2)" + std::string(has_material ? R"(, "material": 0)" : "") + "}]}],";
+    json += R"(}, "indices": 2)" + string(has_material ? R"(, "material": 0)" : "") + "}]}],";
     json += R"("materials": [{"pbrMetallicRoughness": {)" + metallic;
     if (!image.empty()) json += (metallic.empty() ? "" : ", ") + (R"("baseColorTexture": {"index": 0)" + texture + "}");
     json += "}" + material + "}],";
@@ -80,7 +78,7 @@ struct GltfSquare {
 };
 
 /// A Wavefront file of the square, with its material file.
-inline std::string write_wavefront(const MeshFolder& folder, const std::string& material) {
+inline string write_wavefront(const MeshFolder& folder, const string& material) {
   folder.write("square.mtl", material);
   return folder.write("square.obj",
                       "mtllib square.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"

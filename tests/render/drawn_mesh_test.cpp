@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <tuple>
@@ -10,6 +9,7 @@
 #include "render/mesh.h"
 #include "render/outlines.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -20,10 +20,10 @@ using test::projected;
 using test::side;
 using test::white;
 
-const std::string meshes = SCENES_DIR "/meshes/";
+const string meshes = SCENES_DIR "/meshes/";
 
 /// One body, drawn as a mesh.
-Scene mesh_scene(const std::string& file, const Vec3& position, const Vec3& center, double scale) {
+Scene mesh_scene(const string& file, const Vec3& position, const Vec3& center, double scale) {
   Scene scene = test::flat_scene(Vec3(1, 1.5, 5), Vec3::Zero());
   test::add_body(scene, position, Volume::sphere(1), white);
   scene.roster.bodies.back().mesh = MeshUse{file, center, scale};
@@ -31,12 +31,12 @@ Scene mesh_scene(const std::string& file, const Vec3& position, const Vec3& cent
 }
 
 /// The pixels whose centres lie behind a mesh's triangles, drawn at position + scale * (p - center).
-std::vector<char> covered_by(const Mesh& mesh, const Scene& scene, Size size, const Vec3& position, const Vec3& center,
-                             double scale) {
-  std::vector<char> covered(static_cast<std::size_t>(size.width * size.height), 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    std::array<Point, 3> q{};
-    for (std::size_t k = 0; k < 3; ++k)
+vector<char> covered_by(const Mesh& mesh, const Scene& scene, Size size, const Vec3& position, const Vec3& center,
+                        double scale) {
+  vector<char> covered(static_cast<size_t>(size.width * size.height), 0);
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    array<Point, 3> q{};
+    for (size_t k = 0; k < 3; ++k)
       q[k] = projected(scene, size, position + scale * (mesh.vertices[mesh.triangles[t + k]] - center));
     const auto [x0, x1] = std::minmax({q[0].x, q[1].x, q[2].x});
     const auto [y0, y1] = std::minmax({q[0].y, q[1].y, q[2].y});
@@ -45,7 +45,7 @@ std::vector<char> covered_by(const Mesh& mesh, const Scene& scene, Size size, co
         const Point p{x + 0.5, y + 0.5};
         const double a = side(q[0], q[1], p), b = side(q[1], q[2], p), c = side(q[2], q[0], p);
         if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
-          covered[static_cast<std::size_t>(y * size.width + x)] = 1;
+          covered[static_cast<size_t>(y * size.width + x)] = 1;
       }
   }
   return covered;
@@ -60,13 +60,13 @@ TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
     const Scene scene = mesh_scene(meshes + name, position, center, scale);
     Renderer renderer(scene, size, 4);
     const Image& image = renderer.draw(scene.initial);
-    const std::vector<char> covered = covered_by(read_mesh(meshes + name), scene, size, position, center, scale);
+    const vector<char> covered = covered_by(read_mesh(meshes + name), scene, size, position, center, scale);
     int wrong = 0, inside = 0;
     for (int y = 1; y + 1 < size.height; ++y)
       for (int x = 1; x + 1 < size.width; ++x) {
         int around = 0;
         for (int k = 0; k < 9; ++k)
-          around += covered[static_cast<std::size_t>((y + k / 3 - 1) * size.width + x + k % 3 - 1)];
+          around += covered[static_cast<size_t>((y + k / 3 - 1) * size.width + x + k % 3 - 1)];
         if (around == 9) ++inside;
         if ((around == 9 && grey(image, x, y) < 40) || (around == 0 && grey(image, x, y) > 0)) ++wrong;
       }
@@ -77,13 +77,13 @@ TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
 
 /// A temporary file.
 struct MeshText {
-  explicit MeshText(const std::string& text) {
+  explicit MeshText(const string& text) {
     if (!mkdtemp(folder.data())) ADD_FAILURE() << "no temporary folder";
     file = folder + "/mesh.obj";
     std::ofstream(file) << text;
   }
   ~MeshText() { std::filesystem::remove_all(folder); }
-  std::string folder = ::testing::TempDir() + "carom_drawn_XXXXXX", file;
+  string folder = ::testing::TempDir() + "carom_drawn_XXXXXX", file;
 };
 
 TEST(DrawnMesh, CastsItsOwnOutlineInParallelLight) {
@@ -116,10 +116,10 @@ TEST(DrawnMesh, CastsItsOwnOutlineInParallelLight) {
 }
 
 TEST(DrawnMesh, IsShadedAlikeWhicheverWayItsFacesTurn) {
-  const std::string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+  const string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
   const MeshText one(corners + "f 1 2 3 4\n"), other(corners + "f 4 3 2 1\n");
-  std::array<double, 2> seen{};
-  for (std::size_t i = 0; i < 2; ++i) {
+  array<double, 2> seen{};
+  for (size_t i = 0; i < 2; ++i) {
     Scene scene = mesh_scene(i ? other.file : one.file, Vec3::Zero(), Vec3::Zero(), 1);
     scene.lights[0] = {"sun", Vec3(0, 0, -1), {}, white, 0.5};
     scene.ambient = Color{0.3, 0.3, 0.3};

@@ -5,6 +5,7 @@
 #include "render/lighting.h"
 #include "render/scenes.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -57,7 +58,7 @@ TEST(Background, IsTheColourTheSceneNames) {
   Scene scene;
   scene.background = Color{0.2, 0.4, 0.6};
   Renderer renderer(scene, {16, 16}, 4);
-  const std::uint8_t* p = renderer.draw(scene.initial).row(3);
+  const uint8_t* p = renderer.draw(scene.initial).row(3);
   EXPECT_EQ(p[0], 51);
   EXPECT_EQ(p[1], 102);
   EXPECT_EQ(p[2], 153);
@@ -205,7 +206,7 @@ TEST(Surround, ALitRedBallColoursTheFloorOnItsLitSide) {
   const Image& image = renderer.draw(scene.initial);
   const auto redness = [&](const Vec3& at) {
     const auto [x, y] = pixel_of(scene, size, at);
-    const std::uint8_t* p = image.row(y) + 3 * x;
+    const uint8_t* p = image.row(y) + 3 * x;
     return static_cast<double>(p[0]) / p[1];
   };
   EXPECT_NEAR(redness(Vec3(-3, 0, 0)), 1, 0.01);

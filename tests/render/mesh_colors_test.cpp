@@ -1,7 +1,6 @@
 // Meshes in the colours of their files, in pictures.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +9,7 @@
 #include "render/mesh_colors.h"
 #include "render/scenes.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -23,12 +23,12 @@ using test::MeshFolder;
 using test::red;
 using test::white;
 
-using Rgb = std::array<int, 3>;
+using Rgb = array<int, 3>;
 
 constexpr Size square_size{100, 100};
 
 /// The square in flat light, filling most of the picture.
-Scene square_scene(const std::string& file, bool own_colors, const Color& color = {0.5, 0.25, 0.75}) {
+Scene square_scene(const string& file, bool own_colors, const Color& color = {0.5, 0.25, 0.75}) {
   Scene scene = test::flat_scene(Vec3(0, 0, 3), Vec3::Zero());
   test::add_body(scene, Vec3::Zero(), Volume::sphere(1), color);
   scene.roster.bodies.back().mesh = MeshUse{file, Vec3::Zero(), 1, own_colors};
@@ -36,17 +36,17 @@ Scene square_scene(const std::string& file, bool own_colors, const Color& color 
 }
 
 Rgb seen(const Image& image, int x, int y) {
-  const std::uint8_t* p = image.row(y) + image.channels * x;
+  const uint8_t* p = image.row(y) + image.channels * x;
   return {p[0], p[1], p[2]};
 }
 
 /// The middles of the square's quarters: the upper left one, upper right, lower left, lower right.
-std::array<Rgb, 4> quarters(const Scene& scene) {
+array<Rgb, 4> quarters(const Scene& scene) {
   Renderer renderer(scene, square_size, 4);
   const Image& image = renderer.draw(scene.initial);
   return {seen(image, 29, 29), seen(image, 70, 29), seen(image, 29, 70), seen(image, 70, 70)};
 }
-std::array<Rgb, 4> quarters(const std::string& file) {
+array<Rgb, 4> quarters(const string& file) {
   return quarters(square_scene(file, true));
 }
 
@@ -57,7 +57,7 @@ Rgb plain(const Color& color) {
 }
 
 void expect_near(const Rgb& a, const Rgb& b, const char* what) {
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1) << what << ", component " << i;
+  for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1) << what << ", component " << i;
 }
 
 Color grey_of_light(double light) {
@@ -68,16 +68,16 @@ Color grey_of_light(double light) {
 TEST(MeshColors, ATextureStandsUprightInEveryFormat) {
   const MeshFolder folder;
   folder.write("four.png", test::from_base64(test::four_colors));
-  const std::array<Rgb, 4> expected{plain(red), plain(green), plain(blue), plain(white)};
+  const array<Rgb, 4> expected{plain(red), plain(green), plain(blue), plain(white)};
   EXPECT_EQ(quarters(folder.write("data.gltf", GltfSquare{data_uri(test::four_colors)}.text())), expected);
   EXPECT_EQ(quarters(folder.write("file.gltf", GltfSquare{"four.png"}.text())), expected);
   // Between pixels it is smooth, except in their middles.
   const auto wavefront = quarters(test::write_wavefront(folder, "newmtl paper\nmap_Kd four.png\n"));
   const char* const names[] = {"red", "green", "blue", "white"};
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(wavefront[i][c], expected[i][c], 40) << names[i];
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(wavefront[i][c], expected[i][c], 40) << names[i];
   const auto jpeg = quarters(folder.write("jpeg.gltf", GltfSquare{data_uri(test::red_over_blue, "image/jpeg")}.text()));
-  for (std::size_t c = 0; c < 3; ++c) {
+  for (size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(jpeg[0][c], expected[0][c], 3);
     EXPECT_NEAR(jpeg[3][c], expected[2][c], 3);
   }
@@ -91,7 +91,7 @@ TEST(MeshColors, APixelOfATextureHasItsColor) {
                                                           "0XCIaljAcOLOB9ZfKQAhcQXm8nhQegAAAABJRU5ErkJggg==")}
                                           .text()));
   const Color pixels[] = {from_rgb(0x0c2840), from_rgb(0x5a80a0), from_rgb(0xc8dcf0), from_rgb(0x05fa64)};
-  for (std::size_t i = 0; i < 4; ++i) expect_near(shown[i], plain(pixels[i]), "pixel");
+  for (size_t i = 0; i < 4; ++i) expect_near(shown[i], plain(pixels[i]), "pixel");
 }
 
 TEST(MeshColors, FactorsMultiplyTheTextureInLinearLight) {
@@ -119,23 +119,23 @@ TEST(MeshColors, ColorsOfVerticesAreLinearInGltfAndSrgbInWavefront) {
   expect_near(seen(renderer.draw(scene.initial), 70, 60),
               plain({srgb_of_light(first + second / 2), srgb_of_light(second / 2), srgb_of_light(second / 2 + third)}),
               "glTF");
-  const std::string v = " 0.5 0.5 0.5\n";
-  const std::string grey = "v -1 -1 0" + v + "v 1 -1 0" + v + "v 1 1 0" + v + "v -1 1 0" + v + "f 1 2 3 4\n";
+  const string v = " 0.5 0.5 0.5\n";
+  const string grey = "v -1 -1 0" + v + "v 1 -1 0" + v + "v 1 1 0" + v + "v -1 1 0" + v + "f 1 2 3 4\n";
   expect_near(quarters(folder.write("b.obj", grey))[0], plain({0.5, 0.5, 0.5}), "Wavefront");
 }
 
 TEST(MeshColors, AColorOfTheSceneTakesTheirPlace) {
   const MeshFolder folder;
-  const std::string file = folder.write("a.gltf", GltfSquare{data_uri(test::four_colors)}.text());
+  const string file = folder.write("a.gltf", GltfSquare{data_uri(test::four_colors)}.text());
   for (const Rgb& shown : quarters(square_scene(file, false, green))) EXPECT_EQ(shown, plain(green));
 }
 
 TEST(MeshColors, APartWithoutAMaterialHasTheBodysColor) {
   const MeshFolder folder;
   folder.write("a.mtl", "newmtl paper\nKd 0 1 0\n");
-  const std::string file = folder.write("a.obj",
-                                        "mtllib a.mtl\nv -1 -1 0\nv 0 -1 0\nv 0 1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n"
-                                        "usemtl paper\nf 1 2 3 4\nusemtl missing\nf 2 5 6 3\n");
+  const string file = folder.write("a.obj",
+                                   "mtllib a.mtl\nv -1 -1 0\nv 0 -1 0\nv 0 1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n"
+                                   "usemtl paper\nf 1 2 3 4\nusemtl missing\nf 2 5 6 3\n");
   const auto shown = quarters(square_scene(file, true, blue));
   EXPECT_EQ(shown[0], plain(green));
   EXPECT_EQ(shown[1], plain(blue));
@@ -148,8 +148,8 @@ TEST(MeshColors, AFileWithoutMaterialsIsDrawnInTheBodysColorToTheByte) {
   const MeshFolder folder;
   GltfSquare bare{""};
   bare.has_material = false;
-  for (const std::string& file : {folder.write("a.gltf", bare.text()), std::string(SCENES_DIR "/meshes/duck.obj"),
-                                  folder.write("b.obj", "usemtl unknown\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n")}) {
+  for (const string& file : {folder.write("a.gltf", bare.text()), string(SCENES_DIR "/meshes/duck.obj"),
+                             folder.write("b.obj", "usemtl unknown\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n")}) {
     const Scene with = square_scene(file, true), without = square_scene(file, false);
     Renderer a(with, square_size, 4), b(without, square_size, 4);
     EXPECT_EQ(a.draw(with.initial).pixels, b.draw(without.initial).pixels) << file;
@@ -160,17 +160,17 @@ TEST(MeshColors, OpacityBelowTheCutoffIsAHole) {
   const MeshFolder folder;
   GltfSquare square{data_uri(test::four_opacities)};
   const Rgb paper = plain(white), hole{0, 0, 0};
-  EXPECT_EQ(quarters(folder.write("opaque.gltf", square.text())), (std::array<Rgb, 4>{paper, paper, paper, paper}));
+  EXPECT_EQ(quarters(folder.write("opaque.gltf", square.text())), (array<Rgb, 4>{paper, paper, paper, paper}));
   square.material = R"(, "alphaMode": "MASK", "alphaCutoff": 0.4)";
-  EXPECT_EQ(quarters(folder.write("mask.gltf", square.text())), (std::array<Rgb, 4>{paper, hole, paper, paper}));
+  EXPECT_EQ(quarters(folder.write("mask.gltf", square.text())), (array<Rgb, 4>{paper, hole, paper, paper}));
   square.material = R"(, "alphaMode": "BLEND")";
-  EXPECT_EQ(quarters(folder.write("blend.gltf", square.text())), (std::array<Rgb, 4>{paper, hole, hole, paper}));
+  EXPECT_EQ(quarters(folder.write("blend.gltf", square.text())), (array<Rgb, 4>{paper, hole, hole, paper}));
 }
 
 TEST(MeshColors, HolesLetTheLightThrough) {
   const MeshFolder folder;
   GltfSquare square{data_uri(test::four_opacities), R"(, "alphaMode": "MASK")"};
-  std::array<double, 2> behind{};
+  array<double, 2> behind{};
   for (const bool masked : {false, true}) {
     if (!masked) square.material = "";
     if (masked) square.material = R"(, "alphaMode": "MASK")";
@@ -208,7 +208,7 @@ TEST(MeshColors, ABodyOfLessThanAPixelHasTheirMean) {
 
 TEST(MeshColors, ATextureThatIsMissingIsARenderErrorWithARemedy) {
   const MeshFolder folder;
-  const std::string file = folder.write("a.gltf", GltfSquare{"wood.png"}.text());
+  const string file = folder.write("a.gltf", GltfSquare{"wood.png"}.text());
   const Scene scene = square_scene(file, true);
   try {
     Renderer renderer(scene, square_size, 4);

@@ -7,37 +7,37 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <string>
 
 #include "render/mesh.h"
+#include "std.h"
 
 namespace carom::test {
 
 /// A temporary folder.
 struct MeshFolder {
   MeshFolder() {
-    std::string name = ::testing::TempDir() + "carom_mesh_XXXXXX";
+    string name = ::testing::TempDir() + "carom_mesh_XXXXXX";
     if (!mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder";
     path = name + "/";
   }
   ~MeshFolder() { std::filesystem::remove_all(path); }
   MeshFolder(const MeshFolder&) = delete;
   MeshFolder& operator=(const MeshFolder&) = delete;
-  std::string write(const std::string& name, const std::string& bytes) const {
+  string write(const string& name, const string& bytes) const {
     std::ofstream(path + name, std::ios::binary) << bytes;
     return path + name;
   }
-  std::string path;
+  string path;
 };
 
 /// The error of read_mesh or read_painted_mesh after the path; "" if the file is read.
 template <typename Read>
-std::string trouble_of(Read read, const std::string& path, const MeshLimits& limits) {
+string trouble_of(Read read, const string& path, const MeshLimits& limits) {
   try {
     read(path, limits);
     return "";
   } catch (const std::runtime_error& error) {
-    const std::string text = error.what(), start = "cannot read the mesh " + path + ": ";
+    const string text = error.what(), start = "cannot read the mesh " + path + ": ";
     EXPECT_EQ(text.substr(0, start.size()), start);
     return text.substr(std::min(start.size(), text.size()));
   }

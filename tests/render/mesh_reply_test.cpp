@@ -1,11 +1,10 @@
 // What comes through the pipe from the reader of meshes is checked in every part.
 #include "render/mesh_reply.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstring>
-#include <functional>
 #include <limits>
 
 namespace carom {
@@ -14,34 +13,34 @@ namespace {
 /// A triangle in one part with a texture of 2 x 1 pixels.
 struct Reply {
   MeshReplyHead head{3, 1, 0, 1, 1};
-  std::array<float, 9> positions{0, 0, 0, 1, 0, 0, 0, 1, 0}, normals{};
-  std::array<std::uint32_t, 3> triangle{0, 1, 2};
+  array<float, 9> positions{0, 0, 0, 1, 0, 0, 0, 1, 0}, normals{};
+  array<uint32_t, 3> triangle{0, 1, 2};
   MeshPart part{1, 1, {}, 0, 1, 0, {1, 1, 1, 1}};
-  std::array<float, 6> uv{};
-  std::array<float, 9> tint{};
-  std::array<std::uint32_t, 2> sides{2, 1};
-  std::array<std::uint8_t, 8> rgba{1, 2, 3, 4, 5, 6, 7, 8};
+  array<float, 6> uv{};
+  array<float, 9> tint{};
+  array<uint32_t, 2> sides{2, 1};
+  array<uint8_t, 8> rgba{1, 2, 3, 4, 5, 6, 7, 8};
 
-  std::string bytes() const {
-    std::string all;
+  string bytes() const {
+    string all;
     const auto put = [&](const auto& item) { all.append(reinterpret_cast<const char*>(&item), sizeof item); };
     put(head), put(positions), put(normals), put(triangle), put(part), put(uv), put(tint), put(sides), put(rgba);
     return all;
   }
 };
 
-Mesh received(std::string_view bytes, const MeshLimits& limits = {}) {
-  return receive_mesh({[&](void* to, std::size_t size) {
+Mesh received(string_view bytes, const MeshLimits& limits = {}) {
+  return receive_mesh({[&](void* to, size_t size) {
                          if (size > bytes.size()) return false;
                          if (size > 0) std::memcpy(to, bytes.data(), size);
                          bytes.remove_prefix(size);
                          return true;
                        },
-                       [] { return std::string("cut off"); }},
+                       [] { return string("cut off"); }},
                       limits);
 }
 
-std::string refusal(const std::function<void(Reply&)>& damage) {
+string refusal(const function<void(Reply&)>& damage) {
   Reply reply;
   damage(reply);
   try {
@@ -56,14 +55,14 @@ TEST(MeshReply, ReturnsThePaint) {
   const Mesh mesh = received(Reply{}.bytes());
   ASSERT_EQ(mesh.paint.textures.size(), 1U);
   EXPECT_EQ(mesh.paint.textures[0].width, 2U);
-  EXPECT_EQ(mesh.paint.textures[0].rgba, (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(mesh.paint.textures[0].rgba, (vector<uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_EQ(mesh.paint.parts.at(0).texture, 1U);
   EXPECT_EQ(mesh.paint.uv.size(), 3U);
 }
 
 TEST(MeshReply, EveryDamageOfThePaintIsFound) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-  const std::function<void(Reply&)> damages[] = {
+  const function<void(Reply&)> damages[] = {
       [](Reply& r) { r.part.texture = 2; },
       [](Reply& r) { r.part.triangles = 2; },
       [](Reply& r) { r.part.triangles = 0; },
@@ -90,7 +89,7 @@ TEST(MeshReply, EveryDamageOfThePaintIsFound) {
       [](Reply& r) { r.head.textures = ~0U; },
   };
   EXPECT_EQ(refusal([](Reply&) {}), "");
-  for (std::size_t i = 0; i < std::size(damages); ++i) EXPECT_EQ(refusal(damages[i]), "it is damaged") << i;
+  for (size_t i = 0; i < std::size(damages); ++i) EXPECT_EQ(refusal(damages[i]), "it is damaged") << i;
   EXPECT_EQ(refusal([](Reply& r) { r.sides = {3, 1}; }), "cut off");
   EXPECT_EQ(refusal([](Reply& r) { r.head.textures = 2; }), "cut off");
 }

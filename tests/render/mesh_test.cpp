@@ -6,29 +6,29 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "render/colored_meshes.h"
 #include "render/mesh_folder.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 using test::MeshFolder;
 
-const std::string data = DATA_DIR "/meshes/";
-const std::string scenes = SCENES_DIR "/meshes/";
+const string data = DATA_DIR "/meshes/";
+const string scenes = SCENES_DIR "/meshes/";
 
-std::string bytes_of(const std::string& path) {
+string bytes_of(const string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// "" if the file is read.
-std::string trouble(const std::string& path, const MeshLimits& limits = {}) {
+string trouble(const string& path, const MeshLimits& limits = {}) {
   return test::trouble_of(read_mesh, path, limits);
 }
 
@@ -38,7 +38,7 @@ TEST(ReadMesh, ATetrahedronOfStlHasFourFacesWithNormalsOfTheirOwn) {
   const Mesh mesh = read_mesh(data + "tetrahedron.stl");
   EXPECT_EQ(mesh.triangles.size(), 12U);
   ASSERT_EQ(mesh.vertices.size(), 12U);  // sharp edges: each corner belongs to three faces
-  for (std::size_t t = 0; t < 12; t += 3) {
+  for (size_t t = 0; t < 12; t += 3) {
     const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
                &c = mesh.vertices[mesh.triangles[t + 2]];
     EXPECT_LT((mesh.normals[mesh.triangles[t]] - (b - a).cross(c - a).normalized()).norm(), 1e-7);
@@ -46,23 +46,23 @@ TEST(ReadMesh, ATetrahedronOfStlHasFourFacesWithNormalsOfTheirOwn) {
 }
 
 /// A tetrahedron as a text.
-std::string stl_text(const std::string& name) {
-  std::string text = "solid " + name + "\n";
+string stl_text(const string& name) {
+  string text = "solid " + name + "\n";
   for (const char* face : {"0 0 0,0 1 0,1 0 0", "0 0 0,1 0 0,0 0 1", "0 0 0,0 0 1,0 1 0", "1 0 0,0 1 0,0 0 1"}) {
-    std::string corners = face;
-    for (std::size_t i = 0; (i = corners.find(',', i)) != std::string::npos;) corners.replace(i, 1, "\n      vertex ");
+    string corners = face;
+    for (size_t i = 0; (i = corners.find(',', i)) != string::npos;) corners.replace(i, 1, "\n      vertex ");
     text += "  facet normal 0 0 0\n    outer loop\n      vertex " + corners + "\n    endloop\n  endfacet\n";
   }
   return text + "endsolid " + name + "\n";
 }
 
-std::string in_capitals(std::string text) {
+string in_capitals(string text) {
   for (char& c : text)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
   return text;
 }
 
-std::string replaced(std::string text, const std::string& part, const std::string& by) {
+string replaced(string text, const string& part, const string& by) {
   return text.replace(text.find(part), part.size(), by);
 }
 
@@ -70,9 +70,9 @@ TEST(ReadMesh, AnStlFileIsReadInAnyCaseWithEmptySolidsAndBytesBehind) {
   const MeshFolder folder;
   const Mesh right = read_mesh(folder.write("right.stl", stl_text("t")));
   ASSERT_EQ(right.triangles.size(), 12U);
-  const std::string binary = bytes_of(data + "tetrahedron.stl");
+  const string binary = bytes_of(data + "tetrahedron.stl");
   ASSERT_EQ(binary.size(), 84U + 4 * 50);
-  const auto same = [&](const std::string& bytes, const Mesh& as) {
+  const auto same = [&](const string& bytes, const Mesh& as) {
     const Mesh mesh = read_mesh(folder.write("a.stl", bytes));
     EXPECT_EQ(mesh.vertices, as.vertices) << bytes.substr(0, 40);
     EXPECT_EQ(mesh.triangles, as.triangles) << bytes.substr(0, 40);
@@ -84,13 +84,13 @@ TEST(ReadMesh, AnStlFileIsReadInAnyCaseWithEmptySolidsAndBytesBehind) {
   same("\n  " + stl_text(""), right);
   const Mesh as_binary = read_mesh(data + "tetrahedron.stl");
   same(binary + "made by a program", as_binary);
-  same(binary + std::string(500, '\0'), as_binary);
+  same(binary + string(500, '\0'), as_binary);
   same("solid" + binary.substr(5) + "x", as_binary);
 }
 
 TEST(ReadMesh, AnStlFileThatIsNoneIsRefusedWithItsPlace) {
   const MeshFolder folder;
-  const auto why = [&](const std::string& bytes) { return trouble(folder.write("a.stl", bytes)); };
+  const auto why = [&](const string& bytes) { return trouble(folder.write("a.stl", bytes)); };
   EXPECT_EQ(why(replaced(stl_text("t"), "1 0 0", "1,5 0 0")), "line 6: `1,5` is not a number. Remedy: export it again");
   EXPECT_EQ(why(replaced(stl_text("t"), "1 0 0", "nan 0 0")),
             "line 6: `nan` is not a finite number. Remedy: export it again");
@@ -100,16 +100,16 @@ TEST(ReadMesh, AnStlFileThatIsNoneIsRefusedWithItsPlace) {
   EXPECT_EQ(why(stl_text("t").substr(0, 100)),
             "line 6: it ends within a triangle: the file is cut off. Remedy: export it again");
   EXPECT_EQ(why("solid t\nendsolid t\n"), "it has no triangles");
-  const std::string binary = bytes_of(data + "tetrahedron.stl");
+  const string binary = bytes_of(data + "tetrahedron.stl");
   EXPECT_EQ(why(binary.substr(0, 200)),
             "it holds 2 of the 4 triangles that its header counts, or it is no STL file. Remedy: export it again");
-  EXPECT_EQ(why(std::string(binary).replace(96, 4, std::string("\0\0\xC0\x7F", 4))),
+  EXPECT_EQ(why(string(binary).replace(96, 4, string("\0\0\xC0\x7F", 4))),
             "triangle 1 has a corner that is not finite");
 }
 
 TEST(ReadMesh, ATriangleOfGltfWithAMissingVertexIsRefused) {
   const MeshFolder folder;
-  const std::string text = test::GltfSquare{""}.text();
+  const string text = test::GltfSquare{""}.text();
   ASSERT_EQ(trouble(folder.write("a.gltf", text)), "");
   EXPECT_EQ(trouble(folder.write("a.gltf", replaced(text, R"("count": 4)", R"("count": 3)"))),
             "a triangle refers to a missing vertex. Remedy: export it again");
@@ -134,8 +134,8 @@ TEST(ReadMesh, PolygonsAreCutCornersJoinedAndRoundedShapesSmooth) {
   EXPECT_EQ(square.vertices.size(), 4U);
   // A ridge of 60 degrees has two normals along its edge, one of 20 degrees has one.
   for (const auto& [height, vertices] : {std::pair{0.577, 6U}, {0.176, 4U}}) {
-    const std::string text = "v 0 0 0\nv 0 0 1\nv 1 -" + std::to_string(height) + " 0\nv -1 -" +
-                             std::to_string(height) + " 0\nf 1 2 3\nf 2 1 4\n";
+    const string text = "v 0 0 0\nv 0 0 1\nv 1 -" + std::to_string(height) + " 0\nv -1 -" + std::to_string(height) +
+                        " 0\nf 1 2 3\nf 2 1 4\n";
     EXPECT_EQ(read_mesh(folder.write("b.obj", text)).vertices.size(), vertices) << height;
   }
 }
@@ -182,12 +182,12 @@ TEST(ReadMesh, EndingsMayBeInCapitals) {
 
 TEST(ReadMesh, OtherFormatsUnderAKnownEndingAreNotRead) {
   const MeshFolder folder;
-  const std::string x = "xof 0303txt 0032\nMesh m { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;; }\n";
+  const string x = "xof 0303txt 0032\nMesh m { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;; }\n";
   for (const char* name : {"a.obj", "a.stl", "a.gltf"}) EXPECT_NE(trouble(folder.write(name, x)), "") << name;
 }
 
 TEST(ReadMesh, RefusesMoreThanItsLimits) {
-  const std::string pin = scenes + "pin.obj";
+  const string pin = scenes + "pin.obj";
   MeshLimits small;
   small.file_bytes = 1000;
   EXPECT_EQ(trouble(pin, small),
@@ -208,8 +208,8 @@ TEST(ReadMesh, MaterialsOfOtherFoldersAreNotOpened) {
   ASSERT_EQ(mkfifo((folder.path + "in/queue").c_str(), 0600), 0);
   MeshLimits limits;
   limits.seconds = 1;
-  EXPECT_EQ(trouble(folder.write("in/a.obj", std::string("mtllib ../queue\n") + triangle), limits), "");
-  EXPECT_EQ(trouble(folder.write("in/b.obj", std::string("mtllib queue\n") + triangle), limits), "");
+  EXPECT_EQ(trouble(folder.write("in/a.obj", string("mtllib ../queue\n") + triangle), limits), "");
+  EXPECT_EQ(trouble(folder.write("in/b.obj", string("mtllib queue\n") + triangle), limits), "");
 }
 
 TEST(ReadMesh, WhatTakesTooLongIsEnded) {
@@ -222,7 +222,7 @@ TEST(ReadMesh, WhatTakesTooLongIsEnded) {
 
 TEST(ReadMesh, TooLittleMemoryIsReported) {
   const MeshFolder folder;
-  std::string text;
+  string text;
   for (int i = 0; i < 150'000; ++i) text += "v " + std::to_string(i) + " 0 0\n";
   for (int i = 3; i < 150'000; ++i) text += "f 1 2 " + std::to_string(i) + "\n";
   MeshLimits limits;
@@ -235,21 +235,21 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
   const MeshFolder folder;
   MeshLimits limits;
   limits.seconds = 2;
-  std::uint64_t seed = 21;
-  const auto random = [&](std::size_t below) {
+  uint64_t seed = 21;
+  const auto random = [&](size_t below) {
     seed = seed * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<std::size_t>((seed >> 33U) % below);
+    return static_cast<size_t>((seed >> 33U) % below);
   };
-  const std::string pin = bytes_of(scenes + "pin.obj").substr(0, 700) + "f 1 2 3\nf 4 5 6\n";
+  const string pin = bytes_of(scenes + "pin.obj").substr(0, 700) + "f 1 2 3\nf 4 5 6\n";
   int read = 0, refused = 0;
   for (const auto& [ending, bytes] : {std::pair{"stl", bytes_of(data + "tetrahedron.stl")},
                                       {"gltf", bytes_of(data + "turned_cube.gltf")},
                                       {"glb", bytes_of(data + "turned_cube.glb")},
                                       {"obj", pin}}) {
     for (int round = 0; round < 75; ++round) {
-      std::string mutated = bytes;
-      for (std::size_t i = random(6) + 1; i-- > 0;) {
-        const std::size_t at = random(mutated.size());
+      string mutated = bytes;
+      for (size_t i = random(6) + 1; i-- > 0;) {
+        const size_t at = random(mutated.size());
         switch (random(4)) {
           case 0:
             mutated[at] = static_cast<char>(random(256));
@@ -265,7 +265,7 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
         }
         if (mutated.empty()) mutated = "x";
       }
-      const std::string path = folder.write(std::string("m.") + ending, mutated);
+      const string path = folder.write(string("m.") + ending, mutated);
       (trouble(path, limits).empty() ? read : refused) += 1;
     }
   }
@@ -275,7 +275,7 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
 }
 
 TEST(ReadMesh, LeavesNoProcessBehind) {
-  const std::string before = bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children");
+  const string before = bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children");
   trouble(scenes + "pin.obj");
   trouble("/none.obj");
   EXPECT_EQ(bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children"), before);

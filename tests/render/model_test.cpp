@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "render/scenes.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -34,7 +34,7 @@ Scene room() {
     scene.world.planes.push_back({high, -Vec3::Unit(axis), {}});
   }
   for (const char* name : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
-    scene.roster.fixed.push_back({std::string("room.") + name, {}, true});
+    scene.roster.fixed.push_back({string("room.") + name, {}, true});
   return scene;
 }
 
@@ -49,8 +49,8 @@ Scene ball_at(const Vec3& position) {
   return scene;
 }
 
-Json json_of(const std::string& file) {
-  std::uint32_t size = 0;
+Json json_of(const string& file) {
+  uint32_t size = 0;
   std::memcpy(&size, file.data() + 12, sizeof size);
   return Json::parse(file.substr(20, size));
 }
@@ -58,7 +58,7 @@ Json json_of(const std::string& file) {
 TEST(StillThings, SidesOfARoomEndWhereTheyMeet) {
   Extent seen;
   seen.include(Vec3(1, 1, 1));
-  const std::vector<StillThing> things = still_things(room(), seen, false);
+  const vector<StillThing> things = still_things(room(), seen, false);
   ASSERT_EQ(things.size(), 6U);
   for (const StillThing& thing : things) EXPECT_EQ(thing.mesh.vertices.size(), 4U) << thing.name;
   const Extent floor = extent_of(things[2].mesh);
@@ -72,7 +72,7 @@ TEST(StillThings, APlaneReachesBeyondTheMotionAndNotForEver) {
   scene.roster.fixed = {{"floor", {}, true}};
   Extent seen;
   seen.include(Vec3(-2, 0, -1)), seen.include(Vec3(2, 3, 1));
-  const std::vector<StillThing> things = still_things(scene, seen, false);
+  const vector<StillThing> things = still_things(scene, seen, false);
   ASSERT_EQ(things.size(), 1U);
   const Extent floor = extent_of(things[0].mesh);
   EXPECT_TRUE((floor.low.array() <= Vec3(-2, -1, -1).array()).all());
@@ -84,7 +84,7 @@ TEST(StillThings, APlaneReachesBeyondTheMotionAndNotForEver) {
 TEST(StillThings, TrianglesFaceTheFreeSide) {
   for (const StillThing& thing : still_things(room(), {}, false)) {
     const Mesh& mesh = thing.mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
       const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
                  &c = mesh.vertices[mesh.triangles[t + 2]];
       EXPECT_GT((b - a).cross(c - a).dot(mesh.normals[mesh.triangles[t]]), 0) << thing.name;
@@ -107,7 +107,7 @@ TEST(StillThings, RoundVolumesHaveTheirCornersOnThem) {
     EXPECT_EQ(std::abs(vertex.y()), 1);
   }
   for (const Mesh& mesh : {ball, cylinder})  // outside is where the normals point
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
       const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
                  &c = mesh.vertices[mesh.triangles[t + 2]];
       EXPECT_GT((b - a).cross(c - a).dot(mesh.normals[mesh.triangles[t]]), 0);
@@ -122,7 +122,7 @@ TEST(Glb, KeepsWhatAssimpLoses) {
   KeyedMotion motion;
   motion.times = {0, 0.5, 1};
   motion.position = {{1, 1, 1}, {1, 2, 1}, {1, 3, 1}};
-  motion.changes = {{1, 0, Volume::sphere(1)}, {2, 0, std::nullopt}};
+  motion.changes = {{1, 0, Volume::sphere(1)}, {2, 0, nullopt}};
   const Json gltf = json_of(glb(scene, motion));
   EXPECT_EQ(gltf["scenes"][0]["name"], "At one");
   EXPECT_EQ(gltf["nodes"][1]["name"], "ball");
@@ -152,7 +152,7 @@ TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   Scene scene = ball_at(Vec3::Zero());
   scene.roster.bodies[0].mesh = MeshUse{folder.write("a.gltf", square.text()), Vec3::Zero(), 1, true};
   KeyedMotion motion;
-  const std::string file = folder.write("b.glb", glb(scene, motion));
+  const string file = folder.write("b.glb", glb(scene, motion));
   const Mesh before = read_painted_mesh(scene.roster.bodies[0].mesh->file), after = read_painted_mesh(file);
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.triangles, before.triangles);
@@ -175,7 +175,7 @@ TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
 TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
   const test::MeshFolder folder;
   folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
-  const std::string file = folder.write(
+  const string file = folder.write(
       "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 4\n");
   Scene scene;
   for (const double scale : {1.0, 2.0, 1.0}) {
@@ -183,20 +183,19 @@ TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
     scene.roster.bodies[e].mesh = MeshUse{file, Vec3::Zero(), scale, true};
   }
   const Json gltf = json_of(glb(scene, KeyedMotion{}));
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(gltf["nodes"][i + 1]["mesh"], i == 1 ? 1 : 0);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(gltf["meshes"][i]["primitives"].size(), 2U);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(gltf["nodes"][i + 1]["mesh"], i == 1 ? 1 : 0);
+  for (size_t i = 0; i < 2; ++i) EXPECT_EQ(gltf["meshes"][i]["primitives"].size(), 2U);
 }
 
 /// The floats of an accessor, in order.
-std::vector<float> floats_of(const std::string& file, const Json& gltf, std::size_t accessor) {
+vector<float> floats_of(const string& file, const Json& gltf, size_t accessor) {
   const Json& has = gltf["accessors"][accessor];
-  const Json& view = gltf["bufferViews"][has["bufferView"].get<std::size_t>()];
-  std::uint32_t json_size = 0;
+  const Json& view = gltf["bufferViews"][has["bufferView"].get<size_t>()];
+  uint32_t json_size = 0;
   std::memcpy(&json_size, file.data() + 12, sizeof json_size);
-  const std::size_t parts = has["type"] == "VEC4" ? 4 : has["type"] == "VEC3" ? 3 : 1;
-  std::vector<float> floats(parts * has["count"].get<std::size_t>());
-  const std::size_t at =
-      20 + json_size + 8 + view.value("byteOffset", std::size_t{0}) + has.value("byteOffset", std::size_t{0});
+  const size_t parts = has["type"] == "VEC4" ? 4 : has["type"] == "VEC3" ? 3 : 1;
+  vector<float> floats(parts * has["count"].get<size_t>());
+  const size_t at = 20 + json_size + 8 + view.value("byteOffset", size_t{0}) + has.value("byteOffset", size_t{0});
   std::memcpy(floats.data(), file.data() + at, floats.size() * sizeof(float));
   return floats;
 }
@@ -211,22 +210,22 @@ TEST(Glb, ACameraThatMovesHasKeyframes) {
     motion.position.push_back({0, 0, 0});
     motion.cameras.push_back({.eye = Vec3(5 * std::sin(turn), 1, 5 * std::cos(turn)), .target = Vec3(0, 1, 0)});
   }
-  const std::string file = glb(scene, motion);
+  const string file = glb(scene, motion);
   const Json gltf = json_of(file);
-  std::size_t node = 0;
+  size_t node = 0;
   while (!gltf["nodes"][node].contains("camera")) ++node;
   EXPECT_EQ(gltf["nodes"][node]["translation"], Json({0, 1, 5}));
-  std::vector<float> place, turned;
+  vector<float> place, turned;
   for (const Json& channel : gltf["animations"][0]["channels"]) {
     if (channel["target"]["node"] != node) continue;
-    const Json& sampler = gltf["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()];
+    const Json& sampler = gltf["animations"][0]["samplers"][channel["sampler"].get<size_t>()];
     EXPECT_EQ(floats_of(file, gltf, sampler["input"])[8], 4.0F);
     (channel["target"]["path"] == "rotation" ? turned : place) = floats_of(file, gltf, sampler["output"]);
   }
   ASSERT_EQ(place.size(), 27U);
   ASSERT_EQ(turned.size(), 36U);
   Eigen::Quaternionf before(turned[3], turned[0], turned[1], turned[2]);
-  for (std::size_t i = 0; i < 9; ++i) {
+  for (size_t i = 0; i < 9; ++i) {
     const Vec3& eye = motion.cameras[i].eye;
     EXPECT_LT((Vec3(place[3 * i], place[3 * i + 1], place[3 * i + 2]) - eye).norm(), 1e-6);
     const Eigen::Quaternionf q(turned[4 * i + 3], turned[4 * i], turned[4 * i + 1], turned[4 * i + 2]);
@@ -250,8 +249,7 @@ TEST(Glb, ACameraThatStandsStillHasNone) {
 
 TEST(Glb, RotationsTurnTheAxesWhereTheyShould) {
   const Vec3 x = Vec3(1, 2, -0.5).normalized(), z = x.cross(Vec3(0.3, 1, 4)).normalized(), y = z.cross(x);
-  for (const auto& [a, b, c] :
-       {std::array<Vec3, 3>{x, y, z}, {y, z, x}, {z, x, y}, {-x, -y, z}, {x, -y, -z}, {-x, y, -z}}) {
+  for (const auto& [a, b, c] : {array<Vec3, 3>{x, y, z}, {y, z, x}, {z, x, y}, {-x, -y, z}, {x, -y, -z}, {-x, y, -z}}) {
     const auto q = rotation_to(a, b, c);
     const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
     EXPECT_NEAR(turn.norm(), 1, 1e-15);

@@ -6,6 +6,7 @@
 #include "render/eye.h"
 #include "render/lighting.h"
 #include "render/scenes.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -135,8 +136,8 @@ TEST(CameraOnAPath, LeavesTheLightsWhereTheyWere) {
     scene.camera = plan;
     const MovingCamera camera(scene, size);
     State state = scene.initial;
-    std::vector<Vec3> lights;  // in the world
-    std::vector<float> radii;
+    vector<Vec3> lights;  // in the world
+    vector<float> radii;
     for (const double time : {0.0, 1.0, 2.0}) {
       state.time = time;
       const Eye eye(camera.at(state), size);

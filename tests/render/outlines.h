@@ -2,10 +2,10 @@
 // The outline of a solid in a picture, by projecting its corners, to compare pictures with.
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "render/eye.h"
 #include "render/scenes.h"
+#include "std.h"
 
 namespace carom::test {
 
@@ -30,40 +30,40 @@ inline double side(const Point& a, const Point& b, const Point& p) {
 }
 
 /// The convex hull, by the monotone chain (Andrew 1979).
-inline std::vector<Point> hull_of(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<Point> hull;
+inline vector<Point> hull_of(vector<Point> points) {
+  std::ranges::sort(points, [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  vector<Point> hull;
   for (int half = 0; half < 2; ++half) {
-    const std::size_t start = hull.size();
+    const size_t start = hull.size();
     for (const Point& p : points) {
       while (hull.size() >= start + 2 && side(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
-    std::reverse(points.begin(), points.end());
+    std::ranges::reverse(points);
   }
   return hull;
 }
 
 /// In pixels; negative: inside.
-inline double outside(const std::vector<Point>& hull, const Point& p) {
+inline double outside(const vector<Point>& hull, const Point& p) {
   double most = -1e9;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
+  for (size_t i = 0; i < hull.size(); ++i) {
     const Point &a = hull[i], &b = hull[(i + 1) % hull.size()];
     most = std::max(most, -side(a, b, p) / std::hypot(b.x - a.x, b.y - a.y));
   }
   return most;
 }
 
-inline double area_of(const std::vector<Point>& hull) {
+inline double area_of(const vector<Point>& hull) {
   double twice = 0;
-  for (std::size_t i = 0; i < hull.size(); ++i) twice += side({0, 0}, hull[i], hull[(i + 1) % hull.size()]);
+  for (size_t i = 0; i < hull.size(); ++i) twice += side({0, 0}, hull[i], hull[(i + 1) % hull.size()]);
   return twice / 2;
 }
 
 /// Of a box's corners, or of many points on a cylinder's rims.
-inline std::vector<Point> outline_of_solid(const Scene& scene, Size size, const Vec3& center, const Volume& volume) {
-  std::vector<Point> points;
+inline vector<Point> outline_of_solid(const Scene& scene, Size size, const Vec3& center, const Volume& volume) {
+  vector<Point> points;
   const bool box = volume.shape == Shape::box;
   for (int i = 0; i < (box ? 8 : 400); ++i) {
     const double angle = M_PI / 100 * (i / 2);

@@ -6,6 +6,7 @@
 #include "render/eye.h"
 #include "render/scenes.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -83,7 +84,7 @@ TEST(Disc, SmoothEdgesCoverAsMuchAsTheDisc) {
     Renderer renderer(scene, size, 4);
     const Image& image = renderer.draw(scene.initial);
     double light = 0, most = 0;
-    for (std::uint8_t byte : image.pixels) {
+    for (uint8_t byte : image.pixels) {
       const double c = byte / 255.0;
       light += c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
     }
@@ -101,7 +102,7 @@ TEST(Disc, TheNearerBallHidesTheFartherWhateverTheirOrder) {
     add_ball(scene, Vec3(0, 0, swap ? 1 : -1), 0.5, swap ? red : blue);
     add_ball(scene, Vec3(0, 0, swap ? -1 : 1), 0.5, swap ? blue : red);
     Renderer renderer(scene, {100, 100}, 4);
-    const std::uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
+    const uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
     EXPECT_GT(middle[0], 150);
     EXPECT_LT(middle[2], 60);
   }
@@ -197,7 +198,7 @@ TEST(Wall, HidesWhatIsBehindItFromBothSides) {
     add_wall(scene, Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0), 2, 2, green);
     add_ball(scene, Vec3(0, 0, -1), 0.5, red);
     Renderer renderer(scene, {100, 100}, 4);
-    const std::uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
+    const uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
     EXPECT_EQ(middle[0] > 100, side < 0);
     EXPECT_EQ(middle[1] > 100, side > 0);
   }

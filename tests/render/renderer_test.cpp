@@ -4,20 +4,20 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 
 #include "render/camera.h"
 #include "render/scenes.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::uint64_t hash_of(const Image& image) {  // FNV-1a
-  std::uint64_t hash = 14695981039346656037U;
-  for (std::uint8_t byte : image.pixels) hash = (hash ^ byte) * 1099511628211U;
+uint64_t hash_of(const Image& image) {  // FNV-1a
+  uint64_t hash = 14695981039346656037U;
+  for (uint8_t byte : image.pixels) hash = (hash ^ byte) * 1099511628211U;
   return hash;
 }
 
@@ -29,7 +29,7 @@ Image drawn(const Scene& scene, Size size, int samples = 4) {
 TEST(Bytes, AreTheSameAtEveryDraw) {
   const Scene scene = test::gas(60);
   Renderer renderer(scene, {320, 180}, 4);
-  const std::uint64_t first = hash_of(renderer.draw(scene.initial));
+  const uint64_t first = hash_of(renderer.draw(scene.initial));
   State moved = scene.initial;
   for (Vec3& p : moved.position) p.y() += 0.5;
   EXPECT_NE(hash_of(renderer.draw(moved)), first);
@@ -45,7 +45,7 @@ TEST(Bytes, LeaveNothingToTheNextPicture) {
                    test::red);
   scene.roster.bodies.back().mesh = MeshUse{SCENES_DIR "/meshes/duck.obj", Vec3(0, 0.5, 0), 0.7};
   Renderer renderer(scene, {320, 180}, 4);
-  const std::uint64_t first = hash_of(renderer.draw(scene.initial));
+  const uint64_t first = hash_of(renderer.draw(scene.initial));
   Drawing drawing;
   drawing.camera = camera_of(scene);
   drawing.camera.eye += Vec3(1, 1, -1);
@@ -101,7 +101,7 @@ TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {
   Scene scene = test::gas(60);
   test::add_body(scene, Vec3(0, 0, 0), Volume::box(Vec3(1, 0.7, 0.5)), {0.8, 0.2, 0.5});
   Renderer renderer(scene, {320, 180}, 4);
-  const std::uint64_t first = hash_of(renderer.draw(scene.initial));
+  const uint64_t first = hash_of(renderer.draw(scene.initial));
   EXPECT_EQ(renderer.drawn(), 1U);
   State later = scene.initial;
   later.time = 1;
@@ -109,15 +109,15 @@ TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {
   EXPECT_EQ(hash_of(renderer.draw(later)), first);
   EXPECT_EQ(renderer.drawn(), 1U);
   // Any body that moves, and however little.
-  for (std::size_t i = 0; i < later.position.size(); ++i) {
+  for (size_t i = 0; i < later.position.size(); ++i) {
     later.position[i].x() += 1e-12;
     renderer.draw(later);
     EXPECT_EQ(renderer.drawn(), 2 + i);
   }
   // One that has become part of another.
   later.part_of.resize(later.position.size());
-  for (std::size_t i = 0; i < later.part_of.size(); ++i) later.part_of[i] = static_cast<Entity>(i);
-  const std::uint64_t before = renderer.drawn();
+  for (size_t i = 0; i < later.part_of.size(); ++i) later.part_of[i] = static_cast<Entity>(i);
+  const uint64_t before = renderer.drawn();
   renderer.draw(later);
   EXPECT_EQ(renderer.drawn(), before);
   later.part_of.back() = 0;
@@ -136,22 +136,22 @@ TEST(Bytes, Probe) {
   std::printf("hash=%016llx\n", static_cast<unsigned long long>(hash_of(drawn(scene, {320, 180}))));
 }
 
-std::string hash_with_threads(const char* threads) {
-  std::array<char, 4096> program{};
+string hash_with_threads(const char* threads) {
+  array<char, 4096> program{};
   if (readlink("/proc/self/exe", program.data(), program.size() - 1) < 0) return {};
-  const std::string command = std::string("CAROM_PRINT_HASH=1 LP_NUM_THREADS=") + threads + " '" + program.data() +
-                              "' --gtest_filter=Bytes.Probe 2>/dev/null";
-  std::string text;
+  const string command = string("CAROM_PRINT_HASH=1 LP_NUM_THREADS=") + threads + " '" + program.data() +
+                         "' --gtest_filter=Bytes.Probe 2>/dev/null";
+  string text;
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return {};
   for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
   pclose(pipe);
-  const std::size_t at = text.find("hash=");
-  return at == std::string::npos ? std::string() : text.substr(at, 21);
+  const size_t at = text.find("hash=");
+  return at == string::npos ? string() : text.substr(at, 21);
 }
 
 TEST(Bytes, AreTheSameForAnyNumberOfThreads) {
-  const std::string none = hash_with_threads("0");
+  const string none = hash_with_threads("0");
   ASSERT_EQ(none.size(), 21U);
   EXPECT_EQ(hash_with_threads("1"), none);
   EXPECT_EQ(hash_with_threads("2"), none);
@@ -165,9 +165,9 @@ TEST(Size, BeyondWhatCanBeDrawnIsRefused) {
       Renderer renderer(scene, size, 4);
       ADD_FAILURE() << size.width << " x " << size.height;
     } catch (const RenderError& error) {
-      EXPECT_EQ(std::string(error.what()), "a picture of " + std::to_string(size.width) + " x " +
-                                               std::to_string(size.height) +
-                                               " pixels cannot be drawn: each side can be 1 to 16384");
+      EXPECT_EQ(string(error.what()), "a picture of " + std::to_string(size.width) + " x " +
+                                          std::to_string(size.height) +
+                                          " pixels cannot be drawn: each side can be 1 to 16384");
     }
   }
   EXPECT_THROW(Renderer(scene, {4, 4}, 0), RenderError);
@@ -187,9 +187,9 @@ TEST(Size, TheLongestSideIsPaintedToItsEnd) {
 
 TEST(Renderers, OfDifferentSizesTakeTurns) {
   const Scene gas = test::gas(20), balls = test::bowling_balls();
-  const std::uint64_t small_alone = hash_of(drawn(gas, {64, 48})), large_alone = hash_of(drawn(balls, {200, 100}));
+  const uint64_t small_alone = hash_of(drawn(gas, {64, 48})), large_alone = hash_of(drawn(balls, {200, 100}));
   Renderer small(gas, {64, 48}, 4);
-  auto large = std::make_unique<Renderer>(balls, Size{200, 100}, 4);
+  auto large = make_unique<Renderer>(balls, Size{200, 100}, 4);
   EXPECT_EQ(hash_of(small.draw(gas.initial)), small_alone);
   EXPECT_EQ(hash_of(large->draw(balls.initial)), large_alone);
   EXPECT_EQ(hash_of(small.draw(gas.initial)), small_alone);
@@ -221,7 +221,7 @@ TEST(Scenes, FarFromTheOriginLookTheSame) {
   far_scene.initial.position[0] += shift;
   const Image a = drawn(near_scene, {120, 90}), b = drawn(far_scene, {120, 90});
   int worst = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) worst = std::max(worst, std::abs(a.pixels[i] - b.pixels[i]));
+  for (size_t i = 0; i < a.pixels.size(); ++i) worst = std::max(worst, std::abs(a.pixels[i] - b.pixels[i]));
   EXPECT_LE(worst, 2);  // measured: 1
 }
 

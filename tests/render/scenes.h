@@ -1,11 +1,10 @@
 #pragma once
 // Scenes made in code, and ways to measure pictures.
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "render/camera.h"
 #include "render/renderer.h"
+#include "std.h"
 
 namespace carom::test {
 
@@ -42,7 +41,7 @@ inline void add_obstacle(Scene& scene, const Vec3& center, const Volume& volume,
 
 inline void add_plane(Scene& scene, const Vec3& point, const Vec3& normal, const Color& color, bool visible = true) {
   scene.world.planes.push_back({point, normal.normalized(), {}});
-  scene.roster.fixed.insert(scene.roster.fixed.begin() + static_cast<std::ptrdiff_t>(scene.world.planes.size() - 1),
+  scene.roster.fixed.insert(scene.roster.fixed.begin() + static_cast<ptrdiff_t>(scene.world.planes.size() - 1),
                             {"p" + std::to_string(scene.world.planes.size()), color, visible});
 }
 
@@ -62,7 +61,7 @@ inline void add_room(Scene& scene, const Vec3& min, const Vec3& max, const Color
 }
 
 /// The same numbers on every machine, 0 to 1.
-inline double noise(std::uint64_t& seed) {
+inline double noise(uint64_t& seed) {
   seed = seed * 6364136223846793005U + 1442695040888963407U;
   return static_cast<double>(seed >> 11U) * 0x1p-53;
 }
@@ -84,7 +83,7 @@ inline Scene bowling_balls() {
 
 inline Scene gas(int balls, double room = 5, double radius = 0.2) {
   Scene scene;
-  std::uint64_t seed = 7;
+  uint64_t seed = 7;
   const auto spread = [&] { return (2 * noise(seed) - 1) * (room - radius); };
   const Color palette[] = {{0.90, 0.30, 0.26}, {0.20, 0.55, 0.85}, {0.95, 0.75, 0.25}, {0.35, 0.70, 0.45}};
   for (int i = 0; i < balls; ++i) {
@@ -96,7 +95,7 @@ inline Scene gas(int balls, double room = 5, double radius = 0.2) {
 }
 
 inline double grey(const Image& image, int x, int y) {
-  const std::uint8_t* p = image.row(y) + 3 * x;
+  const uint8_t* p = image.row(y) + 3 * x;
   return (p[0] + p[1] + p[2]) / 3.0;
 }
 
@@ -115,6 +114,6 @@ inline Scene flat_scene(const Vec3& eye, const Vec3& target, double fov = 45) {
 }
 
 /// Binary PPM: what any viewer can turn into a PNG.
-bool write_ppm(const Image& image, const std::string& path);
+bool write_ppm(const Image& image, const string& path);
 
 }  // namespace carom::test

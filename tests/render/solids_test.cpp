@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "render/outlines.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,7 +27,7 @@ using test::red;
 using test::white;
 
 /// Pixels that show something outside of an outline, or nothing inside of it. (Half a pixel's diagonal is 0.71.)
-int wrong_pixels(const Image& image, const std::vector<Point>& hull) {
+int wrong_pixels(const Image& image, const vector<Point>& hull) {
   int wrong = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -61,7 +62,7 @@ TEST(Solid, SmoothEdgesCoverAsMuchAsTheOutline) {
     Renderer renderer(scene, size, 4);
     const Image& image = renderer.draw(scene.initial);
     double light = 0;
-    for (const std::uint8_t byte : image.pixels) light += byte > 10 ? std::pow((byte / 255.0 + 0.055) / 1.055, 2.4) : 0;
+    for (const uint8_t byte : image.pixels) light += byte > 10 ? std::pow((byte / 255.0 + 0.055) / 1.055, 2.4) : 0;
     const double full = even * std::pow((0.4 + 0.055) / 1.055, 2.4);
     const double area = area_of(outline_of_solid(scene, size, Vec3::Zero(), volume));
     EXPECT_NEAR(light / 3 / (area * full), 1, 0.03) << volume.half.transpose();  // measured: 0.023, of 4 by 22 pixels
@@ -78,7 +79,7 @@ TEST(Solid, WhatIsNearerHidesWhatIsBehindWhateverTheKinds) {
       add_body(scene, Vec3(0, 0, -1), far, blue);
       if (!swap) add_body(scene, Vec3(0, 0, 1), near, red);
       Renderer renderer(scene, {100, 100}, 4);
-      const std::uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
+      const uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
       EXPECT_GT(middle[0], 150);
       EXPECT_LT(middle[2], 60);
     }
@@ -179,7 +180,7 @@ TEST(Merged, APartIsNotDrawnAndTheJointBodyHasTheStatesVolume) {
   const Image& image = renderer.draw(state);
   EXPECT_EQ(grey_at(image, scene, Vec3(1, 0, 0)), 0);
   const Point at = projected(scene, {200, 200}, Vec3(0.45, 0, 0));
-  const std::uint8_t* p = image.row(100) + 3 * static_cast<int>(at.x);
+  const uint8_t* p = image.row(100) + 3 * static_cast<int>(at.x);
   EXPECT_GT(p[0], 100);
   EXPECT_LT(p[2], 100);
 }

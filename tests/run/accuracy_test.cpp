@@ -10,6 +10,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/long_kepler.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -135,7 +136,7 @@ TEST(Accuracy, OfChaosEndsAndIsReported) {
   EXPECT_LT(engine.growth.lyapunov_time, 5);
   EXPECT_GT(engine.right_until, 2);
   EXPECT_LT(engine.right_until, 40);
-  EXPECT_NE(engine.shortfall.find("chaotic"), std::string::npos) << engine.shortfall;
+  EXPECT_NE(engine.shortfall.find("chaotic"), string::npos) << engine.shortfall;
 }
 
 // Its disturbance is large long before the first eighth of the run is over.

@@ -8,6 +8,7 @@
 
 #include "run/accuracy.h"
 #include "run/contact_scenes.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -17,16 +18,16 @@ double stated_error(const Scene& scene) {
   return std::max(all.rounding, all.integrator.value_or(0));
 }
 
-class ContactAccuracy : public ::testing::TestWithParam<std::uint64_t> {};
+class ContactAccuracy : public ::testing::TestWithParam<uint64_t> {};
 
 // Measured: 1.9 times at most. tests/long/ has 200 such scenes.
 TEST_P(ContactAccuracy, OfARandomSceneIsContainedInWhatIsStated) {
-  const std::optional<SceneWithTruth> of = ContactScenes(GetParam()).make();
+  const optional<SceneWithTruth> of = ContactScenes(GetParam()).make();
   ASSERT_TRUE(of);
   EXPECT_LT(of->error(), 10 * stated_error(of->scene)) << of->what;
 }
 
-INSTANTIATE_TEST_SUITE_P(Twenty, ContactAccuracy, ::testing::Range<std::uint64_t>(0, 20));
+INSTANTIATE_TEST_SUITE_P(Twenty, ContactAccuracy, ::testing::Range<uint64_t>(0, 20));
 
 Scene ball_over_a_globe(double at, double beside) {
   Scene scene;
@@ -34,7 +35,7 @@ Scene ball_over_a_globe(double at, double beside) {
   scene.world.mass = {1};
   scene.world.radius = {0.1};
   scene.world.restitution = {1};
-  scene.world.obstacles = {{Vec3(at, 0, 0), Volume::sphere(0.5), std::nullopt}};
+  scene.world.obstacles = {{Vec3(at, 0, 0), Volume::sphere(0.5), nullopt}};
   scene.initial.position = {Vec3(at + beside, 1.1, 0)};
   scene.initial.velocity = {Vec3::Zero()};
   scene.simulate.duration = 6;
@@ -96,7 +97,7 @@ TEST(ContactAccuracy, OfIslandsWithAToleranceIsThatOfSmallerSteps) {
 
   // A ball that slides on a floor has a closed form.
   scene.world.strings.clear();
-  scene.world.planes = {{Vec3(0, -0.85, 0), Vec3(0, 1, 0), std::nullopt}};
+  scene.world.planes = {{Vec3(0, -0.85, 0), Vec3(0, 1, 0), nullopt}};
   engine = choose_engine(scene);
   settle_steps(scene, engine, [] {});
   EXPECT_EQ(engine.steps, StepChoice{});
@@ -108,8 +109,8 @@ TEST(Perturbation, KeepsContactsStringsAndEqualCoordinates) {
   world.mass = {1, 1, 1, 1};
   world.radius = {0.05, 0.1, 0.1, 0.1};
   world.restitution = {0, 0, 0, 0};
-  world.planes = {{Vec3(0, -2000.1, 0), Vec3(0, 1, 0), std::nullopt}};
-  world.obstacles = {{Vec3(0.3, -2000.2, 7), Volume::sphere(0.3), std::nullopt}};
+  world.planes = {{Vec3(0, -2000.1, 0), Vec3(0, 1, 0), nullopt}};
+  world.obstacles = {{Vec3(0.3, -2000.2, 7), Volume::sphere(0.3), nullopt}};
   // One on the plane, one on the obstacle, and one on that, all at rest.
   scene.initial.position = {{0.6, -0.8, 0}, {-7.7, -2000, 0}, {0.3, -1999.8, 7}, {0.3, -1999.6, 7}};
   scene.initial.velocity.resize(4, Vec3::Zero());
@@ -119,7 +120,7 @@ TEST(Perturbation, KeepsContactsStringsAndEqualCoordinates) {
   const auto simulator = make_simulator(other.world, other.initial, scene.simulate);
   while (simulator->time() < 1) simulator->advance_to(1);
   EXPECT_EQ(simulator->tally().collisions(), 0u);
-  for (const std::size_t k : {1, 2, 3})
+  for (const size_t k : {1, 2, 3})
     EXPECT_LT((simulator->state().position[k] - other.initial.position[k]).norm(), 1e-11) << k;
 }
 

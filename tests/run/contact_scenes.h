@@ -3,41 +3,37 @@
 // independent method (simulate/constrained_reference.h), or impact by impact in 64-bit mantissas.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "simulate/constrained_reference.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 
 struct SceneWithTruth {
-  std::string what{};
+  string what{};
   Scene scene{};
-  std::vector<Vec3> end{};  // m, by body, at the end of scene.simulate.duration
+  vector<Vec3> end{};  // m, by body, at the end of scene.simulate.duration
 
   /// m: of a run with these steps, at the end.
   double error(const StepChoice& steps = {}) const {
     const auto simulator = make_simulator(scene, {}, steps);
     while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
     double most = 0;
-    for (std::size_t k = 0; k < end.size(); ++k)
-      most = std::max(most, (simulator->state().position[k] - end[k]).norm());
+    for (size_t k = 0; k < end.size(); ++k) most = std::max(most, (simulator->state().position[k] - end[k]).norm());
     return most;
   }
 };
 
 class ContactScenes {
  public:
-  explicit ContactScenes(std::uint64_t seed) : random_(seed), kind_(static_cast<int>(seed % 8)) {}
+  explicit ContactScenes(uint64_t seed) : random_(seed), kind_(static_cast<int>(seed % 8)) {}
 
   /// None: the reference ends at once.
-  std::optional<SceneWithTruth> make() {
+  optional<SceneWithTruth> make() {
     at_ = random_(0, 1) < 0.5 ? Vec3(Vec3::Zero()) : far_place();
     reference_.origin = at_;
     reference_.has_floor = false;
@@ -85,19 +81,19 @@ class ContactScenes {
   Scene scene_of(double duration, double e) const {
     Scene scene;
     scene.world.gravity = gravity_;
-    for (std::size_t k = 0; k < reference_.mass.size(); ++k) {
+    for (size_t k = 0; k < reference_.mass.size(); ++k) {
       scene.world.mass.push_back(reference_.mass[k]);
       scene.world.radius.push_back(reference_.radius[k]);
       scene.world.restitution.push_back(e);
     }
     scene.initial.position = reference_.start;
     scene.initial.velocity = reference_.velocity;
-    for (const auto& [point, normal] : reference_.flats) scene.world.planes.push_back({point, normal, std::nullopt});
+    for (const auto& [point, normal] : reference_.flats) scene.world.planes.push_back({point, normal, nullopt});
     for (const auto& [center, radius] : reference_.globes)
-      scene.world.obstacles.push_back({center, Volume::sphere(radius), std::nullopt});
+      scene.world.obstacles.push_back({center, Volume::sphere(radius), nullopt});
     for (const ConstrainedReference::Tie& tie : reference_.ties) {
       const bool anchored = tie.other == ConstrainedReference::none;
-      const Vec3 end = anchored ? tie.anchor : reference_.start[static_cast<std::size_t>(tie.other)];
+      const Vec3 end = anchored ? tie.anchor : reference_.start[static_cast<size_t>(tie.other)];
       scene.world.strings.push_back({static_cast<Entity>(tie.body),
                                      anchored ? no_entity : static_cast<Entity>(tie.other), tie.anchor,
                                      (reference_.start[tie.body] - end).norm(), 0, tie.rod});
@@ -106,7 +102,7 @@ class ContactScenes {
     return scene;
   }
 
-  std::optional<SceneWithTruth> follow(const std::string& what, double duration, double step, double e = 0) {
+  optional<SceneWithTruth> follow(const string& what, double duration, double step, double e = 0) {
     ConstrainedReference::Motion motion = reference_.follow(duration, step);
     if (!(motion.time > 0.05 * duration)) return {};
     // Until halved steps make no difference, or that of rounding.
@@ -115,13 +111,13 @@ class ContactScenes {
       const ConstrainedReference::Motion finer = reference_.follow(motion.time, step);
       if (finer.time < motion.time) return {};
       before = std::exchange(off, 0);
-      for (std::size_t k = 0; k < motion.x.size(); ++k) off = std::max(off, (finer.x[k] - motion.x[k]).norm());
+      for (size_t k = 0; k < motion.x.size(); ++k) off = std::max(off, (finer.x[k] - motion.x[k]).norm());
       motion = finer;
     }
     return SceneWithTruth{what, scene_of(motion.time, e), motion.x};
   }
 
-  std::optional<SceneWithTruth> pendulum(double angle) {
+  optional<SceneWithTruth> pendulum(double angle) {
     const double length = decades(-1, 1), turn = random_(0, 6);
     const Vec3 out(std::cos(turn), 0, std::sin(turn)), down(0, -1, 0);
     ball(length * (std::sin(angle) * out + std::cos(angle) * down), length * decades(-3, -1), decades(-2, 2),
@@ -131,7 +127,7 @@ class ContactScenes {
     return follow("pendulum", decades(-0.5, 1.3) * swing, swing / 32);
   }
 
-  std::optional<SceneWithTruth> conical() {
+  optional<SceneWithTruth> conical() {
     const double length = decades(-1, 1), angle = random_(0.1, 1.2), turn = random_(0, 6);
     const Vec3 out(std::cos(turn), 0, std::sin(turn)), down(0, -1, 0);
     const double rate = std::sqrt(9.75 / (length * std::cos(angle)));
@@ -141,7 +137,7 @@ class ContactScenes {
     return follow("conical pendulum", decades(1, 2.3) / rate, 0.2 / rate);
   }
 
-  std::optional<SceneWithTruth> chain() {
+  optional<SceneWithTruth> chain() {
     const bool rods = random_(0, 1) < 0.5;
     const int n = 2 + static_cast<int>(random_(0, 3));
     Vec3 x = Vec3::Zero();
@@ -149,12 +145,12 @@ class ContactScenes {
       const double angle = random_(-1, 1), turn = random_(-0.5, 0.5), length = random_(0.2, 1);
       x += length * Vec3(std::sin(angle) * std::cos(turn), -std::cos(angle), std::sin(angle) * std::sin(turn));
       ball(x, 0.01, decades(-1, 1));
-      reference_.ties.push_back({static_cast<std::size_t>(k), k == 0 ? ConstrainedReference::none : k - 1, at_, rods});
+      reference_.ties.push_back({static_cast<size_t>(k), k == 0 ? ConstrainedReference::none : k - 1, at_, rods});
     }
     return follow(rods ? "chain of rods" : "chain of strings", random_(0.2, 0.6), 1.0 / 256);
   }
 
-  std::optional<SceneWithTruth> off_a_globe() {
+  optional<SceneWithTruth> off_a_globe() {
     const double globe = decades(-1, 1), radius = globe * decades(-2, 0), sum = globe + radius;
     const double angle = decades(-9, -0.5);
     ball(sum * Vec3(std::sin(angle), std::cos(angle), 0), radius, decades(-2, 2));
@@ -163,7 +159,7 @@ class ContactScenes {
     return follow("ball on a globe", (random_(0.2, 1) * std::log(4 / angle) + 0.3) * time, 0.05 * time);
   }
 
-  std::optional<SceneWithTruth> off_a_ball() {
+  optional<SceneWithTruth> off_a_ball() {
     const double lower = decades(-1, 0), upper = decades(-1, 0), sum = lower + upper, angle = decades(-8, -0.3);
     reference_.flats.push_back({at_, {0, 1, 0}});
     ball({0, lower, 0}, lower, decades(-1, 1));
@@ -173,18 +169,18 @@ class ContactScenes {
     return follow("ball on a ball", random_(0.2, 1.2) * std::log(4 / angle) * time, 0.05 * time);
   }
 
-  std::optional<SceneWithTruth> train() {
-    const auto n = 2 + static_cast<std::size_t>(random_(0, 4));
+  optional<SceneWithTruth> train() {
+    const auto n = 2 + static_cast<size_t>(random_(0, 4));
     const double globe = 5, r = 0.25, out = globe + r, turn = 2 * std::asin(r / out), first = decades(-5, -0.5);
     reference_.globes.push_back({at_, globe});
-    for (std::size_t k = 0; k < n; ++k) {
+    for (size_t k = 0; k < n; ++k) {
       const double angle = first + static_cast<double>(k) * turn;
       ball(out * Vec3(std::sin(angle), std::cos(angle), 0), r, random_(0.5, 2));
     }
     return follow("train on a globe", random_(0.5, 3), 1.0 / 64);
   }
 
-  std::optional<SceneWithTruth> ladder() {
+  optional<SceneWithTruth> ladder() {
     const double length = decades(-1, 1), radius = length * decades(-3, -1), angle = decades(-7, -0.1);
     reference_.flats.push_back({at_, {0, 1, 0}});
     reference_.flats.push_back({at_, {1, 0, 0}});
@@ -196,7 +192,7 @@ class ContactScenes {
   }
 
   /// A ball bounces on a fixed one without loss.
-  std::optional<SceneWithTruth> bouncing() {
+  optional<SceneWithTruth> bouncing() {
     const double globe = decades(-1, 0), radius = globe * decades(-1, 0), sum = globe + radius;
     const double offset = decades(-10, -1) * sum, drop = random_(0.5, 1) * sum;
     const double time = std::sqrt(2 * drop / 9.75);

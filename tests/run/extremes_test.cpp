@@ -8,6 +8,7 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -15,19 +16,19 @@ namespace {
 constexpr double g = 9.80665;
 
 /// The extremes of one quantity of the first body after the whole run.
-Extremes extremes_of(const std::string& yaml, Quantity quantity, Entity count = 1) {
+Extremes extremes_of(const string& yaml, Quantity quantity, Entity count = 1) {
   const Scene scene = load_text(yaml);
   const auto simulator = make_simulator(scene, {.watch = {{quantity, 0, count}}});
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
   return simulator->extremes().front();
 }
 
-std::string thrown(const std::string& more) {
+string thrown(const string& more) {
   return "scene: 1\nballs: {red: {mass: 2, radius: 0.1, position: [0, 2, 0], velocity: [3, 5, 0]}}\n" + more;
 }
 
 TEST(PathExtremes, OfAParabolaAreItsVertexAndItsEnds) {
-  const std::string yaml = thrown("simulate: {duration: 1.5}");
+  const string yaml = thrown("simulate: {duration: 1.5}");
   const Extremes height = extremes_of(yaml, Quantity::y);
   EXPECT_NEAR(height.greatest.value, 2 + 25 / (2 * g), 1e-15);
   EXPECT_NEAR(height.greatest.time, 5 / g, 1e-15);
@@ -64,7 +65,7 @@ TEST(PathExtremes, UnderLinearDragAreWhereVelocitiesTurn) {
 }
 
 TEST(PathExtremes, OfAnOscillationAreItsAmplitude) {
-  const std::string yaml =
+  const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\nballs: {red: {mass: 1, radius: 0.1, position: [1, 0, 0], velocity: [2, 0, 0]}}\n"
       "forces: [{spring: {anchor: [0, 0, 0], stiffness: 4}}]\nsimulate: {duration: 10}";
   const double amplitude = std::sqrt(2);
@@ -77,7 +78,7 @@ TEST(PathExtremes, OfAnOscillationAreItsAmplitude) {
 
 TEST(PathExtremes, OfAKeplerOrbitAreItsApses) {
   // Perihelion 1, aphelion 4, by Kepler's laws.
-  const std::string yaml =
+  const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\n"
       "balls: {comet: {mass: 1, radius: 0.01, position: [1, 0, 0], velocity: [0, 1.2649110640673518, 0]}}\n"
       "forces: [{attractor: {center: [0, 0, 0], strength: 1}}]\nsimulate: {duration: 20}";
@@ -93,7 +94,7 @@ TEST(PathExtremes, OfSlidingAreTakenFromConstrainedMotion) {
   // A ball slides down a globe from rest near the top, and leaves it at 2/3 of the height. Its speed there is
   // sqrt(2 g R / 3), less for the start below the top.
   const double reach = 1.1, angle = 0.01;
-  const std::string yaml = fmt::format(
+  const string yaml = fmt::format(
       "scene: 1\nballs: {{red: {{mass: 1, radius: 0.1, position: [{:.17g}, {:.17g}, 0], restitution: 0}}}}\n"
       "obstacles: {{globe: {{radius: 1, position: [0, 0, 0]}}}}\nsimulate: {{duration: 2.2}}",
       reach * std::sin(angle), reach * std::cos(angle));
@@ -105,7 +106,7 @@ TEST(PathExtremes, OfSlidingAreTakenFromConstrainedMotion) {
 }
 
 TEST(PathExtremes, DoNotDependOnTheEngine) {
-  const std::string more = "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], restitution: 0.7}}\n";
+  const string more = "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], restitution: 0.7}}\n";
   const auto by = [&](const char* engine) {
     return extremes_of(thrown(more + "simulate: {duration: 3, engine: " + engine + "}"), Quantity::y);
   };
@@ -118,7 +119,7 @@ TEST(PathExtremes, DoNotDependOnTheEngine) {
 // Half a period of a pendulum of 2 m that swings from 60 degrees, by its elliptic integral (mpmath, 20 digits). Later
 // periods have speeds that are higher by rounding and by path errors.
 TEST(PathExtremes, OfASwingHaveTheirFirstTime) {
-  const std::string yaml =
+  const string yaml =
       "scene: 1\ngravity: [0, -9.75, 0]\n"
       "balls: {bob: {mass: 3, radius: 0.05, position: ['= 2 * sin(60)', -1, 0]}}\n"
       "strings: {s: {from: [0, 0, 0], to: bob, length: 2}}\nsimulate: {duration: 40}";
@@ -133,7 +134,7 @@ TEST(PathExtremes, OfASwingHaveTheirFirstTime) {
 
 // x = cos 5t + sin(5t) / 5 turns at atan(1/5) / 5. Speeds are greatest a quarter of a period later.
 TEST(PathExtremes, OfSpringsHaveTheirFirstTimeByEveryMethod) {
-  const auto by = [](const std::string& more, Quantity quantity) {
+  const auto by = [](const string& more, Quantity quantity) {
     return extremes_of(
         "scene: 1\ngravity: [0, 0, 0]\n"
         "balls: {b: {mass: 1, radius: 0.05, position: [1, 0, 0], velocity: [1, 0, 0]}}\n"
@@ -156,15 +157,15 @@ constexpr double within_steps = 5 * 0.25 * 0.25 * 0.25 * 0.25 / 96;  // 2.0e-4, 
 TEST(PathExtremes, OfSpeedsAreThoseOfTheSummary) {
   for (const char* integrator : {"verlet", "rk4", "euler", "dop853"}) {
     const Scene scene =
-        load_text(std::string("scene: 1\ngravity: [0, 0, 0]\nballs: {b: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n"
-                              "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\n"
-                              "simulate: {duration: 20, engine: stepped, step: 0.05, integrator: ") +
+        load_text(string("scene: 1\ngravity: [0, 0, 0]\nballs: {b: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n"
+                         "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\n"
+                         "simulate: {duration: 20, engine: stepped, step: 0.05, integrator: ") +
                   integrator + "}");
     const auto simulator = make_simulator(scene, {.watch = {{Quantity::speed, 0, 1}}});
     while (simulator->time() < 20) simulator->advance_to(20);
     const double speed = simulator->extremes().front().greatest.value;
     EXPECT_NEAR(speed, simulator->tally().fastest.speed, 1e-14) << integrator;  // measured: 9e-16
-    if (integrator == std::string("verlet")) {
+    if (integrator == string("verlet")) {
       EXPECT_NEAR(speed, verlet_speed, within_steps);
     }
   }
@@ -172,7 +173,7 @@ TEST(PathExtremes, OfSpeedsAreThoseOfTheSummary) {
 
 // The step in which the ball strikes the wall also has its greatest speed, 5 m/s at x = 0.
 TEST(PathExtremes, AreThoseOfAStepThatAnImpactEnds) {
-  const std::string yaml =
+  const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\nballs: {b: {mass: 1, radius: 0.1, position: [1, 0, 0], restitution: 0}}\n"
       "planes: {wall: {point: [-0.11, 0, 0], normal: [1, 0, 0]}}\n"
       "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\n";
@@ -185,7 +186,7 @@ TEST(PathExtremes, AreThoseOfAStepThatAnImpactEnds) {
 }
 
 TEST(PathExtremes, OfElasticHopsHaveTheirFirstTime) {
-  const std::string yaml =
+  const string yaml =
       "scene: 1\ngravity: [0, -9.75, 0]\nrestitution: 1\n"
       "balls: {b: {mass: 1, radius: 0.1, position: [0, 1.1, 0], velocity: [0, 1, 0]}}\n"
       "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 200}";
@@ -210,7 +211,7 @@ TEST(PathExtremes, ChangeNoResult) {
       "scene: 1\nroom: {min: [0, 0, 0], max: [1, 1, 1]}\n"
       "groups: {gas: {count: 30, in: {min: [0, 0, 0], max: [1, 1, 1]}, ball: {mass: 1, radius: 0.05}, speed: 1}}\n"
       "simulate: {duration: 1}");
-  const auto run = [&](std::vector<WatchedQuantity> watch) {
+  const auto run = [&](vector<WatchedQuantity> watch) {
     auto simulator = make_simulator(scene, {.watch = std::move(watch)});
     while (simulator->time() < 1) simulator->advance_to(1);
     return simulator;

@@ -12,15 +12,16 @@
 #include "run/run_scene.h"
 #include "scene/scenes_in_text.h"
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string bouncing =
+const string bouncing =
     "scene: 1\ntitle: A ball\nsimulate: {duration: 2}\n"
     "balls: {red: {mass: 1, radius: 0.1, position: [0, 1.1, 0], velocity: [0.5, 0, 0], restitution: 0.8}}\n"
     "camera: {eye: [0.5, 1, 4], target: [0.5, 0.6, 0]}\n";
-const std::string floor_plane = "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
+const string floor_plane = "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
 
 void carry(Simulator& simulator, History& history, double time) {
   while (simulator.time() < time) {
@@ -68,9 +69,9 @@ TEST(Tracks, OfRecordedPathsAreThePositionsOfTheRun) {
 }
 
 TEST(Tracks, OfOtherEnginesAndForcesAreThePositionsOfTheRunToAQuarterPixel) {
-  for (const std::string& more :
-       {std::string("forces: [{drag: {linear: 0.5}}]\n"), std::string("forces: [{drag: {quadratic: 0.5}}]\n"),
-        std::string("forces: [{spring: {anchor: [0, 2, 0], stiffness: 30, damping: 1}}]\n")}) {
+  for (const string& more :
+       {string("forces: [{drag: {linear: 0.5}}]\n"), string("forces: [{drag: {quadratic: 0.5}}]\n"),
+        string("forces: [{spring: {anchor: [0, 2, 0], stiffness: 30, damping: 1}}]\n")}) {
     const Scene scene = load_text(bouncing + floor_plane + more + "trails: {seconds: 1.5}\noutput: {frames: true}\n");
     ASSERT_TRUE(overlay_needs(scene).states);
     History history(scene, picture_needs(scene));
@@ -81,21 +82,21 @@ TEST(Tracks, OfOtherEnginesAndForcesAreThePositionsOfTheRunToAQuarterPixel) {
 }
 
 TEST(Needs, AreNoneWithoutPictures) {
-  const std::string all = "trails: true\nflash: true\ncaption: \"{collisions}\"\n";
+  const string all = "trails: true\nflash: true\ncaption: \"{collisions}\"\n";
   const OverlayNeeds none = overlay_needs(load_text(bouncing + all));
   EXPECT_FALSE(none.collisions || none.collision_counts || none.paths || none.states);
   const OverlayNeeds some = overlay_needs(load_text(bouncing + all + "output: {sheet: true}\n"));
   EXPECT_TRUE(some.collisions && some.collision_counts && some.paths && !some.states);
 }
 
-std::string read(const std::string& path) {
+string read(const string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Runs a scene into a folder of the test.
-std::string run_of(const std::string& text, const std::string& name) {
-  const std::string folder = test_folder() + "/" + name;
+string run_of(const string& text, const string& name) {
+  const string folder = test_folder() + "/" + name;
   Scene scene = load_scene(write_file(text, name + ".yaml"));
   const RunWatch watch{[] {}, [](const RunProgress&) {}};
   RunSettings settings;
@@ -105,11 +106,10 @@ std::string run_of(const std::string& text, const std::string& name) {
 }
 
 TEST(Run, WithAnOverlayHasTheTablesOfARunWithoutIt) {
-  const std::string output =
-      "output: {trajectory: true, collisions: true, frames: {fps: 3, size: [64, 36], samples: 1}}\n";
-  for (const std::string& more : {std::string(), std::string("forces: [{drag: {quadratic: 0.5}}]\n")}) {
-    const std::string plain = run_of(bouncing + floor_plane + more + output, "plain");
-    const std::string shown =
+  const string output = "output: {trajectory: true, collisions: true, frames: {fps: 3, size: [64, 36], samples: 1}}\n";
+  for (const string& more : {string(), string("forces: [{drag: {quadratic: 0.5}}]\n")}) {
+    const string plain = run_of(bouncing + floor_plane + more + output, "plain");
+    const string shown =
         run_of(bouncing + floor_plane + more + output +
                    "trails: true\nflash: true\narrows: [force]\nshutter: 1\ncaption: \"{collisions}, {time} s\"\n",
                "shown");
@@ -122,10 +122,10 @@ TEST(Run, WithAnOverlayHasTheTablesOfARunWithoutIt) {
 
 /// Draws the pictures of one stream at some times as Stage does, and returns the states that were asked for.
 struct Taken {
-  std::vector<double> instants;
-  std::vector<Image> pictures;
+  vector<double> instants;
+  vector<Image> pictures;
 };
-Taken pictures_of(const Scene& scene, const std::vector<double>& times, double interval) {
+Taken pictures_of(const Scene& scene, const vector<double>& times, double interval) {
   History history(scene, picture_needs(scene));
   const auto simulator = make_simulator(scene);
   PictureSeries series(scene, {{320, 180}, 4, 0, interval, 1, 2}, history, "here");
@@ -143,7 +143,7 @@ Taken pictures_of(const Scene& scene, const std::vector<double>& times, double i
   return taken;
 }
 
-const std::string across =
+const string across =
     "scene: 1\nsimulate: {duration: 2}\ngravity: [0, 0, 0]\n"
     "balls: {red: {mass: 1, radius: 0.2, position: [-1, 0, 0], velocity: [2, 0, 0], color: white}}\n"
     "camera: {eye: [0, 0, 4], target: [0, 0, 0]}\nbackground: black\noutput: {frames: true}\n";
@@ -174,7 +174,7 @@ TEST(Shutter, BlursAlongTheMotionUntilThePicturesTime) {
 }
 
 TEST(Shutter, OfAStillSceneDrawsItOnce) {
-  std::string still = across;
+  string still = across;
   still.replace(still.find("[2, 0, 0]"), 9, "[0, 0, 0]");
   const Taken taken = pictures_of(load_text(still + "shutter: 1\n"), {0, 0.2, 0.4}, 0.2);
   EXPECT_EQ(taken.instants.size(), 2u);  // the openings
@@ -184,10 +184,10 @@ TEST(Caption, HasTheExactTimeAndCountOfItsPicture) {
   const Scene scene =
       load_text(bouncing + floor_plane + "caption: \"{time} s, {collisions} in {run}\"\noutput: {frames: true}\n");
   // The ball of 0.8 falls 1 m: impacts at sqrt(2 / g) = 0.4516 s, then after 0.8 x 0.9032 s and 0.64 x 0.9032 s.
-  const std::pair<double, std::string> expected[] = {{0.45, "0.45 s, 0 in here"},
-                                                     {0.46, "0.46 s, 1 in here"},
-                                                     {1.1725, "1.17 s, 1 in here"},
-                                                     {1.18, "1.18 s, 2 in here"}};
+  const std::pair<double, string> expected[] = {{0.45, "0.45 s, 0 in here"},
+                                                {0.46, "0.46 s, 1 in here"},
+                                                {1.1725, "1.17 s, 1 in here"},
+                                                {1.18, "1.18 s, 2 in here"}};
   for (const auto& [time, text] : expected) {
     const Image picture = pictures_of(scene, {time}, 0.1).pictures[0];
     Scene plain = load_text(bouncing + floor_plane + "output: {frames: true}\n");

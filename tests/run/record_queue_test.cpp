@@ -1,5 +1,6 @@
 // The record of a motion on its way from the thread that simulates to the one that draws.
 #include "run/record_queue.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +16,12 @@ class Recorder final : public Simulator {
   void advance_to(double time) override { time_ = time; }
   double time() const override { return time_; }
   const State& state() override { return state_; }
-  std::span<const Collision> collisions() const override { return collided; }
-  std::span<const PathPiece> paths() const override { return pieces; }
+  span<const Collision> collisions() const override { return collided; }
+  span<const PathPiece> paths() const override { return pieces; }
   const Tally& tally() const override { return tally_; }
 
-  std::vector<Collision> collided;
-  std::vector<PathPiece> pieces;
+  vector<Collision> collided;
+  vector<PathPiece> pieces;
 
  private:
   double time_ = 0;
@@ -36,8 +37,8 @@ PathPiece piece(Entity body, double from) {
   return {body, from, {from, 0}};
 }
 
-std::vector<Recorded> all_of(RecordQueue& queue) {
-  std::vector<Recorded> all;
+vector<Recorded> all_of(RecordQueue& queue) {
+  vector<Recorded> all;
   for (Recorded next; queue.next(next);) all.push_back(next);
   return all;
 }
@@ -51,13 +52,13 @@ TEST(RecordQueue, PassesCollisionsJustBeforeThePiecesThatBeginWithThem) {
   RecordQueue queue;
   queue.put(simulator);
   queue.end(true);
-  const std::vector<Recorded> all = all_of(queue);
+  const vector<Recorded> all = all_of(queue);
   ASSERT_EQ(all.size(), 7u);
   using Kind = Recorded::Kind;
   const Kind kinds[] = {Kind::collision, Kind::piece, Kind::piece,    Kind::collision,
                         Kind::piece,     Kind::piece, Kind::collision};
   const double times[] = {0.1, 0.1, 0.1, late, late, 0.3, 0.5};
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(all[i].kind, kinds[i]) << i;
     EXPECT_EQ(all[i].from(), times[i]) << i;
   }
@@ -73,10 +74,10 @@ TEST(RecordQueue, HoldsABoundedNumberOfPartsAndLosesNone) {
     }
     queue.end(true);
   });
-  const std::vector<Recorded> all = all_of(queue);
+  const vector<Recorded> all = all_of(queue);
   writer.join();
   ASSERT_EQ(all.size(), 200'000u);
-  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].from(), static_cast<double>(i / 2));
+  for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].from(), static_cast<double>(i / 2));
 }
 
 TEST(RecordQueue, WithoutAReaderDoesNotHoldTheSimulationUp) {

@@ -13,15 +13,16 @@
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "simulate/exact.h"
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom {
 namespace {
 
-std::vector<std::string> scenes_again() {
-  std::vector<std::string> names = scene_names();
+vector<string> scenes_again() {
+  vector<string> names = scene_names();
   names.emplace_back("benchmark/gas_1000");
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 
@@ -31,11 +32,11 @@ void carry_to(Simulator& simulator, double time) {
 
 /// All pieces of a run, and its tally at the end.
 struct Record {
-  std::vector<PathPiece> pieces;
+  vector<PathPiece> pieces;
   Tally tally;
 };
 
-Record record(std::unique_ptr<Simulator> simulator, double duration) {
+Record record(unique_ptr<Simulator> simulator, double duration) {
   Record all;
   const auto take = [&] { all.pieces.insert(all.pieces.end(), simulator->paths().begin(), simulator->paths().end()); };
   take();
@@ -48,8 +49,8 @@ Record record(std::unique_ptr<Simulator> simulator, double duration) {
   return all;
 }
 
-NextRecorded from(const std::vector<PathPiece>& pieces) {
-  return [&pieces, next = std::size_t{0}](Recorded& recorded) mutable {
+NextRecorded from(const vector<PathPiece>& pieces) {
+  return [&pieces, next = size_t{0}](Recorded& recorded) mutable {
     if (next == pieces.size()) return false;
     recorded.piece = pieces[next++];
     return true;
@@ -67,7 +68,7 @@ bool same_bits(const State& a, const State& b) {
 /// the states of the record.
 void expect_same_states(const World& world, double duration, const Record& run, Simulator& simulator, int instants) {
   std::mt19937_64 random(1);
-  std::vector<double> times = {0, duration};
+  vector<double> times = {0, duration};
   for (int k = 0; k < instants && !run.pieces.empty(); ++k) {
     times.push_back(duration * static_cast<double>(random() >> 11) * 0x1p-53);
     const double t = run.pieces[random() % run.pieces.size()].from;
@@ -78,7 +79,7 @@ void expect_same_states(const World& world, double duration, const Record& run, 
   if (run.tally.end)
     for (double& t : times)
       if (t >= run.tally.end->time) t = duration;
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   Replay replay(world, from(run.pieces), run.tally);
   for (const double t : times) {
     carry_to(simulator, t);
@@ -88,7 +89,7 @@ void expect_same_states(const World& world, double duration, const Record& run, 
   EXPECT_EQ(hash_of(replay.state(), replay.tally()), hash_of(simulator.state(), simulator.tally()));
 }
 
-class EverySceneAgain : public ::testing::TestWithParam<std::string> {};
+class EverySceneAgain : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
   const Scene scene = scene_named(GetParam());
@@ -97,7 +98,7 @@ TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scenes_again()), [](const auto& parameter) {
-  std::string name = parameter.param;
+  string name = parameter.param;
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
 });
@@ -107,9 +108,9 @@ TEST(SceneAgain, HasTheStateAtTime0BeforeWhateverHappensThen) {
   for (const char* more : {"regions: {p: {radius: .4, position: [0, 0, 0], action: remove}}\nsimulate: {duration: 1}\n",
                            "simulate: {duration: 1, contact: merge}\nrestitution: 0\n", "simulate: {duration: 1}\n"}) {
     SCOPED_TRACE(more);
-    const Scene scene = place.scene(std::string("scene: 1\nballs:\n"
-                                                "  a: {mass: 1, radius: .1, position: [0, 0, 0], velocity: [1, 0, 0]}\n"
-                                                "  b: {mass: 1, radius: .1, position: [.2, 0, 0]}\n") +
+    const Scene scene = place.scene(string("scene: 1\nballs:\n"
+                                           "  a: {mass: 1, radius: .1, position: [0, 0, 0], velocity: [1, 0, 0]}\n"
+                                           "  b: {mass: 1, radius: .1, position: [.2, 0, 0]}\n") +
                                     more);
     const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
     expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 20);
@@ -138,11 +139,11 @@ TEST(SceneAgain, OfTheBookHasTheStateAfterTheCollisionThatEndsIt) {
 }
 
 // Crowds, merges, forces in windows, cylinders and boxes: combinations that no scene of scenes/ has.
-class RandomSceneAgain : public ::testing::TestWithParam<std::size_t> {};
+class RandomSceneAgain : public ::testing::TestWithParam<size_t> {};
 
 TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
-  const std::size_t families = stress::family_names().size();
-  for (std::uint64_t k = 0; k < 12; ++k) {
+  const size_t families = stress::family_names().size();
+  for (uint64_t k = 0; k < 12; ++k) {
     stress::RandomScene scene = stress::make_scene(GetParam() + families * k);
     const auto simulator = make_exact_simulator(scene.world, scene.initial, scene.options);
     scene.options.record_paths = true;
@@ -157,8 +158,8 @@ TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, RandomSceneAgain, ::testing::Range(std::size_t{0}, stress::family_names().size()),
-                         [](const auto& family) { return std::string(stress::family_names()[family.param]); });
+INSTANTIATE_TEST_SUITE_P(Families, RandomSceneAgain, ::testing::Range(size_t{0}, stress::family_names().size()),
+                         [](const auto& family) { return string(stress::family_names()[family.param]); });
 
 }  // namespace
 }  // namespace carom

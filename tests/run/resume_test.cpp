@@ -6,7 +6,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "run/stages.h"
 #include "scene/engines.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom {
@@ -28,14 +28,14 @@ namespace fs = std::filesystem;
 
 struct Stopped {};
 
-std::string bytes_of(const fs::path& path) {
+string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// All that a run shows of itself, by name: its files, and the manifest without what no two runs have in common.
-std::map<std::string, std::string> files_in(const std::string& folder) {
-  std::map<std::string, std::string> files;
+std::map<string, string> files_in(const string& folder) {
+  std::map<string, string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) files[fs::relative(entry.path(), folder)] = bytes_of(entry.path());
   if (!files.contains("manifest.json")) return files;
@@ -82,8 +82,8 @@ class RunByChecks {
     return true;
   }
 
-  std::map<std::string, std::string> files() const { return files_in(place_ / "run"); }
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  std::map<string, string> files() const { return files_in(place_ / "run"); }
+  const vector<string>& remarks() const { return remarks_; }
   double begun_at() const { return begun_at_; }
   RunSettings& settings() { return settings_; }
   Scene& scene() { return scene_; }
@@ -98,7 +98,7 @@ class RunByChecks {
     return !error;
   }
 
-  void go(const std::function<void(int check)>& at) {
+  void go(const function<void(int check)>& at) {
     checks_ = 0;
     begun_at_ = 0;
     remarks_.clear();
@@ -106,7 +106,7 @@ class RunByChecks {
                            if (std::this_thread::get_id() == thread_) at(checks_++);
                          },
                          [&](const RunProgress& progress) { begun_at_ = progress.begun_at; },
-                         [&](const std::string& text) { remarks_.push_back(text); }};
+                         [&](const string& text) { remarks_.push_back(text); }};
     run_scene({&scene_, place_ / "run"}, choose_engine(scene_), settings_, watch);
   }
 
@@ -116,7 +116,7 @@ class RunByChecks {
   const std::thread::id thread_ = std::this_thread::get_id();
   int checks_ = 0;
   double begun_at_ = 0;
-  std::vector<std::string> remarks_;
+  vector<string> remarks_;
 };
 
 /// Whether a run that ends in both ways, and then goes on, has the files of one that is never interrupted.
@@ -124,7 +124,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
   const RunPlace undisturbed;
   RunByChecks plain(undisturbed, scene);
   const int checks = plain.whole();
-  const std::map<std::string, std::string> right = plain.files();
+  const std::map<string, string> right = plain.files();
 
   for (const End end : {End::interrupt, End::power_cut}) {
     const RunPlace place;
@@ -140,7 +140,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
     }
     run.settings().checkpoint_s = 60;
     run.whole();
-    const std::map<std::string, std::string> files = run.files();
+    const std::map<string, string> files = run.files();
     for (const auto& [name, bytes] : right)
       EXPECT_TRUE(files.contains(name) && files.at(name) == bytes)
           << name << (end == End::interrupt ? " after an interrupt" : " after a power cut");
@@ -149,7 +149,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
 }
 
 /// Small and few pictures in place of those of the scene.
-Scene with_outputs(Scene scene, const std::vector<std::string>& outputs) {
+Scene with_outputs(Scene scene, const vector<string>& outputs) {
   for (Output* output : {&scene.output, &scene.requested}) {
     *output = restricted(scene.requested, outputs);
     const PictureOutput small{2, {32, 18}, 1, 0, {}};
@@ -165,7 +165,7 @@ Scene with_outputs(Scene scene, const std::vector<std::string>& outputs) {
   return scene;
 }
 
-class EverySceneGoesOn : public ::testing::TestWithParam<std::string> {};
+class EverySceneGoesOn : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneGoesOn, WithTheSameFiles) {
   Scene scene = scene_named(GetParam());
@@ -175,7 +175,7 @@ TEST_P(EverySceneGoesOn, WithTheSameFiles) {
 
   std::mt19937_64 random(1);
   const bool has_flights = goes_along_parabolas(scene.world, scene.simulate);
-  std::vector<std::string> tables = {"trajectory", "collisions", "energy", "contacts", "regions", "vtk", "xyz"};
+  vector<string> tables = {"trajectory", "collisions", "energy", "contacts", "regions", "vtk", "xyz"};
   if (has_flights) tables.emplace_back("flights");
   expect_to_go_on(with_outputs(scene, tables), random);
   expect_to_go_on(with_outputs(scene, {"frames", "energy"}), random, draws_after_motion(scene));
@@ -186,24 +186,24 @@ TEST_P(EverySceneGoesOn, WithTheSameFiles) {
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneGoesOn, ::testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
-const std::string pile =
+const string pile =
     "scene: 1\ngravity: [0, -9.81, 0]\nrestitution: 0.3\nroom: {min: [0, 0, 0], max: [1, 3, 1]}\n"
     "groups: {b: {count: 40, in: {min: [0, 0, 0], max: [1, 3, 1]}, ball: {mass: 1, radius: 0.1}}}\n"
     "regions: {low: {position: [0.5, 0.25, 0.5], box: [1, 0.5, 1]}}\n"
     "measures: {hits: 'hits(b.1)', top: 'max(groups.b.y_m)', low: 'regions.low.entries', inside: "
     "'regions.low.inside'}\n";
-const std::string given_camera = "camera: {eye: [0, 1, 5], target: [0, 1, 0]}\n";
+const string given_camera = "camera: {eye: [0, 1, 5], target: [0, 1, 0]}\n";
 
 TEST(Resume, OfAPileWithAllOutputsHasTheSameFiles) {
   std::mt19937_64 random(2);
-  const std::string outputs =
+  const string outputs =
       "trajectory: {every: 0.02, layout: wide}, collisions: true, energy: {every: 0.05}, contacts: {every: 0.05}, "
       "regions: true, vtk: {every: 0.2}, xyz: {every: 0.2}, gltf: true, flights: true, "
       "frames: {fps: 4, size: [32, 18]}, sheet: {columns: 2, rows: 1, size: [96, 48]}}\n";
   const RunPlace place;
-  for (const std::string& more : {std::string("simulate: {duration: 1}\noutput: {"),
-                                  "simulate: {duration: 2}\n" + given_camera + "output: {plots: true, ",
-                                  std::string("simulate: {duration: 9, stop: [{collisions: 150}]}\noutput: {")})
+  for (const string& more : {string("simulate: {duration: 1}\noutput: {"),
+                             "simulate: {duration: 2}\n" + given_camera + "output: {plots: true, ",
+                             string("simulate: {duration: 9, stop: [{collisions: 150}]}\noutput: {")})
     expect_to_go_on(place.scene(pile + more + outputs), random);
 }
 
@@ -238,42 +238,42 @@ TEST(Resume, DoesNotSettleStepsAgain) {
 }
 
 /// A kept run in `run`, and what it will have in its end.
-std::map<std::string, std::string> keep(RunByChecks& run) {
+std::map<string, string> keep(RunByChecks& run) {
   run.whole();
-  std::map<std::string, std::string> right = run.files();
+  std::map<string, string> right = run.files();
   EXPECT_TRUE(run.stopped(300, 500, End::power_cut));
   run.settings().checkpoint_s = 60;
   return right;
 }
 
 TEST(Resume, OfDamagedFilesBeginsAnew) {
-  const std::string text = pile + "simulate: {duration: 0.4}\noutput: {trajectory: {every: 0.01}, flights: true}\n";
-  const auto damage = [](const std::string& path) {
-    std::string bytes = bytes_of(path);
+  const string text = pile + "simulate: {duration: 0.4}\noutput: {trajectory: {every: 0.01}, flights: true}\n";
+  const auto damage = [](const string& path) {
+    string bytes = bytes_of(path);
     bytes[3] ^= 1;
     std::ofstream(path, std::ios::binary) << bytes;
   };
-  for (const std::string name : {".trajectory.csv.part", ".flights.bin.part", ".checkpoint.part"}) {
+  for (const string name : {".trajectory.csv.part", ".flights.bin.part", ".checkpoint.part"}) {
     for (const bool truncates : {false, true}) {
       const RunPlace place;
       RunByChecks run(place, place.scene(text));
       const auto right = keep(run);
-      const std::string path = place / ("run/" + name);
+      const string path = place / ("run/" + name);
       ASSERT_GT(fs::file_size(path), 0u) << name;
       truncates ? fs::resize_file(path, 3) : damage(path);
       run.whole();
       EXPECT_EQ(run.begun_at(), 0);
       EXPECT_EQ(run.files(), right) << name;
       EXPECT_EQ(run.remarks(),
-                std::vector<std::string>{"begins anew: what the interrupted run in its folder has left is damaged"})
+                vector<string>{"begins anew: what the interrupted run in its folder has left is damaged"})
           << name;
     }
   }
 }
 
 TEST(Resume, IsOfTheSameRequestOnly) {
-  const std::string text = pile + "output: {trajectory: {every: 0.01}, collisions: true}\n";
-  const auto anew = [&](const std::function<void(RunByChecks&)>& change) {
+  const string text = pile + "output: {trajectory: {every: 0.01}, collisions: true}\n";
+  const auto anew = [&](const function<void(RunByChecks&)>& change) {
     const RunPlace place;
     RunByChecks run(place, place.scene(text + "simulate: {duration: 1}\n"));
     keep(run);
@@ -292,13 +292,12 @@ TEST(Resume, IsOfTheSameRequestOnly) {
 
 TEST(Resume, NeedsFlightsForPicturesByAGivenCamera) {
   const RunPlace place;
-  const std::string text =
-      pile + given_camera + "simulate: {duration: 1}\noutput: {frames: {fps: 4, size: [32, 18]}}\n";
+  const string text = pile + given_camera + "simulate: {duration: 1}\noutput: {frames: {fps: 4, size: [32, 18]}}\n";
   RunByChecks run(place, place.scene(text));
   run.scene().output.flights = false;
   EXPECT_FALSE(run.stopped(300, 500, End::interrupt));
   EXPECT_EQ(run.remarks(),
-            std::vector<std::string>{"cannot go on after an interrupt: its pictures need flights among its outputs"});
+            vector<string>{"cannot go on after an interrupt: its pictures need flights among its outputs"});
 }
 
 TEST(Resume, WithoutAFileThatIsCompleteBeginsAnew) {
@@ -318,7 +317,7 @@ TEST(Resume, IsOfTheMeshThatTheRunBeganWith) {
                                       << " 0\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
   };
   write_mesh(0.3);
-  const std::string text =
+  const string text =
       "scene: 1\nroom: {min: [0, 0, 0], max: [1, 1, 1]}\ngravity: [0, -9.81, 0]\nrestitution: 0.9\n"
       "bodies: {b: {mass: 1, mesh: body.obj, fit: box, position: [0.5, 0.5, 0.5], velocity: [1, 0, 0.7]}}\n"
       "simulate: {duration: 2}\noutput: {collisions: true}\n";
@@ -349,7 +348,7 @@ TEST(Resume, IsTriedAgainAfterAnotherError) {
   const RunPlace place;
   RunByChecks run(place, place.scene(pile + "simulate: {duration: 1}\noutput: {collisions: true, flights: true}\n"));
   const auto right = keep(run);
-  run.settings().simulator = [](const Scene&, const Recording&, const StepChoice&) -> std::unique_ptr<Simulator> {
+  run.settings().simulator = [](const Scene&, const Recording&, const StepChoice&) -> unique_ptr<Simulator> {
     throw std::bad_alloc();
   };
   EXPECT_THROW(run.whole(), std::bad_alloc);
@@ -414,10 +413,10 @@ TEST(Resume, IsNotPreparedByAShortRun) {
 TEST(Resume, OfRandomScenesHasTheSameFiles) {
   std::mt19937_64 random(3);
   int done = 0;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const RunPlace place;
-    const std::string text = stress::as_yaml(stress::make_scene(seed));
+    const string text = stress::as_yaml(stress::make_scene(seed));
     try {
       const Scene scene = place.scene(text);
       expect_to_go_on(with_outputs(scene, {"trajectory", "collisions", "energy", "contacts", "flights"}), random);

@@ -5,6 +5,7 @@
 
 #include "run/run_testing.h"
 #include "scene/output_kinds.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -21,7 +22,7 @@ void make_small(Output& output) {
 }
 
 /// How many simulators a run of the scene with these outputs makes.
-int simulators_of(Scene scene, const std::vector<std::string>& outputs) {
+int simulators_of(Scene scene, const vector<string>& outputs) {
   const RunPlace place;
   scene.output = restricted(scene.requested, outputs);
   make_small(scene.output);
@@ -37,11 +38,11 @@ int simulators_of(Scene scene, const std::vector<std::string>& outputs) {
   return made;
 }
 
-class EverySceneRun : public ::testing::TestWithParam<std::string> {};
+class EverySceneRun : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
   Scene scene = scene_named(GetParam());
-  const std::vector<std::string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
+  const vector<string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
   EXPECT_EQ(simulators_of(scene, outputs), 1);
   scene.camera.reset();
   EXPECT_EQ(simulators_of(scene, outputs), 1);
@@ -50,21 +51,21 @@ TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRun, ::testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
-const std::string ball =
+const string ball =
     "scene: 1\nballs: {b: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.5}}\n"
     "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
 
 TEST(Run, SimulatesOnceWithEveryCombinationOfOutputs) {
   const RunPlace place;
-  const std::vector<std::string> kinds = {"trajectory", "collisions", "frames", "sheet", "xyz", "gltf", "flights"};
-  for (const std::string& more :
-       {std::string("simulate: {duration: 1}\n"), std::string("simulate: {duration: 2, stop: [{collisions: 3}]}\n"),
-        std::string("simulate: {duration: 1}\ncamera: {eye: [0, 1, 5], target: [0, 1, 0]}\n"),
-        std::string("simulate: {duration: 1}\nshutter: 0.5\ntrails: true\nflash: true\n")}) {
+  const vector<string> kinds = {"trajectory", "collisions", "frames", "sheet", "xyz", "gltf", "flights"};
+  for (const string& more :
+       {string("simulate: {duration: 1}\n"), string("simulate: {duration: 2, stop: [{collisions: 3}]}\n"),
+        string("simulate: {duration: 1}\ncamera: {eye: [0, 1, 5], target: [0, 1, 0]}\n"),
+        string("simulate: {duration: 1}\nshutter: 0.5\ntrails: true\nflash: true\n")}) {
     const Scene scene = place.scene(ball + more + "output: {sheet: true}\n");
     for (unsigned set = 0; set < 1u << kinds.size(); ++set) {
-      std::vector<std::string> outputs;
-      for (std::size_t k = 0; k < kinds.size(); ++k)
+      vector<string> outputs;
+      for (size_t k = 0; k < kinds.size(); ++k)
         if (set >> k & 1u) outputs.push_back(kinds[k]);
       EXPECT_EQ(simulators_of(scene, outputs), 1) << more << set;
     }

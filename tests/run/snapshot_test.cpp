@@ -6,46 +6,47 @@
 
 #include "run/engine.h"
 #include "run/run_testing.h"
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom {
 namespace {
 
 /// Ascending, at random (s), and the end.
-std::vector<double> some_times(std::mt19937_64& random, double duration, int count) {
-  std::vector<double> times;
+vector<double> some_times(std::mt19937_64& random, double duration, int count) {
+  vector<double> times;
   for (int k = 0; k < count; ++k) times.push_back(duration * static_cast<double>(random() >> 11) * 0x1p-53);
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   times.push_back(duration);
   return times;
 }
 
-std::vector<WatchedQuantity> watch_all(Entity bodies) {
+vector<WatchedQuantity> watch_all(Entity bodies) {
   return {{Quantity::y, 0, bodies}, {Quantity::speed, 0, bodies}};
 }
 
-class EverySceneRestored : public ::testing::TestWithParam<std::string> {};
+class EverySceneRestored : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRestored, GoesOnWithTheSameBits) {
   const Scene scene = scene_named(GetParam());
   std::mt19937_64 random(1);
   // They take long.
   const double share = GetParam() == "funnel" ? 0.05 : GetParam() == "pi_to_six_digits" ? 0.25 : 1;
-  const std::vector<double> times = some_times(random, share * scene.simulate.duration, 8);
+  const vector<double> times = some_times(random, share * scene.simulate.duration, 8);
   for (const bool records : {false, true}) {
     SCOPED_TRACE(records ? "with records" : "without records");
-    const auto watch = records ? watch_all(scene.world.body_count()) : std::vector<WatchedQuantity>();
+    const auto watch = records ? watch_all(scene.world.body_count()) : vector<WatchedQuantity>();
     expect_same_when_restored([&] { return make_simulator(scene, {records, records, watch}); }, times, random());
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRestored, ::testing::ValuesIn(scene_names()));
 
-class RandomSceneRestored : public ::testing::TestWithParam<std::size_t> {};
+class RandomSceneRestored : public ::testing::TestWithParam<size_t> {};
 
 TEST_P(RandomSceneRestored, GoesOnWithTheSameBits) {
-  const std::size_t families = stress::family_names().size();
-  for (std::uint64_t k = 0; k < 24; ++k) {
+  const size_t families = stress::family_names().size();
+  for (uint64_t k = 0; k < 24; ++k) {
     stress::RandomScene scene = stress::make_scene(GetParam() + families * k);
     if (k % 3 == 2) scene = stress::with_motions(scene);
     SCOPED_TRACE("seed " + std::to_string(scene.seed));
@@ -60,8 +61,8 @@ TEST_P(RandomSceneRestored, GoesOnWithTheSameBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, RandomSceneRestored, ::testing::Range(std::size_t{0}, stress::family_names().size()),
-                         [](const auto& family) { return std::string(stress::family_names()[family.param]); });
+INSTANTIATE_TEST_SUITE_P(Families, RandomSceneRestored, ::testing::Range(size_t{0}, stress::family_names().size()),
+                         [](const auto& family) { return string(stress::family_names()[family.param]); });
 
 }  // namespace
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "run/replay.h"
 #include "run/run_testing.h"
 #include "scene/load.h"
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom {
@@ -24,7 +25,7 @@ using testing_export::TempFolder;
 /// A run's paths, and the same in a file.
 struct StoredRun {
   Scene scene;
-  std::vector<PathPiece> pieces;
+  vector<PathPiece> pieces;
   TempFolder folder;
   std::uintmax_t bytes = 0;
 
@@ -53,14 +54,14 @@ void store_run(StoredRun& run) {
   run.bytes = std::filesystem::file_size(run.folder / flights_name);
 }
 
-void store_scene(StoredRun& run, const std::string& name) {
+void store_scene(StoredRun& run, const string& name) {
   run.scene = scene_named(name);
   store_run(run);
 }
 
 /// Balls that fall into a heap.
-void store_heap(StoredRun& run, const std::string& count, const std::string& duration) {
-  const std::string text =
+void store_heap(StoredRun& run, const string& count, const string& duration) {
+  const string text =
       "scene: 1\ngravity: [0, -9.81, 0]\nrestitution: {default: 0.3}\n"
       "room: {min: [-0.5, 0, -0.5], max: [0.5, 6, 0.5]}\n"
       "groups:\n  b: {count: " +
@@ -76,14 +77,14 @@ void store_heap(StoredRun& run, const std::string& count, const std::string& dur
 void expect_same_pieces(const StoredRun& run) {
   FlightsReader reader = run.reader();
   Recorded recorded;
-  for (std::size_t k = 0; k < run.pieces.size(); ++k) {
+  for (size_t k = 0; k < run.pieces.size(); ++k) {
     ASSERT_TRUE(reader.next(recorded)) << k;
     ASSERT_TRUE(same_bits(recorded.piece, run.pieces[k])) << k << " of body " << run.pieces[k].body;
   }
   EXPECT_FALSE(reader.next(recorded));
 }
 
-class SceneInFlights : public ::testing::TestWithParam<std::string> {};
+class SceneInFlights : public ::testing::TestWithParam<string> {};
 
 TEST_P(SceneInFlights, HasItsPathsToTheLastBit) {
   StoredRun run;
@@ -131,11 +132,11 @@ TEST(HeapInFlights, TakesFewBytesAStepAndBody) {
 }
 
 /// Those of `pieces` that hold at `time` or begin later, in order.
-std::vector<PathPiece> from_time_on(const std::vector<PathPiece>& pieces, double time) {
-  std::map<Entity, std::size_t> present;
-  for (std::size_t k = 0; k < pieces.size() && pieces[k].from <= time; ++k) present[pieces[k].body] = k;
-  std::vector<PathPiece> rest;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
+vector<PathPiece> from_time_on(const vector<PathPiece>& pieces, double time) {
+  std::map<Entity, size_t> present;
+  for (size_t k = 0; k < pieces.size() && pieces[k].from <= time; ++k) present[pieces[k].body] = k;
+  vector<PathPiece> rest;
+  for (size_t k = 0; k < pieces.size(); ++k)
     if (pieces[k].from > time || present.at(pieces[k].body) == k) rest.push_back(pieces[k]);
   return rest;
 }
@@ -166,15 +167,15 @@ TEST(HeapInFlights, IsReadFromAnyTimeOn) {
     Recorded recorded;
     std::map<Entity, PathPiece> present;
     double last = 0;
-    for (std::size_t k = 0; k < 60; ++k) {
+    for (size_t k = 0; k < 60; ++k) {
       ASSERT_TRUE(reader.next(recorded));
       ASSERT_GE(recorded.piece.from, last);
       last = recorded.piece.from;
       present[recorded.piece.body] = recorded.piece;
     }
-    std::vector<PathPiece> rest = from_time_on(run.pieces, time);
-    for (std::size_t k = 0; k < 60; ++k) ASSERT_TRUE(same_bits(present.at(rest[k].body), rest[k])) << k;
-    for (std::size_t k = 60; k < rest.size(); ++k) {
+    vector<PathPiece> rest = from_time_on(run.pieces, time);
+    for (size_t k = 0; k < 60; ++k) ASSERT_TRUE(same_bits(present.at(rest[k].body), rest[k])) << k;
+    for (size_t k = 60; k < rest.size(); ++k) {
       ASSERT_TRUE(reader.next(recorded)) << k;
       ASSERT_TRUE(same_bits(recorded.piece, rest[k])) << k;
     }

@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "run/engine.h"
 #include "run/run_testing.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -31,7 +32,7 @@ double filled(const Scene& scene, const Camera& camera, Size size = {1280, 720})
   double most = 0;
   const auto simulator = make_simulator(scene);
   const PictureStreams plan = plan_pictures(scene);
-  for (std::int64_t i = plan.ticks.front().first(); i <= plan.ticks.front().last(); ++i) {
+  for (int64_t i = plan.ticks.front().first(); i <= plan.ticks.front().last(); ++i) {
     while (simulator->time() < plan.ticks.front().at(i)) simulator->advance_to(plan.ticks.front().at(i));
     const State& state = simulator->state();
     for (Entity body = 0; body < scene.world.body_count(); ++body) {
@@ -48,7 +49,7 @@ double filled(const Scene& scene, const Camera& camera, Size size = {1280, 720})
 class SceneWithoutCamera : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SceneWithoutCamera, HasAllBodiesInViewAtAllPicturesAndFillsThem) {
-  Scene scene = scene_at(SCENES_DIR "/" + std::string(GetParam()) + ".yaml");
+  Scene scene = scene_at(SCENES_DIR "/" + string(GetParam()) + ".yaml");
   scene.camera.reset();
   const double most = filled(scene, surveyed(scene));
   EXPECT_LT(most, 1);
@@ -59,9 +60,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneWithoutCamera,
                          ::testing::Values("bouncing_ball", "billiard_break", "ten_pins", "wall_fly_over", "gust",
                                            "clay", "raindrops", "two_bowling_balls", "restitution_row",
                                            "newtons_cradle_gap", "gas_in_a_room", "crates"),
-                         [](const auto& scene) { return std::string(scene.param); });
+                         [](const auto& scene) { return string(scene.param); });
 
-const std::string marble_run =
+const string marble_run =
     "scene: 1\nballs: {marble: {mass: 0.01, radius: 0.02, position: [-1.5, 1.62, 0], velocity: [0.8, 0, 0], "
     "restitution: 0.6}}\nobstacles:\n  first: {box: [0.6, 0.04, 0.3], position: [-1.3, 1.5, 0]}\n"
     "  second: {box: [0.6, 0.04, 0.3], position: [-0.6, 1.2, 0]}\n  third: {box: [0.6, 0.04, 0.3], position: [0.1, "

@@ -5,12 +5,13 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 /// 20 balls of 1 kg in a box, which time steps have put to rest by 4 s. `floor`: more keys of its floor.
-std::string pile(const std::string& more, const std::string& floor = "") {
+string pile(const string& more, const string& floor = "") {
   return "scene: 1\nseed: 3\ngravity: [0, -10, 0]\nrestitution: 0.2\n"
          "room: {min: [0, -1, 0], max: [0.5, 6, 0.5]}\n"
          "groups: {b: {count: 20, in: {min: [0, 0, 0], max: [0.5, 1.6, 0.5]}, ball: {mass: 1, radius: 0.1}}}\n"
@@ -20,7 +21,7 @@ std::string pile(const std::string& more, const std::string& floor = "") {
 
 struct Pressing {
   double on_floor = 0;  // N
-  std::size_t contacts = 0;
+  size_t contacts = 0;
 };
 
 Pressing pressing_in(Simulator& simulator, const Scene& scene) {
@@ -33,7 +34,7 @@ Pressing pressing_in(Simulator& simulator, const Scene& scene) {
 }
 
 /// The contacts at `time` (s), before which all bodies sleep.
-Pressing pressing_at(const std::string& yaml, double time) {
+Pressing pressing_at(const string& yaml, double time) {
   const Scene scene = load_text(yaml);
   const auto simulator = make_simulator(scene, {});
   const auto go_to = [&](double until) {
@@ -51,8 +52,8 @@ Pressing pressing_at(const std::string& yaml, double time) {
 constexpr double closing = 8e-5;  // measured: 2e-5
 
 TEST(SwitchedContacts, OfASleepingPileAreThoseFromThatInstantOn) {
-  const std::string end = "simulate: {duration: 5.5}\n";
-  const std::size_t all = pressing_at(pile(end), 5).contacts;
+  const string end = "simulate: {duration: 5.5}\n";
+  const size_t all = pressing_at(pile(end), 5).contacts;
   const Pressing heavier = pressing_at(pile("forces: [{acceleration: [0, -5, 0], from: 5}]\n" + end), 5);
   EXPECT_NEAR(heavier.on_floor, 300, 300 * closing);
   EXPECT_EQ(heavier.contacts, all);
@@ -86,7 +87,7 @@ TEST(SwitchedContacts, OfASleepingPileAreThoseAfterAForceHasEnded) {
 TEST(SwitchedContacts, OfASleepingPileOnALiftAreThoseAfterItsStart) {
   for (const char* velocity : {"[0, 0.001, 0]", "[0, 1.0e-7, 0]", "[0, -1.0e-7, 0]"}) {
     const Pressing lifted = pressing_at(
-        pile("simulate: {duration: 5.5}\n", std::string(", motion: [{from: 5, velocity: ") + velocity + "}]"), 5);
+        pile("simulate: {duration: 5.5}\n", string(", motion: [{from: 5, velocity: ") + velocity + "}]"), 5);
     EXPECT_NEAR(lifted.on_floor, 200, 200 * 0.02) << velocity;  // measured: 0.012 with 1 mm/s
   }
 }

@@ -4,40 +4,40 @@
 #include <gtest/gtest.h>
 
 #include <utility>
-#include <vector>
 
 #include "run/account.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// A scene that has run to its end.
 struct Ended {
-  explicit Ended(const std::string& yaml) : scene(load_text("scene: 1\n" + yaml)), engine(choose_engine(scene)) {
+  explicit Ended(const string& yaml) : scene(load_text("scene: 1\n" + yaml)), engine(choose_engine(scene)) {
     const auto simulator = make_simulator(scene);
     const StoredEnergy start = stored_energy(scene, simulator->state());
     while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
     summary = account_of(scene, engine, start, simulator->state(), simulator->tally());
     warnings = warnings_of(scene, engine, simulator->state(), summary, simulator->tally());
   }
-  std::string texts() const {
-    std::string all;
+  string texts() const {
+    string all;
     for (const Warning& warning : warnings) all += warning.code + ": " + warning.text + '\n';
     return all;
   }
   Scene scene;
   EngineChoice engine;
   Summary summary;
-  std::vector<Warning> warnings;
+  vector<Warning> warnings;
 };
 
 // One whole period of a swing from the horizontal (T = 2.36784... s by its elliptic integral): at both ends all
 // energies are 0. In between the bob has g l = 9.81 J.
 TEST(EnergyWarning, IsNoneWhereTheMotionEndsAsItBegan) {
-  const std::string gravity = "gravity: [0, -9.81, 0]\n", swing = "strings: {s: {from: [0, 0, 0], to: bob}}\n",
-                    period = "simulate: {duration: 2.3678419475762374}\n";
+  const string gravity = "gravity: [0, -9.81, 0]\n", swing = "strings: {s: {from: [0, 0, 0], to: bob}}\n",
+               period = "simulate: {duration: 2.3678419475762374}\n";
   const Ended one(gravity + "balls: {bob: {mass: 1, radius: 0.05, position: [1, 0, 0]}}\n" + swing + period);
   EXPECT_EQ(one.texts(), "");
   EXPECT_NEAR(one.summary.energy.turnover, 9.81, 1e-9);
@@ -74,7 +74,7 @@ TEST(EnergyWarning, IsGivenForALossOfAllThatSwung) {
 }
 
 /// The warning of a run that gained 1 J of 4 J without impacts or work.
-std::string energy_warning(const Scene& scene) {
+string energy_warning(const Scene& scene) {
   Summary summary;
   summary.energy.start = 4;
   summary.energy.end = 5;
@@ -82,12 +82,12 @@ std::string energy_warning(const Scene& scene) {
   summary.energy.turnover = 4;
   EngineChoice engine;
   engine.engine = Engine::exact;
-  const std::vector<Warning> warnings = warnings_of(scene, engine, scene.initial, summary, Tally{});
+  const vector<Warning> warnings = warnings_of(scene, engine, scene.initial, summary, Tally{});
   return warnings.size() == 1 ? warnings[0].text : "";
 }
 
 TEST(EnergyWarning, AdvisesToSoftenAnAttractorOnlyWhereThereIsOne) {
-  const std::string gained = "the method gained 1 J beyond impacts and work, 0.25 of the energy turned over: ";
+  const string gained = "the method gained 1 J beyond impacts and work, 0.25 of the energy turned over: ";
   Scene scene;
   EXPECT_EQ(energy_warning(scene), gained + "shorten simulate.duration");
   scene.world.forces.push_back({Spring{}});
@@ -97,7 +97,7 @@ TEST(EnergyWarning, AdvisesToSoftenAnAttractorOnlyWhereThereIsOne) {
 }
 
 /// The warning of the step, of a ball on this force.
-std::string step_warning(const std::string& force, const std::string& method, const std::string& step) {
+string step_warning(const string& force, const string& method, const string& step) {
   const Ended run(
       "gravity: [0, 0, 0]\nballs: {b: {mass: 4, radius: 0.05, position: [1, 0, 0], velocity: [0, 1, 0]}}\n"
       "forces: [{acceleration: [0, 0, 1.0e-9]}, {" +
@@ -110,7 +110,7 @@ std::string step_warning(const std::string& force, const std::string& method, co
 // w = sqrt(k / m) = 199 1/s: verlet is stable up to 2 / w, rk4 up to sqrt(8) / w. c / m = 400 1/s: rk4 up to 2.7853 m /
 // c.
 TEST(StepWarning, NamesTheForceTheStableStepAndTheRemedy) {
-  const std::string spring = "spring: {anchor: [0, 0, 0], stiffness: 158404}", drag = "drag: {linear: 1600}";
+  const string spring = "spring: {anchor: [0, 0, 0], stiffness: 158404}", drag = "drag: {linear: 1600}";
   EXPECT_EQ(step_warning(spring, "rk4", "0.01"),
             "forces turned by 1.99 rad in a step of 0.01 s, most by forces.1.spring on `b`, stable up to 0.0142 s, but "
             "rk4 leaves 0.75 of an amplitude in each step: use steps of at most 0.0005 s, or `integrator: dop853`");
@@ -126,7 +126,7 @@ TEST(StepWarning, NamesTheForceTheStableStepAndTheRemedy) {
 
 /// A light ball on two heavy ones that touch each other, and for so long (s). Each of them pushes a heavy one aside by
 /// m g tan(30 degrees) / 2.
-std::string wedge(const std::string& heavy, const std::string& duration, const std::string& engine = "engine: exact") {
+string wedge(const string& heavy, const string& duration, const string& engine = "engine: exact") {
   return "gravity: [0, -10, 0]\nrestitution: 0\nballs:\n  l: {mass: " + heavy +
          ", radius: 0.5, position: [-0.4, 0.5, 0]}\n  r: {mass: " + heavy +
          ", radius: 0.5, position: [0.6, 0.5, 0]}\n  m: {mass: 1, radius: 0.5, position: [0.1, 1.3660254037844386, "
@@ -154,7 +154,7 @@ TEST(RestWarning, IsGivenWhereBalanceHidesAMotion) {
   ASSERT_EQ(rim.warnings.size(), 1u) << rim.texts();
   EXPECT_NE(
       rim.warnings[0].text.find("leave `c`, at rest, an acceleration of 1e-11 m/s^2, which could move it by 0.05 m"),
-      std::string::npos)
+      string::npos)
       << rim.texts();
 }
 
@@ -175,19 +175,19 @@ TEST(RestWarning, IsNoneWhereBodiesAreInBalanceOrHardlyMove) {
 }
 
 /// The warning of a run with contact problems that were not solved to rounding.
-std::string contact_warning(std::vector<double> masses, std::uint64_t problems) {
+string contact_warning(vector<double> masses, uint64_t problems) {
   Scene scene;
   scene.world.mass = std::move(masses);
   Tally tally;
   tally.doubts.contacts = problems;
-  const std::vector<Warning> warnings = warnings_of(scene, EngineChoice{}, scene.initial, Summary{}, tally);
+  const vector<Warning> warnings = warnings_of(scene, EngineChoice{}, scene.initial, Summary{}, tally);
   return warnings.empty() ? "" : warnings.back().text;
 }
 
 TEST(ContactWarning, AdvisesOnMassesOnlyWhereTheyAreUnequal) {
   EXPECT_EQ(contact_warning({1, 1e6, 3}, 2),
             "2 contact problems were not solved to rounding: make masses less unequal, which are from 1 to 1e+06 kg");
-  const std::string other =
+  const string other =
       "1 contact problem was not solved to rounding: compare dependent figures with those of a start that differs "
       "slightly";
   EXPECT_EQ(contact_warning({2, 2, 2}, 1), other);

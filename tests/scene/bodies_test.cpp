@@ -5,6 +5,7 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -12,12 +13,12 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Vertices of a pin of radius 0.06 m and height 0.38 m that stands on the file's origin.
-const std::vector<Vec3> pin = {Vec3(0.06, 0, 0),  Vec3(-0.06, 0, 0),    Vec3(0, 0, 0.06),
-                               Vec3(0, 0, -0.06), Vec3(0, 0.38, 0.001), Vec3(0, 0.38, -0.001)};
+const vector<Vec3> pin = {Vec3(0.06, 0, 0),  Vec3(-0.06, 0, 0),    Vec3(0, 0, 0.06),
+                          Vec3(0, 0, -0.06), Vec3(0, 0.38, 0.001), Vec3(0, 0.38, -0.001)};
 
 LoadOptions with_reader(int* reads = nullptr) {
   LoadOptions options;
-  options.mesh_points = [reads](const std::string& path) -> std::vector<Vec3> {
+  options.mesh_points = [reads](const string& path) -> vector<Vec3> {
     if (reads != nullptr) ++*reads;
     if (path.ends_with("torn.stl")) throw std::runtime_error("it ends within a triangle");
     if (path.ends_with("flat.stl")) return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
@@ -27,12 +28,12 @@ LoadOptions with_reader(int* reads = nullptr) {
 }
 
 /// A scene in a folder with the meshes of with_reader().
-Scene load_with_meshes(const std::string& text, const LoadOptions& options = with_reader()) {
+Scene load_with_meshes(const string& text, const LoadOptions& options = with_reader()) {
   for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
   return load_text(text, options);
 }
 
-std::string mesh_errors(const std::string& text, const LoadOptions& options = with_reader()) {
+string mesh_errors(const string& text, const LoadOptions& options = with_reader()) {
   for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
   return errors_of(text, options);
 }
@@ -55,7 +56,7 @@ TEST(Bodies, HaveSpheresCylindersAndBoxes) {
   EXPECT_EQ(world.volume[3].shape, Shape::box);
   EXPECT_EQ(world.volume[3].half, Vec3(0.5, 1, 1));
   EXPECT_EQ(world.volume[5].half, Vec3(0.1, 0.1, 0.1));
-  EXPECT_EQ(world.radius, (std::vector<double>{0.5, 0.25, 5, 1.5, 0.1, 0.1}));  // of the spheres about them
+  EXPECT_EQ(world.radius, (vector<double>{0.5, 0.25, 5, 1.5, 0.1, 0.1}));  // of the spheres about them
   EXPECT_DOUBLE_EQ(world.mass[2], 100 * pi * 9 * 8);
   EXPECT_EQ(world.mass[3], 40);
   EXPECT_EQ(scene.initial.velocity[3], Vec3(0, 1, 0));
@@ -66,7 +67,7 @@ TEST(Bodies, HaveSpheresCylindersAndBoxes) {
 TEST(Bodies, ThatAreAllSpheresNeedNoVolumes) {
   const Scene scene = load_text(start + "bodies: {a: {mass: 1, radius: 2, position: [0, 0, 0]}}\n");
   EXPECT_TRUE(scene.world.volume.empty());
-  EXPECT_EQ(scene.world.radius, std::vector<double>{2});
+  EXPECT_EQ(scene.world.radius, vector<double>{2});
 }
 
 TEST(Bodies, StandInTheOrderOfTheFileWithBallsAndGroups) {
@@ -74,7 +75,7 @@ TEST(Bodies, StandInTheOrderOfTheFileWithBallsAndGroups) {
                                 "bodies: {a: {mass: 1, box: [1, 1, 1], position: [0, 0, 0]}}\n"
                                 "balls: {b: {mass: 2, radius: 1, position: [5, 0, 0]}}\n");
   EXPECT_EQ(scene.roster.name(0), "a");
-  EXPECT_EQ(scene.world.mass, (std::vector<double>{1, 2}));
+  EXPECT_EQ(scene.world.mass, (vector<double>{1, 2}));
 }
 
 TEST(Bodies, TakeAVolumeFromTheirDefaultsUnlessTheyNameAnother) {
@@ -132,8 +133,7 @@ TEST(BodyErrors, EdgesAndHeightsAreAboveZero) {
             "   3 | obstacles: {a: {cylinder: {radius: 1}, position: [0, 0, 0]}}\n"
             "     |                 ^~~~~~~~\n"
             "     = expected `height`: a number above 0 in m\n");
-  EXPECT_NE(errors_of(start + "defaults: {body: {cylinder: {radius: 1}}}\n").find("has no `height`"),
-            std::string::npos);
+  EXPECT_NE(errors_of(start + "defaults: {body: {cylinder: {radius: 1}}}\n").find("has no `height`"), string::npos);
 }
 
 TEST(BodyErrors, ObstaclesHaveNoMass) {
@@ -173,7 +173,7 @@ TEST(Overlaps, BodyWhollyInsideAnObstacleIsOne) {
   EXPECT_NE(errors_of(start + "balls: {b: {mass: 1, radius: 0.01, position: [0.5, 0, 0]}}\n"
                               "obstacles: {block: {box: [4, 4, 4], position: [0, 0, 0]}}\n")
                 .find("`b` overlaps `block` by 1.51 m"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Overlaps, TouchingVolumesAreRight) {
@@ -192,11 +192,11 @@ TEST(Overlaps, BehindAPlaneIsReportedForAnyVolume) {
   EXPECT_NE(errors_of(start + "bodies: {a: {mass: 1, box: [9, 1, 9], position: [0, -0.6, 0]}}\n"
                               "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n")
                 .find("`a` is behind `floor` at the start"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "bodies: {a: {mass: 1, box: [9, 1, 9], position: [0, -0.4, 0]}}\n"
                               "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n")
                 .find("`a` overlaps `floor` by 0.9 m at the start"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Overlaps, GroupsKeepClearOfBodiesAndObstacles) {
@@ -235,7 +235,7 @@ TEST(Meshes, FitGivesTheTightestVolumeAndItsCentre) {
 
 TEST(Meshes, OfFloatsAreTakenAsTheDecimalsThatWereWritten) {
   LoadOptions options;
-  options.mesh_points = [](const std::string&) -> std::vector<Vec3> {
+  options.mesh_points = [](const string&) -> vector<Vec3> {
     return {Vec3(0.381F, 0.1F, 0), Vec3(0, 0.7F, 1.0F / 3), Vec3(0, 0, 1e-7F)};
   };
   const Scene scene =
@@ -262,17 +262,17 @@ TEST(Meshes, WithoutFitAreDrawnScaledIntoTheVolume) {
 }
 
 TEST(Meshes, OfTheResolvedSceneAreTheCopiesBesideIt) {
-  const std::string text = start +
-                           "bodies: {a: {mass: 1.5, mesh: sub/pin.stl, fit: cylinder, position: [1, 0.19, 0]}}\n"
-                           "balls: {b: {mass: 1, radius: 1, position: [9, 0, 0], mesh: pin.stl}}\n";
+  const string text = start +
+                      "bodies: {a: {mass: 1.5, mesh: sub/pin.stl, fit: cylinder, position: [1, 0.19, 0]}}\n"
+                      "balls: {b: {mass: 1, radius: 1, position: [9, 0, 0], mesh: pin.stl}}\n";
   std::filesystem::create_directories(test_folder() + "/sub");
   write_file("solid\n", "sub/pin.stl");
   const Scene scene = load_with_meshes(text);
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].copy, "pin.stl");
   EXPECT_EQ(scene.meshes[1].copy, "pin-2.stl");
-  EXPECT_NE(scene.resolved.find("a: {mass: 1.5, mesh: \"pin.stl\", fit: cylinder,"), std::string::npos);
-  EXPECT_NE(scene.resolved.find("mesh: \"pin-2.stl\"}"), std::string::npos);
+  EXPECT_NE(scene.resolved.find("a: {mass: 1.5, mesh: \"pin.stl\", fit: cylinder,"), string::npos);
+  EXPECT_NE(scene.resolved.find("mesh: \"pin-2.stl\"}"), string::npos);
   write_file("solid\n", "pin-2.stl");
   const Scene again = load_with_meshes(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
@@ -280,12 +280,12 @@ TEST(Meshes, OfTheResolvedSceneAreTheCopiesBesideIt) {
 }
 
 TEST(Meshes, HaveTheirOwnColorsUnlessTheSceneGivesOne) {
-  const std::string ball = "{mass: 1, radius: 1, mesh: pin.stl, position: ";
+  const string ball = "{mass: 1, radius: 1, mesh: pin.stl, position: ";
   const Scene scene = load_with_meshes(start + "balls:\n  a: " + ball + "[0, 0, 0]}\n  b: " + ball +
                                        "[9, 0, 0], color: red}\n  c: " + ball + "[20, 0, 0], color: {by: speed}}\n" +
                                        "obstacles:\n  d: {mesh: pin.stl, fit: box, position: [30, 0, 0]}\n"
                                        "  e: {mesh: pin.stl, fit: box, position: [40, 0, 0], color: red}\n");
-  const auto own = [&](std::size_t body) { return scene.roster.bodies[body].mesh->own_colors; };
+  const auto own = [&](size_t body) { return scene.roster.bodies[body].mesh->own_colors; };
   EXPECT_TRUE(own(0));
   EXPECT_FALSE(own(1));
   EXPECT_FALSE(own(2));
@@ -300,7 +300,7 @@ TEST(Meshes, HaveTheirOwnColorsUnlessTheSceneGivesOne) {
 
 TEST(Meshes, WithMaterialsBesideThemAreNotCopied) {
   write_file("v 0 0 0\nmtllib pin.mtl\n", "pin.obj");
-  const std::string ball = "{mass: 1, radius: 1, mesh: pin.obj, position: [0, 0, 0]";
+  const string ball = "{mass: 1, radius: 1, mesh: pin.obj, position: [0, 0, 0]";
   const Scene scene = load_with_meshes(start + "balls: {a: " + ball + "}}\n");
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].copy, "");

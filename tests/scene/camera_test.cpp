@@ -3,24 +3,25 @@
 
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string bodies =
+const string bodies =
     "scene: 1\nsimulate: {duration: 2}\nplanes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"
     "balls:\n  red: {mass: 3, radius: 0.1, position: [1, 1, 0]}\n  blue: {mass: 1, radius: 0.1, position: [-1, 1, 0]}\n"
     "groups: {gas: {count: 2, in: {min: [0, 3, 0], max: [1, 4, 1]}, ball: {mass: 1, radius: 0.1}}}\n";
 
-CameraPlan plan_of(const std::string& camera) {
+CameraPlan plan_of(const string& camera) {
   return *load_text(bodies + "camera: " + camera + "\n").camera;
 }
 
 /// The first error's message.
-std::string error_of(const std::string& camera) {
-  const std::string all = errors_of(bodies + "camera: " + camera + "\n");
-  const std::size_t from = all.find("error: ");
-  return from == std::string::npos ? all : all.substr(from + 7, all.find('\n', from) - from - 7);
+string error_of(const string& camera) {
+  const string all = errors_of(bodies + "camera: " + camera + "\n");
+  const size_t from = all.find("error: ");
+  return from == string::npos ? all : all.substr(from + 7, all.find('\n', from) - from - 7);
 }
 
 TEST(CameraPlan, FitOfTheMotionTakesAngleAndUp) {
@@ -86,16 +87,16 @@ TEST(CameraPlan, ASettingReplacesTheKeysThatItExcludes) {
 }
 
 TEST(CameraPlan, ASettingTakesAwayTheKeysThatTheReplacedOnesNeed) {
-  const std::string path =
+  const string path =
       "camera: {near: 1, path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}, {at: 1, eye: [0, 3, 4], target: [0, 0, "
       "0]}]}\n";
   LoadOptions options;
   options.set = {"camera.follow=red"};
   // A resolved scene has near and far.
-  for (const std::string& text : {bodies + path, load_text(bodies + path).resolved}) {
+  for (const string& text : {bodies + path, load_text(bodies + path).resolved}) {
     const Scene scene = load_text(text, options);
     EXPECT_TRUE(scene.camera->follow && !scene.camera->follow->has_eye);
-    EXPECT_EQ(scene.resolved.find("near:"), std::string::npos);
+    EXPECT_EQ(scene.resolved.find("near:"), string::npos);
   }
   EXPECT_EQ(load_text(bodies + "camera: {eye: [0, 1, 9], target: [0, 0, 0], near: 2}\n", options).camera->near, 2);
   options.set = {"camera.eye=[0, 1, 9]", "camera.target=[0, 0, 0]"};
@@ -107,7 +108,7 @@ TEST(CameraErrors, KeysThatDoNotGoTogetherAreRefused) {
        {"{fit: motion, eye: [0, 1, 9]}", "{fit: motion, target: [0, 1, 9]}", "{fit: motion, near: 1}",
         "{fit: motion, follow: red}", "{follow: red, path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}]}",
         "{eye: [0, 0, 1], target: [0, 0, 0], path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}]}"})
-    EXPECT_NE(error_of(camera).find("`camera` has both "), std::string::npos) << camera << error_of(camera);
+    EXPECT_NE(error_of(camera).find("`camera` has both "), string::npos) << camera << error_of(camera);
 }
 
 TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
@@ -119,26 +120,25 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
             "     = or `fit`: motion\n"
             "     = or `path`: a list\n"
             "     = or `follow`: a name\n");
-  EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), std::string::npos);
+  EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), string::npos);
   EXPECT_EQ(error_of("{eye: [0, 0, 5]}"), "`camera` has `eye` but no `target`");
 }
 
 TEST(CameraErrors, WhatCannotBeFollowedIsNamed) {
   EXPECT_EQ(error_of("{follow: floor}"), "`floor` is a fixed thing: there is nothing to follow");
   EXPECT_EQ(error_of("{follow: rde}"), "nothing is named `rde`");
-  for (const std::string part :
+  for (const string part :
        {"camera: {follow: zz}\n", "trails: {on: [zz]}\n", "forces: [{uniform: [1, 0, 0], on: [zz]}]\n"})
-    EXPECT_NE(errors_of(bodies + part).find("     = expected a ball, body, group or member (gas.3)\n"),
-              std::string::npos)
+    EXPECT_NE(errors_of(bodies + part).find("     = expected a ball, body, group or member (gas.3)\n"), string::npos)
         << part;
-  EXPECT_EQ(errors_of(bodies + "camera: {follow: flor}\n").find("did you mean"), std::string::npos);
+  EXPECT_EQ(errors_of(bodies + "camera: {follow: flor}\n").find("did you mean"), string::npos);
   EXPECT_EQ(error_of("{follow: gas.2}"), "the group `gas` has no member `2`");
   EXPECT_EQ(error_of("{follow: red, near: 1}"), "`camera` has `near` but no `eye`");
   EXPECT_EQ(error_of("{follow: red, eye: [1, 1, 0]}"), "the camera's target is where its eye is");
 }
 
 TEST(CameraErrors, KeyframesAreInOrderAndHaveALineOfSight) {
-  const auto path = [](const std::string& keys) { return error_of("{path: [" + keys + "]}"); };
+  const auto path = [](const string& keys) { return error_of("{path: [" + keys + "]}"); };
   EXPECT_EQ(path(""), "`path` has no entries");
   EXPECT_EQ(path("{at: 1, eye: [0, 3, 5], target: [0, 0, 0]}, {at: 1, eye: [0, 3, 4], target: [0, 0, 0]}"),
             "1 s is not later than the keyframe before, at 1 s");

@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -91,7 +92,7 @@ TEST(SceneErrors, OverlapAtTheStartPointsAtTheLaterBall) {
 }
 
 TEST(SceneErrors, MeshThatIsNotThereIsAnErrorOfItsOwn) {
-  const std::string folder = test_folder();
+  const string folder = test_folder();
   EXPECT_EQ(errors_of("scene: 1\nballs:\n  pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\nsimulate: "
                       "{duration: 1}\n"),
             "scene.yaml:3:56: error: there is no file `pin.stl`\n"
@@ -154,15 +155,15 @@ TEST(SceneErrors, SecondDocumentIsAnError) {
             "     = expected one scene a file\n");
 }
 
-std::string duration_error(const std::string& value) {
-  const std::string all = errors_of(std::string("scene: 1\nsimulate: {duration: ").append(value).append("}\n"));
-  const std::size_t message = all.find("error: ") + 7;
-  const std::size_t remedy = all.find("= ") + 2;
+string duration_error(const string& value) {
+  const string all = errors_of(string("scene: 1\nsimulate: {duration: ").append(value).append("}\n"));
+  const size_t message = all.find("error: ") + 7;
+  const size_t remedy = all.find("= ") + 2;
   return all.substr(message, all.find('\n') - message) + " / " + all.substr(remedy, all.size() - remedy - 1);
 }
 
 TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {
-  const std::string wanted = "expected a number of at least 0 in s";
+  const string wanted = "expected a number of at least 0 in s";
   EXPECT_EQ(duration_error(".nan"), "`.nan` is not a finite number / " + wanted);
   EXPECT_EQ(duration_error("-.inf"), "`-.inf` is not a finite number / " + wanted);
   EXPECT_EQ(duration_error("2 s"), "`2 s` carries a unit / `duration` is always in s: write 2");
@@ -215,35 +216,33 @@ TEST(SceneErrors, CaretStandsRightAfterCharactersOfSeveralBytesAndCells) {
 }
 
 TEST(SceneErrors, LongLinesAreShownThroughAWindow) {
-  const std::string many(300, 'x');
+  const string many(300, 'x');
   EXPECT_EQ(errors_of(start + "title: {" + many + ": 1, b: *c, " + many + ": 2}\n"),
             "scene.yaml:3:317: error: an alias\n"
             "   3 | ..." +
-                many.substr(0, 52) + ": 1, b: *c, " + many.substr(0, 36) + "...\n" + "     |    " +
-                std::string(60, ' ') +
+                many.substr(0, 52) + ": 1, b: *c, " + many.substr(0, 36) + "...\n" + "     |    " + string(60, ' ') +
                 "^\n"
                 "     = expected the value itself: scenes have no anchors and aliases\n");
 }
 
 TEST(SceneErrors, AllErrorsOfAFileComeInItsOrder) {
-  const std::string all = errors_of(
+  const string all = errors_of(
       "scene: 2\ntitel: x\nballs:\n  a: {mass: -1, radius: 1, position: [0, 0, 0]}\nsimulate: {duration: x}\n");
-  const std::size_t first = all.find(":1:8: error: `scene` is 2"),
-                    second = all.find(":2:1: error: unknown key `titel`"),
-                    third = all.find(":4:13: error: `mass` is -1"), fourth = all.find(":5:22: error: `x` is not");
-  EXPECT_TRUE(first < second && second < third && third < fourth && fourth != std::string::npos) << all;
+  const size_t first = all.find(":1:8: error: `scene` is 2"), second = all.find(":2:1: error: unknown key `titel`"),
+               third = all.find(":4:13: error: `mass` is -1"), fourth = all.find(":5:22: error: `x` is not");
+  EXPECT_TRUE(first < second && second < third && third < fourth && fourth != string::npos) << all;
 }
 
 TEST(SceneErrors, AtMostFiftyAreShown) {
-  std::string text = start;
+  string text = start;
   for (int i = 0; i < 80; ++i) text += "unknown" + std::to_string(i) + "_key: 1\n";
-  const std::string all = errors_of(text);
+  const string all = errors_of(text);
   EXPECT_TRUE(all.ends_with("and 30 more errors\n")) << all.substr(all.size() - 100);
 }
 
 TEST(SceneErrors, ManyOverlapsAreOneError) {
   // A packing of 27 balls whose distances a program rounded: 54 pairs overlap by 2e-7 of a radius, one by 1e-6 of it.
-  std::string text = start + "defaults: {ball: {mass: 1, radius: 0.5}}\nballs:\n";
+  string text = start + "defaults: {ball: {mass: 1, radius: 0.5}}\nballs:\n";
   for (int i = 0; i < 27; ++i)
     text += fmt::format("  p{}: {{position: [{:.7f}, {}, {}]}}\n", i, i % 3 * 0.9999999 - (i == 26 ? 4e-7 : 0),
                         i / 3 % 3 * 0.9999999, i / 9 * 0.9999999);
@@ -259,16 +258,16 @@ TEST(SceneErrors, ManyOverlapsAreOneError) {
   EXPECT_EQ(errors_of(text), "");
 
   // Boxes have no radii. A heap in one place is counted, too.
-  std::string boxes = start + "defaults: {body: {mass: 1, box: [1, 1, 1]}}\nbodies:\n";
+  string boxes = start + "defaults: {body: {mass: 1, box: [1, 1, 1]}}\nbodies:\n";
   for (int i = 0; i < 6; ++i) boxes += fmt::format("  b{}: {{position: [{}, 0, 0]}}\n", i, i * 0.75);
   EXPECT_EQ(errors_of(boxes),
             "scene.yaml:6:18: error: `b1` overlaps `b0` by 0.25 m at the start, the deepest of 5 overlaps of 6 bodies\n"
             "   6 |   b1: {position: [0.75, 0, 0]}\n"
             "     |                  ^\n"
             "     = expected bodies apart, or just touching to 1e-09 of the smaller one\n");
-  const std::string heap = errors_of(start + "balls: {b: {repeat: 100, mass: 1, radius: 1, position: [0, 0, 0]}}\n");
+  const string heap = errors_of(start + "balls: {b: {repeat: 100, mass: 1, radius: 1, position: [0, 0, 0]}}\n");
   EXPECT_NE(heap.find("`b.1` overlaps `b.0` by 2 m at the start, the deepest of 4950 overlaps of 100 bodies"),
-            std::string::npos)
+            string::npos)
       << heap;
 }
 
@@ -279,9 +278,9 @@ TEST(SceneErrors, ACharacterThatLooksLikeAnotherIsNamed) {
             "     |              ^~~~~\n"
             "     = U+2212 is a minus sign: write `-`\n"
             "     = expected a number in m/s^2\n");
-  const auto names = [](const std::string& text, const std::string& remedy) {
-    const std::string errors = errors_of(text);
-    EXPECT_NE(errors.find("     = " + remedy + "\n"), std::string::npos) << errors;
+  const auto names = [](const string& text, const string& remedy) {
+    const string errors = errors_of(text);
+    EXPECT_NE(errors.find("     = " + remedy + "\n"), string::npos) << errors;
   };
   names(start + "gravity: [0, \u20139.81, 0]\n", "U+2013 is an en dash: write `-`");
   names(start + "gravity: [0, '= 3 \u2014 9.81', 0]\n", "U+2014 is an em dash: write `-`");
@@ -321,10 +320,10 @@ TEST(SceneErrors, AColourAfterANumberSignInBracketsNeedsQuotes) {
             "   3 |   a: {mass: 1, color: #ff0000, radius: 1, position: [0, 0, 0]}\n"
             "     |                       ^~~~~~~\n"
             "     = a colour that begins with # needs quotes: '#ff0000'\n");
-  EXPECT_NE(errors_of(start + "lights: {ambient: #333}\n").find("needs quotes: '#333'"), std::string::npos);
+  EXPECT_NE(errors_of(start + "lights: {ambient: #333}\n").find("needs quotes: '#333'"), string::npos);
   // A comment in brackets is right.
   EXPECT_EQ(errors_of(start + "gravity: [0, # down\n  -9, 0]\n"), "");
-  EXPECT_NE(errors_of(start + "balls: {a: {mass: 1} # heavy\n").find("this `{` is never closed"), std::string::npos);
+  EXPECT_NE(errors_of(start + "balls: {a: {mass: 1} # heavy\n").find("this `{` is never closed"), string::npos);
 }
 
 TEST(SceneErrors, MassZeroPointsToFixedThings) {
@@ -336,10 +335,10 @@ TEST(SceneErrors, MassZeroPointsToFixedThings) {
             "     = what no impact moves has no mass: it stands in `obstacles`, `planes` or `walls`\n");
   for (const char* keys : {"density: 0.0", "mass: .inf", "mass: inf"})
     EXPECT_NE(errors_of(start + "bodies: {a: {box: [1, 1, 1], position: [0, 0, 0], " + keys + "}}\n").find("obstacles"),
-              std::string::npos)
+              string::npos)
         << keys;
   EXPECT_EQ(errors_of(start + "balls: {a: {mass: -1, radius: 1, position: [0, 0, 0]}}\n").find("obstacles"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(SceneErrors, ADecimalCommaIsOneError) {
@@ -348,8 +347,8 @@ TEST(SceneErrors, ADecimalCommaIsOneError) {
             "   3 |   a: {mass: 1,5, radius: 1, position: [0, 0, 0]}\n"
             "     |             ^~~\n"
             "     = the decimal point is a point: 1.5\n");
-  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: -0,25e-3}\n").find("is a point: -0.25e-3"), std::string::npos);
-  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: 1, 5}\n").find("unknown key `5`"), std::string::npos);
+  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: -0,25e-3}\n").find("is a point: -0.25e-3"), string::npos);
+  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: 1, 5}\n").find("unknown key `5`"), string::npos);
 }
 
 TEST(SceneErrors, WhatStandsInPlaceOfAListShowsTheList) {
@@ -359,10 +358,10 @@ TEST(SceneErrors, WhatStandsInPlaceOfAListShowsTheList) {
             "     |                               ^~~~\n"
             "     = expected a list of maps, or rest\n"
             "     = a list of one is [rest]\n");
-  EXPECT_NE(errors_of(start + "arrows: velocity\n").find("a list of one is [velocity]"), std::string::npos);
-  EXPECT_NE(errors_of(start + "trails: {on: red}\n").find("a list of one is [red]"), std::string::npos);
-  EXPECT_NE(errors_of(start + "forces: {drag: {linear: 1}}\n").find("a list of one map is [{...}]"), std::string::npos);
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, stop: never}\n").find("a list of one"), std::string::npos);
+  EXPECT_NE(errors_of(start + "arrows: velocity\n").find("a list of one is [velocity]"), string::npos);
+  EXPECT_NE(errors_of(start + "trails: {on: red}\n").find("a list of one is [red]"), string::npos);
+  EXPECT_NE(errors_of(start + "forces: {drag: {linear: 1}}\n").find("a list of one map is [{...}]"), string::npos);
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, stop: never}\n").find("a list of one"), string::npos);
 }
 
 TEST(SceneErrors, AWordThatIsAbsentOnPurposeAnswersAsExplainDoes) {
@@ -375,7 +374,7 @@ TEST(SceneErrors, AWordThatIsAbsentOnPurposeAnswersAsExplainDoes) {
       "bodies down everywhere; restitution takes energy at impacts.\n"
       "     = see carom explain drag, carom explain restitution\n");
   for (const char* key : {"dt", "time_step", "hinges", "periodic"})
-    EXPECT_NE(errors_of(start + key + ": 1\n").find("see carom explain"), std::string::npos) << key;
+    EXPECT_NE(errors_of(start + key + ": 1\n").find("see carom explain"), string::npos) << key;
 }
 
 TEST(SceneErrors, ANameThatIsNotThereIsAnsweredByThoseThatAre) {
@@ -398,9 +397,8 @@ TEST(SceneErrors, ANameThatIsNotThereIsAnsweredByThoseThatAre) {
 TEST(SceneErrors, ColourOnlyWhereRequested) {
   LoadOptions options;
   options.color = true;
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: x}\n").find('\x1b'), std::string::npos);
-  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: x}\n", options).find("\x1b[1;31merror:\x1b[0m"),
-            std::string::npos);
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: x}\n").find('\x1b'), string::npos);
+  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: x}\n", options).find("\x1b[1;31merror:\x1b[0m"), string::npos);
 }
 
 TEST(SceneErrors, SyntaxErrorsPointAtTheCause) {

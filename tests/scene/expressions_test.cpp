@@ -6,12 +6,13 @@
 #include "scene/marked_errors.h"
 #include "scene/motion_text.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-double value_of(const std::string& text) {
-  const std::vector<std::string> names = {"r", "i", "big"};
+double value_of(const string& text) {
+  const vector<string> names = {"r", "i", "big"};
   const double values[] = {0.5, -3, 1e300};
   return Formula(text, names).value(values);
 }
@@ -53,7 +54,7 @@ TEST(Formulas, TakeTheRemainderWithTheSignOfTheDivisor) {
 }
 
 TEST(Formulas, DoNotDependOnTheLocale) {
-  const std::string before = std::setlocale(LC_ALL, nullptr);
+  const string before = std::setlocale(LC_ALL, nullptr);
   for (const char* locale : {"de_DE.UTF-8", "C.UTF-8"}) {
     if (std::setlocale(LC_ALL, locale) == nullptr) continue;
     EXPECT_EQ(value_of("1.5 + max(0.25, 0.125)"), 1.75);
@@ -62,7 +63,7 @@ TEST(Formulas, DoNotDependOnTheLocale) {
 }
 
 /// "marked text: message" of the error in an expression.
-std::string fault_of(const std::string& text) {
+string fault_of(const string& text) {
   try {
     value_of(text);
     return "";
@@ -120,8 +121,8 @@ TEST(Formulas, PointAtTheirErrors) {
       {"tan(90)", "tan: the tangent of 90 degrees"},
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(fault_of(text), expected) << text;
-  const std::string tiny = "0." + std::string(400, '0') + "1";
-  const std::string fault = fault_of(tiny + " + r");
+  const string tiny = "0." + string(400, '0') + "1";
+  const string fault = fault_of(tiny + " + r");
   EXPECT_TRUE(fault.starts_with(tiny + ": ") && fault.ends_with(" is too small for a double")) << fault;
   // The second of two equal functions.
   try {
@@ -132,23 +133,23 @@ TEST(Formulas, PointAtTheirErrors) {
 }
 
 TEST(Formulas, RefuseTheNumbersThatPlainValuesRefuse) {
-  for (const std::string number : {"1e-400", "1e400", "2e-324"}) {
-    const std::string plain = errors_of(start + "gravity: [0, " + number + ", 0]\n");
-    const std::string fault = plain.substr(plain.find("error: "), plain.find('\n') - plain.find("error: "));
-    EXPECT_NE(fault.find("for a double"), std::string::npos) << plain;
-    const std::string expression = errors_of(start + "gravity: [0, '= " + number + "', 0]\n");
-    EXPECT_NE(expression.find(fault), std::string::npos) << expression;
-    const std::string limit = plain.substr(plain.rfind("; the "));
-    EXPECT_NE(expression.find(limit), std::string::npos) << expression;
+  for (const string number : {"1e-400", "1e400", "2e-324"}) {
+    const string plain = errors_of(start + "gravity: [0, " + number + ", 0]\n");
+    const string fault = plain.substr(plain.find("error: "), plain.find('\n') - plain.find("error: "));
+    EXPECT_NE(fault.find("for a double"), string::npos) << plain;
+    const string expression = errors_of(start + "gravity: [0, '= " + number + "', 0]\n");
+    EXPECT_NE(expression.find(fault), string::npos) << expression;
+    const string limit = plain.substr(plain.rfind("; the "));
+    EXPECT_NE(expression.find(limit), string::npos) << expression;
   }
   EXPECT_EQ(value_of("5e-324"), 5e-324);
 }
 
 TEST(Formulas, AreBounded) {
-  const std::string deep = std::string(200, '(') + "1" + std::string(200, ')');
+  const string deep = string(200, '(') + "1" + string(200, ')');
   EXPECT_EQ(fault_of(deep), "(: parentheses are nested more than 64 deep");
-  EXPECT_EQ(value_of(std::string(64, '(') + "1" + std::string(64, ')')), 1);
-  EXPECT_EQ(fault_of("1" + std::string(1000, '+')), "1: an expression of 1001 bytes");
+  EXPECT_EQ(value_of(string(64, '(') + "1" + string(64, ')')), 1);
+  EXPECT_EQ(fault_of("1" + string(1000, '+')), "1: an expression of 1001 bytes");
 }
 
 constexpr const char* with_expressions = R"(scene: 1
@@ -195,9 +196,9 @@ output:
 )";
 
 /// The resolved text without its line `let`.
-std::string without_let(const Scene& scene) {
-  const std::size_t at = scene.resolved.find("\nlet: ");
-  if (at == std::string::npos) return scene.resolved;
+string without_let(const Scene& scene) {
+  const size_t at = scene.resolved.find("\nlet: ");
+  if (at == string::npos) return scene.resolved;
   return scene.resolved.substr(0, at) + scene.resolved.substr(scene.resolved.find('\n', at + 1));
 }
 
@@ -205,7 +206,7 @@ TEST(Expressions, AreTheSceneWithItsNumbersWrittenOut) {
   const Scene scene = load_text(with_expressions), plain = load_text(with_numbers);
   EXPECT_EQ(motion_text(scene), motion_text(plain));
   EXPECT_EQ(without_let(scene), plain.resolved);
-  EXPECT_NE(scene.resolved.find("let: {gap: 0.005, r: 0.05, a: 20, n: 12}"), std::string::npos);
+  EXPECT_NE(scene.resolved.find("let: {gap: 0.005, r: 0.05, a: 20, n: 12}"), string::npos);
   EXPECT_EQ(scene.title, "= a title");
   const Scene again = load_text(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
@@ -227,7 +228,7 @@ TEST(Expressions, FollowSettingsOfLet) {
 
 TEST(Expressions, KeepTheTextsOfWhatFollowsFromLet) {
   const Scene scene = load_text(with_expressions);
-  const auto text = [&](const std::string& path) {
+  const auto text = [&](const string& path) {
     const auto found = scene.made_from.expressions.find(path);
     return found == scene.made_from.expressions.end() ? "" : found->second;
   };
@@ -241,7 +242,7 @@ TEST(Expressions, KeepTheTextsOfWhatFollowsFromLet) {
 }
 
 TEST(ExpressionErrors, PointIntoTheExpression) {
-  const std::string start_r = "scene: 1\nsimulate: {duration: 1}\nlet: {r: 0.05}\n";
+  const string start_r = "scene: 1\nsimulate: {duration: 1}\nlet: {r: 0.05}\n";
   EXPECT_EQ(errors_of(start_r + "balls:\n  red: {mass: \"= 2 * rr\", radius: = r / 0, position: [0, 0, 0]}\n"),
             "scene.yaml:5:22: error: no number is named `rr`\n"
             "   5 |   red: {mass: \"= 2 * rr\", radius: = r / 0, position: [0, 0, 0]}\n"
@@ -260,7 +261,7 @@ TEST(ExpressionErrors, PointIntoTheExpression) {
   EXPECT_EQ(marked_errors(start_r, "let.q=1"), (Marked{{"q", "`let` has no `q`"}}));
   // A comma ends a plain text in a list.
   EXPECT_NE(errors_of(start_r + "gravity: [= min(r, 1), 0, 0]\n").find("an expression with a comma needs quotes"),
-            std::string::npos);
+            string::npos);
   // A folded text has no place for each of its characters.
   EXPECT_EQ(marked_errors(start_r + "gravity: [\"= r +\n  q\", 0, 0]\n"), (Marked{{"\"", "no number is named `q`"}}));
 }
@@ -286,9 +287,9 @@ TEST(ExpressionErrors, OfLet) {
 }
 
 TEST(Expressions, StandInCaptionsByTheirNames) {
-  const std::string scene = start +
-                            "let: {r: 0.05, a: = 2 * r}\n"
-                            "balls: {row: {repeat: 2, mass: = a, radius: = r, position: [= i, 0, 0]}}\n";
+  const string scene = start +
+                       "let: {r: 0.05, a: = 2 * r}\n"
+                       "balls: {row: {repeat: 2, mass: = a, radius: = r, position: [= i, 0, 0]}}\n";
   EXPECT_EQ(errors_of(scene + "caption: \"{let.a} {balls.row.1.mass}\"\n"), "");
   EXPECT_EQ(marked_errors(scene + "caption: \"{let.q}\"\n"), (Marked{{"{let.q}", "`let` has no `q`"}}));
   EXPECT_EQ(marked_errors(scene + "caption: \"{balls.row.mass}\"\n"),
@@ -308,7 +309,7 @@ balls:
   b: {position: [1, 0, 0]}
 )");
   EXPECT_NEAR(scene.world.mass[0], 700 * 4.0 / 3 * 3.141592653589793 * 0.001, 1e-14);
-  EXPECT_EQ(scene.world.restitution, (std::vector<double>{1, 0.5}));
+  EXPECT_EQ(scene.world.restitution, (vector<double>{1, 0.5}));
   EXPECT_EQ(scene.initial.velocity[0], Vec3(0, 0, 0));
   EXPECT_NE(scene.roster.bodies[0].color, scene.roster.bodies[1].color);
   EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
@@ -318,13 +319,13 @@ balls:
 
 TEST(Restitution, MayBeANumber) {
   EXPECT_NE(load_text(start + "restitution: 0.3\n").resolved.find("restitution: {default: 0.3, combine: average}"),
-            std::string::npos);
+            string::npos);
   LoadOptions options;
   options.set = {"restitution.combine=minimum"};
   EXPECT_NE(load_text(start + "restitution: 0.3\n", options).resolved.find("{default: 0.3, combine: minimum}"),
-            std::string::npos);
+            string::npos);
   options.set = {"restitution=0.5", "restitution.combine=minimum"};
-  EXPECT_NE(load_text(start, options).resolved.find("{default: 0.5, combine: minimum}"), std::string::npos);
+  EXPECT_NE(load_text(start, options).resolved.find("{default: 0.5, combine: minimum}"), string::npos);
   EXPECT_EQ(marked_errors(start + "restitution: -1\n"), (Marked{{"-1", "`default` is -1"}}));
 }
 

@@ -7,29 +7,30 @@
 
 #include "scene/scenes_in_text.h"
 #include "scene/view.h"
+#include "std.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
 
 TEST(Fields, EveryRowIsComplete) {
-  std::set<std::string_view> names;
+  std::set<string_view> names;
   for (const Kind& kind : kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
     EXPECT_FALSE(kind.doc.empty()) << kind.name;
-    std::set<std::string_view> keys;
+    std::set<string_view> keys;
     for (const Field& field : kind.fields) {
       EXPECT_TRUE(keys.insert(field.key).second) << kind.name << "." << field.key;
       EXPECT_TRUE(field.doc.ends_with('.')) << kind.name << "." << field.key;
       EXPECT_FALSE(expected(field).empty());
-      for (const std::string_view rival : rivals(field)) {
+      for (const string_view rival : rivals(field)) {
         const Field* other = find_field(kind, rival);
         ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
-        const std::vector<std::string_view> its = rivals(*other);
-        EXPECT_NE(std::find(its.begin(), its.end(), field.key), its.end())
+        const vector<string_view> its = rivals(*other);
+        EXPECT_NE(std::ranges::find(its, field.key), its.end())
             << kind.name << ": " << rival << " does not exclude " << field.key;
       }
-      for (const std::string_view key : parts_of(field.spared_by)) EXPECT_NE(find_field(kind, key), nullptr) << key;
+      for (const string_view key : parts_of(field.spared_by)) EXPECT_NE(find_field(kind, key), nullptr) << key;
       if (holds_map(field) || field.type == Type::named || field.type == Type::list) {
         EXPECT_EQ(kind_named(field.of).name, field.of);
       }
@@ -101,8 +102,7 @@ TEST(Wholes, MayBeWrittenWithAnExponent) {
 
 TEST(Booleans, AreTrueAndFalseOnly) {
   for (const char* text : {"yes", "no", "on", "True", "TRUE", "1", "'true'", "~"}) {
-    EXPECT_NE(errors_of(start + "output: {collisions: " + text + "}\n").find("expected true or false"),
-              std::string::npos)
+    EXPECT_NE(errors_of(start + "output: {collisions: " + text + "}\n").find("expected true or false"), string::npos)
         << text;
   }
 }

@@ -2,11 +2,12 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string things =
+const string things =
     "scene: 1\n"
     "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}, blue: {mass: 1, radius: 1, position: [5, 0, 0]}}\n"
     "groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [9, 0, 0], max: [10, 1, 1]}},\n"
@@ -29,8 +30,8 @@ TEST(Forces, ActOnAllOrOnThoseNamedFromTimeToTime) {
   EXPECT_TRUE(gust.law == ForceLaw(UniformAcceleration{Vec3(0, 0, 2)}));
   EXPECT_EQ(gust.from, 0.5);
   EXPECT_EQ(gust.until, 1.5);
-  EXPECT_EQ(gust.on, (std::vector<Entity>{0, 2, 3, 4}));
-  EXPECT_EQ(scene.world.forces[2].on, (std::vector<Entity>{4}));
+  EXPECT_EQ(gust.on, (vector<Entity>{0, 2, 3, 4}));
+  EXPECT_EQ(scene.world.forces[2].on, (vector<Entity>{4}));
 }
 
 TEST(Forces, OnAGroupWithoutMembersActOnNobody) {
@@ -106,7 +107,7 @@ TEST(Forces, OfEveryKindHaveTheirFigures) {
   EXPECT_TRUE(scene.world.forces[0].law == ForceLaw(Drag{0.5, 0.25, Vec3(1, 2, 3)}));
   EXPECT_EQ(scene.world.forces[0].from, 1);
   EXPECT_TRUE(scene.world.forces[1].law == ForceLaw(Spring{Vec3(1, 0, 0), 40, 0.5, 2}));
-  EXPECT_EQ(scene.world.forces[1].on, (std::vector<Entity>{0}));
+  EXPECT_EQ(scene.world.forces[1].on, (vector<Entity>{0}));
   EXPECT_TRUE(scene.world.forces[2].law == ForceLaw(Spring{Vec3::Zero(), 4, 0, 0}));
   EXPECT_TRUE(scene.world.forces[3].law == ForceLaw(Attractor{Vec3(0, 9, 0), -3, 0.1}));
 }
@@ -139,7 +140,7 @@ TEST(ForceErrors, OfWhatTheyAreMadeOf) {
 }
 
 TEST(Engines, HaveTheForcesThatTheyCanFollow) {
-  const std::string one = "scene: 1\nballs: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
+  const string one = "scene: 1\nballs: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
   EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, engine: exact}\n"),
             "scene.yaml:4:33: error: under quadratic `drag` paths have no closed form, which `engine: exact` follows\n"
             "   4 | simulate: {duration: 1, engine: exact}\n"

@@ -5,14 +5,14 @@
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::string group(const std::string& arrange, const std::string& count, double radius, double edge,
-                  const std::string& more = "") {
-  const std::string corner = std::to_string(edge);
-  return std::string(start)
+string group(const string& arrange, const string& count, double radius, double edge, const string& more = "") {
+  const string corner = std::to_string(edge);
+  return string(start)
       .append("groups:\n  gas: {count: ")
       .append(count)
       .append(", ball: {mass: 1, radius: ")
@@ -78,16 +78,16 @@ TEST(Groups, ErrorsHaveTheNumberThatWouldFit) {
   // Close-packed in a box of 10 diameters: 12 layers, since 9 = 11.02 sqrt(2/3), of 11 rows, since 9 = 10.39 sqrt(3)/2.
   // The rows have 10 and 9 balls in turn: 6 (6 * 10 + 5 * 9) + 6 (5 * 10 + 6 * 9).
   for (const char* arrange : {"random", "hexagonal"}) {
-    const std::string error = errors_of(group(arrange, "2000", 0.05, 1));
-    const std::size_t at = error.find("     = ") + 7;
+    const string error = errors_of(group(arrange, "2000", 0.05, 1));
+    const size_t at = error.find("     = ") + 7;
     const int fit = std::stoi(error.substr(at));
     EXPECT_EQ(fit, 1254) << error;
     EXPECT_EQ(load_text(group(arrange, std::to_string(fit), 0.05, 1)).world.body_count(), 1254u);
     EXPECT_NE(errors_of(group(arrange, std::to_string(fit + 1), 0.05, 1)), "");
   }
-  const std::string error = errors_of(group("random", "1", 0.6, 1));
-  EXPECT_NE(error.find("error: 1 ball of radius 0.6 does not fit into the box of `gas`"), std::string::npos) << error;
-  EXPECT_NE(error.find("= 0 would fit"), std::string::npos);
+  const string error = errors_of(group("random", "1", 0.6, 1));
+  EXPECT_NE(error.find("error: 1 ball of radius 0.6 does not fit into the box of `gas`"), string::npos) << error;
+  EXPECT_NE(error.find("= 0 would fit"), string::npos);
 }
 
 TEST(Groups, DenseRandomOnesStillHaveRoom) {
@@ -121,14 +121,14 @@ TEST(Groups, KeepClearOfEverythingElse) {
 }
 
 TEST(Groups, AreTheSameOnEveryMachineAndDifferBySeedAndName) {
-  const std::string text = group("random", "50", 0.05, 1, ", speed: 2");
+  const string text = group("random", "50", 0.05, 1, ", speed: 2");
   const Scene a = load_text(text), b = load_text(text);
   EXPECT_EQ(a.initial.position, b.initial.position);
   EXPECT_EQ(a.initial.velocity, b.initial.velocity);
   LoadOptions other;
   other.seed = 1;
   EXPECT_NE(load_text(text, other).initial.position[0], a.initial.position[0]);
-  std::string renamed = text;
+  string renamed = text;
   renamed.replace(renamed.find("gas"), 3, "air");
   EXPECT_NE(load_text(renamed).initial.velocity[0], a.initial.velocity[0]);
   // Positions of the balls do not change their velocities.
@@ -139,7 +139,7 @@ TEST(Groups, VelocityIsTheGroupsOrElseTheBalls) {
   EXPECT_EQ(load_text(group("lattice", "2", 0.1, 1, ", velocity: [1, 2, 3]")).initial.velocity[1], Vec3(1, 2, 3));
   EXPECT_NE(errors_of(group("lattice", "2", 0.1, 1, ", velocity: [1, 2, 3], speed: 1"))
                 .find("has both `velocity` and `speed`"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Groups, AHundredThousandBallsDoNotCostAllPairs) {
@@ -184,7 +184,7 @@ TEST(Random, StreamsAreTheSameForEver) {
   Random a(0, "a"), b(0, "a"), c(0, "b"), d(1, "a"), n(0, "n");
   EXPECT_EQ(n.normal(), 0x1.6e4da3caa4811p+0);  // gcc -O2 and clang -O0 alike
   EXPECT_EQ(n.normal(), -0x1.b92dc2f9954cdp-1);
-  const std::uint64_t first = a.bits();
+  const uint64_t first = a.bits();
   EXPECT_EQ(first, 0xED70BC3E66FE33ACull);
   EXPECT_EQ(first, b.bits());
   EXPECT_NE(first, c.bits());
@@ -199,10 +199,10 @@ TEST(Random, BelowIsEven) {
 }
 
 TEST(Groups, NeedNoBallWhereDefaultsHaveAllOfIt) {
-  const std::string gas = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
+  const string gas = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
   const Scene scene = load_text(start + "defaults: {ball: {mass: 2, radius: 0.25}}\n" + gas);
-  EXPECT_EQ(scene.world.mass, (std::vector<double>{2, 2, 2}));
-  EXPECT_EQ(scene.world.radius, (std::vector<double>{0.25, 0.25, 0.25}));
+  EXPECT_EQ(scene.world.mass, (vector<double>{2, 2, 2}));
+  EXPECT_EQ(scene.world.radius, (vector<double>{0.25, 0.25, 0.25}));
   // By the same places and values as with a ball of its own.
   const Scene own = load_text(
       start + "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}, ball: {mass: 2, radius: 0.25}}}\n");
@@ -221,11 +221,11 @@ TEST(Groups, NeedNoBallWhereDefaultsHaveAllOfIt) {
             "   4 | groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n"
             "     |          ^~~\n"
             "     = expected `radius`: a number above 0 in m\n");
-  EXPECT_NE(errors_of(start + gas).find("group `gas` has no `ball`"), std::string::npos);
+  EXPECT_NE(errors_of(start + gas).find("group `gas` has no `ball`"), string::npos);
 }
 
 TEST(Groups, ABallThatComesFromTheDefaultsIsWholeToo) {
-  const std::string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
+  const string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
   EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups),
             "scene.yaml:4:10: error: `ball` has no `radius`\n"
             "   4 | " +

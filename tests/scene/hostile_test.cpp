@@ -5,21 +5,22 @@
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::string repeat(std::string_view part, int times) {
-  std::string out;
+string repeat(string_view part, int times) {
+  string out;
   for (int i = 0; i < times; ++i) out += part;
   return out;
 }
 
 TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
-  std::string alias_bomb = "a0: &a0 [x]\n";
+  string alias_bomb = "a0: &a0 [x]\n";
   for (int i = 1; i < 30; ++i) {
-    const std::string last = std::string("*a").append(std::to_string(i - 1));
-    alias_bomb += std::string("a")
+    const string last = string("*a").append(std::to_string(i - 1));
+    alias_bomb += string("a")
                       .append(std::to_string(i))
                       .append(": &a")
                       .append(std::to_string(i))
@@ -28,129 +29,129 @@ TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
                       .append(last)
                       .append("]\n");
   }
-  const std::string cases[] = {"",
-                               ",",
-                               "{",
-                               "}",
-                               "[",
-                               "]",
-                               ":",
-                               "?",
-                               "-",
-                               "- ",
-                               "*",
-                               "&",
-                               "!",
-                               "|",
-                               ">",
-                               "%",
-                               "@",
-                               "`",
-                               "\"",
-                               "'",
-                               "#",
-                               "~",
-                               "...",
-                               "---",
-                               "--- ---",
-                               "{,,,,",
-                               "{,}",
-                               "[,]",
-                               "{:}",
-                               "{?}",
-                               "? ",
-                               "? a",
-                               ": b",
-                               "a: b: c",
-                               "{a: b: c}",
-                               "[a: b: c]",
-                               "a:\n- b\n c",
-                               "a\n b\n  c: d",
-                               "\n\n\n",
-                               "\r",
-                               "a: b\r",
-                               "\xEF\xBB\xBF",
-                               "\xEF\xBB\xBF\xEF\xBB\xBF",
-                               std::string("\0", 1),
-                               std::string("s\0c\0e\0", 6),
-                               std::string("\0s\0c", 4),
-                               std::string("scene: 1\0\n", 10),
-                               "\xFF\xFEs",
-                               "\xFE\xFFs",
-                               std::string("\0\0\xFE\xFF", 4),
-                               "scene: 1 \x1B[31m",
-                               "scene: 1 \x7F",
-                               "a: \xC0\x80",
-                               "a: \xED\xA0\x80",
-                               "a: \xF4\x90\x80\x80",
-                               "a: \xE2\x80",
-                               "a: \xC2\x85",
-                               "a: \xE2\x80\xA8",
-                               "a: \xEF\xBB\xBF",
-                               "a: \"\\0\"",
-                               "a: \"\\x1b\"",
-                               "a: \"\\ud800\"",
-                               "a: \"\\U00110000\"",
-                               "a: \"\\",
-                               "*a",
-                               "&a *a",
-                               "a: &a *a",
-                               "a: &a {b: *a}",
-                               "&a a: *a",
-                               "<<: *a",
-                               "!!map {a: b}",
-                               "!<tag:x> a",
-                               "%YAML 9.9\n---\na: b",
-                               "%TAG ! x\n---\n!a b",
-                               "%TAG ! x\n%TAG ! x\n---\na",
-                               "? [a]\n: b",
-                               "? {a: b}\n: c",
-                               "{[a]: b}",
-                               "{{a: b}: c}",
-                               "a: |\n  b\n c\n",
-                               "a: |9\n b",
-                               "a: |0\n b",
-                               "a: >-+\n b",
-                               "a: |\n\tb",
-                               "a: 'b",
-                               "a: \"b",
-                               "a: \"b\nc: d\n",
-                               "a: 'b\n...\n",
-                               "scene: 1\n...\nscene: 1\n",
-                               "scene: 1\n---\n",
-                               "--- 1\n--- 2",
-                               "scene: 1\n...\n...\n,",
-                               "scene: 1\n}",
-                               repeat("[", 1'000'000),
-                               repeat("{", 1'000'000),
-                               repeat("{,,,,", 200'000),
-                               repeat("- ", 100'000),
-                               repeat("? ", 100'000),
-                               repeat("a: ", 1000),
-                               repeat("[[],", 100'000),
-                               repeat("!a ", 50'000),
-                               repeat("&a ", 50'000),
-                               repeat("*a ", 50'000),
-                               repeat("\"a\" ", 50'000),
-                               repeat("a\n", 50'000),
-                               repeat("[ #]\n", 100'000),
-                               repeat("%a\n", 50'000),
-                               "a: " + repeat("x", 200'000),
-                               "a: |\n" + repeat(" a\n", 50'000),
-                               "a: [" + repeat("1,", 200'000) + "]",
-                               repeat("\n", 200'000),
-                               repeat("a: 1\n", 2000),
-                               alias_bomb};
-  for (const std::string& text : cases) {
-    const std::string errors = errors_of(text);
-    EXPECT_NE(errors.find("error: "), std::string::npos) << text.substr(0, 60);
+  const string cases[] = {"",
+                          ",",
+                          "{",
+                          "}",
+                          "[",
+                          "]",
+                          ":",
+                          "?",
+                          "-",
+                          "- ",
+                          "*",
+                          "&",
+                          "!",
+                          "|",
+                          ">",
+                          "%",
+                          "@",
+                          "`",
+                          "\"",
+                          "'",
+                          "#",
+                          "~",
+                          "...",
+                          "---",
+                          "--- ---",
+                          "{,,,,",
+                          "{,}",
+                          "[,]",
+                          "{:}",
+                          "{?}",
+                          "? ",
+                          "? a",
+                          ": b",
+                          "a: b: c",
+                          "{a: b: c}",
+                          "[a: b: c]",
+                          "a:\n- b\n c",
+                          "a\n b\n  c: d",
+                          "\n\n\n",
+                          "\r",
+                          "a: b\r",
+                          "\xEF\xBB\xBF",
+                          "\xEF\xBB\xBF\xEF\xBB\xBF",
+                          string("\0", 1),
+                          string("s\0c\0e\0", 6),
+                          string("\0s\0c", 4),
+                          string("scene: 1\0\n", 10),
+                          "\xFF\xFEs",
+                          "\xFE\xFFs",
+                          string("\0\0\xFE\xFF", 4),
+                          "scene: 1 \x1B[31m",
+                          "scene: 1 \x7F",
+                          "a: \xC0\x80",
+                          "a: \xED\xA0\x80",
+                          "a: \xF4\x90\x80\x80",
+                          "a: \xE2\x80",
+                          "a: \xC2\x85",
+                          "a: \xE2\x80\xA8",
+                          "a: \xEF\xBB\xBF",
+                          "a: \"\\0\"",
+                          "a: \"\\x1b\"",
+                          "a: \"\\ud800\"",
+                          "a: \"\\U00110000\"",
+                          "a: \"\\",
+                          "*a",
+                          "&a *a",
+                          "a: &a *a",
+                          "a: &a {b: *a}",
+                          "&a a: *a",
+                          "<<: *a",
+                          "!!map {a: b}",
+                          "!<tag:x> a",
+                          "%YAML 9.9\n---\na: b",
+                          "%TAG ! x\n---\n!a b",
+                          "%TAG ! x\n%TAG ! x\n---\na",
+                          "? [a]\n: b",
+                          "? {a: b}\n: c",
+                          "{[a]: b}",
+                          "{{a: b}: c}",
+                          "a: |\n  b\n c\n",
+                          "a: |9\n b",
+                          "a: |0\n b",
+                          "a: >-+\n b",
+                          "a: |\n\tb",
+                          "a: 'b",
+                          "a: \"b",
+                          "a: \"b\nc: d\n",
+                          "a: 'b\n...\n",
+                          "scene: 1\n...\nscene: 1\n",
+                          "scene: 1\n---\n",
+                          "--- 1\n--- 2",
+                          "scene: 1\n...\n...\n,",
+                          "scene: 1\n}",
+                          repeat("[", 1'000'000),
+                          repeat("{", 1'000'000),
+                          repeat("{,,,,", 200'000),
+                          repeat("- ", 100'000),
+                          repeat("? ", 100'000),
+                          repeat("a: ", 1000),
+                          repeat("[[],", 100'000),
+                          repeat("!a ", 50'000),
+                          repeat("&a ", 50'000),
+                          repeat("*a ", 50'000),
+                          repeat("\"a\" ", 50'000),
+                          repeat("a\n", 50'000),
+                          repeat("[ #]\n", 100'000),
+                          repeat("%a\n", 50'000),
+                          "a: " + repeat("x", 200'000),
+                          "a: |\n" + repeat(" a\n", 50'000),
+                          "a: [" + repeat("1,", 200'000) + "]",
+                          repeat("\n", 200'000),
+                          repeat("a: 1\n", 2000),
+                          alias_bomb};
+  for (const string& text : cases) {
+    const string errors = errors_of(text);
+    EXPECT_NE(errors.find("error: "), string::npos) << text.substr(0, 60);
     EXPECT_LT(errors.size(), 40'000u) << text.substr(0, 60);
     for (const char c : errors) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << text.substr(0, 60);
   }
 }
 
 TEST(HostileFiles, WhatIsNoFileIsReported) {
-  const auto error = [](const std::string& path) -> std::string {
+  const auto error = [](const string& path) -> string {
     try {
       load_scene(path);
     } catch (const SceneError& e) {
@@ -158,7 +159,7 @@ TEST(HostileFiles, WhatIsNoFileIsReported) {
     }
     return "";
   };
-  const std::string folder = test_folder();
+  const string folder = test_folder();
   EXPECT_EQ(error(folder + "/none.yaml"), folder + "/none.yaml: error: no such file\n");
   EXPECT_EQ(error(""), ": error: no such file\n");
   EXPECT_EQ(error(folder), folder + ": error: this is a folder, not a scene file\n    = name the scene file in it\n");
@@ -167,7 +168,7 @@ TEST(HostileFiles, WhatIsNoFileIsReported) {
             folder + "/pipe: error: this is not a regular file\n    = write the scene to a file and name that\n");
   EXPECT_EQ(error("/dev/zero"),
             "/dev/zero: error: this is not a regular file\n    = write the scene to a file and name that\n");
-  EXPECT_NE(error(std::string(5000, 'x')).find("File name too long"), std::string::npos);
+  EXPECT_NE(error(string(5000, 'x')).find("File name too long"), string::npos);
   std::filesystem::resize_file(write_file("scene: 1\n", "sparse.yaml"), 1ull << 40);
   EXPECT_EQ(
       error(folder + "/sparse.yaml"),
@@ -177,7 +178,7 @@ TEST(HostileFiles, WhatIsNoFileIsReported) {
 }
 
 TEST(HostileFiles, Utf16IsNamed) {
-  EXPECT_EQ(errors_of(std::string("\xFF\xFEs\0c\0", 6)),
+  EXPECT_EQ(errors_of(string("\xFF\xFEs\0c\0", 6)),
             "scene.yaml: error: this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)\n    = "
             "save it as UTF-8\n");
   EXPECT_EQ(errors_of("scene: 1\ntitle: caf\xE9\n"),
@@ -188,7 +189,7 @@ TEST(HostileFiles, Utf16IsNamed) {
 }
 
 /// A scene that uses nearly every key.
-const std::string everything = R"(scene: 1
+const string everything = R"(scene: 1
 title: "everything \u00e9"
 seed: 7
 gravity: [0, -9.8, 0]
@@ -222,55 +223,55 @@ output: {trajectory: {every: 0.1, layout: wide}, collisions: true, energy: true,
 
 TEST(MutatedScenes, AreScenesOrErrors) {
   ASSERT_EQ(errors_of(everything), "");
-  const std::string path = write_file("");
-  const std::string pieces[] = {": ",
-                                ", ",
-                                "{",
-                                "}",
-                                "[",
-                                "]",
-                                "\n",
-                                "  ",
-                                "- ",
-                                "#",
-                                "'",
-                                "\"",
-                                "|",
-                                ">",
-                                "&a ",
-                                "*a",
-                                "!!x ",
-                                "<<: ",
-                                "---\n",
-                                "...\n",
-                                "\t",
-                                "1e999",
-                                "-1",
-                                ".nan",
-                                "\xC3",
-                                "\xF0\x9F\x8E\xB1",
-                                "null",
-                                "~",
-                                "true",
-                                "? ",
-                                "0",
-                                "1e9",
-                                "9999999999999999999999",
-                                std::string(1, '\0'),
-                                "\\",
-                                "1e-300",
-                                "1e300"};
+  const string path = write_file("");
+  const string pieces[] = {": ",
+                           ", ",
+                           "{",
+                           "}",
+                           "[",
+                           "]",
+                           "\n",
+                           "  ",
+                           "- ",
+                           "#",
+                           "'",
+                           "\"",
+                           "|",
+                           ">",
+                           "&a ",
+                           "*a",
+                           "!!x ",
+                           "<<: ",
+                           "---\n",
+                           "...\n",
+                           "\t",
+                           "1e999",
+                           "-1",
+                           ".nan",
+                           "\xC3",
+                           "\xF0\x9F\x8E\xB1",
+                           "null",
+                           "~",
+                           "true",
+                           "? ",
+                           "0",
+                           "1e9",
+                           "9999999999999999999999",
+                           string(1, '\0'),
+                           "\\",
+                           "1e-300",
+                           "1e300"};
   LoadOptions options;
   options.budget.bodies = 10'000;  // mutated counts are to stay cheap
   Random random(1, "mutations");
   int scenes = 0, errors = 0;
   for (int round = 0; round < 4000; ++round) {
-    std::string text = everything;
-    const std::uint64_t changes = 1 + random.below(3);
-    for (std::uint64_t k = 0; k < changes; ++k) {
-      const std::uint64_t at = random.below(text.size());
-      const std::uint64_t kind = random.below(8);
-      const std::uint64_t length = std::min<std::uint64_t>(1 + random.below(12), text.size() - at);
+    string text = everything;
+    const uint64_t changes = 1 + random.below(3);
+    for (uint64_t k = 0; k < changes; ++k) {
+      const uint64_t at = random.below(text.size());
+      const uint64_t kind = random.below(8);
+      const uint64_t length = std::min<uint64_t>(1 + random.below(12), text.size() - at);
       if (kind == 0) text.erase(at, length);
       if (kind == 1) text.insert(at, pieces[random.below(std::size(pieces))]);
       if (kind == 2) text[at] = static_cast<char>(random.below(256));
@@ -296,22 +297,21 @@ TEST(MutatedScenes, AreScenesOrErrors) {
 }
 
 TEST(MutatedScenes, SettingsAreScenesOrErrorsToo) {
-  const std::string path = write_file(everything);
-  const std::string paths[] = {"balls.red.position.z",
-                               "simulate.duration",
-                               "camera.fov",
-                               "output.frames.fps",
-                               "restitution.pairs.0.value",
-                               "groups.gas.in.max.x",
-                               "lights.ambient",
-                               "x",
-                               "",
-                               "balls"};
-  const std::string values[] = {"1",    "",     "[1, 2, 3]", "{a: b}", "{",         "'",    "*a",
-                                "&a 1", "- x",  "a: b",      "\n",     "#fff",      "true", "~",
-                                ",",    "\xFF", "\t",        "---",    "1\n---\n2", "=",    "1e999"};
-  for (const std::string& p : paths) {
-    for (const std::string& v : values) {
+  const string path = write_file(everything);
+  const string paths[] = {"balls.red.position.z",
+                          "simulate.duration",
+                          "camera.fov",
+                          "output.frames.fps",
+                          "restitution.pairs.0.value",
+                          "groups.gas.in.max.x",
+                          "lights.ambient",
+                          "x",
+                          "",
+                          "balls"};
+  const string values[] = {"1",    "",     "[1, 2, 3]", "{a: b}", "{",    "'",  "*a",  "&a 1",      "- x", "a: b", "\n",
+                           "#fff", "true", "~",         ",",      "\xFF", "\t", "---", "1\n---\n2", "=",   "1e999"};
+  for (const string& p : paths) {
+    for (const string& v : values) {
       for (const char* equals : {"=", "", ".=", ".y="}) {
         LoadOptions options;
         options.set = {p + equals + v};

@@ -5,12 +5,13 @@
 #include "scene/fields.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// A ball of these keys, and `more` below it.
-std::string ball(const std::string& keys, const std::string& more = "simulate: {duration: 1}\n") {
+string ball(const string& keys, const string& more = "simulate: {duration: 1}\n") {
   return "scene: 1\nballs:\n  red: {" + keys + "}\n" + more;
 }
 
@@ -70,14 +71,14 @@ TEST(Limits, APlaceTooFarForTheSmallestSizeIsRefused) {
 }
 
 TEST(Limits, ARoomAndAGroupThatWideAreRefused) {
-  const std::string room = ball("mass: 1, radius: 1, position: [0, 0, 0]",
-                                "room: {min: [-1e13, -9, -9], max: [9, 9, 9]}\nsimulate: {duration: 1}\n");
-  EXPECT_NE(errors_of(room).find("scene.yaml:4:13: error: `room` is 1e+13 m from the origin"), std::string::npos)
+  const string room = ball("mass: 1, radius: 1, position: [0, 0, 0]",
+                           "room: {min: [-1e13, -9, -9], max: [9, 9, 9]}\nsimulate: {duration: 1}\n");
+  EXPECT_NE(errors_of(room).find("scene.yaml:4:13: error: `room` is 1e+13 m from the origin"), string::npos)
       << errors_of(room);
-  const std::string group =
+  const string group =
       "scene: 1\ngroups:\n  gas: {count: 9, in: {min: [0, 0, 0], max: [9e29, 1, 9]}, ball: {mass: 1, radius: 0.1}}\n"
       "simulate: {duration: 1}\n";
-  EXPECT_NE(errors_of(group).find("scene.yaml:3:45: error: `gas` is 9e+29 m from the origin"), std::string::npos)
+  EXPECT_NE(errors_of(group).find("scene.yaml:3:45: error: `gas` is 9e+29 m from the origin"), string::npos)
       << errors_of(group);
 }
 
@@ -93,21 +94,21 @@ TEST(Limits, AWayTooLongForTheSmallestSizeIsRefused) {
 }
 
 TEST(Limits, AnImpulseThatMakesItTooFastIsRefused) {
-  const std::string text = errors_of(ball("mass: 1e-30, radius: 0.5, position: [0, 0, 0], impulse: [0, 10, 0]"));
-  EXPECT_NE(text.find("`red` starts at 1e+31 m/s"), std::string::npos) << text;
+  const string text = errors_of(ball("mass: 1e-30, radius: 0.5, position: [0, 0, 0], impulse: [0, 10, 0]"));
+  EXPECT_NE(text.find("`red` starts at 1e+31 m/s"), string::npos) << text;
 }
 
 TEST(Limits, ForcesWhoseSumIsTooMuchForAMassAreRefused) {
-  const std::string text =
+  const string text =
       errors_of(ball("mass: 1e-10, radius: 0.5, position: [0, 0, 0]",
                      "forces: [{uniform: [1e20, 0, 0]}, {uniform: [0, 0, 1e20]}]\nsimulate: {duration: 1}\n"));
-  EXPECT_NE(text.find("scene.yaml:4:1: error: the uniform forces accelerate `red` by 2e+30 m/s^2"), std::string::npos)
+  EXPECT_NE(text.find("scene.yaml:4:1: error: the uniform forces accelerate `red` by 2e+30 m/s^2"), string::npos)
       << text;
 }
 
 TEST(Limits, ADensityWhoseMassIsNoneIsRefused) {
-  const std::string text = errors_of(ball("density: 1e100, radius: 1e-1, position: [0, 0, 0]"));
-  EXPECT_NE(text.find("a run takes numbers from 1e-60 to 1e+60 kg"), std::string::npos) << text;
+  const string text = errors_of(ball("density: 1e100, radius: 1e-1, position: [0, 0, 0]"));
+  EXPECT_NE(text.find("a run takes numbers from 1e-60 to 1e+60 kg"), string::npos) << text;
 }
 
 TEST(Limits, AFilmTooSlowNeedsAHigherSpeed) {
@@ -117,14 +118,13 @@ TEST(Limits, AFilmTooSlowNeedsAHigherSpeed) {
             "     |                         ^~~~\n"
             "     = expected a higher `speed`, a lower `fps` or a shorter duration, or --force to allow it\n");
   // At full speed there would be too many, too.
-  EXPECT_NE(errors_of(start + "output: {video: {speed: 0.5, fps: 1e6}}\n").find("scene.yaml:3:35: "),
-            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {video: {speed: 0.5, fps: 1e6}}\n").find("scene.yaml:3:35: "), string::npos);
   EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("expected a number from 0.000001 to 1000000\n"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
-  const std::string text =
+  const string text =
       ball("mass: 1, radius: 0.5, position: [0, 0, 0]", "simulate: {duration: 1, engine: stepped, step: 1e-9}\n");
   EXPECT_EQ(errors_of(text),
             "scene.yaml:4:48: error: the run would take 1e+09 time steps; the limit is 100000000\n"
@@ -137,7 +137,7 @@ TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
 }
 
 TEST(Steps, ThoseThatAForceNeedsAreCountedToo) {
-  const std::string text =
+  const string text =
       ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
            "forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\nsimulate: {duration: 9}\n");
   EXPECT_EQ(errors_of(text),
@@ -156,7 +156,7 @@ TEST(Steps, AreNoneWhereTheEngineGoesFromEventToEvent) {
 }
 
 TEST(Names, AMemberIsNamedByItsDigitsAlone) {
-  const auto with = [](const std::string& name) {
+  const auto with = [](const string& name) {
     return errors_of(
         "scene: 1\ngroups:\n  gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}, ball: {mass: 1, radius: 0.1}}\n"
         "forces: [{uniform: [1, 0, 0], on: [" +

@@ -4,6 +4,7 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -33,9 +34,9 @@ output:
   EXPECT_EQ(scene.title, "Two bowling balls meet near the origin");
   EXPECT_EQ(scene.seed, 0u);
   EXPECT_EQ(scene.world.gravity, Vec3(0, 0, 0));
-  EXPECT_EQ(scene.world.mass, (std::vector<double>{10, 10}));
-  EXPECT_EQ(scene.world.radius, (std::vector<double>{0.11, 0.11}));
-  EXPECT_EQ(scene.world.restitution, (std::vector<double>{0.9, 0.9}));
+  EXPECT_EQ(scene.world.mass, (vector<double>{10, 10}));
+  EXPECT_EQ(scene.world.radius, (vector<double>{0.11, 0.11}));
+  EXPECT_EQ(scene.world.restitution, (vector<double>{0.9, 0.9}));
   EXPECT_TRUE(scene.world.impulse.empty());
   EXPECT_EQ(scene.initial.position[0], Vec3(-1, 0, 0.025));
   EXPECT_EQ(scene.initial.velocity[1], Vec3(-2, 0, 0));
@@ -78,22 +79,22 @@ TEST(LoadScene, VideoTakesRateSizeAndSamplesFromFramesAndNoWindow) {
   EXPECT_EQ(scene.output.video->size.width, 320);
   EXPECT_EQ(scene.output.video->samples, 8);
   EXPECT_EQ(scene.output.video->from, 0);
-  EXPECT_EQ(scene.output.video->until, std::nullopt);
+  EXPECT_EQ(scene.output.video->until, nullopt);
 }
 
 TEST(LoadScene, SizesHaveNames) {
-  for (const auto& [name, size] : std::vector<std::pair<std::string, Size>>{{"720p", {1280, 720}},
-                                                                            {"1080p", {1920, 1080}},
-                                                                            {"4k", {3840, 2160}},
-                                                                            {"square", {1080, 1080}},
-                                                                            {"\"4k\"", {3840, 2160}}}) {
+  for (const auto& [name, size] : vector<std::pair<string, Size>>{{"720p", {1280, 720}},
+                                                                  {"1080p", {1920, 1080}},
+                                                                  {"4k", {3840, 2160}},
+                                                                  {"square", {1080, 1080}},
+                                                                  {"\"4k\"", {3840, 2160}}}) {
     const Scene scene =
         load_text(start + "output: {frames: {size: " + name + "}, video: true, sheet: {size: " + name + "}}\n");
     EXPECT_EQ(scene.output.frames->size, size) << name;
     EXPECT_EQ(scene.output.video->size, size) << name;
     EXPECT_EQ(scene.output.sheet->size, size) << name;
   }
-  EXPECT_EQ(load_text(start + "output: {sheet: true}\n").output.sheet->size, std::nullopt);
+  EXPECT_EQ(load_text(start + "output: {sheet: true}\n").output.sheet->size, nullopt);
   EXPECT_EQ(
       errors_of(start + "output: {frames: {size: 1080}}\n"),
       "scene.yaml:3:25: error: `size` is `1080`\n"
@@ -119,7 +120,7 @@ TEST(LoadScene, ASheetThatCannotBeMadeNeedsAnotherSize) {
       "x 16384\n");
   EXPECT_EQ(errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: {size: [1920, 1080]}}\n"), "");
   EXPECT_NE(errors_of(start + "output: {sheet: {size: [16384, 16384]}}\n").find("at most 100000000 pixels in all"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, TheEndOfAFilmsNameIsItsFormat) {
@@ -140,7 +141,7 @@ TEST(LoadScene, AGifHasARateThatItCanKeep) {
     EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n"), "") << fps;
   for (const char* fps : {"100", "60", "30", "24", "29.97", "33.3"})
     EXPECT_NE(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n").find("a GIF cannot show"),
-              std::string::npos)
+              string::npos)
         << fps;
   EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: 30}}\n"),
             "scene.yaml:3:36: error: a GIF cannot show 30 pictures a second\n"
@@ -148,10 +149,10 @@ TEST(LoadScene, AGifHasARateThatItCanKeep) {
             "     |                                    ^~\n"
             "     = expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
             "second, at least 2\n");
-  for (const std::string fps : {"foo", "100/3"}) {
-    const std::string errors = errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n");
-    EXPECT_NE(errors.find("error: `" + fps + "` "), std::string::npos);
-    EXPECT_EQ(errors.find("a GIF cannot show"), std::string::npos);
+  for (const string fps : {"foo", "100/3"}) {
+    const string errors = errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n");
+    EXPECT_NE(errors.find("error: `" + fps + "` "), string::npos);
+    EXPECT_EQ(errors.find("a GIF cannot show"), string::npos);
   }
 }
 
@@ -167,7 +168,7 @@ TEST(LoadScene, AGifWithoutARateOfItsOwnHasTheHighestUpToThatOfFrames) {
 }
 
 TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
-  const std::string text = start + "output: {video: {fps: 30}}\n", file = "output.video.file=x.gif";
+  const string text = start + "output: {video: {fps: 30}}\n", file = "output.video.file=x.gif";
   EXPECT_EQ(
       errors_with(text, file),
       "scene.yaml:3:23: error: a GIF cannot show 30 pictures a second\n"
@@ -181,7 +182,7 @@ TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
 }
 
 TEST(LoadScene, AFilmHasASizeAndARateThatItsFormatCanHold) {
-  const auto error = [](const std::string& video) { return errors_of(start + "output: {video: {" + video + "}}\n"); };
+  const auto error = [](const string& video) { return errors_of(start + "output: {video: {" + video + "}}\n"); };
   EXPECT_EQ(error("size: [16384, 16384]"),
             "scene.yaml:3:24: error: an MP4 of 16384 x 16384 pixels\n"
             "   3 | output: {video: {size: [16384, 16384]}}\n"
@@ -221,7 +222,7 @@ TEST(LoadScene, FramesAndVideoTakeRateSizeAndSamplesFromEachOther) {
   const Output frames = load_text(start + "output: {frames: {fps: 60, until: 0.5}, video: {size: [64, 64]}}\n").output;
   EXPECT_EQ(*frames.frames, (FramesOutput{60, {64, 64}, 4, 0, 0.5}));
   EXPECT_EQ(frames.video->fps, 60);
-  EXPECT_EQ(frames.video->until, std::nullopt);
+  EXPECT_EQ(frames.video->until, nullopt);
   EXPECT_EQ(load_text(start + "output: {frames: true, video: {file: x.gif}}\n").output.frames->fps, 25);
   EXPECT_EQ(load_text(start + "output: {frames: true}\n").output.frames->fps, 30);
 }
@@ -242,7 +243,7 @@ TEST(LoadScene, OwnDensityHidesTheDefaultMassAndTheOtherWayRound) {
   EXPECT_EQ(scene.world.radius[2], 2);
   EXPECT_NE(errors_of(start + "balls: {a: {mass: 1, density: 3, radius: 1, position: [0, 0, 0]}}\n")
                 .find("ball `a` has both `mass` and `density`"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, BodiesStandInTheOrderOfTheFile) {
@@ -268,9 +269,9 @@ TEST(LoadScene, EmptyGroupsNameNoBody) {
 }
 
 TEST(LoadScene, RoomMakesSixInwardPlanesAmongThePlanesInFileOrder) {
-  const std::string room = "room: {min: [-1, -2, -3], max: [1, 2, 3], restitution: 0.5}\n";
-  const std::string planes = "planes: {floor: {point: [0, -9, 0], normal: [0, 3, 0]}}\n";
-  const std::string walls = "walls: {net: {center: [0, 0, 0], normal: [1, 0, 0], size: [2, 1]}}\n";
+  const string room = "room: {min: [-1, -2, -3], max: [1, 2, 3], restitution: 0.5}\n";
+  const string planes = "planes: {floor: {point: [0, -9, 0], normal: [0, 3, 0]}}\n";
+  const string walls = "walls: {net: {center: [0, 0, 0], normal: [1, 0, 0], size: [2, 1]}}\n";
   const Scene scene = load_text(start + walls + room + planes);
   const char* names[] = {"room.x_min", "room.x_max", "room.y_min", "room.y_max",
                          "room.z_min", "room.z_max", "floor",      "net"};
@@ -303,7 +304,7 @@ TEST(LoadScene, WallFramesAreRightHanded) {
   }
   EXPECT_NE(errors_of(start + "walls: {a: {center: [0, 0, 0], normal: [0, 1, 0], size: [1, 1], up: [0, -2, 0]}}\n")
                 .find("up is parallel to the normal"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, NormalsOfAnyLengthBecomeUnit) {
@@ -313,15 +314,15 @@ TEST(LoadScene, NormalsOfAnyLengthBecomeUnit) {
   EXPECT_LT((scene.world.planes[0].normal - Vec3(0.6, 0.8, 0)).norm(), 2e-16);
   EXPECT_LT((scene.world.planes[1].normal - Vec3(0.6, 0, 0.8)).norm(), 2e-16);
   EXPECT_NE(errors_of(start + "planes: {a: {point: [0, 0, 0], normal: [0, 0, -0.0]}}\n").find("`normal` has no length"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
-  const std::string things = start +
-                             "defaults: {ball: {mass: 1, radius: 0.1}}\n"
-                             "balls: {a: {position: [0, 0, 0]}}\n"
-                             "groups: {gas: {count: 5, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}}\n"
-                             "room: {min: [-9, -9, -9], max: [9, 9, 9]}\n";
+  const string things = start +
+                        "defaults: {ball: {mass: 1, radius: 0.1}}\n"
+                        "balls: {a: {position: [0, 0, 0]}}\n"
+                        "groups: {gas: {count: 5, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}}\n"
+                        "room: {min: [-9, -9, -9], max: [9, 9, 9]}\n";
   const Scene scene =
       load_text(things +
                 "restitution: {default: 0.8, combine: mass_weighted, pairs: [{between: [a, gas], value: 0.1}, "
@@ -336,25 +337,25 @@ TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
   EXPECT_EQ(scene.world.pairs[1].b_first, 8u);
   EXPECT_EQ(scene.world.pairs[2].b_first, 6u);
   EXPECT_EQ(scene.world.pairs[2].b_count, 6u);
-  const std::string wrong = errors_of(things +
-                                      "restitution: {pairs: [{between: [a, gsa], value: 1}, {between: [gas.5, room], "
-                                      "value: 1}, {between: [room, room], value: 1}, {between: [a, a], value: 1}]}\n");
-  EXPECT_NE(wrong.find("nothing is named `gsa`"), std::string::npos);
-  EXPECT_NE(wrong.find("did you mean `gas`?"), std::string::npos);
-  EXPECT_NE(wrong.find("expected gas.0 to gas.4"), std::string::npos);
-  EXPECT_NE(wrong.find("`room` and `room` are fixed things, which never meet"), std::string::npos);
-  EXPECT_NE(wrong.find("`a` does not meet itself"), std::string::npos);
+  const string wrong = errors_of(things +
+                                 "restitution: {pairs: [{between: [a, gsa], value: 1}, {between: [gas.5, room], "
+                                 "value: 1}, {between: [room, room], value: 1}, {between: [a, a], value: 1}]}\n");
+  EXPECT_NE(wrong.find("nothing is named `gsa`"), string::npos);
+  EXPECT_NE(wrong.find("did you mean `gas`?"), string::npos);
+  EXPECT_NE(wrong.find("expected gas.0 to gas.4"), string::npos);
+  EXPECT_NE(wrong.find("`room` and `room` are fixed things, which never meet"), string::npos);
+  EXPECT_NE(wrong.find("`a` does not meet itself"), string::npos);
 }
 
 TEST(LoadScene, NamesAreUniqueAcrossKinds) {
-  const std::string ball = "balls: {room: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
+  const string ball = "balls: {room: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
   EXPECT_EQ(errors_of(start + ball), "");
   EXPECT_NE(errors_of(start + ball + "room: {min: [-2, -2, -2], max: [2, 2, 2]}\n")
                 .find(":4:1: error: the name `room` is taken"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + ball + "planes: {room: {point: [-5, 0, 0], normal: [1, 0, 0]}}\n")
                 .find(":4:10: error: the name `room` is taken"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, ImpulsesAreKeptOnlyIfThereAreAny) {
@@ -371,7 +372,7 @@ TEST(LoadScene, BookHasItsStep) {
   EXPECT_FALSE(load_text(start).simulate.step);
   EXPECT_NE(
       errors_of("scene: 1\nsimulate: {duration: 1, as_printed: true}\n").find("`as_printed` needs `engine: book`"),
-      std::string::npos);
+      string::npos);
 }
 
 TEST(LoadScene, ColoursComeByNameHexAndNumbers) {
@@ -388,7 +389,7 @@ TEST(LoadScene, ColoursComeByNameHexAndNumbers) {
 
 TEST(LoadScene, TouchingByRoundingIsNoOverlap) {
   // 0.1 + 0.2 > 0.3 in doubles; a cradle's balls at multiples of 0.2 m with radius 0.1.
-  std::string text = start + "defaults: {ball: {mass: 1, radius: 0.1}}\nballs:\n";
+  string text = start + "defaults: {ball: {mass: 1, radius: 0.1}}\nballs:\n";
   for (int i = 0; i < 9; ++i)
     text += "  b" + std::to_string(i) + ": {position: [" + std::to_string(i * 2 / 10) + "." +
             std::to_string(i * 2 % 10) + ", 0.1, 1000.3]}\n";
@@ -396,30 +397,30 @@ TEST(LoadScene, TouchingByRoundingIsNoOverlap) {
   EXPECT_NE(errors_of(start + "balls: {a: {mass: 1, radius: 0.1, position: [0, 0, 0]}, b: {mass: 1, radius: 0.1, "
                               "position: [0.199999999, 0, 0]}}\n")
                 .find("`b` overlaps `a` by 1e-09 m"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, OverlapsAreFoundBetweenVeryUnequalBalls) {
-  std::string text = start + "balls:\n  big: {mass: 1, radius: 1000, position: [0, 0, 0]}\n";
+  string text = start + "balls:\n  big: {mass: 1, radius: 1000, position: [0, 0, 0]}\n";
   EXPECT_EQ(errors_of(text + "  dust: {mass: 1, radius: 1e-6, position: [1000.000001, 0, 0]}\n"), "");
   EXPECT_NE(errors_of(text + "  dust: {mass: 1, radius: 1e-6, position: [0, 999.999, 0]}\n")
                 .find("`dust` overlaps `big` by 0.001001 m"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, BallsBehindAPlaneAndInAWallAreRefused) {
-  const std::string ball = "balls: {a: {mass: 1, radius: 0.5, position: [0, 0, 0]}}\n";
+  const string ball = "balls: {a: {mass: 1, radius: 0.5, position: [0, 0, 0]}}\n";
   EXPECT_NE(errors_of(start + ball + "planes: {floor: {point: [0, 3, 0], normal: [0, 1, 0]}}\n")
                 .find("`a` is behind `floor` at the start"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + ball + "walls: {w: {center: [0, 0, 0.4], normal: [0, 0, 1], size: [1, 1]}}\n")
                 .find("`a` overlaps `w` by 0.1 m"),
-            std::string::npos);
+            string::npos);
   EXPECT_EQ(errors_of(start + ball + "walls: {w: {center: [0, 2, 0], normal: [0, 0, 1], size: [1, 1]}}\n"), "");
 }
 
 TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
-  const std::string gas =
+  const string gas =
       "groups: {gas: {count: 1e12, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [1, 1, 1]}}}\n";
   EXPECT_EQ(errors_of(start + gas),
             "scene.yaml:3:23: error: the scene has more than 4000000000 bodies; the limit is 2000000\n"
@@ -441,32 +442,32 @@ TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
   LoadOptions force;
   force.budget.enforced = false;
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n", force), "");
-  EXPECT_NE(errors_of(start + gas, force).find("the limit is 4000000000"), std::string::npos);
+  EXPECT_NE(errors_of(start + gas, force).find("the limit is 4000000000"), string::npos);
 }
 
 TEST(LoadScene, TheBudgetOfPicturesFollowsTheSpeedOfTheFilm) {
   // 1 s of motion: 101 pictures a second of film, slowed down a thousandfold.
   EXPECT_EQ(errors_of(start + "output: {video: {fps: 100, speed: 0.001001}}\n"), "");
   EXPECT_NE(errors_of(start + "output: {video: {fps: 100, speed: 0.001}}\n").find("would write 100001 pictures"),
-            std::string::npos);
+            string::npos);
   EXPECT_EQ(errors_of(start + "output: {video: {fps: 1e6, speed: 100}}\n"), "");
 }
 
 TEST(LoadScene, PicturesHaveLimits) {
   EXPECT_NE(errors_of(start + "output: {video: {size: [17, 20]}}\n").find("an even whole number from 16 to 16384"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {size: [17, 20]}, video: true}\n").find("an even width and height"),
-            std::string::npos);
-  EXPECT_NE(errors_of(start + "output: {frames: {size: [8, 20000]}}\n").find("from 16 to 16384"), std::string::npos);
-  EXPECT_NE(errors_of(start + "output: {frames: {samples: 3}}\n").find("expected 1, 2, 4 or 8"), std::string::npos);
+            string::npos);
+  EXPECT_NE(errors_of(start + "output: {frames: {size: [8, 20000]}}\n").find("from 16 to 16384"), string::npos);
+  EXPECT_NE(errors_of(start + "output: {frames: {samples: 3}}\n").find("expected 1, 2, 4 or 8"), string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "output: {sheet: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "output: {sheet: {from: 0.5, until: 0.25}}\n").find("`until` is 0.25 but `from` is 0.5"),
-            std::string::npos);
-  EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("`speed` is 0"), std::string::npos);
-  EXPECT_NE(errors_of(start + "output: {sheet: {rows: 0}}\n").find("`rows` is 0"), std::string::npos);
+            string::npos);
+  EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("`speed` is 0"), string::npos);
+  EXPECT_NE(errors_of(start + "output: {sheet: {rows: 0}}\n").find("`rows` is 0"), string::npos);
   for (const char* file : {"../x.mp4", ".mp4", "-x.mp4", ".x.mp4", "x.avi", "a/b.mp4", "\"\"", "\"a\\nb.mp4\""}) {
     EXPECT_NE(errors_of(start + "output: {video: {file: " + file + "}}\n"), "") << file;
   }
@@ -475,15 +476,15 @@ TEST(LoadScene, PicturesHaveLimits) {
 TEST(LoadScene, CamerasThatShowNothingAreRefused) {
   EXPECT_NE(errors_of(start + "camera: {eye: [0, 0, 0], target: [0, 0, 0]}\n")
                 .find("the camera's target is where its eye is"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "camera: {eye: [0, 5, 0], target: [0, 0, 0]}\n")
                 .find("the camera looks along its up direction"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "camera: {eye: [0, 5, 1], target: [0, 0, 0], near: 2, far: 1}\n")
                 .find("far (1) is not beyond near (2)"),
-            std::string::npos);
+            string::npos);
   EXPECT_NE(errors_of(start + "camera: {eye: [0, 5, 1], target: [0, 0, 0], fov: 180}\n").find("between 0 and 180"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(LoadScene, WindowsFilesAreFine) {

@@ -2,11 +2,12 @@
 #include "scene/motion_text.h"
 
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string both = R"(scene: 1
+const string both = R"(scene: 1
 title: Two
 simulate: {duration: 2}
 balls:
@@ -25,7 +26,7 @@ forces:
 camera: {eye: [0, 3, -9], target: [0, 0, 0]}
 )";
 
-std::string text_with(const std::string& set) {
+string text_with(const string& set) {
   LoadOptions options;
   if (!set.empty()) options.set = {set};
   return motion_text(load_text(both, options));
@@ -45,7 +46,7 @@ TEST(MotionText, IsAsNumbersAreNotAsTheyAreWritten) {
 }
 
 TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
-  std::vector<std::string> texts = {text_with("")};
+  vector<string> texts = {text_with("")};
   for (const char* set : {"simulate.duration=3",
                           "simulate.step=0.01",
                           "simulate.tolerance=0.01",
@@ -75,18 +76,18 @@ TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
     texts.push_back(text_with(set));
   for (const auto& [from, to] : {std::pair("until: 1", "until: 1.5"), std::pair("[0, 0, 1]", "[0, 0, 2]"),
                                  std::pair("on: [red]", "on: [crate]"), std::pair("stiffness: 3", "stiffness: 4")}) {
-    std::string other = both;
-    other.replace(other.find(from), std::string_view(from).size(), to);
+    string other = both;
+    other.replace(other.find(from), string_view(from).size(), to);
     texts.push_back(motion_text(load_text(other)));
   }
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(texts[i], texts[k]) << i << ", " << k;
+  for (size_t i = 0; i < texts.size(); ++i)
+    for (size_t k = 0; k < i; ++k) EXPECT_NE(texts[i], texts[k]) << i << ", " << k;
 }
 
 TEST(MotionText, OfAGroupFollowsTheSeed) {
-  const std::string gas = start +
-                          "groups:\n  gas: {count: 9, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, "
-                          "2]}, speed: 1}\n";
+  const string gas = start +
+                     "groups:\n  gas: {count: 9, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, "
+                     "2]}, speed: 1}\n";
   LoadOptions other;
   other.seed = 7;
   EXPECT_EQ(motion_text(load_text(gas)), motion_text(load_text(gas)));

@@ -2,21 +2,22 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string things =
+const string things =
     "scene: 1\n"
     "balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}\n"
     "simulate: {duration: 4}\n";
 
-std::string with(const std::string& windows) {
+string with(const string& windows) {
   return things + "planes:\n  floor: {point: [0, 0, 0], normal: [0, 1, 0], motion: " + windows + "}\n";
 }
 
-std::string first_error(const std::string& windows) {
-  const std::string all = errors_of(with(windows));
+string first_error(const string& windows) {
+  const string all = errors_of(with(windows));
   return all.substr(0, all.find('\n'));
 }
 
@@ -68,15 +69,15 @@ TEST(MotionErrors, NameThePlaceAndTheRemedy) {
 }
 
 TEST(MotionErrors, TheBooksEngineHasNone) {
-  std::string text = with("[{velocity: [0, 1, 0]}]");
+  string text = with("[{velocity: [0, 1, 0]}]");
   text.replace(text.find("duration: 4"), 11, "duration: 4, engine: book");
-  EXPECT_NE(errors_of(text).find("`engine: book` has no fixed things that move"), std::string::npos);
+  EXPECT_NE(errors_of(text).find("`engine: book` has no fixed things that move"), string::npos);
 }
 
 TEST(Motions, AreInTheResolvedScene) {
-  const std::string windows = "[{from: 0.5, until: 1, velocity: [0, 1, 0]}, {from: 2, velocity: [0, -1, 0]}]";
+  const string windows = "[{from: 0.5, until: 1, velocity: [0, 1, 0]}, {from: 2, velocity: [0, -1, 0]}]";
   const Scene scene = load_text(with(windows));
-  EXPECT_NE(scene.resolved.find("motion: " + windows), std::string::npos) << scene.resolved;
+  EXPECT_NE(scene.resolved.find("motion: " + windows), string::npos) << scene.resolved;
   EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
 }
 

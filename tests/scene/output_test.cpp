@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/fields.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 TEST(Outputs, AreTheKeysOfOutputInTheTableOfFields) {
-  std::vector<std::string_view> keys, names;
+  vector<string_view> keys, names;
   for (const Field& field : kind_named("output").fields) keys.push_back(field.key);
   for (const OutputKind& kind : output_kinds()) names.push_back(kind.name);
   EXPECT_EQ(names, keys);
@@ -20,10 +21,10 @@ TEST(Outputs, AreTheKeysOfOutputInTheTableOfFields) {
 
 TEST(Outputs, EachIsRequestedOnceItIsAddedAndNoOtherIs) {
   for (const OutputKind& added : output_kinds()) {
-    const Output output = restricted({}, {std::string(added.name)});
+    const Output output = restricted({}, {string(added.name)});
     for (const OutputKind& kind : output_kinds()) {
       EXPECT_EQ(kind.asked(output), kind.name == added.name) << added.name << ", " << kind.name;
-      EXPECT_EQ(holds_all(output, {std::string(kind.name)}), kind.name == added.name);
+      EXPECT_EQ(holds_all(output, {string(kind.name)}), kind.name == added.name);
       EXPECT_TRUE(kind.asked(with_all(output)));
     }
   }
@@ -40,7 +41,7 @@ TEST(Outputs, HaveDefaultSettingsOfTheTableOfFields) {
       if (field->initial.empty())
         EXPECT_TRUE(value.is_null()) << kind.name << "." << key;
       else if (value.is_string())
-        EXPECT_EQ(value.get<std::string>(), field->initial);
+        EXPECT_EQ(value.get<string>(), field->initial);
       else
         EXPECT_EQ(value, nlohmann::ordered_json::parse(field->initial)) << kind.name << "." << key;
     }
@@ -58,16 +59,16 @@ TEST(Outputs, KeepTheirSettingsAndTakeThoseOfTheirLike) {
   EXPECT_EQ(output.video->size.width, 64);
   EXPECT_EQ(output.video->samples, 2);
   EXPECT_EQ(output.video->from, 0);
-  EXPECT_EQ(output.video->until, std::nullopt);
+  EXPECT_EQ(output.video->until, nullopt);
 }
 
 TEST(Outputs, NoTwoHaveAFileOfTheSameName) {
-  std::vector<std::string> names = output_files(with_all({}));
+  vector<string> names = output_files(with_all({}));
   for (const OutputKind& kind : output_kinds())
     if (!kind.series.folder.empty()) names.emplace_back(kind.series.folder);
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
-  for (const std::string& name : names) EXPECT_EQ(is_reserved(name), name != VideoOutput{}.file) << name;
+  for (const string& name : names) EXPECT_EQ(is_reserved(name), name != VideoOutput{}.file) << name;
 }
 
 TEST(Outputs, ASeriesRecognisesItsOwnNames) {

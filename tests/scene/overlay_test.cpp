@@ -5,19 +5,19 @@
 #include "scene/color_scale.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string balls =
-    start + "title: Two\nrestitution: {default: 0.75}\ndefaults: {ball: {mass: 2.50, radius: 0.1}}\n" +
-    "balls:\n  red: {position: [0, 1, -0.5], velocity: [3, 4, 0]}\n  blue: {position: [1, 3, 0]}\n";
+const string balls = start + "title: Two\nrestitution: {default: 0.75}\ndefaults: {ball: {mass: 2.50, radius: 0.1}}\n" +
+                     "balls:\n  red: {position: [0, 1, -0.5], velocity: [3, 4, 0]}\n  blue: {position: [1, 3, 0]}\n";
 
-std::string caption_of(const std::string& caption) {
+string caption_of(const string& caption) {
   return load_text(balls + "caption: \"" + caption + "\"\n").overlay.caption;
 }
 
-std::string error_of(const std::string& caption) {
+string error_of(const string& caption) {
   return errors_of(balls + "caption: \"" + caption + "\"\n");
 }
 
@@ -69,27 +69,27 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
             "     |               ^~~~~\n"
             "     = did you mean `time`?\n"
             "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
-  EXPECT_NE(error_of("{balls.rde.mass}").find("there is no ball `rde`\n"), std::string::npos);
-  EXPECT_NE(error_of("{balls.rde.mass}").find("did you mean `red`?"), std::string::npos);
-  EXPECT_NE(error_of("{balls.red.mas}").find("unknown key `mas` in `ball`"), std::string::npos);
-  EXPECT_NE(error_of("{balls.red}").find("`balls.red` holds several values"), std::string::npos);
-  EXPECT_NE(error_of("{balls}").find("`balls` holds several values"), std::string::npos);
-  EXPECT_NE(error_of("{camera.fov}").find("this scene has no `camera`"), std::string::npos);
-  EXPECT_NE(error_of("{balls.red.color}").find("`color` has no value in this scene"), std::string::npos);
-  EXPECT_NE(error_of("{balls.red.mass.x}").find("`mass` has no part `x`"), std::string::npos);
+  EXPECT_NE(error_of("{balls.rde.mass}").find("there is no ball `rde`\n"), string::npos);
+  EXPECT_NE(error_of("{balls.rde.mass}").find("did you mean `red`?"), string::npos);
+  EXPECT_NE(error_of("{balls.red.mas}").find("unknown key `mas` in `ball`"), string::npos);
+  EXPECT_NE(error_of("{balls.red}").find("`balls.red` holds several values"), string::npos);
+  EXPECT_NE(error_of("{balls}").find("`balls` holds several values"), string::npos);
+  EXPECT_NE(error_of("{camera.fov}").find("this scene has no `camera`"), string::npos);
+  EXPECT_NE(error_of("{balls.red.color}").find("`color` has no value in this scene"), string::npos);
+  EXPECT_NE(error_of("{balls.red.mass.x}").find("`mass` has no part `x`"), string::npos);
   EXPECT_EQ(error_of("{foo}"),
             "scene.yaml:9:11: error: unknown key `foo` in the scene\n"
             "   9 | caption: \"{foo}\"\n"
             "     |           ^~~~~\n"
             "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
   EXPECT_NE(error_of("{fps}").find("     = `fps` is a key of `frames`, `video` or `gltf`\n     = expected {title}"),
-            std::string::npos);
+            string::npos);
   EXPECT_EQ(error_of("{}"),
             "scene.yaml:9:11: error: there is no name between the braces\n"
             "   9 | caption: \"{}\"\n"
             "     |           ^~\n"
             "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
-  EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), std::string::npos);
+  EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), string::npos);
 }
 
 TEST(Caption, WithABraceThatNothingOpensIsAnError) {
@@ -98,7 +98,7 @@ TEST(Caption, WithABraceThatNothingOpensIsAnError) {
             "   9 | caption: \"t = time} s\"\n"
             "     |                   ^\n"
             "     = expected {name}, or }} for a brace\n");
-  EXPECT_NE(error_of("{time}}").find("scene.yaml:9:17: error: a brace is not opened\n"), std::string::npos);
+  EXPECT_NE(error_of("{time}}").find("scene.yaml:9:17: error: a brace is not opened\n"), string::npos);
   EXPECT_EQ(error_of("{time}}}"), "");
 }
 
@@ -145,9 +145,9 @@ TEST(Trails, HaveDefaultsAndNames) {
   const Scene own = load_text(balls + "trails: {seconds: 0.25, width: 0.02, on: [blue]}\n");
   EXPECT_EQ(own.overlay.trails->seconds, 0.25);
   EXPECT_EQ(own.overlay.trails->width, 0.02);
-  EXPECT_EQ(own.overlay.trails->on, std::vector<Entity>{1});
-  EXPECT_NE(errors_of(balls + "trails: {on: [blu]}\n").find("nothing is named `blu`"), std::string::npos);
-  EXPECT_NE(errors_of(balls + "trails: {on: [blu]}\n").find("did you mean `blue`?"), std::string::npos);
+  EXPECT_EQ(own.overlay.trails->on, vector<Entity>{1});
+  EXPECT_NE(errors_of(balls + "trails: {on: [blu]}\n").find("nothing is named `blu`"), string::npos);
+  EXPECT_NE(errors_of(balls + "trails: {on: [blu]}\n").find("did you mean `blue`?"), string::npos);
 }
 
 TEST(Trails, ThatWouldCoverThePictureAreRefused) {
@@ -163,7 +163,7 @@ TEST(Arrows, AreOfVelocityAndForce) {
   const Scene both = load_text(balls + "arrows: [force, velocity]\n");
   EXPECT_TRUE(both.overlay.velocity_arrows && both.overlay.force_arrows);
   EXPECT_FALSE(load_text(balls + "arrows: [force]\n").overlay.velocity_arrows);
-  EXPECT_NE(errors_of(balls + "arrows: [forces]\n").find("did you mean `force`?"), std::string::npos);
+  EXPECT_NE(errors_of(balls + "arrows: [forces]\n").find("did you mean `force`?"), string::npos);
 }
 
 TEST(Names, InAListAreDistinct) {
@@ -172,15 +172,15 @@ TEST(Names, InAListAreDistinct) {
             "   9 | arrows: [velocity, velocity]\n"
             "     |                    ^~~~~~~~\n"
             "     = remove one of them\n");
-  EXPECT_NE(errors_of(balls + "trails: {on: [red, blue, red]}\n").find("`on` has `red` twice\n"), std::string::npos);
+  EXPECT_NE(errors_of(balls + "trails: {on: [red, blue, red]}\n").find("`on` has `red` twice\n"), string::npos);
   EXPECT_NE(errors_of(balls + "forces: [{uniform: [1, 0, 0], on: [red, red]}]\n").find("`on` has `red` twice\n"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Shutter, IsAPartOfTheInterval) {
   EXPECT_EQ(load_text(balls + "shutter: 0.5\n").overlay.shutter, 0.5);
   EXPECT_EQ(load_text(balls).overlay.shutter, 0);
-  EXPECT_NE(errors_of(balls + "shutter: 1.5\n").find("expected a number from 0 to 1"), std::string::npos);
+  EXPECT_NE(errors_of(balls + "shutter: 1.5\n").find("expected a number from 0 to 1"), string::npos);
 }
 
 TEST(Background, MayBeNoneInPicturesAlone) {
@@ -197,12 +197,12 @@ TEST(Background, MayBeNoneInPicturesAlone) {
 }
 
 TEST(Background, ThatIsNoColourMayBeMeantAsNone) {
-  const auto remedy = [](const std::string& background) {
-    const std::string errors = errors_of(balls + "background: " + background + "\n");
-    const std::size_t from = errors.find("     = ");
-    return from == std::string::npos ? errors : errors.substr(from + 7);
+  const auto remedy = [](const string& background) {
+    const string errors = errors_of(balls + "background: " + background + "\n");
+    const size_t from = errors.find("     = ");
+    return from == string::npos ? errors : errors.substr(from + 7);
   };
-  const std::string all = "expected none or a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1\n";
+  const string all = "expected none or a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1\n";
   for (const char* none : {"nine", "None", "transparent"}) EXPECT_EQ(remedy(none), "did you mean `none`?\n");
   EXPECT_EQ(remedy("bleu"), "did you mean `blue`?\n");
   for (const char* wrong : {"true", "false", "perhaps", "[]", "[1]", "[1, 1, 1, 1]", "{r: 1}"})
@@ -220,13 +220,13 @@ TEST(Colours, OfAWrongNumberOfNumbersNeedThree) {
 }
 
 TEST(ColourBy, StandsWhereverAColourOfBodiesGoes) {
-  const std::string by = "color: {by: speed, max: 9, map: cividis}";
+  const string by = "color: {by: speed, max: 9, map: cividis}";
   const Scene scene =
       load_text(start + "defaults: {ball: {mass: 1, radius: 0.1, " + by + "}}\n" +
                 "balls: {red: {position: [0, 0, 0]}, gold: {position: [1, 0, 0], color: gold}}\n" +
                 "bodies: {box: {mass: 1, box: [1, 1, 1], position: [5, 0, 0], " + by + "}}\n" +
                 "groups: {gas: {count: 1, in: {min: [-5, 0, 0], max: [-4, 1, 1]}, ball: {" + by + "}}}\n");
-  const Coloring expected{ColorQuantity::speed, std::nullopt, 9, ColorMap::cividis};
+  const Coloring expected{ColorQuantity::speed, nullopt, 9, ColorMap::cividis};
   EXPECT_EQ(scene.roster.bodies[0].coloring, expected);
   EXPECT_FALSE(scene.roster.bodies[1].coloring);
   EXPECT_EQ(scene.roster.bodies[1].color, parse_color("gold"));
@@ -246,29 +246,28 @@ TEST(ColourBy, IsSetInParts) {
 }
 
 TEST(ColourBy, RefusesWrongQuantitiesMapsAndScales) {
-  const auto errors = [](const std::string& coloring) {
+  const auto errors = [](const string& coloring) {
     return errors_of(balls + "bodies: {box: {mass: 1, box: [1, 1, 1], position: [9, 0, 0], color: {" + coloring +
                      "}}}\n");
   };
-  EXPECT_NE(errors("by: sped").find("did you mean `speed`?"), std::string::npos);
-  EXPECT_NE(errors("map: magma").find("`color` has no `by`"), std::string::npos);
-  EXPECT_NE(errors("by: mass, map: jet").find("expected viridis, cividis, magma, plasma or inferno"),
-            std::string::npos);
+  EXPECT_NE(errors("by: sped").find("did you mean `speed`?"), string::npos);
+  EXPECT_NE(errors("map: magma").find("`color` has no `by`"), string::npos);
+  EXPECT_NE(errors("by: mass, map: jet").find("expected viridis, cividis, magma, plasma or inferno"), string::npos);
   EXPECT_NE(errors("by: speed, min: 5, max: 3").find("the scale of colours ends at 3, and starts at 5\n"),
-            std::string::npos);
-  EXPECT_NE(errors("by: collisions, min: 50").find("expected min < max, both given"), std::string::npos);
-  EXPECT_NE(errors("by: group, max: 3").find("`max` has no meaning for groups"), std::string::npos);
+            string::npos);
+  EXPECT_NE(errors("by: collisions, min: 50").find("expected min < max, both given"), string::npos);
+  EXPECT_NE(errors("by: group, max: 3").find("`max` has no meaning for groups"), string::npos);
   EXPECT_EQ(errors("by: speed, min: -5, max: 3"), "");
 }
 
-ColorScale scale(const std::string& coloring, const std::string& more = "") {
+ColorScale scale(const string& coloring, const string& more = "") {
   const Scene scene = load_text("scene: 1\nsimulate: {duration: 2}\ndefaults: {ball: {mass: 2, radius: 0.1, color: {" +
                                 coloring + "}}}\n" + more);
   return scale_of(scene, *scene.roster.bodies[0].coloring);
 }
 
 TEST(ColourScale, OfSpeedEndsWithTheFastestStartOrFallRoundedUp) {
-  const std::string still = "gravity: [0, 0, 0]\n", ball = "balls: {a: {position: [0, 2, 0], velocity: [3, 0, 0]";
+  const string still = "gravity: [0, 0, 0]\n", ball = "balls: {a: {position: [0, 2, 0], velocity: [3, 0, 0]";
   EXPECT_EQ(scale("by: speed", still + ball + "}}\n").max, 3);
   // 20 N s on 2 kg, across.
   EXPECT_EQ(scale("by: speed", still + ball + ", impulse: [0, 20, 0]}}\n").max, 12);  // sqrt(109) = 10.4
@@ -283,7 +282,7 @@ TEST(ColourScale, OfSpeedEndsWithTheFastestStartOrFallRoundedUp) {
 }
 
 TEST(ColourScale, OfMassAndRadiusIsThatOfTheBodies) {
-  const std::string two = "balls: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0], mass: 5, radius: 0.3}}\n";
+  const string two = "balls: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0], mass: 5, radius: 0.3}}\n";
   EXPECT_EQ(scale("by: mass", two).min, 2);
   EXPECT_EQ(scale("by: mass", two).max, 5);
   EXPECT_EQ(scale("by: radius", two).max, 0.3);
@@ -322,9 +321,9 @@ TEST(Springs, ThatAreNotVisibleAreKnownByTheirNumber) {
   const Scene scene = load_text(balls +
                                 "forces:\n  - {drag: {linear: 0}}\n  - {uniform: [1, 0, 0]}\n"
                                 "  - {spring: {anchor: [0, 0, 0], stiffness: 1}, visible: false}\n");
-  EXPECT_EQ(scene.overlay.hidden_springs, std::vector<std::size_t>{1});  // drag without effect is no force
+  EXPECT_EQ(scene.overlay.hidden_springs, vector<size_t>{1});  // drag without effect is no force
   EXPECT_NE(errors_of(balls + "forces: [{uniform: [1, 0, 0], visible: false}]\n").find("`visible` but no `spring`"),
-            std::string::npos);
+            string::npos);
 }
 
 }  // namespace

@@ -2,16 +2,17 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string things =
+const string things =
     "scene: 1\n"
     "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}, blue: {mass: 1, radius: 1, position: [5, 0, 0]}}\n"
     "groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [9, 0, 0], max: [10, 1, 1]}}}\n"
     "planes: {floor: {point: [0, -3, 0], normal: [0, 1, 0]}}\n";
-const std::string simulate = "simulate: {duration: 1}\n";
+const string simulate = "simulate: {duration: 1}\n";
 
 TEST(RegionKeys, MakeShapesOnBodies) {
   const Scene scene =
@@ -21,20 +22,20 @@ TEST(RegionKeys, MakeShapesOnBodies) {
                 "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
                 "  crate: {box: [1, 2, 3], position: [1, 2, 3], action: remove}\n"
                 "  below: {plane: {point: [0, -1, 0], normal: [0, -2, 0]}, on: [gas.1]}\n");
-  const std::vector<WorldRegion>& regions = scene.world.regions;
+  const vector<WorldRegion>& regions = scene.world.regions;
   ASSERT_EQ(regions.size(), 4u);
-  EXPECT_EQ(scene.roster.regions, (std::vector<std::string>{"ball", "can", "crate", "below"}));
+  EXPECT_EQ(scene.roster.regions, (vector<string>{"ball", "can", "crate", "below"}));
   EXPECT_EQ(regions[0].volume, Volume::sphere(0.5));
   EXPECT_EQ(regions[0].position, Vec3(1, 2, 3));
   EXPECT_TRUE(regions[0].on.empty());
   EXPECT_EQ(regions[1].volume, Volume::cylinder(0.5, 3));
-  EXPECT_EQ(regions[1].on, (std::vector<Entity>{0, 2, 3, 4}));
+  EXPECT_EQ(regions[1].on, (vector<Entity>{0, 2, 3, 4}));
   EXPECT_TRUE(regions[1].stops && !regions[1].removes);
   EXPECT_EQ(regions[2].volume, Volume::box({1, 2, 3}));
   EXPECT_TRUE(!regions[2].stops && regions[2].removes);
   EXPECT_EQ(regions[3].position, Vec3(0, -1, 0));
   EXPECT_EQ(regions[3].normal, Vec3(0, -1, 0));
-  EXPECT_EQ(regions[3].on, (std::vector<Entity>{3}));
+  EXPECT_EQ(regions[3].on, (vector<Entity>{3}));
 }
 
 TEST(RegionKeys, OfStopsEndTheRun) {
@@ -58,10 +59,10 @@ TEST(RegionKeys, AreInTheResolvedScene) {
   EXPECT_NE(scene.resolved.find("regions:\n"
                                 "  pocket: {radius: 1, position: [9, 9, 9], action: none}\n"
                                 "  low: {plane: {point: [0, 0, 0], normal: [0, -1, 0]}, on: [red], action: none}\n"),
-            std::string::npos)
+            string::npos)
       << scene.resolved;
-  EXPECT_NE(scene.resolved.find("stop: [rest, {region: low}]"), std::string::npos);
-  EXPECT_NE(scene.resolved.find("  regions: true\n"), std::string::npos);
+  EXPECT_NE(scene.resolved.find("stop: [rest, {region: low}]"), string::npos);
+  EXPECT_NE(scene.resolved.find("  regions: true\n"), string::npos);
   EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
 }
 
@@ -78,11 +79,11 @@ TEST(RegionKeys, AreSetByPaths) {
 }
 
 /// The first line of each error of a scene with this region.
-std::string of_region(const std::string& region) {
-  const std::string all = errors_of(things + simulate + "regions: {pocket: " + region + "}\n");
-  std::string lines;
-  for (std::size_t i = 0; i < all.size();) {
-    const std::size_t end = std::min(all.find('\n', i), all.size());
+string of_region(const string& region) {
+  const string all = errors_of(things + simulate + "regions: {pocket: " + region + "}\n");
+  string lines;
+  for (size_t i = 0; i < all.size();) {
+    const size_t end = std::min(all.find('\n', i), all.size());
     if (all.compare(i, 5, "scene") == 0) lines += all.substr(i, end - i) + "\n";
     i = end + 1;
   }
@@ -138,7 +139,7 @@ TEST(RegionErrors, OfNamesAndActions) {
 }
 
 TEST(StopErrors, NameWhatIsWrong) {
-  const auto of = [](const std::string& stop) {
+  const auto of = [](const string& stop) {
     return errors_of("scene: 1\nsimulate: {duration: 1, stop: " + stop +
                      "}\n"
                      "regions: {pocket: {radius: 1, position: [0, 0, 0]}}\n");

@@ -5,11 +5,12 @@
 #include "scene/marked_errors.h"
 #include "scene/motion_text.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string bricks = start + R"(gravity: [0, -9.8, 0]
+const string bricks = start + R"(gravity: [0, -9.8, 0]
 defaults: {body: {density: 700}}
 bodies:
   bricks: {repeat: {i: 6, j: 4}, box: [0.2, 0.1, 0.1], position: ['= 0.25 * (i + 0.5 * (j % 2))', '= 0.0625 + 0.125 * j', 0]}
@@ -18,7 +19,7 @@ forces: [{drag: {linear: 0.1}, on: [bricks]}]
 )";
 
 TEST(Repeat, IsTheSceneWithItsMembersWrittenOut) {
-  std::string written = start + "gravity: [0, -9.8, 0]\ndefaults: {body: {density: 700}}\nbodies:\n", on;
+  string written = start + "gravity: [0, -9.8, 0]\ndefaults: {body: {density: 700}}\nbodies:\n", on;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 4; ++j) {
       written += fmt::format("  b{}: {{box: [0.2, 0.1, 0.1], position: [{}, {}, 0]}}\n", 4 * i + j,
@@ -43,8 +44,8 @@ TEST(Repeat, ResolvesToMembersThatRunAlike) {
   const Scene scene = load_text(bricks), again = load_text(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
   EXPECT_EQ(motion_text(again), motion_text(scene));
-  EXPECT_NE(scene.resolved.find("  bricks.23: {"), std::string::npos);
-  EXPECT_NE(scene.resolved.find("on: [bricks]"), std::string::npos);
+  EXPECT_NE(scene.resolved.find("  bricks.23: {"), string::npos);
+  EXPECT_NE(scene.resolved.find("on: [bricks]"), string::npos);
 }
 
 TEST(Repeat, MakesMembersOfEveryKind) {
@@ -73,8 +74,8 @@ camera: {follow: row}
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.lights[1].name, "lamps.1");
   ASSERT_EQ(scene.world.forces.size(), 4u);
-  EXPECT_EQ(scene.world.forces[2].on, (std::vector<Entity>{2}));
-  EXPECT_EQ(scene.world.forces[3].on, (std::vector<Entity>{5, 6, 7, 8}));
+  EXPECT_EQ(scene.world.forces[2].on, (vector<Entity>{2}));
+  EXPECT_EQ(scene.world.forces[3].on, (vector<Entity>{5, 6, 7, 8}));
   EXPECT_EQ(scene.world.pairs[0].a_count, 3u);
   EXPECT_EQ(scene.world.pairs[0].b_count, 2u);
   EXPECT_EQ(scene.world.pairs[1].a_first, 6u);
@@ -83,7 +84,7 @@ camera: {follow: row}
 }
 
 TEST(Repeat, MayBeZero) {
-  const std::string text = start + R"(let: {n: 0}
+  const string text = start + R"(let: {n: 0}
 balls:
   row: {repeat: = n, mass: 1, radius: 0.1, position: ['= i / n', 0, 0]}
   red: {mass: 1, radius: 0.1, position: [0, 3, 0]}
@@ -94,7 +95,7 @@ restitution: {pairs: [{between: [row, red], value: 0.5}]}
   const Scene scene = load_text(text);
   EXPECT_EQ(scene.world.body_count(), 1u);
   ASSERT_EQ(scene.world.forces.size(), 1u);
-  EXPECT_EQ(scene.world.forces[0].on, (std::vector<Entity>{0}));
+  EXPECT_EQ(scene.world.forces[0].on, (vector<Entity>{0}));
   EXPECT_TRUE(scene.world.planes.empty());
   EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
   LoadOptions options;
@@ -112,7 +113,7 @@ groups: {gas: {repeat: 0, count: 3, in: {min: [0, 0, '= i'], max: [1, 1, 1]}, ba
 )");
   EXPECT_NE(
       scene.resolved.find("row: {mass: 1, radius: 0.25, position: [\"= i\", 0, 0], velocity: [1, 0, 0], repeat: 0}"),
-      std::string::npos);
+      string::npos);
   EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
 }
 
@@ -131,7 +132,7 @@ TEST(Repeat, TakesSettingsOfTheThingAndOfAMember) {
 }
 
 TEST(RepeatErrors, PointAtTheCount) {
-  const auto of = [](const std::string& repeat) {
+  const auto of = [](const string& repeat) {
     return marked_errors(start + "balls:\n  row: {repeat: " + repeat +
                          ", mass: 1, radius: 0.1, position: [= i, 0, 0]}\n");
   };
@@ -158,10 +159,10 @@ TEST(RepeatErrors, PointAtTheCount) {
 }
 
 TEST(RepeatErrors, OfAnIndexSuggestANameThatIsFree) {
-  const auto remedy = [](const std::string& let, const std::string& repeat) {
-    const std::string errors = errors_of(start + "let: " + let + "\nballs:\n  row: {repeat: " + repeat +
-                                         ", mass: 1, radius: 0.1, position: [0, 0, 0]}\n");
-    const std::size_t at = errors.find("such as `");
+  const auto remedy = [](const string& let, const string& repeat) {
+    const string errors = errors_of(start + "let: " + let + "\nballs:\n  row: {repeat: " + repeat +
+                                    ", mass: 1, radius: 0.1, position: [0, 0, 0]}\n");
+    const size_t at = errors.find("such as `");
     return errors.substr(at, errors.find(',', at) - at);
   };
   EXPECT_EQ(remedy("{i: 3}", "2"), "such as `repeat: {k: 7}`");
@@ -171,16 +172,16 @@ TEST(RepeatErrors, OfAnIndexSuggestANameThatIsFree) {
 }
 
 TEST(RepeatErrors, OfOneHugeThingAreThoseOfNoOther) {
-  const std::string others =
+  const string others =
       "  w: {repeat: 2, mass: 1, radius: 0.1, position: [= i, 0, 5]}\n"
       "  u: {repeat: 3, mass: 1, radius: 0.1, position: [= i, 0, 9]}\n";
-  for (const std::string count : {"1e9", "2e6"})
+  for (const string count : {"1e9", "2e6"})
     EXPECT_EQ(marked_errors(start + "balls:\n  v: {repeat: " + count +
                             ", mass: 1, radius: 0.1, position: [= i, 0, 0]}\n" + others)
                   .size(),
               1u)
         << count;
-  std::string sines = "= sin(i)";
+  string sines = "= sin(i)";
   for (int k = 0; k < 100; ++k) sines += " + sin(i)";
   const Marked slow =
       marked_errors(start + "balls:\n  v: {repeat: 500000, mass: 1, radius: 0.1, position:\n    [= i,\n    " + sines +
@@ -190,7 +191,7 @@ TEST(RepeatErrors, OfOneHugeThingAreThoseOfNoOther) {
 }
 
 TEST(RepeatErrors, OfMembersAreReportedOnce) {
-  const auto of = [](const std::string& keys) {
+  const auto of = [](const string& keys) {
     return marked_errors(start + "balls:\n  row: {repeat: 1000, " + keys + "}\n");
   };
   EXPECT_EQ(of("mass: 1, radius: 0.1, position: [= 1 / (i - 1), 0, 0]"), (Marked{{"/", "division by zero"}}));
@@ -201,7 +202,7 @@ TEST(RepeatErrors, OfMembersAreReportedOnce) {
 }
 
 TEST(RepeatErrors, OfOneLineAreOneErrorWithTheNumberOfMembers) {
-  const std::string things = start + "balls:\n  row: {repeat: 30, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
+  const string things = start + "balls:\n  row: {repeat: 30, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
   EXPECT_EQ(errors_of(things + "strings:\n  s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n"),
             "scene.yaml:6:40: error: nothing is named `bob.0`\n"
             "   6 |   s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n"
@@ -220,7 +221,7 @@ TEST(RepeatErrors, OfOneLineAreOneErrorWithTheNumberOfMembers) {
 }
 
 TEST(RepeatErrors, OfNames) {
-  const std::string row = start + "balls:\n  row: {repeat: 3, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
+  const string row = start + "balls:\n  row: {repeat: 3, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
   EXPECT_EQ(marked_errors(row + "forces: [{drag: {linear: 1}, on: [row.3]}]\n"),
             (Marked{{"row.3", "there is no `row.3`: `row` has 3 members"}}));
   EXPECT_EQ(marked_errors(row + "forces: [{repeat: 3, uniform: [1, 0, 0], on: ['row.{i / 2}']}]\n"),
@@ -231,8 +232,7 @@ TEST(RepeatErrors, OfNames) {
             (Marked{{"j", "no number is named `j`"}}));
   EXPECT_EQ(marked_errors(row + "forces: [{uniform: [1, 0, 0], on: ['row.{1']}]\n"),
             (Marked{{"1", "this brace is not closed"}}));
-  EXPECT_NE(errors_of(row + "forces: [{uniform: [1, 0, 0], on: [roww]}]\n").find("did you mean `row`?"),
-            std::string::npos);
+  EXPECT_NE(errors_of(row + "forces: [{uniform: [1, 0, 0], on: [roww]}]\n").find("did you mean `row`?"), string::npos);
   EXPECT_EQ(marked_errors(row + "planes: {row: {point: [0, -9, 0], normal: [0, 1, 0]}}\n"),
             (Marked{{"row", "the name `row` is taken"}}));
 }

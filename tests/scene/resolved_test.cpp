@@ -2,6 +2,7 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -16,13 +17,13 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.world.gravity, b.world.gravity);
   EXPECT_EQ(a.world.combine, b.world.combine);
   ASSERT_EQ(a.world.planes.size(), b.world.planes.size());
-  for (std::size_t i = 0; i < a.world.planes.size(); ++i) {
+  for (size_t i = 0; i < a.world.planes.size(); ++i) {
     EXPECT_EQ(a.world.planes[i].point, b.world.planes[i].point);
     EXPECT_EQ(a.world.planes[i].normal, b.world.planes[i].normal);
     EXPECT_EQ(a.world.planes[i].restitution, b.world.planes[i].restitution);
   }
   ASSERT_EQ(a.world.walls.size(), b.world.walls.size());
-  for (std::size_t i = 0; i < a.world.walls.size(); ++i) {
+  for (size_t i = 0; i < a.world.walls.size(); ++i) {
     const Wall &v = a.world.walls[i], &w = b.world.walls[i];
     EXPECT_EQ(v.center, w.center);
     EXPECT_EQ(v.normal, w.normal);
@@ -33,7 +34,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(v.restitution, w.restitution);
   }
   ASSERT_EQ(a.world.pairs.size(), b.world.pairs.size());
-  for (std::size_t i = 0; i < a.world.pairs.size(); ++i) {
+  for (size_t i = 0; i < a.world.pairs.size(); ++i) {
     EXPECT_EQ(a.world.pairs[i].a_first, b.world.pairs[i].a_first);
     EXPECT_EQ(a.world.pairs[i].a_count, b.world.pairs[i].a_count);
     EXPECT_EQ(a.world.pairs[i].b_first, b.world.pairs[i].b_first);
@@ -42,17 +43,17 @@ void expect_same(const Scene& a, const Scene& b) {
   }
   const auto same_volume = [](const Volume& v, const Volume& w) { return v.shape == w.shape && v.half == w.half; };
   ASSERT_EQ(a.world.volume.size(), b.world.volume.size());
-  for (std::size_t i = 0; i < a.world.volume.size(); ++i) {
+  for (size_t i = 0; i < a.world.volume.size(); ++i) {
     EXPECT_TRUE(same_volume(a.world.volume[i], b.world.volume[i]));
   }
   ASSERT_EQ(a.world.obstacles.size(), b.world.obstacles.size());
-  for (std::size_t i = 0; i < a.world.obstacles.size(); ++i) {
+  for (size_t i = 0; i < a.world.obstacles.size(); ++i) {
     EXPECT_EQ(a.world.obstacles[i].center, b.world.obstacles[i].center);
     EXPECT_TRUE(same_volume(a.world.obstacles[i].volume, b.world.obstacles[i].volume));
     EXPECT_EQ(a.world.obstacles[i].restitution, b.world.obstacles[i].restitution);
   }
   ASSERT_EQ(a.world.forces.size(), b.world.forces.size());
-  for (std::size_t i = 0; i < a.world.forces.size(); ++i) {
+  for (size_t i = 0; i < a.world.forces.size(); ++i) {
     EXPECT_TRUE(a.world.forces[i].law == b.world.forces[i].law);
     EXPECT_EQ(a.world.forces[i].from, b.world.forces[i].from);
     EXPECT_EQ(a.world.forces[i].until, b.world.forces[i].until);
@@ -64,7 +65,7 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.initial.velocity, b.initial.velocity);
   const auto same_color = [](const Color& x, const Color& y) { return x.r == y.r && x.g == y.g && x.b == y.b; };
   ASSERT_EQ(a.roster.bodies.size(), b.roster.bodies.size());
-  for (std::size_t i = 0; i < a.roster.bodies.size(); ++i) {
+  for (size_t i = 0; i < a.roster.bodies.size(); ++i) {
     EXPECT_EQ(a.roster.bodies[i].name, b.roster.bodies[i].name);
     EXPECT_EQ(a.roster.bodies[i].first, b.roster.bodies[i].first);
     EXPECT_EQ(a.roster.bodies[i].count, b.roster.bodies[i].count);
@@ -72,7 +73,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_TRUE(same_color(a.roster.bodies[i].color, b.roster.bodies[i].color));
   }
   ASSERT_EQ(a.roster.fixed.size(), b.roster.fixed.size());
-  for (std::size_t i = 0; i < a.roster.fixed.size(); ++i) {
+  for (size_t i = 0; i < a.roster.fixed.size(); ++i) {
     EXPECT_EQ(a.roster.fixed[i].name, b.roster.fixed[i].name);
     EXPECT_EQ(a.roster.fixed[i].visible, b.roster.fixed[i].visible);
     EXPECT_TRUE(same_color(a.roster.fixed[i].color, b.roster.fixed[i].color));
@@ -92,7 +93,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.camera->far, b.camera->far);
   }
   ASSERT_EQ(a.lights.size(), b.lights.size());
-  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+  for (size_t i = 0; i < a.lights.size(); ++i) {
     EXPECT_EQ(a.lights[i].name, b.lights[i].name);
     EXPECT_EQ(a.lights[i].direction, b.lights[i].direction);
     EXPECT_EQ(a.lights[i].position, b.lights[i].position);
@@ -130,7 +131,7 @@ void expect_same(const Scene& a, const Scene& b) {
   }
 }
 
-void expect_stable(const std::string& text, const LoadOptions& options = {}) {
+void expect_stable(const string& text, const LoadOptions& options = {}) {
   const Scene scene = load_text(text, options);
   const Scene again = load_text(scene.resolved);
   expect_same(scene, again);
@@ -217,7 +218,7 @@ TEST(ResolvedScene, HoldsWithoutOutputAndWithEmptyParts) {
 }
 
 TEST(ResolvedScene, HasTheRateThatAGifGets) {
-  EXPECT_NE(load_text(start + "output: {video: {file: x.gif}}\n").resolved.find("fps: 25,"), std::string::npos);
+  EXPECT_NE(load_text(start + "output: {video: {file: x.gif}}\n").resolved.find("fps: 25,"), string::npos);
 }
 
 TEST(ResolvedScene, HoldsSettingsAndSeed) {

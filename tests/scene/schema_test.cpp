@@ -17,6 +17,7 @@
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "scene/variations.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 /// A folder with a schema, in which documents are validated against it.
 class Validator {
  public:
-  explicit Validator(std::string_view root) : folder_(test_folder() + "/" + std::string(root)) {
+  explicit Validator(string_view root) : folder_(test_folder() + "/" + string(root)) {
     fs::create_directories(folder_);
     std::ofstream(folder_ + "/schema.json") << json_schema(root);
   }
@@ -34,40 +35,38 @@ class Validator {
   Validator(const Validator&) = delete;
   Validator& operator=(const Validator&) = delete;
 
-  const std::string& folder() const { return folder_; }
-  void add_json(const std::string& text) { lines_ += fmt::format("{{\"json\": {}}}\n", text); }
-  void add_yaml(const std::string& text) { lines_ += nlohmann::json{{"yaml", text}}.dump() + "\n"; }
-  void add_yaml11(const std::string& text) { lines_ += nlohmann::json{{"yaml 1.1", text}}.dump() + "\n"; }
+  const string& folder() const { return folder_; }
+  void add_json(const string& text) { lines_ += fmt::format("{{\"json\": {}}}\n", text); }
+  void add_yaml(const string& text) { lines_ += nlohmann::json{{"yaml", text}}.dump() + "\n"; }
+  void add_yaml11(const string& text) { lines_ += nlohmann::json{{"yaml 1.1", text}}.dump() + "\n"; }
 
   /// "right" or "wrong ..." for each document.
-  std::vector<std::string> run() const {
+  vector<string> run() const {
     std::ofstream(folder_ + "/documents") << lines_;
-    const std::string command = fmt::format("cd '{}' && /usr/bin/python3 {} schema.json documents > verdicts 2> errors",
-                                            folder_, SOURCE_DIR "/tests/scene/validate.py");
+    const string command = fmt::format("cd '{}' && /usr/bin/python3 {} schema.json documents > verdicts 2> errors",
+                                       folder_, SOURCE_DIR "/tests/scene/validate.py");
     EXPECT_EQ(std::system(command.c_str()), 0) << text_of("errors");
     std::istringstream in(text_of("verdicts"));
-    std::vector<std::string> verdicts;
-    for (std::string line; std::getline(in, line);) verdicts.push_back(line);
+    vector<string> verdicts;
+    for (string line; std::getline(in, line);) verdicts.push_back(line);
     return verdicts;
   }
 
  private:
-  std::string text_of(const char* name) const {
+  string text_of(const char* name) const {
     std::ifstream in(folder_ + "/" + name);
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  std::string folder_, lines_;
+  string folder_, lines_;
 };
 
 /// The errors of a scene, empty if there are none.
-std::string loaded(const std::string& path, const std::string& text) {
+string loaded(const string& path, const string& text) {
   std::ofstream(path, std::ios::binary) << text;
   LoadOptions options;
-  options.mesh_points = [](const std::string&) {
-    return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  };
-  options.former_state = [](const std::string&, std::optional<double> at) {
+  options.mesh_points = [](const string&) { return vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; };
+  options.former_state = [](const string&, optional<double> at) {
     return FormerState{{"former"}, {at.value_or(1), {{0, 40, 0}}, {{0, 0, 0}}}};
   };
   try {
@@ -80,12 +79,12 @@ std::string loaded(const std::string& path, const std::string& text) {
 
 /// Errors of the loader that a schema cannot express: they need more than keys, types and ranges.
 struct Beyond {
-  std::string error;  // a part of its text
-  std::string why;
+  string error;  // a part of its text
+  string why;
 };
 
-const std::vector<Beyond>& beyond_schemas() {
-  static const std::vector<Beyond> all = {
+const vector<Beyond>& beyond_schemas() {
+  static const vector<Beyond> all = {
       {"nothing is named", "which names there are"},
       {"no number is named", "which names there are"},
       {"there is no `", "which members there are"},
@@ -136,13 +135,13 @@ const std::vector<Beyond>& beyond_schemas() {
 }
 
 /// The one of beyond_schemas() that explains each error; empty: another error is among them.
-std::set<std::size_t> explained(const std::string& errors) {
-  std::set<std::size_t> found;
+std::set<size_t> explained(const string& errors) {
+  std::set<size_t> found;
   std::istringstream in(errors);
-  for (std::string line; std::getline(in, line);) {
-    if (line.find(": error: ") == std::string::npos) continue;
-    std::size_t i = 0;
-    while (i < beyond_schemas().size() && line.find(beyond_schemas()[i].error) == std::string::npos) ++i;
+  for (string line; std::getline(in, line);) {
+    if (line.find(": error: ") == string::npos) continue;
+    size_t i = 0;
+    while (i < beyond_schemas().size() && line.find(beyond_schemas()[i].error) == string::npos) ++i;
     if (i == beyond_schemas().size()) return {};
     found.insert(i);
   }
@@ -151,11 +150,11 @@ std::set<std::size_t> explained(const std::string& errors) {
 
 TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   Validator validator("scene");
-  const std::string file = validator.folder() + "/scene.yaml";
+  const string file = validator.folder() + "/scene.yaml";
   std::ofstream(validator.folder() + "/box.stl") << "a mesh";
-  std::set<std::string> visited, all;
-  std::vector<Variation> variations;
-  for (const std::string& scene : right_scenes()) {
+  std::set<string> visited, all;
+  vector<Variation> variations;
+  for (const string& scene : right_scenes()) {
     EXPECT_EQ(loaded(file, scene), "");
     for (Variation& variation : vary(scene, visited)) variations.push_back(std::move(variation));
   }
@@ -165,38 +164,38 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   EXPECT_EQ(visited, all) << "right_scenes() lacks a key of the table";
 
   for (const Variation& variation : variations) validator.add_json(variation.text);
-  std::future<std::vector<std::string>> validating = std::async(std::launch::async, [&] { return validator.run(); });
-  std::vector<std::string> all_errors;
+  std::future<vector<string>> validating = std::async(std::launch::async, [&] { return validator.run(); });
+  vector<string> all_errors;
   for (const Variation& variation : variations) all_errors.push_back(loaded(file, variation.text));
-  const std::vector<std::string> verdicts = validating.get();
+  const vector<string> verdicts = validating.get();
   ASSERT_EQ(verdicts.size(), variations.size());
-  std::set<std::size_t> used;
-  std::size_t right = 0, differing = 0;
-  for (std::size_t i = 0; i < variations.size(); ++i) {
-    const std::string& errors = all_errors[i];
+  std::set<size_t> used;
+  size_t right = 0, differing = 0;
+  for (size_t i = 0; i < variations.size(); ++i) {
+    const string& errors = all_errors[i];
     right += errors.empty();
     if (errors.empty() == (verdicts[i] == "right")) continue;
-    const std::set<std::size_t> why = explained(errors);
+    const std::set<size_t> why = explained(errors);
     used.insert(why.begin(), why.end());
     if (!why.empty() && verdicts[i] == "right") continue;
     if (++differing <= 40) ADD_FAILURE() << variations[i].what << "\nschema: " << verdicts[i] << "\nloader: " << errors;
   }
   EXPECT_EQ(differing, 0u) << "of " << variations.size();
   EXPECT_GT(right, 500u) << "of " << variations.size();
-  for (std::size_t i = 0; i < beyond_schemas().size(); ++i)
+  for (size_t i = 0; i < beyond_schemas().size(); ++i)
     EXPECT_TRUE(used.contains(i)) << "no variation has: " << beyond_schemas()[i].error;
   RecordProperty("variations", static_cast<int>(variations.size()));
 }
 
 /// A number of a scene as text, as read by the loader and by an editor.
 struct Written {
-  std::string text;
+  string text;
   bool loads, fits;
-  std::string why = {};  // where they differ
+  string why = {};  // where they differ
 };
 
 TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
-  const std::vector<Written> numbers = {
+  const vector<Written> numbers = {
       {"1", true, true},
       {"+1.5e0", true, true},
       {".5", true, true},
@@ -223,7 +222,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
       {"0o17", false, true, "YAML reads 15: numbers of a scene are decimal"},
       {"1e-999", false, true, "YAML reads 0"},
   };
-  const std::vector<Written> flags = {
+  const vector<Written> flags = {
       {"true", true, true},
       {"false", true, true},
       {"yes", false, false},
@@ -235,7 +234,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
       {"FALSE", false, true, "YAML reads false: the loader has one way to write it"},
   };
   Validator validator("scene");
-  std::vector<std::pair<std::string, Written>> all;
+  vector<std::pair<string, Written>> all;
   for (const Written& number : numbers)
     all.emplace_back("scene: 1\nsimulate: {duration: 1, rest_speed: " + number.text + "}\n", number);
   for (const Written& flag : flags)
@@ -252,11 +251,11 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\nseed: 1e3\n", Written{"1e3", true, true});
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\nplanes:\n  on: {point: [0, 0, 0], normal: [0, 1, 0]}\n",
                    Written{"on", true, true});
-  const std::string file = validator.folder() + "/scene.yaml";
+  const string file = validator.folder() + "/scene.yaml";
   for (const auto& [text, written] : all) validator.add_yaml(text);
-  const std::vector<std::string> verdicts = validator.run();
+  const vector<string> verdicts = validator.run();
   ASSERT_EQ(verdicts.size(), all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (size_t i = 0; i < all.size(); ++i) {
     const Written& written = all[i].second;
     EXPECT_EQ(loaded(file, all[i].first).empty(), written.loads) << written.text << "\n" << loaded(file, all[i].first);
     EXPECT_EQ(verdicts[i] == "right", written.fits) << written.text << ": " << verdicts[i];
@@ -264,25 +263,25 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
   }
 }
 
-std::vector<fs::path> scene_files() {
-  std::vector<fs::path> files;
+vector<fs::path> scene_files() {
+  vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(SCENES_DIR)) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   }
   return files;
 }
 
-std::string text_of(const fs::path& path) {
+string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(Schema, HasEverySceneRightByReadersOfYaml12And11) {
   Validator validator("scene"), sweeps("sweep");
-  std::vector<fs::path> of_scenes, of_sweeps;
+  vector<fs::path> of_scenes, of_sweeps;
   for (const fs::path& path : scene_files()) {
-    const std::string text = text_of(path);
-    const bool sweep = text.find("\nsweep: 1") != std::string::npos;
+    const string text = text_of(path);
+    const bool sweep = text.find("\nsweep: 1") != string::npos;
     (sweep ? of_sweeps : of_scenes).push_back(path);
     (sweep ? sweeps : validator).add_yaml(text);
     (sweep ? sweeps : validator).add_yaml11(text);
@@ -290,19 +289,19 @@ TEST(Schema, HasEverySceneRightByReadersOfYaml12And11) {
   ASSERT_GT(of_scenes.size(), 20u);
   for (const auto& [files, verdicts] : {std::pair(of_scenes, validator.run()), std::pair(of_sweeps, sweeps.run())}) {
     ASSERT_EQ(verdicts.size(), 2 * files.size());
-    for (std::size_t i = 0; i < verdicts.size(); ++i) EXPECT_EQ(verdicts[i], "right") << files[i / 2];
+    for (size_t i = 0; i < verdicts.size(); ++i) EXPECT_EQ(verdicts[i], "right") << files[i / 2];
   }
 }
 
 TEST(Schema, StandsBesideTheScenesAsTheTableHasIt) {
-  for (const std::string kind : {"scene", "sweep"}) {
+  for (const string kind : {"scene", "sweep"}) {
     EXPECT_TRUE(text_of(SCENES_DIR "/" + kind + ".schema.json") == json_schema(kind))
         << fmt::format("carom schema {} > scenes/{}.schema.json", kind, kind);
   }
   for (const fs::path& path : scene_files()) {
-    const std::string text = text_of(path), head = "# yaml-language-server: $schema=";
+    const string text = text_of(path), head = "# yaml-language-server: $schema=";
     ASSERT_TRUE(text.starts_with(head)) << path;
-    const std::string schema = text.substr(head.size(), text.find('\n') - head.size());
+    const string schema = text.substr(head.size(), text.find('\n') - head.size());
     EXPECT_TRUE(fs::exists(path.parent_path() / schema)) << path << " names " << schema;
   }
 }
@@ -315,15 +314,15 @@ TEST(Schema, DescribesEveryField) {
   for (const auto family : families()) {
     const auto whole = nlohmann::json::parse(json_schema(family.front().name));
     for (const Kind& kind : family) {
-      const auto& map = &kind == &family.front() ? whole : whole["definitions"][std::string(kind.name)];
+      const auto& map = &kind == &family.front() ? whole : whole["definitions"][string(kind.name)];
       for (const Field& field : kind.fields) {
-        const auto& schema = map["properties"][std::string(field.key)];
+        const auto& schema = map["properties"][string(field.key)];
         EXPECT_FALSE(schema.value("title", "").empty()) << kind.name << "." << field.key;
         EXPECT_TRUE(schema.value("description", "").starts_with(field.doc)) << kind.name << "." << field.key;
         EXPECT_EQ(schema.contains("default"), !field.initial.empty()) << kind.name << "." << field.key;
         EXPECT_EQ(schema["examples"].size(), 1u) << kind.name << "." << field.key;
         if (!field.unit.empty()) {
-          EXPECT_TRUE(schema["title"].get<std::string>().ends_with(fmt::format("({})", field.unit)));
+          EXPECT_TRUE(schema["title"].get<string>().ends_with(fmt::format("({})", field.unit)));
         }
       }
     }

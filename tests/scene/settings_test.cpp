@@ -2,11 +2,12 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string two = R"(scene: 1
+const string two = R"(scene: 1
 defaults: {ball: {mass: 1, radius: 0.1, velocity: [0, 2, 0]}}
 balls:
   red: {position: [0, 0, 0]}
@@ -15,7 +16,7 @@ simulate: {duration: 1}
 camera: {eye: [0, 3, -5], target: [0, 0, 0]}
 )";
 
-Scene with_settings(const std::vector<std::string>& set) {
+Scene with_settings(const vector<string>& set) {
   LoadOptions options;
   options.set = set;
   return load_text(two, options);
@@ -76,7 +77,7 @@ TEST(Settings, SeedOptionOverrulesTheFile) {
   options.set = {"seed=4"};
   const Scene scene = load_text(two, options);
   EXPECT_EQ(scene.seed, 9u);
-  EXPECT_NE(scene.resolved.find("\nseed: 9\n"), std::string::npos);
+  EXPECT_NE(scene.resolved.find("\nseed: 9\n"), string::npos);
 }
 
 TEST(Settings, OfWhatTheSceneLacksAreOneErrorEach) {
@@ -85,10 +86,10 @@ TEST(Settings, OfWhatTheSceneLacksAreOneErrorEach) {
             "     | forces.0.visible=false\n"
             "     |        ^\n"
             "     = it has none: set all of `forces`\n");
-  const std::string forces = two + "forces: [{uniform: [1, 0, 0]}]\n";
-  EXPECT_NE(errors_with(forces, "forces.1.from=1").find("     = its only entry is 0\n"), std::string::npos);
-  for (const std::string set : {"walls.w.center.x=1", "camera.path.0.at=1", "trails.on.0=red"}) {
-    const std::string errors = errors_with(two, set);
+  const string forces = two + "forces: [{uniform: [1, 0, 0]}]\n";
+  EXPECT_NE(errors_with(forces, "forces.1.from=1").find("     = its only entry is 0\n"), string::npos);
+  for (const string set : {"walls.w.center.x=1", "camera.path.0.at=1", "trails.on.0=red"}) {
+    const string errors = errors_with(two, set);
     EXPECT_EQ(errors.find("error: "), errors.rfind("error: ")) << errors;
   }
 }

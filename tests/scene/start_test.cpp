@@ -3,18 +3,19 @@
 #include "scene/former_state.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// A run with these bodies at 2 s, its end. The bodies of numbers in `gone` are no longer there.
-LoadOptions with_run(const std::vector<std::string>& names, const std::vector<Entity>& gone = {}) {
+LoadOptions with_run(const vector<string>& names, const vector<Entity>& gone = {}) {
   LoadOptions options;
-  options.former_state = [names, gone](const std::string&, std::optional<double> at) {
+  options.former_state = [names, gone](const string&, optional<double> at) {
     FormerState former{names};
     former.file = "flights.bin";
     former.state.time = at.value_or(2);
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (size_t i = 0; i < names.size(); ++i) {
       const auto x = static_cast<double>(i);
       former.state.position.emplace_back(x + 0.1, 0.3 * 3, 1e-7 * x);
       former.state.velocity.emplace_back(1 / 3.0, -x, 0);
@@ -26,12 +27,12 @@ LoadOptions with_run(const std::vector<std::string>& names, const std::vector<En
   return options;
 }
 
-std::string with_balls(const std::string& more) {
+string with_balls(const string& more) {
   return start + "defaults: {ball: {mass: 1, radius: 0.1}}\nstart: {run: first}\n" + more;
 }
 
 TEST(Start, GivesBodiesByNameThePlacesOfTheRun) {
-  const std::string text = with_balls(
+  const string text = with_balls(
       "balls:\n  red: {position: [9, 9, 9], velocity: [5, 5, 5], impulse: [1, 2, 3]}\n"
       "bodies: {box: {box: [1, 1, 1], mass: 2, position: [7, 0, 0], velocity: [0, 1, 0]}}\n");
   const Scene scene = load_text(text, with_run({"blue", "red"}));
@@ -44,10 +45,9 @@ TEST(Start, GivesBodiesByNameThePlacesOfTheRun) {
   EXPECT_EQ(scene.made_from.start->run, "first");
   EXPECT_EQ(scene.made_from.start->at, 2);
   EXPECT_EQ(scene.made_from.notes,
-            (std::vector<std::string>{
-                "start: the run has no `box`, which begins where this scene places it",
-                "start: this scene has no `blue`, which the run has",
-                "start: the impulse of `red` is not applied again: the velocities of the run contain it"}));
+            (vector<string>{"start: the run has no `box`, which begins where this scene places it",
+                            "start: this scene has no `blue`, which the run has",
+                            "start: the impulse of `red` is not applied again: the velocities of the run contain it"}));
 }
 
 TEST(Start, OfDefaultImpulsesAppliesNone) {
@@ -56,7 +56,7 @@ TEST(Start, OfDefaultImpulsesAppliesNone) {
                                     "defaults: {ball: {mass: 1, radius: 0.1, impulse: [1, 0, 0]}}\n"
                                     "balls: {red: {position: [0, 5, 0]}, own: {position: [0, 7, 0]}}\n",
                                 with_run({"red"}));
-  EXPECT_EQ(scene.world.impulse, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0)}));
+  EXPECT_EQ(scene.world.impulse, (vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0)}));
 }
 
 TEST(Start, OfGroupsWithDefaultImpulsesAppliesNone) {
@@ -92,7 +92,7 @@ TEST(Start, LeavesNumbersInTheResolvedSceneWhichNeedsNoRun) {
                  "{mass: 1, radius: 0.1}}}\n"
                  "caption: 'from {start.at} s of {start.run}'\n"),
       with_run({"red", "gas.0", "gas.1"}));
-  EXPECT_EQ(scene.resolved.find("start:"), std::string::npos);
+  EXPECT_EQ(scene.resolved.find("start:"), string::npos);
   EXPECT_EQ(scene.overlay.caption, "from 2 s of first");
   EXPECT_TRUE(scene.made_from.expressions.empty());
   const Scene again = load_text(scene.resolved);
@@ -103,11 +103,10 @@ TEST(Start, LeavesNumbersInTheResolvedSceneWhichNeedsNoRun) {
 }
 
 TEST(Start, CountsWindowsFromItsOwnTimeAndSaysSo) {
-  const std::string text =
-      with_balls("balls: {red: {position: [0, 5, 0]}}\nforces: [{uniform: [1, 0, 0], from: 0.5}]\n");
-  EXPECT_EQ(load_text(text, with_run({"red"})).made_from.notes,
-            (std::vector<std::string>{
-                "start: windows of forces and motions count from the new time 0, which is 2 s of the run"}));
+  const string text = with_balls("balls: {red: {position: [0, 5, 0]}}\nforces: [{uniform: [1, 0, 0], from: 0.5}]\n");
+  EXPECT_EQ(
+      load_text(text, with_run({"red"})).made_from.notes,
+      (vector<string>{"start: windows of forces and motions count from the new time 0, which is 2 s of the run"}));
 }
 
 TEST(StartErrors, OfBodiesThatAreGone) {
@@ -149,7 +148,7 @@ TEST(StartErrors, OfStringsWithoutALength) {
 }
 
 TEST(Start, OfTautStringsAllowsTheErrorsOfTheirPaths) {
-  const std::string string = "balls: {red: {position: [0, 5, 0]}}\nstrings: {s: {from: [0.1, 0, 0], to: red, length: ";
+  const string string = "balls: {red: {position: [0, 5, 0]}}\nstrings: {s: {from: [0.1, 0, 0], to: red, length: ";
   const Scene scene = load_text(with_balls(string + "0.899999999999}}\n"), with_run({"red"}));
   EXPECT_EQ(scene.world.strings[0].length, 0.3 * 3);
   EXPECT_NE(errors_of(with_balls(string + "0.8999}}\n"), with_run({"red"})), "");
@@ -178,10 +177,10 @@ TEST(StartErrors, OfSettingsThatItReplaces) {
 TEST(StartErrors, OfTheReaderStandAtTheRunOrTheTime) {
   LoadOptions options;
   for (const bool of_time : {false, true}) {
-    options.former_state = [of_time](const std::string&, std::optional<double>) -> FormerState {
+    options.former_state = [of_time](const string&, optional<double>) -> FormerState {
       throw StartError("it is lost", "find it", of_time);
     };
-    const std::string errors = errors_of(start + "start:\n  run: first\n  at: 3\n", options);
+    const string errors = errors_of(start + "start:\n  run: first\n  at: 3\n", options);
     EXPECT_EQ(errors, of_time ? "scene.yaml:5:7: error: the run `first` cannot be used: it is lost\n"
                                 "   5 |   at: 3\n     |       ^\n     = find it\n"
                               : "scene.yaml:4:8: error: the run `first` cannot be used: it is lost\n"
@@ -191,16 +190,16 @@ TEST(StartErrors, OfTheReaderStandAtTheRunOrTheTime) {
 
 TEST(StartErrors, OfKeys) {
   for (const auto& [part, error] :
-       std::vector<std::pair<std::string, std::string>>{{"{at: 1}", "`start` has no `run`"},
-                                                        {"{run: first, at: -1}", "`at` is -1"},
-                                                        {"{run: first, at: 1 s}", "1 s"},
-                                                        {"{run: [first]}", "`run` is a list"},
-                                                        {"first", "`start` is `first`"},
-                                                        {"{run: first, time: 1}", "unknown key `time` in `start`"}})
+       vector<std::pair<string, string>>{{"{at: 1}", "`start` has no `run`"},
+                                         {"{run: first, at: -1}", "`at` is -1"},
+                                         {"{run: first, at: 1 s}", "1 s"},
+                                         {"{run: [first]}", "`run` is a list"},
+                                         {"first", "`start` is `first`"},
+                                         {"{run: first, time: 1}", "unknown key `time` in `start`"}})
     EXPECT_NE(errors_of(start + "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}}\nstart: " + part + "\n",
                         with_run({"red"}))
                   .find(error),
-              std::string::npos)
+              string::npos)
         << part << errors_of(start + "start: " + part + "\n");
 }
 
@@ -209,8 +208,8 @@ TEST(ListedBalls, HaveTheirPlacesAndVelocities) {
       load_text(start +
                 "groups:\n  gas: {count: 2, ball: {mass: 1, radius: 0.1, velocity: [0, 2, 0]}, members: "
                 "[{position: [1, 2, 3]}, {position: [4, 5, 6], velocity: [7, 8, 9]}]}\n");
-  EXPECT_EQ(scene.initial.position, (std::vector<Vec3>{Vec3(1, 2, 3), Vec3(4, 5, 6)}));
-  EXPECT_EQ(scene.initial.velocity, (std::vector<Vec3>{Vec3(0, 2, 0), Vec3(7, 8, 9)}));
+  EXPECT_EQ(scene.initial.position, (vector<Vec3>{Vec3(1, 2, 3), Vec3(4, 5, 6)}));
+  EXPECT_EQ(scene.initial.velocity, (vector<Vec3>{Vec3(0, 2, 0), Vec3(7, 8, 9)}));
   EXPECT_EQ(scene.roster.name(1), "gas.1");
   const Scene again = load_text(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
@@ -227,9 +226,9 @@ TEST(ListedBalls, ReplaceTheRulesOfDefaults) {
 }
 
 TEST(ListedBalls, AreCheckedOneByOne) {
-  const std::string ball = "groups:\n  gas: {count: 2, ball: {mass: 1, radius: 0.1}, ";
-  const std::string two = "members: [{position: [0, 0, 0]}, {position: [0, 0.15, 0]}]";
-  for (const auto& [part, error] : std::vector<std::pair<std::string, std::string>>{
+  const string ball = "groups:\n  gas: {count: 2, ball: {mass: 1, radius: 0.1}, ";
+  const string two = "members: [{position: [0, 0, 0]}, {position: [0, 0.15, 0]}]";
+  for (const auto& [part, error] : vector<std::pair<string, string>>{
            {two, "`gas.1` overlaps `gas.0` by 0.05 m at the start"},
            {two + ", in: {min: [0, 0, 0], max: [1, 1, 1]}", "has both `members` and `in`"},
            {"arrange: lattice, " + two, "has both `arrange` and `members`"},
@@ -238,7 +237,7 @@ TEST(ListedBalls, AreCheckedOneByOne) {
            {"members: [{position: [0, 0, 0]}, {position: [1e25, 0, 0]}]", "`gas.1` is 1e+25 m from the origin"},
            {"members: [{position: [0, 0, 0]}, {position: [1, 0, 0], velocity: [1e20, 0, 0]}]", "`gas.1` "},
            {"speed: 1", "has no `in` and no `members`"}})
-    EXPECT_NE(errors_of(start + ball + part + "}\n").find(error), std::string::npos)
+    EXPECT_NE(errors_of(start + ball + part + "}\n").find(error), string::npos)
         << part << "\n"
         << errors_of(start + ball + part + "}\n");
 }

@@ -4,31 +4,32 @@
 #include "scene/motion_text.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string things =
+const string things =
     "scene: 1\n"
     "balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}, blue: {mass: 1, radius: 0.1, position: [3, 5, 0]}}\n"
     "groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [9, 0, 0], max: [10, 1, 1]}, arrange: lattice}}\n"
     "planes: {floor: {point: [0, -3, 0], normal: [0, 1, 0]}}\n"
     "obstacles: {post: {radius: 0.1, position: [0, 9, 0]}}\n";
-const std::string simulate = "simulate: {duration: 1}\n";
+const string simulate = "simulate: {duration: 1}\n";
 
-std::string with(const std::string& string) {
-  return things + simulate + "strings:\n  s: " + string + "\n";
+string with(const string& written) {
+  return things + simulate + "strings:\n  s: " + written + "\n";
 }
 
-std::string first_error(const std::string& string) {
-  const std::string all = errors_of(with(string));
+string first_error(const string& written) {
+  const string all = errors_of(with(written));
   return all.substr(0, all.find('\n'));
 }
 
-std::string remedy(const std::string& string) {
-  const std::string all = errors_of(with(string));
-  const std::size_t at = all.find("     = ");
-  return at == std::string::npos ? "" : all.substr(at + 7, all.size() - at - 8);
+string remedy(const string& written) {
+  const string all = errors_of(with(written));
+  const size_t at = all.find("     = ");
+  return at == string::npos ? "" : all.substr(at + 7, all.size() - at - 8);
 }
 
 TEST(Strings, TieBodiesAndPoints) {
@@ -63,7 +64,7 @@ TEST(Strings, TieBodiesAndPoints) {
 }
 
 TEST(Strings, WithinRoundingAreTaut) {
-  const std::string turned = "['= sin(33)', '= 1 + cos(33)', 0]";
+  const string turned = "['= sin(33)', '= 1 + cos(33)', 0]";
   for (const char* rod : {"false", "true"}) {
     const Scene scene = load_text(with("{from: " + turned + ", to: red, length: 1, rod: " + rod + "}"));
     EXPECT_EQ(scene.world.strings[0].length, (scene.world.strings[0].anchor - scene.initial.position[0]).norm());
@@ -81,7 +82,7 @@ TEST(Strings, AreRepeated) {
       "  none: {repeat: 0, from: [0, 1, 0], to: ball.0}\n" +
       simulate);
   ASSERT_EQ(scene.world.strings.size(), 5u);
-  EXPECT_EQ(scene.roster.strings, (std::vector<std::string>{"hung.0", "hung.1", "hung.2", "chain.0", "chain.1"}));
+  EXPECT_EQ(scene.roster.strings, (vector<string>{"hung.0", "hung.1", "hung.2", "chain.0", "chain.1"}));
   EXPECT_EQ(scene.world.strings[2].anchor, Vec3(2, 2, 0));
   EXPECT_EQ(scene.world.strings[4].body, 1u);
   EXPECT_EQ(scene.world.strings[4].other, 2u);
@@ -95,9 +96,9 @@ TEST(Strings, AreInTheResolvedSceneWithTheirLengths) {
       scene.resolved.find("strings:\n"
                           "  s: {from: [0, 4, 0], to: red, length: 3, restitution: 0, rod: false, visible: true}\n"
                           "  r: {from: red, to: blue, length: 5, restitution: 0, rod: true, visible: false}\n"),
-      std::string::npos)
+      string::npos)
       << scene.resolved;
-  EXPECT_EQ(scene.overlay.hidden_strings, std::vector<std::size_t>{1});
+  EXPECT_EQ(scene.overlay.hidden_strings, vector<size_t>{1});
   const Scene again = load_text(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
   EXPECT_EQ(motion_text(again), motion_text(scene));
@@ -111,7 +112,7 @@ TEST(Strings, AreSetByTheirPaths) {
   EXPECT_EQ(scene.world.strings[0].length, 4);
   EXPECT_EQ(scene.world.strings[0].restitution, 1);
   EXPECT_NE(errors_with(with("{from: blue, to: red}"), "strings.s.from.y=5").find("`from` has no numbers yet"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(Strings, HaveFlights) {
@@ -145,7 +146,7 @@ TEST(StringErrors, NameThePlaceAndTheRemedy) {
 }
 
 TEST(StringErrors, OfRodsWithVelocitiesAlongThem) {
-  const auto error_of = [](const std::string& velocities, const std::string& more) {
+  const auto error_of = [](const string& velocities, const string& more) {
     return errors_of("scene: 1\nbodies:\n  a: {mass: 1, radius: 0.1, position: [3, 4, 0], " + velocities +
                      "}\n  b: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [0, 0, 2]}\n"
                      "strings: {bar: {from: b, to: a" +
@@ -156,7 +157,7 @@ TEST(StringErrors, OfRodsWithVelocitiesAlongThem) {
             "   5 | strings: {bar: {from: b, to: a, rod: true}}\n"
             "     |                                      ^~~~\n"
             "     = a rod keeps its length: expected velocities across it, such as the same at both ends\n");
-  EXPECT_NE(error_of("velocity: [-5, 0, 2]", ", rod: true").find("`bar` approach at 3 m/s"), std::string::npos);
+  EXPECT_NE(error_of("velocity: [-5, 0, 2]", ", rod: true").find("`bar` approach at 3 m/s"), string::npos);
   EXPECT_EQ(error_of("velocity: [4, -3, 2]", ", rod: true"), "");
   EXPECT_EQ(error_of("velocity: [0, 0, 2]", ", rod: true"), "");
   EXPECT_EQ(error_of("velocity: ['= sin(53.130102354155978)', '= -sin(36.869897645844021)', 0]", ", rod: true"), "");
@@ -186,10 +187,10 @@ TEST(StringErrors, OfTheEnds) {
 }
 
 TEST(StringErrors, OfNamesAreReportedWhereverTheyAreUsed) {
-  const std::string one = with("{from: [0, 4, 0], to: red}");
-  const auto has = [&](const std::string& more, const std::string& what) {
-    const std::string all = errors_of(one + more);
-    EXPECT_NE(all.find(what), std::string::npos) << all;
+  const string one = with("{from: [0, 4, 0], to: red}");
+  const auto has = [&](const string& more, const string& what) {
+    const string all = errors_of(one + more);
+    EXPECT_NE(all.find(what), string::npos) << all;
   };
   has("  red: {from: [0, 4, 0], to: blue}\n", "the name `red` is taken");
   has("regions: {s: {radius: 1, position: [0, 0, 0]}}\n", "the name `s` is taken");
@@ -199,21 +200,21 @@ TEST(StringErrors, OfNamesAreReportedWhereverTheyAreUsed) {
 }
 
 TEST(StringErrors, OfEnginesThatLackThem) {
-  const auto error_of = [&](const std::string& keys) {
+  const auto error_of = [&](const string& keys) {
     return errors_of(things + "strings: {s: {from: [0, 4, 0], to: red}}\nsimulate: {duration: 1, " + keys + "}\n");
   };
-  EXPECT_NE(error_of("engine: book").find("`engine: book` has no strings"), std::string::npos);
+  EXPECT_NE(error_of("engine: book").find("`engine: book` has no strings"), string::npos);
   EXPECT_NE(error_of("contact: merge").find("`contact: merge` is for parabolas and linear drag, not for `strings`"),
-            std::string::npos);
+            string::npos);
   EXPECT_EQ(error_of("engine: stepped"), "");
 }
 
 TEST(StringErrors, OfOtherThingsDoNotHideThem) {
-  const std::string all = errors_of(things + simulate +
-                                    "strings: {s: {from: [0, 4, 0], to: red, length: 1}}\n"
-                                    "walls: {fence: {center: [20, 1, 0], normal: [1, 0, 0], size: [1, x]}}\n");
-  EXPECT_NE(all.find("`s` is 1 m long"), std::string::npos) << all;
-  EXPECT_NE(all.find("`x` is not a number"), std::string::npos) << all;
+  const string all = errors_of(things + simulate +
+                               "strings: {s: {from: [0, 4, 0], to: red, length: 1}}\n"
+                               "walls: {fence: {center: [20, 1, 0], normal: [1, 0, 0], size: [1, x]}}\n");
+  EXPECT_NE(all.find("`s` is 1 m long"), string::npos) << all;
+  EXPECT_NE(all.find("`x` is not a number"), string::npos) << all;
 }
 
 }  // namespace

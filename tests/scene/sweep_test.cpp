@@ -2,46 +2,47 @@
 #include "scene/sweep.h"
 
 #include "scene/scenes_in_text.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-const std::string head = "sweep: 1\nbase: base.yaml\n";
+const string head = "sweep: 1\nbase: base.yaml\n";
 
-Sweep sweep_of(const std::string& text) {
+Sweep sweep_of(const string& text) {
   write_file("", "base.yaml");
-  const std::string path = write_file(text, "falls.yaml");
+  const string path = write_file(text, "falls.yaml");
   Sweep sweep = load_sweep(path);
   std::filesystem::remove_all(test_folder());
   return sweep;
 }
 
 /// The values of every run: "a b; a b".
-std::string values_of(const Sweep& sweep) {
-  std::string out;
-  for (std::size_t i = 0; i < sweep.size(); ++i) {
-    std::string line;
+string values_of(const Sweep& sweep) {
+  string out;
+  for (size_t i = 0; i < sweep.size(); ++i) {
+    string line;
     for (const auto& value : sweep.run(i).values) line += (line.empty() ? "" : " ") + value.value_or("-");
     out += (out.empty() ? "" : "; ") + line;
   }
   return out;
 }
 
-std::string sweep_errors(const std::string& text) {
-  const std::string folder = test_folder() + "/";
+string sweep_errors(const string& text) {
+  const string folder = test_folder() + "/";
   try {
     sweep_of(text);
     return "";
   } catch (const SceneError& error) {
-    std::string out = error.what();
-    for (std::size_t i = out.find(folder); i != std::string::npos; i = out.find(folder, i)) out.erase(i, folder.size());
+    string out = error.what();
+    for (size_t i = out.find(folder); i != string::npos; i = out.find(folder, i)) out.erase(i, folder.size());
     return out;
   }
 }
 
 TEST(SweepFile, GridIsEveryCombinationTheLastPathFastest) {
   const Sweep sweep = sweep_of(head + "grid:\n  a.x: {from: 0.5, to: 0.7, count: 3}\n  b: [1, 2]\n");
-  EXPECT_EQ(sweep.paths, (std::vector<std::string>{"a.x", "b"}));
+  EXPECT_EQ(sweep.paths, (vector<string>{"a.x", "b"}));
   EXPECT_EQ(values_of(sweep), "0.5 1; 0.5 2; 0.6 1; 0.6 2; 0.7 1; 0.7 2");
   EXPECT_EQ(sweep.run(5).id, "r0006");
   ASSERT_EQ(sweep.run(5).settings.size(), 2u);
@@ -66,20 +67,20 @@ TEST(SweepFile, BlocksFollowOneAnother) {
 }
 
 TEST(SweepFile, SkipLeavesOutWhatHasAllValuesOfAnEntry) {
-  const std::string grid = "grid: {a: [1, 2, 3], b: [0.50, 0.6]}\n";
+  const string grid = "grid: {a: [1, 2, 3], b: [0.50, 0.6]}\n";
   EXPECT_EQ(values_of(sweep_of(head + grid + "skip: [{a: 2, b: 0.5}]\n")), "1 0.50; 1 0.6; 2 0.6; 3 0.50; 3 0.6");
   EXPECT_EQ(values_of(sweep_of(head + grid + "skip: [{a: [1, 3]}, {b: 0.6}]\n")), "2 0.50");
 }
 
 TEST(SweepFile, SamplesMultiplyWithAGridAndAreThoseOfTheSeed) {
-  const std::string text = head + "random: 3\nover: {b: {from: 1, to: 5}, c: {from: 1, to: 9, log: true}}\n";
+  const string text = head + "random: 3\nover: {b: {from: 1, to: 5}, c: {from: 1, to: 9, log: true}}\n";
   const Sweep three = sweep_of(text);
-  EXPECT_EQ(three.paths, (std::vector<std::string>{"b", "c"}));
+  EXPECT_EQ(three.paths, (vector<string>{"b", "c"}));
   EXPECT_EQ(values_of(three), values_of(sweep_of(text + "seed: 0\n")));
   EXPECT_NE(values_of(three), values_of(sweep_of(text + "seed: 1\n")));
   const Sweep six = sweep_of(text + "grid: {a: [1, 2]}\n");
   ASSERT_EQ(six.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(six.run(i).values[0], i < 3 ? "1" : "2");
     EXPECT_EQ(six.run(i).values[1], three.run(i % 3).values[0]);
   }
@@ -88,7 +89,7 @@ TEST(SweepFile, SamplesMultiplyWithAGridAndAreThoseOfTheSeed) {
 TEST(SweepFile, SamplesOfAPathDoNotDependOnOtherPathsButOnTheBlock) {
   const Sweep one = sweep_of(head + "latin: 4\nover: {b: {from: 1, to: 5}}\n");
   const Sweep two = sweep_of(head + "latin: 4\nover: {a: {from: 0, to: 1}, b: {from: 1, to: 5}}\n");
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(one.run(i).values[0], two.run(i).values[1]);
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(one.run(i).values[0], two.run(i).values[1]);
   const Sweep blocks = sweep_of(head +
                                 "runs:\n  - {latin: 4, over: {b: {from: 1, to: 5}}}\n"
                                 "  - {latin: 4, over: {b: {from: 1, to: 5}}}\n");
@@ -98,8 +99,8 @@ TEST(SweepFile, SamplesOfAPathDoNotDependOnOtherPathsButOnTheBlock) {
 
 TEST(SweepFile, SamplesOfAKeyOfWholeNumbersAreWhole) {
   const Sweep sweep = sweep_of(head + "random: 20\nover: {groups.gas.count: {from: 3, to: 5}}\n");
-  for (std::size_t i = 0; i < 20; ++i) {
-    const std::string count = sweep.run(i).values[0].value_or("");
+  for (size_t i = 0; i < 20; ++i) {
+    const string count = sweep.run(i).values[0].value_or("");
     EXPECT_TRUE(count == "3" || count == "4" || count == "5") << count;
   }
 }
@@ -109,25 +110,25 @@ TEST(SweepFile, SamplesOfARepeatOfItsIndicesAndOfSizesInPixelsAreWhole) {
        {"balls.row.repeat", "balls.row.repeat.i", "strings.row.repeat.j", "output.frames.size.width"})
     for (const char* log : {"", ", log: true"}) {
       const Sweep sweep = sweep_of(head + "latin: 20\nover: {" + path + ": {from: 20, to: 22" + log + "}}\n");
-      for (std::size_t i = 0; i < 20; ++i) {
-        const std::string count = sweep.run(i).values[0].value_or("");
+      for (size_t i = 0; i < 20; ++i) {
+        const string count = sweep.run(i).values[0].value_or("");
         EXPECT_TRUE(count == "20" || count == "21" || count == "22") << path << ": " << count;
       }
     }
   EXPECT_NE(sweep_errors(head + "random: 5\nover: {balls.row.repeat: {from: 1, to: 2.5}}\n")
                 .find("`balls.row.repeat` takes whole numbers"),
-            std::string::npos);
+            string::npos);
 }
 
 TEST(SweepFile, SamplesOfANameOfLetAreReal) {
   const Sweep sweep = sweep_of(head + "random: 20\nover: {let.repeat: {from: 1, to: 3}}\n");
-  for (std::size_t i = 0; i < 20; ++i)
-    EXPECT_NE(sweep.run(i).values[0].value_or("").find('.'), std::string::npos) << sweep.run(i).values[0].value_or("");
+  for (size_t i = 0; i < 20; ++i)
+    EXPECT_NE(sweep.run(i).values[0].value_or("").find('.'), string::npos) << sweep.run(i).values[0].value_or("");
 }
 
 TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
-  const auto has = [](const std::string& text, const std::string& part) {
-    EXPECT_NE(sweep_errors(head + text).find(part), std::string::npos) << sweep_errors(head + text);
+  const auto has = [](const string& text, const string& part) {
+    EXPECT_NE(sweep_errors(head + text).find(part), string::npos) << sweep_errors(head + text);
   };
   has("random: 5\n", "falls.yaml:3:1: error: the sweep has `random` but no `over`");
   has("over: {a: {from: 1, to: 2}}\n", "falls.yaml:3:1: error: the sweep has `over` but no `random`");
@@ -147,7 +148,7 @@ TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
   has(
       "random: 1000000\nover: {" +
           [] {
-            std::string all;
+            string all;
             for (int k = 0; k < 11; ++k) all += (k > 0 ? ", a" : "a") + std::to_string(k) + ": {from: 1, to: 2}";
             return all;
           }() +
@@ -176,26 +177,26 @@ TEST(SweepFile, CommonSettingsComeBeforeARunsOwn) {
 }
 
 TEST(SweepFile, ResolvedTextMeansTheSameAndResolvesToItself) {
-  const std::string text = head +
-                           "title: 'He said \"go\"'\nset: {x: '#ff0000'}\n"
-                           "runs:\n  - grid: {a: {from: 0, to: 1, count: 3}, b: [[0, 1, 0], exact]}\n"
-                           "    zip: {c: [1, 2], d: [3, 4]}\n    list: [{e: 1}, {f: \"2\"}]\n"
-                           "    skip: [{a: 0.5, c: [1, 2]}]\n  - {}\n"
-                           "  - {latin: 3, over: {b: {from: 1, to: 2}, 'a': {log: true, from: 1, to: 2}}}\n"
-                           "seed: 5\nskip_invalid: true\n"
-                           "repeat: {seeds: 2, first: 7}\nonly: [energy]\n"
-                           "compare: {measures: [collisions], charts: [{x: a, y: collisions, by: b}]}\n";
+  const string text = head +
+                      "title: 'He said \"go\"'\nset: {x: '#ff0000'}\n"
+                      "runs:\n  - grid: {a: {from: 0, to: 1, count: 3}, b: [[0, 1, 0], exact]}\n"
+                      "    zip: {c: [1, 2], d: [3, 4]}\n    list: [{e: 1}, {f: \"2\"}]\n"
+                      "    skip: [{a: 0.5, c: [1, 2]}]\n  - {}\n"
+                      "  - {latin: 3, over: {b: {from: 1, to: 2}, 'a': {log: true, from: 1, to: 2}}}\n"
+                      "seed: 5\nskip_invalid: true\n"
+                      "repeat: {seeds: 2, first: 7}\nonly: [energy]\n"
+                      "compare: {measures: [collisions], charts: [{x: a, y: collisions, by: b}]}\n";
   const Sweep sweep = sweep_of(text);
-  const std::string resolved = sweep.resolved("base.yaml");
+  const string resolved = sweep.resolved("base.yaml");
   const Sweep again = sweep_of(resolved);
   EXPECT_EQ(again.resolved("base.yaml"), resolved);
   EXPECT_EQ(again.size(), 40u);
   EXPECT_EQ(values_of(again), values_of(sweep));
   EXPECT_EQ(again.paths, sweep.paths);
   EXPECT_EQ(again.only.front().text, "energy");
-  for (std::size_t i = 0; i < sweep.size(); ++i) {
+  for (size_t i = 0; i < sweep.size(); ++i) {
     ASSERT_EQ(again.run(i).settings.size(), sweep.run(i).settings.size());
-    for (std::size_t k = 0; k < sweep.run(i).settings.size(); ++k)
+    for (size_t k = 0; k < sweep.run(i).settings.size(); ++k)
       EXPECT_EQ(again.run(i).settings[k].text, sweep.run(i).settings[k].text);
   }
 }
@@ -223,8 +224,8 @@ TEST(SweepErrors, AreAllShownWithPlaceAndRemedy) {
 }
 
 TEST(SweepErrors, NameWhatNoSweepCanBe) {
-  const auto has = [](const std::string& text, const std::string& part) {
-    EXPECT_NE(sweep_errors(text).find(part), std::string::npos) << sweep_errors(text);
+  const auto has = [](const string& text, const string& part) {
+    EXPECT_NE(sweep_errors(text).find(part), string::npos) << sweep_errors(text);
   };
   has(head, "the sweep varies nothing");
   has(head + "grid: {a: []}\n", "`a` has no values");
@@ -240,18 +241,18 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`seed` is varied twice: here and by `repeat`");
   has(head + "grid: {a: {from: 1, to: 1000, count: 1000}, b: {from: 1, to: 1001, count: 1001}}\n",
       "more than 1000000 runs");
-  std::string many;
+  string many;
   for (int k = 0; k < 40; ++k) many += "  a" + std::to_string(k) + ": {from: 1, to: 1000000, count: 1000000}\n";
   has(head + "grid:\n" + many, "more than 1000000 runs");
   has(head + "zip:\n" + many, "1000000 values of 40 paths");
-  has("sweep: 1\nbase: " + std::string(4000, 'b') + "\ngrid: {a: [1]}\n", "cannot be inspected (File name too long):");
+  has("sweep: 1\nbase: " + string(4000, 'b') + "\ngrid: {a: [1]}\n", "cannot be inspected (File name too long):");
   has("sweep: 1\ngrid: {a: [1]}\n", "the sweep has no `base`");
   has("scene: 1\nsimulate: {duration: 1}\n", "this is a scene, not a sweep");
   has("[]", "this is not a sweep");
 }
 
 TEST(SweepErrors, ASweepGivenAsASceneIsNamed) {
-  EXPECT_NE(errors_of(head + "grid: {a: [1]}\n").find("this is a sweep, not a scene"), std::string::npos);
+  EXPECT_NE(errors_of(head + "grid: {a: [1]}\n").find("this is a sweep, not a scene"), string::npos);
 }
 
 TEST(GridOfTheCommandLine, ReadsRangesAndLists) {
@@ -267,7 +268,7 @@ TEST(GridOfTheCommandLine, DrawsFromRangesWithoutACount) {
   SweepOptions options;
   options.latin = 3;
   const Sweep sweep = grid_sweep("base.yaml", {"a=1,2", "b=0:1", "c=1:10:log"}, options);
-  EXPECT_EQ(sweep.paths, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(sweep.paths, (vector<string>{"a", "b", "c"}));
   EXPECT_EQ(sweep.size(), 6u);
   const Sweep file =
       sweep_of(head + "grid: {a: [1, 2]}\nlatin: 3\nover: {b: {from: 0, to: 1}, c: {from: 1, to: 10, log: true}}\n");

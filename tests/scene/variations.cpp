@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/fields.h"
+#include "std.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -11,15 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Values of every type, and those at the edges of ranges; `few`: one of each type.
-std::vector<Json> values_for(const Field& field, bool few) {
+vector<Json> values_for(const Field& field, bool few) {
   static const Json one_each = json_of_yaml("[~, true, -1, text, [], {}]");
   static const Json many = json_of_yaml(R"([
       ~, true, 0, -0.0, 1, -1, 0.5, 16, 1e300, 18446744073709551615, '', text, '4', Red, '#12g', '#aBc', -a.mp4, "a\nb",
       [], [1], [16, 17], [1, 2, 3], [0, -0.0, 0], [0.1, 0.2, 0.3], [1, 2, x], [1, 2, ~], [1, 2, 3, 4], [-99, 2, 3],
       [0, 3, -5], none, group, [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}, '= 1', '= x', ['= 1', 2, 3]])");
-  std::vector<Json> values(few ? one_each.begin() : many.begin(), few ? one_each.end() : many.end());
+  vector<Json> values(few ? one_each.begin() : many.begin(), few ? one_each.end() : many.end());
   const bool chosen = field.type == Type::choice || field.type == Type::pixels;
-  for (const std::string_view choice : chosen ? choices(field) : std::vector<std::string_view>())
+  for (const string_view choice : chosen ? choices(field) : vector<string_view>())
     values.push_back(json_of_yaml(choice));
   if (few) return values;
   values.push_back(json_of_yaml(field.example));
@@ -33,18 +34,18 @@ std::vector<Json> values_for(const Field& field, bool few) {
 
 class Varying {
  public:
-  Varying(const std::string& scene, std::set<std::string>& visited) : root_(json_of_yaml(scene)), visited_(visited) {}
+  Varying(const string& scene, std::set<string>& visited) : root_(json_of_yaml(scene)), visited_(visited) {}
 
-  std::vector<Variation> run() {
+  vector<Variation> run() {
     map(root_, kind_named("scene"), "");
     return std::move(found_);
   }
 
  private:
-  void note(const std::string& what) { found_.push_back({what, root_.dump()}); }
+  void note(const string& what) { found_.push_back({what, root_.dump()}); }
 
   /// Every change of `value`, undone in the end.
-  void replace(Json& value, const Field& field, const std::string& path, bool few) {
+  void replace(Json& value, const Field& field, const string& path, bool few) {
     const Json kept = value;
     for (const Json& other : values_for(field, few)) {
       value = other;
@@ -53,10 +54,10 @@ class Varying {
     value = kept;
   }
 
-  void map(Json& node, const Kind& kind, const std::string& path) {
+  void map(Json& node, const Kind& kind, const string& path) {
     const Json kept = node;
     for (const Field& field : kind.fields) {
-      const std::string key(field.key), here = path + key;
+      const string key(field.key), here = path + key;
       if (kept.contains(key)) {
         const bool is_first = visited_.insert(fmt::format("{}.{}", kind.name, key)).second;
         replace(node[key], field, here, !is_first);
@@ -72,7 +73,7 @@ class Varying {
         node = kept;
       }
     }
-    for (const std::string key : {"zzz", "Mass", "ambient", "mass ", ""}) {
+    for (const string key : {"zzz", "Mass", "ambient", "mass ", ""}) {
       if (kept.contains(key)) continue;
       node[key] = 1;
       note(path + key + " unknown");
@@ -80,14 +81,14 @@ class Varying {
     }
   }
 
-  void inside(Json& value, const Field& field, const std::string& path) {
+  void inside(Json& value, const Field& field, const string& path) {
     const Kind* kind = held_kind(field);
     if (kind == nullptr) return;
     const Json kept = value;
     if (field.type == Type::named) {
       for (const auto& [name, entry] : kept.items()) {
         if (kind->also == nullptr || name != kind->also->key) map(value[name], *kind, path + "." + name + ".");
-        for (const std::string wrong : {"7up", "a b", "a.b", "-a", "", "ambient", "really_right-2", "red"}) {
+        for (const string wrong : {"7up", "a b", "a.b", "-a", "", "ambient", "really_right-2", "red"}) {
           if (kept.contains(wrong)) continue;
           value.erase(name);
           value[wrong] = entry;
@@ -99,7 +100,7 @@ class Varying {
         value = kept;
       }
     } else if (field.type == Type::list) {
-      for (std::size_t i = 0; i < kept.size(); ++i)
+      for (size_t i = 0; i < kept.size(); ++i)
         if (value[i].is_object()) map(value[i], *kind, fmt::format("{}.{}.", path, i));
     } else if (value.is_object()) {
       map(value, *kind, path + ".");
@@ -107,13 +108,13 @@ class Varying {
   }
 
   Json root_;
-  std::set<std::string>& visited_;
-  std::vector<Variation> found_;
+  std::set<string>& visited_;
+  vector<Variation> found_;
 };
 
 }  // namespace
 
-std::vector<std::string> right_scenes() {
+vector<string> right_scenes() {
   return {"{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
           R"(
 scene: 1
@@ -271,7 +272,7 @@ camera:
 )"};
 }
 
-std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited) {
+vector<Variation> vary(const string& scene, std::set<string>& visited) {
   return Varying(scene, visited).run();
 }
 

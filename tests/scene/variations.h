@@ -3,23 +3,22 @@
 // every kind of value.
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "std.h"
 
 namespace carom {
 
 struct Variation {
-  std::string what;  // "balls.red.mass is null"
-  std::string text;  // JSON, which is YAML
+  string what;  // "balls.red.mass is null"
+  string text;  // JSON, which is YAML
 };
 
 /// Valid scenes that together have every key of the table. They need the file box.stl beside them, and of any
 /// run a body `former`.
-std::vector<std::string> right_scenes();
+vector<string> right_scenes();
 
 /// Every scene that is one change away: every key that it has or could have, by every change. `visited` gets
 /// "kind.key" of those that it has.
-std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited);
+vector<Variation> vary(const string& scene, std::set<string>& visited);
 
 }  // namespace carom

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <set>
 
 #include "physics/force.h"
@@ -10,6 +9,7 @@
 #include "scene/scene.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -40,7 +40,7 @@ State stepped_end(const Scene& scene, Integrator integrator, double step) {
 
 Far far(const State& a, const State& b) {
   Far most;
-  for (std::size_t i = 0; i < a.position.size(); ++i) {
+  for (size_t i = 0; i < a.position.size(); ++i) {
     most.x = std::max(most.x, (a.position[i] - b.position[i]).norm());
     most.v = std::max(most.v, (a.velocity[i] - b.velocity[i]).norm());
   }
@@ -48,16 +48,16 @@ Far far(const State& a, const State& b) {
 }
 
 /// All scenes but those whose outcome depends on the last bit, as that of many balls that keep colliding does.
-std::vector<std::string> calm_scenes() {
-  const std::set<std::string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
-                                         "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
-  std::vector<std::string> names = scene_names();
-  std::erase_if(names, [&](const std::string& name) { return chaotic.count(name) != 0; });
+vector<string> calm_scenes() {
+  const std::set<string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
+                                    "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
+  vector<string> names = scene_names();
+  std::erase_if(names, [&](const string& name) { return chaotic.count(name) != 0; });
   return names;
 }
 
 /// Scenes that not both engines support are skipped.
-class Agreement : public ::testing::TestWithParam<std::string> {
+class Agreement : public ::testing::TestWithParam<string> {
  protected:
   void SetUp() override {
     const Scene scene = load(GetParam());
@@ -82,7 +82,7 @@ TEST_P(Agreement, OfExactAndSteppedWithinRoundingOrAtTheOrderOfTheMethod) {
       const double falls = std::pow(4, order);
       EXPECT_LT(fine.x, 1.5 * coarse.x / falls + 2e-9) << order;
       // Bodies that slide on a flat surface have closed forms in both.
-      if (const std::set<std::string> slide = {"cars", "pool"}; slide.count(GetParam()) != 0) {
+      if (const std::set<string> slide = {"cars", "pool"}; slide.count(GetParam()) != 0) {
         EXPECT_EQ(coarse.x, 0);
       } else {
         EXPECT_GT(coarse.x, 2e-9);
@@ -100,7 +100,7 @@ TEST_P(Agreement, OfExactAndEulersStepsAtFirstOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(calm_scenes()), [](const auto& parameter) {
-  std::string name = parameter.param;
+  string name = parameter.param;
   for (char& c : name)
     if (c == '/') c = '_';
   return name;

@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -39,11 +40,11 @@ TEST_P(BowlingBalls, MeetAndPartByTheClosedForm) {
 
 TEST_P(BowlingBalls, TheCommentHasTheSameNumbers) {
   const auto [file, e] = GetParam();
-  const std::string comment = comment_of(file);
-  const auto has = [&](const std::string& words) { EXPECT_NE(comment.find(words), std::string::npos) << words; };
+  const string comment = comment_of(file);
+  const auto has = [&](const string& words) { EXPECT_NE(comment.find(words), string::npos) << words; };
   EXPECT_NEAR(stated(file, "(s - r sqrt(2)) / v = "), meeting, 5e-16);
   const auto number = [](double x) {
-    std::string text = nlohmann::json(std::round(x * 1e9) / 1e9 + 0.0).dump();
+    string text = nlohmann::json(std::round(x * 1e9) / 1e9 + 0.0).dump();
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
   };
   const auto vector = [&](double x, double z) { return "(" + number(x) + ", 0, " + number(z) + ") m/s"; };
@@ -60,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(ByRestitution, BowlingBalls,
                          ::testing::Values(Variant{"two_bowling_balls_e0", 0}, Variant{"two_bowling_balls_e05", 0.5},
                                            Variant{"two_bowling_balls", 0.9}, Variant{"two_bowling_balls_e1", 1},
                                            Variant{"two_bowling_balls_e11", 1.1}),
-                         [](const auto& parameter) { return std::string(parameter.param.file); });
+                         [](const auto& parameter) { return string(parameter.param.file); });
 
 TEST(TwoBowlingBalls, CommentHasTheApproachSpeedToTwelveDigits) {
   EXPECT_NEAR(stated("two_bowling_balls", "they approach at v sqrt(2) = "), v * std::sqrt(2), 1e-15);
@@ -121,8 +122,8 @@ TEST(BookAsPrinted, MakesEnergyAsTheListingsDo) {
   const Vec3 red = 2 * v * Vec3(-(1 - e) / 2, 0, (1 + e) / 2), blue = 2 * v * Vec3(-(1 + e) / 2, 0, (1 - e) / 2);
   EXPECT_LT((run.velocity("red") - red).norm(), 1e-13);
   EXPECT_LT((run.velocity("blue") - blue).norm(), 1e-13);
-  const std::string comment = comment_of("book_as_printed");
-  EXPECT_NE(comment.find("(-1.19, 0, 2.81), blue with (-2.81, 0, 1.19) m/s"), std::string::npos);
+  const string comment = comment_of("book_as_printed");
+  EXPECT_NE(comment.find("(-1.19, 0, 2.81), blue with (-2.81, 0, 1.19) m/s"), string::npos);
   EXPECT_NEAR(red.x(), -1.19, 1e-15);
   EXPECT_NEAR(red.z(), 2.81, 1e-15);
   const double energy = kinetic_energy(run.scene.world, run.end);

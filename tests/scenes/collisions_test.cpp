@@ -7,16 +7,17 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-std::size_t among_balls(const Played& run) {
+size_t among_balls(const Played& run) {
   return run.tally.body_body;
 }
 
 TEST(BilliardBreak, TheFirstCollisionIsTheClosedForm) {
-  const std::string file = "billiard_break";
+  const string file = "billiard_break";
   const double b = 0.004, d = 0.05715, v = 7, share = std::sqrt(1 - b * b / (d * d));
   const double time = (1.27 - std::sqrt(d * d - b * b)) / v;
   const Played run = play(file, {0.1733});
@@ -34,7 +35,7 @@ TEST(BilliardBreak, TheFirstCollisionIsTheClosedForm) {
 TEST(BilliardBreak, EveryBallMovesAndStaysOnTheTable) {
   const Played run = play("billiard_break");
   ASSERT_EQ(run.end.position.size(), 16u);
-  for (std::size_t i = 0; i < 16; ++i) {
+  for (size_t i = 0; i < 16; ++i) {
     const Vec3& x = run.end.position[i];
     EXPECT_GT((x - run.scene.initial.position[i]).norm(), 0.001) << run.scene.roster.name(i);
     EXPECT_NEAR(x.y(), 0.028575, 1e-15);
@@ -48,9 +49,9 @@ TEST(BilliardBreak, EveryBallMovesAndStaysOnTheTable) {
 
 TEST(BilliardBreak, TheRackIsATenthOfAMillimetreApart) {
   const Played run = play("billiard_break");
-  for (std::size_t i = 1; i < 16; ++i) {
+  for (size_t i = 1; i < 16; ++i) {
     double nearest = 1;
-    for (std::size_t j = 1; j < 16; ++j) {
+    for (size_t j = 1; j < 16; ++j) {
       if (i != j) nearest = std::min(nearest, (run.scene.initial.position[i] - run.scene.initial.position[j]).norm());
     }
     EXPECT_NEAR(nearest - 0.05715, 1e-4, 1e-7);
@@ -58,12 +59,12 @@ TEST(BilliardBreak, TheRackIsATenthOfAMillimetreApart) {
 }
 
 TEST(NewtonsCradleGap, OneBallMovesAtATimeToTheLastBit) {
-  const std::string file = "newtons_cradle_gap";
+  const string file = "newtons_cradle_gap";
   const Played run = play(file, {0.25, 0.8, 2.2});
   const double first_pass[] = {0.484375, 0.5, 0.515625, 0.53125, 1.1875, 1.84375};
   for (int i = 0; i < 6; ++i) EXPECT_EQ(run.collisions[i].time, first_pass[i]) << i;
-  EXPECT_EQ(run.states[1].velocity, (std::vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}}));
-  EXPECT_EQ(run.states[2].velocity, (std::vector<Vec3>{{-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+  EXPECT_EQ(run.states[1].velocity, (vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}}));
+  EXPECT_EQ(run.states[2].velocity, (vector<Vec3>{{-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
   EXPECT_EQ(run.of("left")[0].time, stated(file, "red strikes the left wall at "));
   EXPECT_EQ(run.of("orange")[4].time, stated(file, "and orange again at "));
   EXPECT_EQ(run.of("right")[0].time, stated(file, "(0.9375 - 0.28125) = "));
@@ -74,14 +75,13 @@ TEST(NewtonsCradleGap, OneBallMovesAtATimeToTheLastBit) {
 }
 
 TEST(NewtonsCradleTouching, TwoInTwoOutToTheLastBit) {
-  const std::string file = "newtons_cradle_touching";
+  const string file = "newtons_cradle_touching";
   const Played run = play(file, {0.8, 2.2});
   const auto at = [&](double time) {
-    return std::count_if(run.collisions.begin(), run.collisions.end(),
-                         [&](const Collision& c) { return c.time == time; });
+    return std::ranges::count_if(run.collisions, [&](const Collision& c) { return c.time == time; });
   };
-  EXPECT_EQ(run.states[0].velocity, (std::vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
-  EXPECT_EQ(run.states[1].velocity, (std::vector<Vec3>{{-1, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+  EXPECT_EQ(run.states[0].velocity, (vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
+  EXPECT_EQ(run.states[1].velocity, (vector<Vec3>{{-1, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
   EXPECT_EQ(at(0.5), 6);
   EXPECT_EQ(at(stated(file, "(0.9375 - 0.25) = ")), 3);
   EXPECT_EQ(at(stated(file, "6 more collisions at ")), 6);
@@ -93,7 +93,7 @@ TEST(NewtonsCradleTouching, TwoInTwoOutToTheLastBit) {
 }
 
 TEST(PiByCollisions, CountsThreeHundredAndFourteen) {
-  const std::string file = "pi_by_collisions";
+  const string file = "pi_by_collisions";
   const Played run = play(file);
   const double quotient = M_PI / std::atan(std::sqrt(1 / 10000.0));
   EXPECT_EQ(run.collisions.size(), std::floor(quotient));
@@ -107,7 +107,7 @@ TEST(PiByCollisions, CountsThreeHundredAndFourteen) {
 }
 
 TEST(PiToSixDigits, Counts314159) {
-  const std::string file = "pi_to_six_digits";
+  const string file = "pi_to_six_digits";
   const Played run = play(file);
   const double quotient = M_PI / std::atan(std::sqrt(1e-10));
   EXPECT_EQ(run.collisions.size(), std::floor(quotient));
@@ -119,7 +119,7 @@ TEST(PiToSixDigits, Counts314159) {
 }
 
 TEST(GasInARoom, KeepsItsEnergyAndPushesTheWalls) {
-  const std::string file = "gas_in_a_room";
+  const string file = "gas_in_a_room";
   const Played run = play(file);
   const World& world = run.scene.world;
   const double energy = kinetic_energy(world, run.scene.initial);
@@ -146,7 +146,7 @@ TEST(GasInARoom, KeepsItsEnergyAndPushesTheWalls) {
 }
 
 TEST(WallFlyOver, FaceEdgeAndCornerAreStruckWithTheirNormals) {
-  const std::string file = "wall_fly_over";
+  const string file = "wall_fly_over";
   const Played run = play(file, {0.7, 0.8});
   const Entity wall = run.number("wall"), floor = run.number("floor");
   const State &after = run.states[0], &level = run.states[1];

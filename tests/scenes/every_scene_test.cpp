@@ -10,14 +10,15 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-class EveryScene : public ::testing::TestWithParam<std::string> {};
+class EveryScene : public ::testing::TestWithParam<string> {};
 
 TEST_P(EveryScene, OpensWithWhatToExpect) {
-  EXPECT_NE(comment_of(GetParam()).find("Expect"), std::string::npos);
+  EXPECT_NE(comment_of(GetParam()).find("Expect"), string::npos);
 }
 
 TEST_P(EveryScene, HasATitle) {
@@ -26,7 +27,7 @@ TEST_P(EveryScene, HasATitle) {
 
 TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   const Played run = play(GetParam());
-  for (std::size_t i = 0; i < run.end.position.size(); ++i) {
+  for (size_t i = 0; i < run.end.position.size(); ++i) {
     EXPECT_TRUE(run.end.position[i].allFinite() && run.end.velocity[i].allFinite()) << run.scene.roster.name(i);
   }
   // Energy at the end = at the start - that of removed bodies + work - losses in impacts - losses of the method of
@@ -42,7 +43,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   const double least = crowds ? 1e-4 : 1e-9;  // measured: 8e-6 (pile_at_rest)
   EXPECT_LT(std::abs(run.tally.method_error), least * passed);
   if (run.scene.simulate.engine != Engine::book) {
-    const double smallest = *std::min_element(world.radius.begin(), world.radius.end());
+    const double smallest = *std::ranges::min_element(world.radius);
     EXPECT_LE(run.tally.max_overlap, (crowds ? 1e-10 : 2e-11) * smallest);  // measured: 8e-11 (balls_in_a_box)
   }
 }
@@ -53,18 +54,17 @@ TEST_P(EveryScene, ShowsSomething) {
   ASSERT_TRUE(scene.camera) << "pictures without a camera";
   const Played run = play(GetParam(), {scene.simulate.duration / 2});
   Renderer renderer(run.scene, {192, 108}, 1);
-  const Image empty =
-      renderer.draw({0, std::vector<Vec3>(run.end.position.size(), Vec3(0, -1e6, 0)), run.end.velocity});
+  const Image empty = renderer.draw({0, vector<Vec3>(run.end.position.size(), Vec3(0, -1e6, 0)), run.end.velocity});
   const Image image = renderer.draw(run.states[0]);
-  std::size_t changed = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+  size_t changed = 0;
+  for (size_t i = 0; i < image.pixels.size(); i += 3) {
     changed += !std::equal(image.pixels.begin() + i, image.pixels.begin() + i + 3, empty.pixels.begin() + i);
   }
   EXPECT_GE(changed, 20u) << "no ball in sight half way";  // of 20,736 pixels
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::ValuesIn(scene_names()), [](const auto& parameter) {
-  std::string name = parameter.param;
+  string name = parameter.param;
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
 });

@@ -8,12 +8,13 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
-  const std::string file = "bouncing_ball";
+  const string file = "bouncing_ball";
   const double t1 = std::sqrt(2 / g_n), e = 0.8, rest = t1 * (1 + e) / (1 - e);
   const Played run = play(file, {rest + 1e-9, 4.5});
   EXPECT_NEAR(run.collisions[0].time, t1, 1e-15);
@@ -26,7 +27,7 @@ TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
   }
   EXPECT_NEAR(run.position("ball").x(), 1.5, 2e-15);
   // The tops between impacts: e^2 h, e^4 h, ...
-  std::vector<double> tops;
+  vector<double> tops;
   for (int n = 0; n < 3; ++n) tops.push_back((run.collisions[n].time + run.collisions[n + 1].time) / 2);
   const Played at_tops = play(file, tops);
   for (int n = 0; n < 3; ++n) {
@@ -43,11 +44,11 @@ TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
 }
 
 TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
-  const std::string file = "restitution_row";
+  const string file = "restitution_row";
   const double t1 = std::sqrt(2 / g_n);
   const double es[] = {1, 0.95, 0.9, 0.8, 0.65, 0.5, 0.2};
   const double heights[] = {1, 0.9025, 0.81, 0.64, 0.4225, 0.25, 0.04};
-  std::vector<double> tops;
+  vector<double> tops;
   for (int i = 6; i >= 0; --i) tops.push_back(t1 + es[i] * t1);
   const Played run = play(file, tops);
   for (int i = 0; i < 7; ++i) {
@@ -58,7 +59,7 @@ TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
     EXPECT_EQ(run.of(run.scene.roster.name(i))[0].restitution, es[i]) << "the ball's own counts";
   }
   EXPECT_NE(comment_of(file).find("e 1 0.95 0.9 0.8 0.65 0.5 0.2 e^2 h 1 0.9025 0.81 0.64 0.4225 0.25 0.04 m"),
-            std::string::npos);
+            string::npos);
   EXPECT_NEAR(stated(file, "sqrt(2 h / g) = "), t1, 5e-16);
   ASSERT_EQ(run.rests.size(), 3u);
   const char* const words[] = {"1.354802267255363 s, ", "2.128974991401285 s, ",
@@ -71,7 +72,7 @@ TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
 }
 
 TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
-  const std::string file = "basketball_and_tennis_ball";
+  const string file = "basketball_and_tennis_ball";
   const double big = 0.62, m = 0.058, h = 0.4, t = std::sqrt(2 * h / g_n), v = std::sqrt(2 * g_n * h);
   const double up = v * (3 * big - m) / (big + m);
   const Played run = play(file, {0.5, t + up / g_n});
@@ -91,7 +92,7 @@ TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
 }
 
 TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
-  const std::string file = "tilted_groove";
+  const string file = "tilted_groove";
   const double tilt = 10 * M_PI / 180, a = g_n * std::sin(tilt);
   const Vec3 along(std::cos(tilt), -std::sin(tilt), 0), up(std::sin(tilt), std::cos(tilt), 0);
   const Played run = play(file, {0.5, 1, 2});  // bouncing, bouncing, sliding
@@ -113,7 +114,7 @@ TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
 }
 
 TEST(BallsInABox, ComeToRestOnTheFloor) {
-  const std::string file = "balls_in_a_box";
+  const string file = "balls_in_a_box";
   const Played run = play(file);
   EXPECT_GE(run.tally.resting, 70u);  // of 72
   double floor = 0;                   // J, of gravity with every ball on the floor

@@ -6,12 +6,13 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 TEST(Raindrops, StrikeAtTheClosedFormsTimes) {
-  const std::string file = "raindrops";
+  const string file = "raindrops";
   const Played run = play(file);
   EXPECT_EQ(choose_engine(run.scene).engine, Engine::exact);
   const Collision heavy = run.of("heavy").front(), light = run.of("light").front(), steady = run.of("steady").front();
@@ -24,7 +25,7 @@ TEST(Raindrops, StrikeAtTheClosedFormsTimes) {
 }
 
 TEST(Comet, ComesBack) {
-  const std::string file = "comet";
+  const string file = "comet";
   const Played run = play(file, {stated(file, "half a period, pi 2.5^(3/2) = ")});
   const State& far = run.states[0];
   EXPECT_NEAR(far.position[0].x(), stated(file, "it is at aphelion, x = "), 1e-9);
@@ -35,11 +36,11 @@ TEST(Comet, ComesBack) {
 }
 
 TEST(Bumper, BouncesOnEveryHalfSwing) {
-  const std::string file = "bumper";
+  const string file = "bumper";
   const Played run = play(file);
   ASSERT_EQ(run.collisions.size(), 16u);
   const double first = stated(file, "t = pi/10 = "), swing = stated(file, "every pi/5 = ");
-  for (std::size_t n = 0; n < run.collisions.size(); ++n) {
+  for (size_t n = 0; n < run.collisions.size(); ++n) {
     const double k = static_cast<double>(n);
     EXPECT_NEAR(run.collisions[n].time, first + k * swing, 1e-10);  // measured: 4e-11
     EXPECT_NEAR(run.collisions[n].approach_speed, 5 * std::pow(0.8, k), 1e-10);

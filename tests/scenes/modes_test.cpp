@@ -2,19 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "run/engine.h"
 #include "scenes/play.h"
 #include "simulate/loop/exact_simulator.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 /// How often bodies change from one mode to another one in a scene. All zero: it is for the book's engine.
-ModeChanges::Counts changes_in(const std::string& name) {
+ModeChanges::Counts changes_in(const string& name) {
   const Scene scene = load(name);
-  const std::unique_ptr<Simulator> simulator = make_simulator(scene);
+  const unique_ptr<Simulator> simulator = make_simulator(scene);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
   const auto* const exact = dynamic_cast<const ExactSimulator*>(simulator.get());
   return exact == nullptr ? ModeChanges::Counts{} : exact->modes().counts();
@@ -22,10 +22,10 @@ ModeChanges::Counts changes_in(const std::string& name) {
 
 TEST(ModesOfScenes, NoOtherTransitionHappens) {
   ModeChanges::Counts all{};
-  for (const std::string& name : scene_names()) {
+  for (const string& name : scene_names()) {
     const ModeChanges::Counts changes = changes_in(name);
-    for (std::size_t from = 0; from < number_of_modes; ++from)
-      for (std::size_t to = 0; to < number_of_modes; ++to) {
+    for (size_t from = 0; from < number_of_modes; ++from)
+      for (size_t to = 0; to < number_of_modes; ++to) {
         all[from][to] += changes[from][to];
         EXPECT_TRUE(changes[from][to] == 0 || may_become(static_cast<Mode>(from), static_cast<Mode>(to)))
             << name << ": from mode " << from << " to " << to;
@@ -33,9 +33,8 @@ TEST(ModesOfScenes, NoOtherTransitionHappens) {
   }
 
   // The scenes make most changes of the table. Single bodies make the others (simulate/modes_test.cpp).
-  std::size_t seen = 0;
-  for (const auto& from : all)
-    seen += static_cast<std::size_t>(std::ranges::count_if(from, [](auto n) { return n > 0; }));
+  size_t seen = 0;
+  for (const auto& from : all) seen += static_cast<size_t>(std::ranges::count_if(from, [](auto n) { return n > 0; }));
   EXPECT_GE(seen, 18u);
 }
 

@@ -2,11 +2,10 @@
 // a kilometre away. The motion is the same, to the last bit.
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 #include "stress/seen_otherwise.h"
 
 namespace carom::testing {
@@ -15,7 +14,7 @@ namespace {
 using stress::Motion;
 using stress::Observed;
 
-Motion motion_of(const std::string& name) {
+Motion motion_of(const string& name) {
   const Scene scene = load(name);
   // For long runs of many bodies the beginning is enough.
   const double most = scene.world.body_count() > 150 ? 0.25 : 3;
@@ -44,7 +43,7 @@ Observed run(const Motion& motion) {
 }
 
 /// Scenes of another engine, and of forces whose flights have no closed form, are skipped.
-class Otherwise : public ::testing::TestWithParam<std::string> {
+class Otherwise : public ::testing::TestWithParam<string> {
  protected:
   void SetUp() override {
     const Scene scene = load(GetParam());
@@ -93,8 +92,8 @@ Motion neighbour() {
   ball({3, 0.25, 0}, {0.5, 0, 0}, 0.25);
   ball({4, 0.25, 0.125}, {-0.25, 0, 0}, 0.25);
   ball({4, 1.5, 0}, Vec3::Zero(), 0.25);
-  world.obstacles.push_back({Vec3::Zero(), Volume::sphere(1), std::nullopt});
-  world.obstacles.push_back({{4, -0.5, 0}, Volume::box({4, 1, 4}), std::nullopt});
+  world.obstacles.push_back({Vec3::Zero(), Volume::sphere(1), nullopt});
+  world.obstacles.push_back({{4, -0.5, 0}, Volume::box({4, 1, 4}), nullopt});
   return other;
 }
 
@@ -105,8 +104,7 @@ TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
   for (const Plane& plane : motion.world.planes)
     if ((away - plane.point).dot(plane.normal) < 50) return;  // it would be behind this plane
   for (const bool first : {true, false}) {
-    if (!first && std::any_of(motion.world.forces.begin(), motion.world.forces.end(),
-                              [](const Force& force) { return !force.on.empty(); }))
+    if (!first && std::ranges::any_of(motion.world.forces, [](const Force& force) { return !force.on.empty(); }))
       continue;
     Motion other = neighbour();
     other.world.gravity = motion.world.gravity;
@@ -115,8 +113,8 @@ TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
     const Observed alone = run(motion), seen = run(both);
     ASSERT_EQ(alone.error, "");
     ASSERT_EQ(seen.error, "");
-    const std::size_t from = first ? 0 : other.initial.position.size();
-    for (std::size_t i = 0; i < motion.initial.position.size(); ++i) {
+    const size_t from = first ? 0 : other.initial.position.size();
+    for (size_t i = 0; i < motion.initial.position.size(); ++i) {
       ASSERT_EQ(alone.end.position[i], seen.end.position[from + i]) << i;
       ASSERT_EQ(alone.end.velocity[i], seen.end.velocity[from + i]) << i;
     }
@@ -124,7 +122,7 @@ TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Otherwise, ::testing::ValuesIn(scene_names()), [](const auto& parameter) {
-  std::string name = parameter.param;
+  string name = parameter.param;
   for (char& c : name)
     if (c == '/') c = '_';
   return name;

@@ -9,11 +9,12 @@
 #include "scene/load.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-const std::string file = "piston";
+const string file = "piston";
 constexpr double count = 200, radius = 0.02, u = 0.05, duration = 20, length = 2;
 
 /// E_end / E_start of the mean gas: dE = p A u dt, with p of an ideal gas, of hard spheres, and with their viscosity.

@@ -6,17 +6,18 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
 struct Crossed {
   Scene scene;
-  std::vector<RegionCrossing> crossings;
+  vector<RegionCrossing> crossings;
   Tally tally;
 };
 
-Crossed cross(const std::string& name) {
+Crossed cross(const string& name) {
   Crossed run{load(name), {}, {}};
   const auto simulator = make_simulator(run.scene);
   while (simulator->time() < run.scene.simulate.duration) {
@@ -28,7 +29,7 @@ Crossed cross(const std::string& name) {
 }
 
 TEST(Effusion, LosesAsManyBallsAsKineticTheorySays) {
-  const std::string file = "effusion";
+  const string file = "effusion";
   const Crossed run = cross(file);
   const double mean = stated(file, "v = sqrt(8 / pi) = "), rate = stated(file, "of the centres, lose ");
   EXPECT_NEAR(mean, std::sqrt(8 / M_PI), 5e-4);
@@ -42,7 +43,7 @@ TEST(Effusion, LosesAsManyBallsAsKineticTheorySays) {
 }
 
 TEST(Pockets, EndTheRunWithTheThirdBall) {
-  const std::string file = "pockets";
+  const string file = "pockets";
   const Crossed run = cross(file);
   ASSERT_TRUE(run.tally.end);
   EXPECT_EQ(run.tally.end->reason, EndReason::region);
@@ -50,7 +51,7 @@ TEST(Pockets, EndTheRunWithTheThirdBall) {
   EXPECT_NEAR(run.tally.end->time, stated(file, "the run ends there, at t = "), 5e-5);
   ASSERT_EQ(run.crossings.size(), 3u);
   const char* const names[] = {"b4", "b6", "b1"};
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(run.scene.roster.name(run.crossings[k].body), names[k]);
+  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(run.scene.roster.name(run.crossings[k].body), names[k]);
   EXPECT_NEAR(run.tally.first_collision, stated(file, "the break at t = "), 5e-5);
   EXPECT_EQ(run.tally.removed.bodies, 3u);
 }

@@ -10,6 +10,7 @@
 
 #include "run/run_scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
@@ -19,15 +20,15 @@ double square(double x) {
 }
 
 /// The value of a scene's own measure after its run.
-double measured(const std::string& name, const std::string& measure) {
+double measured(const string& name, const string& measure) {
   Scene scene = load(name);
   scene.output = {};
-  const std::string folder =
+  const string folder =
       (std::filesystem::temp_directory_path() / fmt::format("carom_rules_{}_{}", name, getpid())).string();
-  const std::vector<Measured> all =
+  const vector<Measured> all =
       run_scene({&scene, folder, 0}, choose_engine(scene), {}, {[] {}, [](const RunProgress&) {}}).summary.measures;
   std::filesystem::remove_all(folder);
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Measured& one) { return one.name == measure; });
+  const auto found = std::ranges::find_if(all, [&](const Measured& one) { return one.name == measure; });
   EXPECT_NE(found, all.end()) << measure;
   return found == all.end() ? std::nan("") : found->value;
 }
@@ -156,7 +157,7 @@ TEST(SlackPendulum, GoesSlackAndTautWhenStated) {
   const Played run = play("slack_pendulum", {taut + pendulum_period(swing) / 4});
   ASSERT_EQ(run.collisions.size(), 1u);
   const Collision& hit = run.collisions.front();
-  EXPECT_EQ(hit.kind, CollisionKind::string);
+  EXPECT_EQ(hit.kind, CollisionKind::taut);
   EXPECT_NEAR(hit.time, taut, 1e-12);
   EXPECT_NEAR(hit.approach_speed, jerk, 1e-11);
   EXPECT_NEAR(hit.energy_lost, jerk * jerk / 2, 1e-10);

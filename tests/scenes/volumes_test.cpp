@@ -6,18 +6,19 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "std.h"
 
 namespace carom::testing {
 namespace {
 
-double force(const std::vector<ContactForce>& contacts, Entity a, Entity b) {
+double force(const vector<ContactForce>& contacts, Entity a, Entity b) {
   for (const ContactForce& c : contacts) {
     if (c.a == a && c.b == b) return c.force;
   }
   return 0;
 }
 
-std::vector<ContactForce> contacts_at(const Scene& scene, double time) {
+vector<ContactForce> contacts_at(const Scene& scene, double time) {
   const auto simulator = make_simulator(scene);
   while (simulator->time() < time) simulator->advance_to(time);
   const auto contacts = simulator->contacts();
@@ -25,7 +26,7 @@ std::vector<ContactForce> contacts_at(const Scene& scene, double time) {
 }
 
 TEST(RollingOff, LeavesAtTwoThirdsOfTheHeight) {
-  const std::string file = "rolling_off";
+  const string file = "rolling_off";
   const double leave = stated(file, "it leaves at t = "), land = stated(file, "strikes the floor at t = ");
   const Played run = play(file, {leave});
   EXPECT_NEAR(run.states[0].position[0].x(), stated(file, "leaves at x = "), 1e-9);
@@ -61,7 +62,7 @@ TEST(Gust, PushesForItsSecond) {
 }
 
 TEST(Clay, SticksWithMassMomentumCentreAndVolume) {
-  const std::string file = "clay";
+  const string file = "clay";
   const Played run = play(file);
   ASSERT_EQ(run.collisions.size(), 2u);
   EXPECT_NEAR(run.collisions[0].time, 7.0 / 30, 1e-15);
@@ -90,7 +91,7 @@ TEST(PileAtRest, PressesWithItsWeight) {
 }
 
 TEST(TenPins, BallAndPinsAreStruckInOrder) {
-  const std::string file = "ten_pins";
+  const string file = "ten_pins";
   const Played run = play(file);
   const auto first = run.of("pin_1");
   ASSERT_GE(first.size(), 2u);

@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -28,7 +29,7 @@ TEST(BouncingBall, ImpactsComeAtTheTimesOfTheClosedForm) {
     problem.options.duration = e < 1 ? r["zeno_time"].get<double>() + 1 : 1000;
     const Outcome run = run_exact(problem);
     for (const auto& impact : r["impacts"]) {
-      const std::size_t n = impact["n"];
+      const size_t n = impact["n"];
       if (n > 1000) continue;
       ASSERT_GE(run.collisions.size(), n) << r["id"];
       const Collision& c = run.collisions[n - 1];
@@ -61,7 +62,7 @@ TEST(BouncingBall, DyadicDataGiveBitExactTimes) {
   const auto r = reference("bouncing_ball")["vertical"][0];
   Problem problem = drop(r);
   const Outcome run = run_exact(problem);
-  for (std::size_t n = 1; n <= 50; ++n)
+  for (size_t n = 1; n <= 50; ++n)
     EXPECT_EQ(run.collisions[n - 1].time, 1.5 - std::ldexp(1.0, 1 - static_cast<int>(n)));
   EXPECT_EQ(run.all.back().time, 1.5);
 }
@@ -89,7 +90,7 @@ TEST(BouncingBall, SlidesDownASlopeAfterTheBouncesEnd) {
     problem.options.duration = 20;
     const Outcome run = run_exact(problem);
     for (const auto& impact : r["impacts"]) {
-      const std::size_t n = impact["n"];
+      const size_t n = impact["n"];
       if (n <= 20) {
         EXPECT_NEAR(run.collisions[n - 1].time / impact["t"].get<double>(), 1, 1e-14) << r["id"] << n;
       }

@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -16,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The error that a simulator's run ends with; empty: none.
 template <typename Make>
-std::string error_of(const Make& make, double duration) {
+string error_of(const Make& make, double duration) {
   try {
     const auto simulator = make();
     run_to_end(*simulator, duration);
@@ -66,10 +67,10 @@ TEST(Bounds, ABodyThatFallsOutOfThemEndsTheRunByNameInEveryEngine) {
     problem.options.duration = 44'000;
     EXPECT_EQ(error_of(make, 44'000), "");
     problem.options.duration = 50'000;
-    const std::string error = error_of(make, 50'000);
-    EXPECT_NE(error.find(" s `ball."), std::string::npos) << error;
-    EXPECT_NE(error.find("more than 1e+12 times the smallest size of the scene"), std::string::npos) << error;
-    EXPECT_GE(std::stod(error.substr(std::string("at t = ").size())), 44'700) << error;
+    const string error = error_of(make, 50'000);
+    EXPECT_NE(error.find(" s `ball."), string::npos) << error;
+    EXPECT_NE(error.find("more than 1e+12 times the smallest size of the scene"), string::npos) << error;
+    EXPECT_GE(std::stod(error.substr(string("at t = ").size())), 44'700) << error;
   };
   fails([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); });
   fails([&] { return make_exact_simulator(problem.world, problem.initial, steps_of(problem.options.duration, 10)); });
@@ -81,11 +82,10 @@ TEST(Bounds, SpeedsThatGrowWithoutEndAreReported) {
   problem.ball({0, 0, 0}, {1, 0, 0}, 1, 0.5, 2);
   problem.room({-1, -1, -1}, {1, 1, 1});
   problem.options.duration = 1e9;
-  const std::string error =
+  const string error =
       error_of([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); }, 1e9);
-  EXPECT_NE(error.find("`ball.0`'s speed is 1.268e+30 m/s, more than the limit of 1e+30 m/s"), std::string::npos)
-      << error;
-  EXPECT_NE(error.find("restitution above 1 adds energy at every collision"), std::string::npos) << error;
+  EXPECT_NE(error.find("`ball.0`'s speed is 1.268e+30 m/s, more than the limit of 1e+30 m/s"), string::npos) << error;
+  EXPECT_NE(error.find("restitution above 1 adds energy at every collision"), string::npos) << error;
 }
 
 // Outputs change no result: a body that goes out and comes back is treated the same with or without outputs.
@@ -96,7 +96,7 @@ TEST(Bounds, ReadingStatesChangesNoVerdict) {
     problem.ball({0, 0.5e9, 0}, {0, speed, 0}, 1, 1e-3);
     problem.options.duration = 2 * speed;
     const auto make = [&] { return make_exact_simulator(problem.world, problem.initial, problem.options); };
-    std::string looked;
+    string looked;
     try {
       const auto simulator = make();
       for (int k = 1; k <= 600; ++k) {

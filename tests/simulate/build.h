@@ -1,13 +1,12 @@
 #pragma once
 // Short ways to build a world and to run it whole.
-#include <string>
-#include <vector>
 
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
 #include "simulate/simulation_error.h"
+#include "std.h"
 
 namespace carom {
 
@@ -43,16 +42,14 @@ struct Problem {
     initial.velocity.push_back(v);
     return world.body_count() - 1;
   }
-  void obstacle(const Vec3& center, const Volume& volume) { world.obstacles.push_back({center, volume, std::nullopt}); }
-  void plane(const Vec3& point, const Vec3& normal) {
-    world.planes.push_back({point, normal.normalized(), std::nullopt});
-  }
+  void obstacle(const Vec3& center, const Volume& volume) { world.obstacles.push_back({center, volume, nullopt}); }
+  void plane(const Vec3& point, const Vec3& normal) { world.planes.push_back({point, normal.normalized(), nullopt}); }
   void wall(const Vec3& center, const Vec3& normal, double width, double height, const Vec3& up = Vec3(0, 1, 0)) {
     const Vec3 n = normal.normalized(), u = (up - n * n.dot(up)).normalized();
-    world.walls.push_back({center, n, u.cross(n), u, width / 2, height / 2, std::nullopt});
+    world.walls.push_back({center, n, u.cross(n), u, width / 2, height / 2, nullopt});
   }
   /// Lets a fixed thing move. All of them must be there.
-  void move(Entity fixed, const std::vector<MotionWindow>& windows) {
+  void move(Entity fixed, const vector<MotionWindow>& windows) {
     world.motions.resize(world.fixed_count());
     world.motions[fixed - world.body_count()] = legs_of(windows);
   }
@@ -65,8 +62,8 @@ struct Problem {
 };
 
 struct Outcome {
-  std::vector<Collision> all;         // every record
-  std::vector<Collision> collisions;  // without `rest`
+  vector<Collision> all;         // every record
+  vector<Collision> collisions;  // without `rest`
   State end;
   Tally tally;
 };
@@ -107,7 +104,7 @@ inline Outcome run_exact(const Problem& problem) {
 }
 
 /// The message of a run that fails. Empty: it does not.
-inline std::string error_of(const Problem& problem) {
+inline string error_of(const Problem& problem) {
   try {
     run_exact(problem);
   } catch (const SimulationError& error) {

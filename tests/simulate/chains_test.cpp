@@ -6,13 +6,14 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Which neighbours collided, by the left one's number.
-std::vector<int> order_of(const Outcome& run) {
-  std::vector<int> order;
+vector<int> order_of(const Outcome& run) {
+  vector<int> order;
   for (const Collision& c : run.collisions) order.push_back(static_cast<int>(c.a));
   return order;
 }
@@ -21,11 +22,11 @@ TEST(Cradle, ElasticBallsPassOnAsManyAsComeIn) {
   const auto all = reference("chains_cradle_stack")["newton_cradle_elastic"];
   for (const auto& r : all["cases"]) {
     Problem problem;
-    for (std::size_t i = 0; i < 5; ++i) problem.ball({number(r["x0"][i]), 0, 0}, {number(r["v0"][i]), 0, 0});
+    for (size_t i = 0; i < 5; ++i) problem.ball({number(r["x0"][i]), 0, 0}, {number(r["v0"][i]), 0, 0});
     const Outcome run = run_exact(problem);
-    EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<std::size_t>());
-    EXPECT_EQ(order_of(run), r["order"].get<std::vector<int>>());
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(run.end.velocity[i].x(), number(r["v_final"][i]), 1e-15);
+    EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<size_t>());
+    EXPECT_EQ(order_of(run), r["order"].get<vector<int>>());
+    for (size_t i = 0; i < 5; ++i) EXPECT_NEAR(run.end.velocity[i].x(), number(r["v_final"][i]), 1e-15);
   }
 }
 
@@ -35,10 +36,10 @@ TEST(Cradle, InelasticBallsCollideInTheReferencesOrder) {
     Problem problem;
     for (int i = 0; i < 5; ++i) problem.ball({i * (1 + 1.0 / 1024), 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}, 1, 0.5, r["e"]);
     const Outcome run = run_exact(problem);
-    EXPECT_EQ(order_of(run), r["order_first40"].get<std::vector<int>>()) << "e = " << r["e"];
+    EXPECT_EQ(order_of(run), r["order_first40"].get<vector<int>>()) << "e = " << r["e"];
     // Gaps of 1e-3 between centres at 5 m: positions round by 1e-13 of a gap. Measured: at most 5.4e-13.
     EXPECT_NEAR(run.collisions.back().time / r["t_last"].get<double>(), 1, 2e-12) << "e = " << r["e"];
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(run.end.velocity[i].x(), r["v_final"][i].get<double>(), 1e-15);
+    for (size_t i = 0; i < 5; ++i) EXPECT_NEAR(run.end.velocity[i].x(), r["v_final"][i].get<double>(), 1e-15);
   }
 }
 
@@ -47,9 +48,9 @@ TEST(Cradle, TouchingBallsPassTheBlowOnOnePairAtATime) {
   problem.ball({-2, 0, 0}, {1, 0, 0});
   for (int i = 0; i < 4; ++i) problem.ball({static_cast<double>(i), 0, 0}, {0, 0, 0});
   const Outcome run = run_exact(problem);
-  EXPECT_EQ(order_of(run), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(order_of(run), (vector<int>{0, 1, 2, 3}));
   for (const Collision& c : run.collisions) EXPECT_EQ(c.time, 1);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(run.end.velocity[static_cast<std::size_t>(i)], Vec3::Zero());
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(run.end.velocity[static_cast<size_t>(i)], Vec3::Zero());
   EXPECT_EQ(run.end.velocity[4], Vec3(1, 0, 0));
 }
 
@@ -59,15 +60,14 @@ TEST(ThreeBalls, AreStruckFromBothEndsAtOnce) {
   const auto all = reference("chains_cradle_stack")["simultaneous_three_ball"];
   for (const auto& r : all["cases"]) {
     Problem problem;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (size_t i = 0; i < 3; ++i)
       problem.ball({static_cast<double>(i), 0, 0}, {number(r["v_in"][i]), 0, 0}, number(r["m"][i]), 0.5,
                    number(r["e"]));
     problem.options.duration = 0;
     const Outcome run = run_exact(problem);
     const auto& expected = r["simultaneous_newton"];
     EXPECT_EQ(run.collisions.size(), 2u) << r.dump();
-    for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_NEAR(run.end.velocity[i].x(), number(expected["v"][i]), 2e-15) << r.dump();
+    for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(run.end.velocity[i].x(), number(expected["v"][i]), 2e-15) << r.dump();
   }
 }
 
@@ -102,10 +102,10 @@ TEST(MassChain, SpeedGrowsAsTheGeometricFormula) {
       problem.ball({2.0 * i, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}, std::pow(r["q"].get<double>(), i), 0.5, r["e"]);
     problem.options.duration = 1000;
     const Outcome run = run_exact(problem);
-    EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<std::size_t>());
+    EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<size_t>());
     for (int i = 0; i < n; ++i) {
-      const double expected = r["v_final"][static_cast<std::size_t>(i)];
-      EXPECT_NEAR(run.end.velocity[static_cast<std::size_t>(i)].x(), expected, 5e-15 * std::abs(expected) + 1e-16)
+      const double expected = r["v_final"][static_cast<size_t>(i)];
+      EXPECT_NEAR(run.end.velocity[static_cast<size_t>(i)].x(), expected, 5e-15 * std::abs(expected) + 1e-16)
           << r["q"] << i;
     }
   }
@@ -117,7 +117,7 @@ TEST(GaussGun, APairAboveOneAddsEnergyOnce) {
   for (int i = 0; i < 4; ++i) problem.ball({2.0 * i, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0});
   problem.world.pairs = {{0, 1, 1, 1, 3.0}};
   const Outcome run = run_exact(problem);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(run.end.velocity[i].x(), number(r["v_final"][i]));
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(run.end.velocity[i].x(), number(r["v_final"][i]));
   EXPECT_EQ(-run.tally.energy_lost / 0.5, number(r["KE_gain"]) - 1);
 }
 
@@ -132,7 +132,7 @@ TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
     for (int i = 0; i < n; ++i) problem.ball({0, 1.0 + i * (1 + 0x1p-30), 0}, {0, -1, 0}, std::pow(1e-7, i), 0.5, 1);
     problem.options.duration = 0.75;
     const Outcome run = run_exact(problem);
-    const double expected = r["speed_ratio"], got = run.end.velocity[static_cast<std::size_t>(n - 1)].y();
+    const double expected = r["speed_ratio"], got = run.end.velocity[static_cast<size_t>(n - 1)].y();
     EXPECT_NEAR(got, expected, 1e-6 * expected * n) << n;
     EXPECT_NEAR(got * got, r["height_ratio"].get<double>(), 2e-6 * expected * expected * n) << n;
   }
@@ -160,8 +160,8 @@ TEST(ThreeBalls, PartAfterAtMostAsManyCollisionsAsTheReferenceFinds) {
   const auto all = reference("chains_cradle_stack")["three_ball_collapse"];
   for (const auto& r : all["search"]) {
     const double e = r["e"];
-    const std::size_t most = r["max_collisions_found_cap60"];
-    std::size_t found = 0;
+    const size_t most = r["max_collisions_found_cap60"];
+    size_t found = 0;
     for (int i = -20; i <= 20; ++i) {
       Problem problem;
       problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5, e);

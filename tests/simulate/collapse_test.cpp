@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -15,7 +16,7 @@ double energy(const World& world, const State& state) {
 }
 
 /// Runs in steps of `every` s; energy never grows, and every loss is accounted for.
-Outcome run_and_watch_energy(const Problem& problem, double every, double tolerance, const std::string& what) {
+Outcome run_and_watch_energy(const Problem& problem, double every, double tolerance, const string& what) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   const double start = energy(problem.world, problem.initial), scale = std::abs(start);
   double before = start, worst_gain = 0, worst_books = 0;
@@ -46,7 +47,7 @@ TEST(Collapse, OfThreeBallsInARowBelowTheCriticalRestitution) {
     EXPECT_LT(run.tally.collisions(), 1000u) << e;
     Vec3 p = momentum(problem.world, run.end);
     EXPECT_LT(p.norm(), 1e-15) << e;
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(run.end.velocity[i].norm(), 1e-9) << e;
+    for (size_t i = 0; i < 3; ++i) EXPECT_LT(run.end.velocity[i].norm(), 1e-9) << e;
   }
 }
 
@@ -104,9 +105,9 @@ TEST(Collapse, OfColumnsDroppedOnTheFloorEndsAtRest) {
     const double tolerance = n < 20 ? 1e-12 : 1e-5;
     const Outcome run = run_and_watch_energy(problem, 0.0625, tolerance, "column of " + std::to_string(n));
     EXPECT_GT(run.tally.collapses, 0u) << n;
-    EXPECT_EQ(run.tally.resting, static_cast<std::uint64_t>(n));
+    EXPECT_EQ(run.tally.resting, static_cast<uint64_t>(n));
     EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
-    for (std::size_t i = 0; i < run.end.position.size(); ++i)
+    for (size_t i = 0; i < run.end.position.size(); ++i)
       EXPECT_NEAR(run.end.position[i].y(), 0.25 + 0.5 * static_cast<double>(i), 1e-9) << n;
   }
 }
@@ -120,9 +121,9 @@ TEST(Collapse, OfColumnsOfBoxesDroppedOnTheFloorEndsAtRest) {
       problem.body(Volume::box({0.5, 0.5, 0.5}), {0.01 * i, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1 + i % 3, 0.5);
     problem.options.duration = 10;
     const Outcome run = run_and_watch_energy(problem, 0.0625, 1e-12, "boxes " + std::to_string(n));
-    EXPECT_EQ(run.tally.resting, static_cast<std::uint64_t>(n));
+    EXPECT_EQ(run.tally.resting, static_cast<uint64_t>(n));
     EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
-    for (std::size_t i = 0; i < run.end.position.size(); ++i)
+    for (size_t i = 0; i < run.end.position.size(); ++i)
       EXPECT_EQ(run.end.position[i].x(), 0.01 * static_cast<double>(i));
   }
 }
@@ -146,7 +147,7 @@ TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
       EXPECT_LT(run.tally.collisions(), 400u) << g << ", " << first_e;
       // All impulses of the heavy balls pass through the light one. The rounding of positions turns the normal a
       // little.
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (size_t i = 0; i < 3; ++i) {
         EXPECT_LT(std::abs(run.end.velocity[i].x()), 1e-15) << g << ", " << first_e;      // m/s; measured: 2.3e-16
         EXPECT_NEAR(run.end.velocity[i].y(), -10 * g, 1e-8 * g) << g << ", " << first_e;  // measured: 1.3e-9 g
       }

@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/island/constrained_motion.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -51,7 +52,7 @@ TEST(ConstrainedMotion, AStackOfAnyNumberStandsAndEachBallCarriesThoseAboveIt) {
       go_to(*simulator, t);
       EXPECT_EQ(simulator->state().position, problem.initial.position) << n;
       const auto contacts = simulator->contacts();
-      ASSERT_EQ(contacts.size(), static_cast<std::size_t>(n));
+      ASSERT_EQ(contacts.size(), static_cast<size_t>(n));
       for (const ContactForce& c : contacts) {
         const int above = c.b == static_cast<Entity>(n) ? n : n - 1 - static_cast<int>(c.a);
         EXPECT_NEAR(c.force, above * g_n, 1e-13 * n * g_n) << n << ": " << c.a << " on " << c.b;
@@ -109,10 +110,9 @@ TEST(ConstrainedMotion, RoofsAndPyramidsComeDownByTheEquationOfTheirOneCoordinat
         const double q = angle_of_roof(angle, top, 1, bases, r, problem.options.duration);
         ASSERT_GT(q, angle + 0.03);
         for (int c = 0; c < copies; ++c) {
-          const std::size_t first = static_cast<std::size_t>(c * (bases + 1)),
-                            last = first + static_cast<std::size_t>(bases);
+          const size_t first = static_cast<size_t>(c * (bases + 1)), last = first + static_cast<size_t>(bases);
           EXPECT_NEAR(run.end.position[last].y(), r + 2 * r * std::cos(q), 5e-12);  // measured: 2e-12
-          for (std::size_t b = first; b < last; ++b) {
+          for (size_t b = first; b < last; ++b) {
             const Vec3 out = run.end.position[b] - Vec3(0, 0, 5.0 * c);
             EXPECT_NEAR(std::hypot(out.x(), out.z()), 2 * r * std::sin(q), 5e-12);
             EXPECT_NEAR(out.y(), r, 1e-15);
@@ -137,7 +137,7 @@ TEST(ConstrainedMotion, InOtherUnitsAPyramidHasTheSameBits) {
   for (Vec3& x : other.initial.position) x *= length;
   for (Plane& plane : other.world.planes) plane.point *= length;
   const Outcome a = run_exact(one), b = run_exact(other);
-  for (std::size_t i = 0; i < a.end.position.size(); ++i) {
+  for (size_t i = 0; i < a.end.position.size(); ++i) {
     EXPECT_EQ(length * a.end.position[i], b.end.position[i]);
     EXPECT_EQ(length / time * a.end.velocity[i], b.end.velocity[i]);
   }

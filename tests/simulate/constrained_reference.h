@@ -5,11 +5,10 @@
 // its multiplier vanishes. The motion ends before one closes.
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -29,34 +28,34 @@ class ConstrainedReference {
   };
   /// A string at its full length, or a rod.
   struct Tie {
-    std::size_t body;
+    size_t body;
     int other = none;            // the other body, or the anchor
     Vec3 anchor = Vec3::Zero();  // m
     bool rod = false;
   };
-  std::vector<double> mass, radius;  // kg, m
-  std::vector<Vec3> start, force;    // m; m/s^2, what acts on each, gravity included
-  std::vector<Vec3> velocity{};      // m/s, at the start, along all contacts and ties; empty: at rest
-  std::vector<Globe> globes;
-  std::vector<Flat> flats{};
-  std::vector<Tie> ties{};
+  vector<double> mass, radius;  // kg, m
+  vector<Vec3> start, force;    // m; m/s^2, what acts on each, gravity included
+  vector<Vec3> velocity{};      // m/s, at the start, along all contacts and ties; empty: at rest
+  vector<Globe> globes;
+  vector<Flat> flats{};
+  vector<Tie> ties{};
   bool has_floor = true;
   Vec3 origin = Vec3::Zero();  // m: a place near all others, from which they are computed
 
   struct Motion {
-    std::vector<Vec3> x, v;    // m, m/s, at `time`
-    double time = 0;           // s
-    std::size_t openings = 0;  // until then
+    vector<Vec3> x, v;    // m, m/s, at `time`
+    double time = 0;      // s
+    size_t openings = 0;  // until then
   };
 
   /// From the start on for `duration` (s), or until shortly before a contact closes or a string goes slack, in steps of
   /// `step` (s).
   Motion follow(double duration, double step) {
-    const std::size_t n = mass.size();
+    const size_t n = mass.size();
     x_.clear();
     for (const Vec3& at : start) x_.push_back(from_origin(at));
     v_.assign(n, Vec::Zero());
-    for (std::size_t k = 0; k < velocity.size(); ++k) v_[k] = velocity[k].cast<Real>();
+    for (size_t k = 0; k < velocity.size(); ++k) v_[k] = velocity[k].cast<Real>();
     near_ = std::max<Real>(1e-12L, 0x1p-47L * origin.cwiseAbs().sum());
     find_rows();
     press();
@@ -78,7 +77,7 @@ class ConstrainedReference {
       time += h;
     }
     motion.time = static_cast<double>(time);
-    for (std::size_t k = 0; k < n; ++k) {
+    for (size_t k = 0; k < n; ++k) {
       motion.x.push_back((x_[k] + origin.cast<Real>()).cast<double>());
       motion.v.push_back(v_[k].cast<double>());
     }
@@ -88,7 +87,7 @@ class ConstrainedReference {
  private:
   static constexpr Real tiny = 1e-13L;  // of the greatest force
   struct Row {
-    std::size_t a;
+    size_t a;
     int b;
     bool presses = false;
     int flat = none, tie = none;
@@ -104,23 +103,23 @@ class ConstrainedReference {
     return {d / size, size - sum, (w.squaredNorm() - along * along) / size};
   }
 
-  Bend bend_of(const Row& row, const std::vector<Vec>& x, const std::vector<Vec>& v) const {
+  Bend bend_of(const Row& row, const vector<Vec>& x, const vector<Vec>& v) const {
     if (row.tie != none) {
-      const Tie& tie = ties[static_cast<std::size_t>(row.tie)];
+      const Tie& tie = ties[static_cast<size_t>(row.tie)];
       const bool anchored = tie.other == none;
-      const auto other = static_cast<std::size_t>(tie.other);
+      const auto other = static_cast<size_t>(tie.other);
       const Vec d = (anchored ? from_origin(tie.anchor) : x[other]) - x[row.a];
       const Bend at = bend_along(d, anchored ? Vec(-v[row.a]) : Vec(v[other] - v[row.a]), 0);
       return {-at.n, 0, -at.bend};
     }
     if (row.flat != none) {
-      const Flat& flat = flats[static_cast<std::size_t>(row.flat)];
+      const Flat& flat = flats[static_cast<size_t>(row.flat)];
       const Vec n = flat.normal.cast<Real>();
       return {-n, n.dot(x[row.a] - from_origin(flat.point)) - radius[row.a], 0};
     }
     if (row.b == floor) return {Vec(0, -1, 0), x[row.a].y() - radius[row.a], 0};
     const bool body = row.b >= 0;
-    const auto b = static_cast<std::size_t>(body ? row.b : -2 - row.b);
+    const auto b = static_cast<size_t>(body ? row.b : -2 - row.b);
     const Vec d = (body ? x[b] : from_origin(globes[b].center)) - x[row.a];
     const Vec w = body ? Vec(v[b] - v[row.a]) : Vec(-v[row.a]);
     return bend_along(d, w, static_cast<Real>(radius[row.a]) + (body ? radius[b] : globes[b].radius));
@@ -130,96 +129,95 @@ class ConstrainedReference {
     rows_.clear();
     const auto n = static_cast<int>(mass.size());
     for (int a = 0; a < n; ++a) {
-      const auto i = static_cast<std::size_t>(a);
+      const auto i = static_cast<size_t>(a);
       for (int b = a + 1; b < n; ++b) rows_.push_back({i, b});
       if (has_floor) rows_.push_back({i, floor});
       for (int k = 0; k < static_cast<int>(globes.size()); ++k) rows_.push_back({i, -2 - k});
       for (int k = 0; k < static_cast<int>(flats.size()); ++k) rows_.push_back({i, none, false, k});
     }
     for (int k = 0; k < static_cast<int>(ties.size()); ++k) {
-      const Tie& tie = ties[static_cast<std::size_t>(k)];
+      const Tie& tie = ties[static_cast<size_t>(k)];
       rows_.push_back({tie.body, tie.other, true, none, k});
     }
   }
 
   /// The multipliers (N) with which the rates of these rows' gaps stay unchanged, by Cholesky's factors.
-  std::vector<Real> multipliers(const std::vector<std::size_t>& set, const std::vector<Vec>& x,
-                                const std::vector<Vec>& v) const {
-    const std::size_t n = set.size();
-    std::vector<Bend> at;
-    for (const std::size_t c : set) at.push_back(bend_of(rows_[c], x, v));
-    std::vector<std::vector<Real>> m(n, std::vector<Real>(n));
-    std::vector<Real> y(n);
-    for (std::size_t c = 0; c < n; ++c) {
+  vector<Real> multipliers(const vector<size_t>& set, const vector<Vec>& x, const vector<Vec>& v) const {
+    const size_t n = set.size();
+    vector<Bend> at;
+    for (const size_t c : set) at.push_back(bend_of(rows_[c], x, v));
+    vector<vector<Real>> m(n, vector<Real>(n));
+    vector<Real> y(n);
+    for (size_t c = 0; c < n; ++c) {
       const Row& p = rows_[set[c]];
       Vec f = -force[p.a].cast<Real>();
-      if (p.b >= 0) f += force[static_cast<std::size_t>(p.b)].cast<Real>();
+      if (p.b >= 0) f += force[static_cast<size_t>(p.b)].cast<Real>();
       y[c] = -(at[c].n.dot(f) + at[c].bend);
-      for (std::size_t d = 0; d <= c; ++d) {
+      for (size_t d = 0; d <= c; ++d) {
         const Row& q = rows_[set[d]];
         const Real cosine = at[c].n.dot(at[d].n);
         Real sum = 0;
         if (p.a == q.a) sum += cosine / mass[p.a];
-        if (p.b >= 0 && p.b == q.b) sum += cosine / mass[static_cast<std::size_t>(p.b)];
+        if (p.b >= 0 && p.b == q.b) sum += cosine / mass[static_cast<size_t>(p.b)];
         if (p.b >= 0 && p.b == static_cast<int>(q.a)) sum -= cosine / mass[q.a];
         if (q.b >= 0 && q.b == static_cast<int>(p.a)) sum -= cosine / mass[p.a];
         m[c][d] = sum;
       }
     }
-    for (std::size_t c = 0; c < n; ++c) {
-      for (std::size_t d = 0; d <= c; ++d) {
-        for (std::size_t k = 0; k < d; ++k) m[c][d] -= m[c][k] * m[d][k];
+    for (size_t c = 0; c < n; ++c) {
+      for (size_t d = 0; d <= c; ++d) {
+        for (size_t k = 0; k < d; ++k) m[c][d] -= m[c][k] * m[d][k];
         m[c][d] = c == d ? std::sqrt(m[c][c]) : m[c][d] / m[d][d];
       }
-      for (std::size_t k = 0; k < c; ++k) y[c] -= m[c][k] * y[k];
+      for (size_t k = 0; k < c; ++k) y[c] -= m[c][k] * y[k];
       y[c] /= m[c][c];
     }
-    for (std::size_t c = n; c-- > 0;) {
-      for (std::size_t k = c + 1; k < n; ++k) y[c] -= m[k][c] * y[k];
+    for (size_t c = n; c-- > 0;) {
+      for (size_t k = c + 1; k < n; ++k) y[c] -= m[k][c] * y[k];
       y[c] /= m[c][c];
     }
     return y;
   }
 
-  std::vector<std::size_t> pressing() const {
-    std::vector<std::size_t> set;
-    for (std::size_t c = 0; c < rows_.size(); ++c)
+  vector<size_t> pressing() const {
+    vector<size_t> set;
+    for (size_t c = 0; c < rows_.size(); ++c)
       if (rows_[c].presses) set.push_back(c);
     return set;
   }
 
-  std::vector<Vec> accelerate(const std::vector<Vec>& x, const std::vector<Vec>& v) const {
-    std::vector<Vec> a;
+  vector<Vec> accelerate(const vector<Vec>& x, const vector<Vec>& v) const {
+    vector<Vec> a;
     for (const Vec3& f : force) a.push_back(f.cast<Real>());
-    const std::vector<std::size_t> set = pressing();
-    const std::vector<Real> y = multipliers(set, x, v);
-    for (std::size_t c = 0; c < set.size(); ++c) {
+    const vector<size_t> set = pressing();
+    const vector<Real> y = multipliers(set, x, v);
+    for (size_t c = 0; c < set.size(); ++c) {
       const Row& row = rows_[set[c]];
       const Vec n = bend_of(row, x, v).n;
       a[row.a] -= y[c] / mass[row.a] * n;
-      if (row.b >= 0) a[static_cast<std::size_t>(row.b)] += y[c] / mass[static_cast<std::size_t>(row.b)] * n;
+      if (row.b >= 0) a[static_cast<size_t>(row.b)] += y[c] / mass[static_cast<size_t>(row.b)] * n;
     }
     return a;
   }
 
   /// m/s^2: of a row's gap.
-  Real parting(const Row& row, const std::vector<Vec>& a) const {
+  Real parting(const Row& row, const vector<Vec>& a) const {
     const Bend at = bend_of(row, x_, v_);
-    const Vec w = row.b >= 0 ? Vec(a[static_cast<std::size_t>(row.b)] - a[row.a]) : Vec(-a[row.a]);
+    const Vec w = row.b >= 0 ? Vec(a[static_cast<size_t>(row.b)] - a[row.a]) : Vec(-a[row.a]);
     return at.n.dot(w) + at.bend;
   }
 
   /// The contacts that press now: Lawson & Hanson's active set (Solving Least Squares Problems, 1974, ch. 23).
   void press() {
-    std::vector<std::size_t> closed;
-    for (std::size_t c = 0; c < rows_.size(); ++c)
+    vector<size_t> closed;
+    for (size_t c = 0; c < rows_.size(); ++c)
       if (rows_[c].tie == none && std::abs(bend_of(rows_[c], x_, v_).gap) < near_) closed.push_back(c);
-    std::vector<Real> y(rows_.size(), 0);
+    vector<Real> y(rows_.size(), 0);
     for (;;) {
-      const std::vector<Vec> a = accelerate(x_, v_);
-      std::size_t next = rows_.size();
+      const vector<Vec> a = accelerate(x_, v_);
+      size_t next = rows_.size();
       Real least = -1e-12L;
-      for (const std::size_t c : closed)
+      for (const size_t c : closed)
         if (!rows_[c].presses && parting(rows_[c], a) < least) {
           least = parting(rows_[c], a);
           next = c;
@@ -227,12 +225,12 @@ class ConstrainedReference {
       if (next == rows_.size()) return;
       rows_[next].presses = true;
       for (;;) {
-        const std::vector<std::size_t> set = pressing();
-        const std::vector<Real> z = multipliers(set, x_, v_);
+        const vector<size_t> set = pressing();
+        const vector<Real> z = multipliers(set, x_, v_);
         Real share = 1;
-        for (std::size_t k = 0; k < set.size(); ++k)
+        for (size_t k = 0; k < set.size(); ++k)
           if (z[k] <= 0 && rows_[set[k]].tie == none) share = std::min(share, y[set[k]] / (y[set[k]] - z[k]));
-        for (std::size_t k = 0; k < set.size(); ++k) {
+        for (size_t k = 0; k < set.size(); ++k) {
           y[set[k]] += share * (z[k] - y[set[k]]);
           if (share < 1 && y[set[k]] <= 1e-18L && rows_[set[k]].tie == none) {
             rows_[set[k]].presses = false;
@@ -247,19 +245,19 @@ class ConstrainedReference {
   /// One step of h (s): the midpoint rule with 2, 4 .. 16 parts, extrapolated to none.
   void advance(Real h) {
     constexpr int columns = 8;
-    const std::size_t n = x_.size();
-    std::vector<std::vector<Vec>> xs, vs;
+    const size_t n = x_.size();
+    vector<vector<Vec>> xs, vs;
     for (int j = 0; j < columns; ++j) {
       const int parts = 2 * (j + 1);
       const Real s = h / parts;
-      std::vector<Vec> x0 = x_, v0 = v_, a = accelerate(x_, v_), x1 = x0, v1 = v0;
-      for (std::size_t k = 0; k < n; ++k) {
+      vector<Vec> x0 = x_, v0 = v_, a = accelerate(x_, v_), x1 = x0, v1 = v0;
+      for (size_t k = 0; k < n; ++k) {
         x1[k] += s * v0[k];
         v1[k] += s * a[k];
       }
       for (int part = 1; part < parts; ++part) {
         a = accelerate(x1, v1);
-        for (std::size_t k = 0; k < n; ++k) {
+        for (size_t k = 0; k < n; ++k) {
           const Vec x2 = x0[k] + 2 * s * v1[k], v2 = v0[k] + 2 * s * a[k];
           x0[k] = std::exchange(x1[k], x2);
           v0[k] = std::exchange(v1[k], v2);
@@ -272,8 +270,8 @@ class ConstrainedReference {
       for (int j = columns - 1; j >= order; --j) {
         const Real ratio = static_cast<Real>(j + 1) / (j + 1 - order);
         const Real f = 1 / (ratio * ratio - 1);
-        const auto to = static_cast<std::size_t>(j);
-        for (std::size_t k = 0; k < n; ++k) {
+        const auto to = static_cast<size_t>(j);
+        for (size_t k = 0; k < n; ++k) {
           xs[to][k] += f * (xs[to][k] - xs[to - 1][k]);
           vs[to][k] += f * (vs[to][k] - vs[to - 1][k]);
         }
@@ -284,10 +282,10 @@ class ConstrainedReference {
 
   /// The least multiplier of a contact, relative to the greatest one. Below 0 it pulls.
   Real pull() const {
-    const std::vector<std::size_t> set = pressing();
-    const std::vector<Real> y = multipliers(set, x_, v_);
+    const vector<size_t> set = pressing();
+    const vector<Real> y = multipliers(set, x_, v_);
     Real least = 0, greatest = 0;
-    for (std::size_t k = 0; k < set.size(); ++k) {
+    for (size_t k = 0; k < set.size(); ++k) {
       if (rows_[set[k]].tie == none) least = std::min(least, y[k]);
       greatest = std::max(greatest, std::abs(y[k]));
     }
@@ -295,7 +293,7 @@ class ConstrainedReference {
   }
 
   /// s: the step from there after which the first contact begins to pull.
-  Real find_opening(const std::vector<Vec>& x, const std::vector<Vec>& v, Real h) {
+  Real find_opening(const vector<Vec>& x, const vector<Vec>& v, Real h) {
     Real low = 0, high = h;
     for (int pass = 0; pass < 60; ++pass) {
       const Real middle = (low + high) / 2;
@@ -310,13 +308,13 @@ class ConstrainedReference {
     return high;
   }
 
-  std::size_t open() {
-    const std::vector<std::size_t> set = pressing();
-    const std::vector<Real> y = multipliers(set, x_, v_);
+  size_t open() {
+    const vector<size_t> set = pressing();
+    const vector<Real> y = multipliers(set, x_, v_);
     const Real greatest =
-        std::abs(*std::max_element(y.begin(), y.end(), [](Real p, Real q) { return std::abs(p) < std::abs(q); }));
-    std::size_t opened = 0;
-    for (std::size_t c = 0; c < set.size(); ++c)
+        std::abs(*std::ranges::max_element(y, [](Real p, Real q) { return std::abs(p) < std::abs(q); }));
+    size_t opened = 0;
+    for (size_t c = 0; c < set.size(); ++c)
       if (y[c] < 0.5L * tiny * greatest && rows_[set[c]].tie == none) {
         rows_[set[c]].presses = false;
         ++opened;
@@ -326,21 +324,21 @@ class ConstrainedReference {
 
   /// Whether an overlap has formed without a pressing contact.
   bool closes() const {
-    return std::any_of(rows_.begin(), rows_.end(),
-                       [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -0.1L * near_; });
+    return std::ranges::any_of(
+        rows_, [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -0.1L * near_; });
   }
 
   bool slackens() const {
-    const std::vector<std::size_t> set = pressing();
-    const std::vector<Real> y = multipliers(set, x_, v_);
-    for (std::size_t k = 0; k < set.size(); ++k)
-      if (const int tie = rows_[set[k]].tie; tie != none && !ties[static_cast<std::size_t>(tie)].rod && y[k] < 0)
+    const vector<size_t> set = pressing();
+    const vector<Real> y = multipliers(set, x_, v_);
+    for (size_t k = 0; k < set.size(); ++k)
+      if (const int tie = rows_[set[k]].tie; tie != none && !ties[static_cast<size_t>(tie)].rod && y[k] < 0)
         return true;
     return false;
   }
 
-  std::vector<Vec> x_, v_;
-  std::vector<Row> rows_;
+  vector<Vec> x_, v_;
+  vector<Row> rows_;
   Real near_ = 0;  // m: a gap that counts as contact at the start
 };
 

@@ -10,17 +10,18 @@
 #include "simulate/build.h"
 #include "simulate/constrained_reference.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// The same for the simulator, with its balls in this order, each under a force of its own.
-Problem same(const ConstrainedReference& reference, const std::vector<std::size_t>& order, double duration, double e) {
+Problem same(const ConstrainedReference& reference, const vector<size_t>& order, double duration, double e) {
   Problem problem;
   problem.options.duration = duration;
   if (reference.has_floor) problem.plane({0, 0, 0}, {0, 1, 0});
   for (const auto& [center, radius] : reference.globes) problem.obstacle(center, Volume::sphere(radius));
-  for (const std::size_t k : order) {
+  for (const size_t k : order) {
     const Entity i = problem.ball(reference.start[k], Vec3::Zero(), reference.mass[k], reference.radius[k], e);
     problem.world.forces.push_back(
         {UniformForce{reference.mass[k] * reference.force[k]}, 0, std::numeric_limits<double>::infinity(), {i}});
@@ -34,21 +35,21 @@ struct Errors {
 
 /// Distance of the simulator from the reference, for either order of the bodies.
 Errors compare(const ConstrainedReference& reference, const ConstrainedReference::Motion& expected, double e) {
-  const std::size_t n = reference.mass.size();
-  std::vector<std::size_t> order(n);
+  const size_t n = reference.mass.size();
+  vector<size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
-  const double least = *std::min_element(reference.radius.begin(), reference.radius.end());
+  const double least = *std::ranges::min_element(reference.radius);
   Errors errors;
   for (int turn = 0; turn < 2; ++turn) {
     const Outcome run = run_exact(same(reference, order, expected.time, e));
-    for (std::size_t k = 0; k < n; ++k) {
+    for (size_t k = 0; k < n; ++k) {
       errors.position = std::max(errors.position, (run.end.position[k] - expected.x[order[k]]).norm() / least);
       errors.velocity = std::max(errors.velocity, (run.end.velocity[k] - expected.v[order[k]]).norm() / least);
     }
     EXPECT_TRUE(run.collisions.empty());
     EXPECT_EQ(run.tally.stepped_contact, 0);
     EXPECT_EQ(run.tally.doubts.contacts, 0u);
-    std::reverse(order.begin(), order.end());
+    std::ranges::reverse(order);
   }
   return errors;
 }
@@ -56,10 +57,10 @@ Errors compare(const ConstrainedReference& reference, const ConstrainedReference
 /// m: the place of a ball of radius r that touches one, two or three of those there, or the floor; one that overlaps
 /// nothing. False: not found in so many trials.
 bool place_touching(const ConstrainedReference& there, double r, Random& random, Vec3& x) {
-  const std::size_t n = there.mass.size();
+  const size_t n = there.mass.size();
   for (int trial = 0; trial < 200; ++trial) {
-    const auto pick = [&] { return std::min(n - 1, static_cast<std::size_t>(random(0, static_cast<double>(n)))); };
-    std::vector<std::size_t> on;
+    const auto pick = [&] { return std::min(n - 1, static_cast<size_t>(random(0, static_cast<double>(n)))); };
+    vector<size_t> on;
     const int touches = 1 + static_cast<int>(random(0, 3));
     for (int k = 0; k < touches && n > 0; ++k) on.push_back(pick());
     const bool floor = n == 0 || random(0, 1) < 0.3;
@@ -68,7 +69,7 @@ bool place_touching(const ConstrainedReference& there, double r, Random& random,
         Eigen::Matrix<long double, 3, 1>(random(-1, 1), random(-0.3, 1), random(-1, 1));
     // Newton's method on the gaps, by least change.
     for (int pass = 0; pass < 60; ++pass) {
-      for (const std::size_t k : on) {
+      for (const size_t k : on) {
         const Eigen::Matrix<long double, 3, 1> d = at - there.start[k].cast<long double>();
         const long double size = d.norm();
         at += ((static_cast<long double>(there.radius[k]) + r) / size - 1) * d;
@@ -77,15 +78,15 @@ bool place_touching(const ConstrainedReference& there, double r, Random& random,
     }
     x = at.cast<double>();
     bool good = x.y() > r - 1e-15;
-    for (const std::size_t k : on) good = good && std::abs((x - there.start[k]).norm() - there.radius[k] - r) < 4e-16;
-    for (std::size_t k = 0; k < n; ++k) good = good && (x - there.start[k]).norm() - there.radius[k] - r > -4e-16;
+    for (const size_t k : on) good = good && std::abs((x - there.start[k]).norm() - there.radius[k] - r) < 4e-16;
+    for (size_t k = 0; k < n; ++k) good = good && (x - there.start[k]).norm() - there.radius[k] - r > -4e-16;
     if (good) return true;
   }
   return false;
 }
 
 /// n balls of many sizes and masses that touch one another and a floor, each pulled by a force of its own.
-ConstrainedReference random_island(std::size_t n, std::uint64_t seed) {
+ConstrainedReference random_island(size_t n, uint64_t seed) {
   Random random(seed);
   ConstrainedReference island;
   while (island.mass.size() < n) {
@@ -102,9 +103,9 @@ ConstrainedReference random_island(std::size_t n, std::uint64_t seed) {
 
 TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsFollowIt) {
   Errors worst;
-  std::size_t openings = 0, islands = 0;
-  for (const std::size_t n : {2, 3, 5, 8, 12, 16, 17, 24, 40, 60}) {
-    for (std::uint64_t seed = 1; seed <= (n <= 17 ? 10u : 2u); ++seed) {
+  size_t openings = 0, islands = 0;
+  for (const size_t n : {2, 3, 5, 8, 12, 16, 17, 24, 40, 60}) {
+    for (uint64_t seed = 1; seed <= (n <= 17 ? 10u : 2u); ++seed) {
       ConstrainedReference island = random_island(n, 1000 * n + seed);
       const ConstrainedReference::Motion expected = island.follow(0.15, 1.0 / 128);
       if (expected.time == 0) continue;
@@ -121,12 +122,12 @@ TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsFollowIt) {
 }
 
 /// A train of n balls on a fixed globe, the first one in front, pushed by the last one.
-ConstrainedReference train(std::size_t n, double push) {
+ConstrainedReference train(size_t n, double push) {
   ConstrainedReference train;
   train.has_floor = false;
   const double globe = 5, r = 0.25, out = globe + r, turn = 2 * std::asin(r / out);
   train.globes.push_back({{0, -globe, 0}, globe});
-  for (std::size_t k = 0; k < n; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const double angle = -0.05 - static_cast<double>(k) * turn;
     train.start.emplace_back(out * std::sin(angle), out * std::cos(angle) - globe, 0);
     train.radius.push_back(r);
@@ -139,7 +140,7 @@ ConstrainedReference train(std::size_t n, double push) {
 
 TEST(ConstrainedReference, TrainsArePushedOverAHumpAndComeApartOnTheFarSide) {
   Errors worst;
-  for (const std::size_t n : {2, 3, 5, 9, 17}) {
+  for (const size_t n : {2, 3, 5, 9, 17}) {
     for (const double push : {4.0, 10.0}) {
       ConstrainedReference cars = train(n, push);
       const ConstrainedReference::Motion expected = cars.follow(1.2, 1.0 / 64);
@@ -157,7 +158,7 @@ TEST(ConstrainedReference, HalvedStepsOfItMakeNoDifference) {
   ConstrainedReference island = random_island(8, 8001), cars = train(3, 10);
   for (ConstrainedReference* of : {&island, &cars}) {
     const auto one = of->follow(0.15, 1.0 / 128), two = of->follow(one.time, 1.0 / 256);
-    for (std::size_t k = 0; k < one.x.size(); ++k) EXPECT_LT((one.x[k] - two.x[k]).norm(), 1e-15);
+    for (size_t k = 0; k < one.x.size(); ++k) EXPECT_LT((one.x[k] - two.x[k]).norm(), 1e-15);
   }
 }
 

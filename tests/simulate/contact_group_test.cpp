@@ -7,11 +7,12 @@
 #include "simulate/exact.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-std::unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrator method = Integrator::rk4) {
+unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrator method = Integrator::rk4) {
   ExactOptions options;
   options.duration = problem.options.duration;
   options.step = step;
@@ -44,8 +45,7 @@ TEST(ContactGroup, OfARowThatIsPushedIsNotPutToRest) {
       go_to(*simulator, 1);
       const double way = 0.5 * 3 / n;  // m
       for (int k = 0; k < n; ++k)
-        EXPECT_NEAR(simulator->state().position[static_cast<std::size_t>(k)].x() - k, way, 1e-12 * n)
-            << n << ", " << step;
+        EXPECT_NEAR(simulator->state().position[static_cast<size_t>(k)].x() - k, way, 1e-12 * n) << n << ", " << step;
       EXPECT_EQ(simulator->tally().stepped_contact, 0);
     }
 }

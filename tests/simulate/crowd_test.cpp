@@ -10,6 +10,7 @@
 #include "simulate/exact_parts.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,8 +19,8 @@ constexpr double gravity = 9.80665;
 
 /// Balls at random places, and all near pairs of them.
 struct NearBalls {
-  std::vector<Four> x;
-  std::vector<Four> v;
+  vector<Four> x;
+  vector<Four> v;
   CrowdRows rows;
 };
 
@@ -32,9 +33,9 @@ NearBalls near_balls(int seed) {
     balls.x.push_back({{place[0], place[1], place[2], random(0.4, 0.5)}});
     balls.v.push_back({{speed[0], speed[1], speed[2], random(0.1, 10)}});
   }
-  std::vector<CrowdRows::Pair> pairs;
-  for (std::uint32_t a = 0; a < 60; ++a)
-    for (std::uint32_t b = a + 1; b < 60; ++b) {
+  vector<CrowdRows::Pair> pairs;
+  for (uint32_t a = 0; a < 60; ++a)
+    for (uint32_t b = a + 1; b < 60; ++b) {
       if ((vector_of(balls.x[a]) - vector_of(balls.x[b])).norm() > 1.5) continue;
       pairs.push_back({a, b, {a, b}, true, balls.v[a].at[3] + balls.v[b].at[3], 0.5, 0.1, 1e-3, random(0, 1)});
     }
@@ -45,29 +46,28 @@ NearBalls near_balls(int seed) {
 }
 
 /// All numbers that a step's kernels leave, by one width of vectors.
-std::vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
+vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
   NearBalls balls = near_balls(seed);
   CrowdRows& rows = balls.rows;
   const double h = 0.01;
   kernels.measure(rows.hot.data(), rows.state.data(), rows.parts[0].balls, balls.x.data());
-  std::vector<std::uint8_t> may_strike(rows.groups());
+  vector<uint8_t> may_strike(rows.groups());
   const AimResult aim = kernels.aim(rows.hot.data(), rows.change.data(), rows.state.data(), rows.groups(),
                                     balls.v.data(), {h, 0.1, 0.1, 0.7, 0.1, 1e-10, 1e-3, 0.3}, may_strike.data());
   unsigned which = 0;
-  const std::size_t first = kernels.next_strike(rows.hot.data(), rows.state.data(), 0, rows.groups(), balls.v.data(), h,
-                                                may_strike.data(), which);
+  const size_t first = kernels.next_strike(rows.hot.data(), rows.state.data(), 0, rows.groups(), balls.v.data(), h,
+                                           may_strike.data(), which);
   for (RowGroup& group : rows.hot)
     for (double& impulse : group.impulse) impulse = 0.01;
-  const std::vector<Four> free = balls.v;
+  const vector<Four> free = balls.v;
   kernels.push(rows.hot.data(), rows.groups(), balls.v.data());
-  std::vector<Four> before = balls.v;
-  std::vector<Four> direction(balls.v.size());
-  std::vector<std::uint8_t> marks(rows.groups());
+  vector<Four> before = balls.v;
+  vector<Four> direction(balls.v.size());
+  vector<uint8_t> marks(rows.groups());
   kernels.mark(rows.hot.data(), rows.groups(), balls.v.data(), h, 1e-3, marks.data());
-  std::vector<std::uint32_t> every(rows.groups());
+  vector<uint32_t> every(rows.groups());
   std::iota(every.begin(), every.end(), 0u);
-  std::vector<double> all{aim.strikes ? 1.0 : 0.0, aim.least_gap, static_cast<double>(first),
-                          static_cast<double>(which)};
+  vector<double> all{aim.strikes ? 1.0 : 0.0, aim.least_gap, static_cast<double>(first), static_cast<double>(which)};
   for (int sweep = 0; sweep < 5; ++sweep) {
     const SweepResult found = kernels.sweep(rows.hot.data(), rows.change.data(), every, balls.v.data(), h);
     kernels.conjugate(rows.hot.data(), rows.change.data(), every, 0.5);
@@ -86,11 +86,11 @@ std::vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
 }
 
 TEST(CrowdKernels, OfEveryWidthGiveTheSameBits) {
-  const std::vector<CrowdKernels> widths = crowd_kernels();
+  const vector<CrowdKernels> widths = crowd_kernels();
   for (int seed = 0; seed < 20; ++seed) {
-    const std::vector<double> first = numbers_of(widths.front(), seed);
+    const vector<double> first = numbers_of(widths.front(), seed);
     for (const CrowdKernels& kernels : widths) {
-      const std::vector<double> again = numbers_of(kernels, seed);
+      const vector<double> again = numbers_of(kernels, seed);
       ASSERT_EQ(again.size(), first.size());
       EXPECT_EQ(std::memcmp(again.data(), first.data(), first.size() * sizeof(double)), 0) << seed;
     }
@@ -99,30 +99,30 @@ TEST(CrowdKernels, OfEveryWidthGiveTheSameBits) {
 
 /// Rows of one group share no body, also with more contacts than there are colours.
 TEST(CrowdRows, OfOneGroupShareNoBody) {
-  std::vector<CrowdRows::Pair> pairs;
-  for (std::uint32_t k = 1; k < 200; ++k) pairs.push_back({0, k, {0, k}, true, 2, 0, 0, 0, 0});
-  for (std::uint32_t k = 1; k + 1 < 200; ++k) pairs.push_back({k, k + 1, {k, k + 1}, k % 2 == 0, 2, 0, 0, 0, 0});
+  vector<CrowdRows::Pair> pairs;
+  for (uint32_t k = 1; k < 200; ++k) pairs.push_back({0, k, {0, k}, true, 2, 0, 0, 0, 0});
+  for (uint32_t k = 1; k + 1 < 200; ++k) pairs.push_back({k, k + 1, {k, k + 1}, k % 2 == 0, 2, 0, 0, 0, 0});
   CrowdRows rows;
   rows.add_part(pairs, 200, 200);
-  std::size_t seen = 0;
+  size_t seen = 0;
   for (const RowGroup& group : rows.hot) {
-    std::vector<std::uint32_t> bodies;
-    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+    vector<uint32_t> bodies;
+    for (size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
       if (group.share[lane] == 0) continue;
       ++seen;
       bodies.insert(bodies.end(), {group.a[lane], group.b[lane]});
     }
-    std::sort(bodies.begin(), bodies.end());
+    std::ranges::sort(bodies);
     EXPECT_EQ(std::unique(bodies.begin(), bodies.end()), bodies.end());
   }
   EXPECT_EQ(seen, pairs.size());
 }
 
 /// Bodies of a crowd that fall into several slabs, along the axis of z.
-Crowd wide_crowd(std::uint32_t count) {
+Crowd wide_crowd(uint32_t count) {
   Random random(5);
   Crowd crowd;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (uint32_t k = 0; k < count; ++k) {
     crowd.members.push_back(3 * k);
     crowd.by_name.push_back(k);
     // Two bodies in nine lie on the middle cut.
@@ -145,7 +145,7 @@ TEST(CrowdSlabs, KeepMembersTogetherAndOrderThemByName) {
   Crowd crowd = wide_crowd(9000);
   arrange_in_slabs(crowd, 0.1);
   ASSERT_EQ(crowd.rows.first.size(), 9u);
-  for (std::uint32_t k = 0; k < 9000; ++k) {
+  for (uint32_t k = 0; k < 9000; ++k) {
     ASSERT_EQ(crowd.members[crowd.by_name[k]], 3 * k);
     EXPECT_EQ(crowd.lag[k], crowd.x[k].at[2]);
     EXPECT_EQ(crowd.a[k], crowd.position(k));
@@ -161,24 +161,24 @@ TEST(CrowdSlabs, OfOnePhaseShareNoBody) {
   Crowd crowd = wide_crowd(9000);
   arrange_in_slabs(crowd, 0.1);
   Random random(6);
-  std::vector<CrowdRows::Pair> pairs;
+  vector<CrowdRows::Pair> pairs;
   for (int k = 0; k < 20000; ++k) {
-    const auto a = static_cast<std::uint32_t>(random(0, 9000));
-    const auto b = std::min(a + static_cast<std::uint32_t>(random(1, 1500)), 9000u);
+    const auto a = static_cast<uint32_t>(random(0, 9000));
+    const auto b = std::min(a + static_cast<uint32_t>(random(1, 1500)), 9000u);
     if (a == b) continue;
     pairs.push_back({a, b == 9000 ? Numbering::none : b, {a, b}, true, 2, 0, 0, 0, 0});
   }
 
-  const std::vector<std::vector<CrowdRows::Pair>> parts = pairs_of_parts(crowd.rows, pairs);
+  const vector<vector<CrowdRows::Pair>> parts = pairs_of_parts(crowd.rows, pairs);
   ASSERT_EQ(parts.size(), 16u);
-  std::size_t seen = 0;
-  for (const std::vector<CrowdRows::Pair>& part : parts) seen += part.size();
+  size_t seen = 0;
+  for (const vector<CrowdRows::Pair>& part : parts) seen += part.size();
   EXPECT_EQ(seen, pairs.size());
   for (const auto& [first, last] : {std::pair{0, 8}, std::pair{8, 12}, std::pair{12, 15}}) {
-    std::vector<int> owner(9000, -1);
+    vector<int> owner(9000, -1);
     for (int p = first; p < last; ++p)
-      for (const CrowdRows::Pair& pair : parts[static_cast<std::size_t>(p)])
-        for (const std::uint32_t k : {pair.a, pair.b}) {
+      for (const CrowdRows::Pair& pair : parts[static_cast<size_t>(p)])
+        for (const uint32_t k : {pair.a, pair.b}) {
           if (k == Numbering::none) continue;
           EXPECT_TRUE(owner[k] < 0 || owner[k] == p);
           owner[k] = p;
@@ -240,7 +240,7 @@ double error_of_a_slide(const ContactQuality& quality) {
 }
 
 TEST(CrowdMotion, SlidesDownAGlobeToOrderTwo) {
-  std::vector<double> errors;
+  vector<double> errors;
   for (const double step : {0.04, 0.02, 0.01}) {
     ContactQuality quality = quality_of(QualityLevel::normal);
     quality.longest_step = step;
@@ -248,7 +248,7 @@ TEST(CrowdMotion, SlidesDownAGlobeToOrderTwo) {
     quality.accuracy = 1e-3;
     errors.push_back(error_of_a_slide(quality));
   }
-  for (std::size_t k = 1; k < errors.size(); ++k) EXPECT_GT(errors[k - 1] / errors[k], 3.5) << errors[k];
+  for (size_t k = 1; k < errors.size(); ++k) EXPECT_GT(errors[k - 1] / errors[k], 3.5) << errors[k];
 }
 
 TEST(CrowdMotion, KeepsTheMomentumOfClusters) {
@@ -328,7 +328,7 @@ Problem wide_pile(int threads, double sign) {
 }
 
 TEST(CrowdMotion, HasTheSameBitsByAnyNumberOfThreadsAndMirrored) {
-  std::vector<State> ends;
+  vector<State> ends;
   for (const auto& [threads, sign] : {std::pair{1, 1}, std::pair{2, 1}, std::pair{4, 1}, std::pair{3, -1}}) {
     const Problem problem = wide_pile(threads, sign);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -339,7 +339,7 @@ TEST(CrowdMotion, HasTheSameBitsByAnyNumberOfThreadsAndMirrored) {
     for (Vec3& v : ends.back().velocity) v.x() *= sign;
   }
   for (const State& end : ends)
-    for (std::size_t k = 0; k < end.position.size(); ++k) {
+    for (size_t k = 0; k < end.position.size(); ++k) {
       ASSERT_EQ(end.position[k], ends[0].position[k]) << k;
       ASSERT_EQ(end.velocity[k], ends[0].velocity[k]) << k;
     }
@@ -351,7 +351,7 @@ TEST(CrowdMotion, OfAHeapEndsAtEveryQuality) {
     problem.options.quality = &quality_of(level);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     go_to(*simulator, 50);
-    const std::uint64_t steps = simulator->tally().doubts.crowd_steps;
+    const uint64_t steps = simulator->tally().doubts.crowd_steps;
     EXPECT_GT(steps, 0u);
     go_to(*simulator, 60);
     EXPECT_EQ(simulator->tally().doubts.crowd_steps, steps);
@@ -377,7 +377,7 @@ Problem shaft(int seed) {
 }
 
 TEST(CrowdMotion, OfBodiesThatJustFitBetweenWallsMakesHardlyAnyEnergy) {
-  std::uint64_t steps = 0;
+  uint64_t steps = 0;
   for (int seed = 1; seed <= 8; ++seed) {
     const Problem problem = shaft(seed);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -396,14 +396,14 @@ Problem heavy_on_light(int seed) {
   Random random(seed);
   Problem problem;
   problem.world.gravity = Vec3(0, -gravity, 0);
-  std::vector<Vec3> places;
+  vector<Vec3> places;
   while (places.size() < 300) {
     const double bottom = places.size() < 150 ? 0.5 : 30.5;
     const double x = random(0.5, 9.5), y = random(bottom, bottom + 29), z = random(0.5, 9.5);
     const auto meets = [&](const Vec3& place) { return (place - Vec3(x, y, z)).norm() < 1; };
     if (std::ranges::none_of(places, meets)) places.emplace_back(x, y, z);
   }
-  for (std::size_t i = 0; i < 300; ++i) problem.ball(places[i], Vec3::Zero(), i < 150 ? 1 : 1000, 0.5, 0.5);
+  for (size_t i = 0; i < 300; ++i) problem.ball(places[i], Vec3::Zero(), i < 150 ? 1 : 1000, 0.5, 0.5);
 
   problem.plane({0, 0, 0}, {0, 1, 0});
   for (int axis = 0; axis < 3; axis += 2)

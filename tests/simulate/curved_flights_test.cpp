@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/path/curved_flights.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -66,7 +67,7 @@ TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
 
 // Nor does the accuracy where forces change over a shorter distance than the ball. measured: 2e-7 m, 5e-9 J
 TEST(CurvedFlights, PastASmallAttractorAreTheSameForLargeAndSmallBodies) {
-  std::vector<Vec3> ends;
+  vector<Vec3> ends;
   for (const double radius : {1e-3, 0.1, 10.0, 1000.0}) {
     Problem problem;
     problem.world.gravity = Vec3::Zero();
@@ -116,7 +117,7 @@ TEST(CurvedFlights, OfElasticBallsThatDragBrakesEndOnTheFloor) {
 }
 
 /// The direction of a line.
-const std::vector<Vec3> lines = {Vec3(1, 0, 0), Vec3(0.6, 0.8, 0), Vec3(-1, 2, 2) / 3};
+const vector<Vec3> lines = {Vec3(1, 0, 0), Vec3(0.6, 0.8, 0), Vec3(-1, 2, 2) / 3};
 
 // A push k (l - |s|) turns round at the anchor, s = 0. Between two passages it is an oscillation about l: from rest at
 // s0 to the anchor it takes acos(-l / (s0 - l)) / sqrt(k). measured: 2e-8 m, 5e-10 of the energy
@@ -161,7 +162,7 @@ TEST(CurvedFlights, MeetWhenTwoOscillationsDo) {
   const Outcome outcome = run_exact(problem);
   const double half = std::acos(-1.0) / 10;
   ASSERT_EQ(outcome.collisions.size(), 32u);
-  for (std::size_t k = 0; k < 32; ++k)
+  for (size_t k = 0; k < 32; ++k)
     EXPECT_NEAR(outcome.collisions[k].time, (static_cast<double>(k) + 0.5) * half, 1e-12) << k;  // measured: 1.3e-13 s
 }
 

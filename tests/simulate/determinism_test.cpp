@@ -7,20 +7,20 @@
 #include "simulate/build.h"
 #include "simulate/exact.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// FNV-1a over the bits of positions, velocities and the number of collisions.
-std::uint64_t hash_of(const Outcome& run) {
-  std::uint64_t hash = 14695981039346656037ull;
-  const auto add = [&hash](const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211ull;
+uint64_t hash_of(const Outcome& run) {
+  uint64_t hash = 14695981039346656037ull;
+  const auto add = [&hash](const void* data, size_t size) {
+    for (size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211ull;
   };
   add(run.end.position.data(), run.end.position.size() * sizeof(Vec3));
   add(run.end.velocity.data(), run.end.velocity.size() * sizeof(Vec3));
-  const std::uint64_t collisions = run.tally.collisions();
+  const uint64_t collisions = run.tally.collisions();
   add(&collisions, sizeof collisions);
   return hash;
 }
@@ -89,7 +89,7 @@ TEST(Determinism, CollisionsThatDieAwayKeepTheirBitsInOtherUnits) {
   const Outcome p = run(1), q = run(0x1p-20);
   EXPECT_EQ(p.tally.collisions(), q.tally.collisions());
   EXPECT_EQ(p.tally.energy_lost, q.tally.energy_lost * 0x1p40);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(p.end.position[i], q.end.position[i] * 0x1p20);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(p.end.position[i], q.end.position[i] * 0x1p20);
 }
 
 // Two ways to the same motion: the chapter's loop closes in on the exact path as its frames get shorter.

@@ -5,6 +5,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,11 +19,11 @@ class Counted {
     while (simulator_->time() < time) simulator_->advance_to(time);
     return simulator_->effort();
   }
-  std::uint64_t collisions() const { return simulator_->tally().collisions(); }
+  uint64_t collisions() const { return simulator_->tally().collisions(); }
 
  private:
   Problem problem_;
-  std::unique_ptr<Simulator> simulator_;
+  unique_ptr<Simulator> simulator_;
 };
 
 const Vec3 falling(0, -10, 0);

@@ -5,6 +5,7 @@
 #include "physics/impact.h"
 #include "physics/world.h"
 #include "simulate/simulation_error.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -57,7 +58,7 @@ TEST(EventLog, KeepsCollisionsUntilTheNextAdvance) {
 
 TEST(EventLog, HasNoRoomBeforeItsBufferGrows) {
   EventLog log(0, true);
-  for (std::size_t k = 0; k + 8 < EventLog::capacity; ++k) {
+  for (size_t k = 0; k + 8 < EventLog::capacity; ++k) {
     EXPECT_TRUE(log.has_room(8));
     log.record(strike(1));
   }

@@ -11,6 +11,7 @@
 #include "simulate/loop/event_predictor.h"
 #include "simulate/loop/event_prefetch.h"
 #include "simulate/loop/exact_collision_times.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -95,7 +96,7 @@ Problem two_towards_each_other() {
 TEST(ExactCollisionTimes, AreTheSameFromBothSides) {
   ExactParts parts(two_towards_each_other());
   const ExactCollisionTimes times(parts.bodies);
-  std::uint8_t feature = 0;
+  uint8_t feature = 0;
   EXPECT_EQ(times.of_pair(0, 1, feature).hi, 2);  // a gap of 4 m at 2 m/s
   EXPECT_EQ(times.of_pair(0, 1, feature), times.of_pair(1, 0, feature));
 }

@@ -8,6 +8,7 @@
 #include "simulate/exact_parts.h"
 #include "simulate/loop/exact_simulator.h"
 #include "simulate/path/path_log.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -74,7 +75,7 @@ TEST(FlatContacts, LetABodySlideAndLiftOff) {
 TEST(FlatContacts, ReportTheWeight) {
   ExactParts parts(ball_on_floor());
   parts.flat.find_initial(0);
-  std::vector<ContactForce> forces;
+  vector<ContactForce> forces;
   parts.flat.report(0, forces);
   ASSERT_EQ(forces.size(), 1u);
   EXPECT_NEAR(forces[0].force, 2 * pull, 1e-12);
@@ -173,7 +174,7 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   const double end = island.end.hi;
   ASSERT_GT(end, 0);
   for (const double t : {0.5 * end, end}) EXPECT_NEAR(parts.bodies.flights[0].position(t).norm(), 1.5, 1e-10);
-  std::vector<ContactForce> forces;
+  vector<ContactForce> forces;
   parts.constrained.report(island, 0, forces);
   ASSERT_EQ(forces.size(), 1u);
   EXPECT_NEAR(forces[0].force, pull - 0.25 / 1.5, 1e-12);  // m (pull - v^2 / r)
@@ -186,7 +187,7 @@ TEST(ConstrainedMotion, LeavesAnIslandWhoseContactsChangeTooOftenToACrowd) {
   p.ball(Vec3(0, 1.5, 0), Vec3(0.5, 0, 0));
   ExactParts parts(p);
   parts.group.join(0);
-  std::uint32_t changes = 0;
+  uint32_t changes = 0;
   while (changes < 100 && parts.constrained.advance(0)) parts.bodies.now = {1e-6 * ++changes, 0};
   EXPECT_EQ(changes, exact_tolerance::many_changes + 1);  // none of them is the start
   EXPECT_TRUE(parts.bodies.islands.of(0).busy);

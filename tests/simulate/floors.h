@@ -2,11 +2,10 @@
 // Random level floors of many pieces, and a body, or a body with riders, that slides over them.
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,14 +13,14 @@ enum class Sliding { ball, box, cylinder };
 
 struct Crossing {
   Problem problem;
-  std::vector<Vec3> start;  // m, of the bodies
-  Vec3 velocity;            // m/s, of all of them
+  vector<Vec3> start;  // m, of the bodies
+  Vec3 velocity;       // m/s, of all of them
 };
 
 /// A floor of tiles (boxes of random heights) and level walls side by side in two directions. On some floors a plane
 /// lies too. Their edges adjoin except for rounding. A body slides on it, on `riders` boxes or cylinders with the same
 /// velocity.
-inline Crossing random_crossing(Sliding kind, std::uint64_t seed, int riders = 0) {
+inline Crossing random_crossing(Sliding kind, uint64_t seed, int riders = 0) {
   Random random(seed);
   constexpr int side = 5;
   const double unit = random(0.3, 2), top = seed % 4 == 0 ? 0 : random(-2, 2), e = 0.5 * static_cast<double>(seed % 3);
@@ -30,14 +29,14 @@ inline Crossing random_crossing(Sliding kind, std::uint64_t seed, int riders = 0
   Problem& problem = crossing.problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);
   const auto edges = [&] {
-    std::vector<double> at{random(-3, 3)};
+    vector<double> at{random(-3, 3)};
     for (int k = 0; k < side; ++k) at.push_back(at.back() + unit * random(0.5, 1.5));
     return at;
   };
-  const std::vector<double> x = edges(), z = edges();
+  const vector<double> x = edges(), z = edges();
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
-      const auto p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(j);
+      const auto p = static_cast<size_t>(i), q = static_cast<size_t>(j);
       const double width = x[p + 1] - x[p], length = z[q + 1] - z[q], height = random(0.1, 1);
       const Vec3 center(x[p] + width / 2, top, z[q] + length / 2);
       if (pieces == 1 || (pieces > 1 && random(0, 1) < 0.5))
@@ -47,7 +46,7 @@ inline Crossing random_crossing(Sliding kind, std::uint64_t seed, int riders = 0
     }
   if (pieces == 3) problem.plane({0, top, 0}, {0, 1, 0});
   // From one point to another, both well on the floor.
-  const auto within = [&](const std::vector<double>& of) { return random(of.front(), of.back()); };
+  const auto within = [&](const vector<double>& of) { return random(of.front(), of.back()); };
   const Vec3 from(within(x), 0, within(z)), to(within(x), 0, within(z));
   const double speed = random(0.5, 3);
   problem.options.duration = std::max((to - from).norm(), 0.1) / speed;
@@ -67,10 +66,10 @@ inline Crossing random_crossing(Sliding kind, std::uint64_t seed, int riders = 0
 }
 
 /// The error of a crossing: "" if all go on straight without a collision.
-inline std::string fault_of(const Crossing& crossing) {
+inline string fault_of(const Crossing& crossing) {
   const Outcome run = run_exact(crossing.problem);
   double off = 0;
-  for (std::size_t k = 0; k < crossing.start.size(); ++k)
+  for (size_t k = 0; k < crossing.start.size(); ++k)
     off = std::max(
         off, (run.end.position[k] - crossing.start[k] - crossing.problem.options.duration * crossing.velocity).norm());
   if (!run.collisions.empty()) return std::to_string(run.collisions.size()) + " collisions";

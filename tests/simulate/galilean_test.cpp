@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -25,8 +25,8 @@ Problem moving(Problem problem, const Vec3& u) {
 }
 
 struct Case {
-  std::string name;
-  std::function<Problem()> make;
+  string name;
+  function<Problem()> make;
   double precision;  // m and m/s
 };
 
@@ -126,8 +126,8 @@ Problem gas() {
   return problem;
 }
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {
+const vector<Case>& cases() {
+  static const vector<Case> all = {
       {"bouncing", bouncing, 1e-12},
       {"groove", groove, 1e-12},
       {"over a rim", over_a_rim, 1e-11},
@@ -143,8 +143,8 @@ const std::vector<Case>& cases() {
 }
 
 /// Impacts fast enough that rounding does not decide how many there are.
-std::size_t fast_impacts(const Outcome& run) {
-  std::size_t count = 0;
+size_t fast_impacts(const Outcome& run) {
+  size_t count = 0;
   for (const Collision& c : run.collisions) count += c.approach_speed > 1e-6;
   return count;
 }
@@ -221,13 +221,13 @@ TEST(Galilean, ForcesOnCurvedSurfacesAreTheSameAtEachInstant) {
   const Problem still = off_a_ball(), drifting = moving(still, {0.3, -0.7, 0.2});
   const auto at_rest = make_exact_simulator(still.world, still.initial, still.options);
   const auto moves = make_exact_simulator(drifting.world, drifting.initial, drifting.options);
-  std::size_t forces = 0;
+  size_t forces = 0;
   for (double t = 0.0137; t < 0.3; t += 0.0137) {
     go_to(*at_rest, t);
     go_to(*moves, t);
-    const std::span<const ContactForce> a = at_rest->contacts(), b = moves->contacts();
+    const span<const ContactForce> a = at_rest->contacts(), b = moves->contacts();
     ASSERT_EQ(a.size(), b.size()) << t;
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k].force, b[k].force, 1e-10) << t;
+    for (size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k].force, b[k].force, 1e-10) << t;
     forces += a.size();
   }
   EXPECT_GT(forces, 20u);

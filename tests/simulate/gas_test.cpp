@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -28,7 +29,7 @@ Problem gas(int side, double density, double e = 1, bool mixed = false) {
   return problem;
 }
 
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+bool same_bits(const vector<Vec3>& a, const vector<Vec3>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
@@ -93,12 +94,12 @@ TEST(Gas, MoreStatesReadMoveNothing) {
   problem.world.gravity = Vec3(0, -1, 0);
   const Outcome once = run_exact(problem);
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  std::size_t collisions = 0;
+  size_t collisions = 0;
   for (int i = 1; i <= 3333; ++i) do {
       simulator->advance_to(i * problem.options.duration / 3333);
       collisions +=
-          static_cast<std::size_t>(std::count_if(simulator->collisions().begin(), simulator->collisions().end(),
-                                                 [](const Collision& c) { return c.kind != CollisionKind::rest; }));
+          static_cast<size_t>(std::count_if(simulator->collisions().begin(), simulator->collisions().end(),
+                                            [](const Collision& c) { return c.kind != CollisionKind::rest; }));
       simulator->state();
     } while (simulator->time() < i * problem.options.duration / 3333);
   EXPECT_TRUE(same_bits(once.end.position, simulator->state().position));
@@ -200,8 +201,7 @@ TEST(Gas, ALimitOnCollisionsEndsTheRunWithItsReason) {
     run_exact(problem);
     FAIL() << "no error";
   } catch (const SimulationError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("more than simulate.max_collisions = 100 collisions, reached at t = ", 0),
-              0u);
+    EXPECT_EQ(string(error.what()).rfind("more than simulate.max_collisions = 100 collisions, reached at t = ", 0), 0u);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -60,7 +61,7 @@ TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
   EXPECT_LT(simulator->tally().collisions(), 200u);
   EXPECT_EQ(simulator->tally().resting, 3u);
   const auto contacts = simulator->contacts();
-  const auto pair = std::find_if(contacts.begin(), contacts.end(), [](const ContactForce& c) { return c.b == 2; });
+  const auto pair = std::ranges::find_if(contacts, [](const ContactForce& c) { return c.b == 2; });
   ASSERT_NE(pair, contacts.end());
   EXPECT_NEAR(pair->force, 1, 1e-12);  // N, of the ball's weight along the groove
 }
@@ -76,7 +77,7 @@ TEST(Groove, BallsAtRestInItStandStillWhileAnotherRollsOffABall) {
   go_to(*simulator, 0.5);
   ASSERT_GT(simulator->state().velocity[2].norm(), 0.1) << "the other moves";
   EXPECT_EQ(simulator->tally().resting, 3u) << "and is carried";
-  for (std::size_t i : {0u, 1u}) EXPECT_EQ(simulator->state().velocity[i], Vec3(0, 0, 0));
+  for (size_t i : {0u, 1u}) EXPECT_EQ(simulator->state().velocity[i], Vec3(0, 0, 0));
 }
 
 TEST(Groove, ACanThatOneSideThrowsBackAtTheOtherAtOnceComesToRest) {

@@ -4,35 +4,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <random>
-#include <vector>
 
 #include "simulate/impact/impact_set.h"
+#include "std.h"
 
 namespace carom::impact_clusters {
 
-inline constexpr std::uint32_t fixed = ImpactSet::fixed;
+inline constexpr uint32_t fixed = ImpactSet::fixed;
 
 /// Bodies and rows. The restitution of a row stays the same in all rounds.
 struct Cluster {
-  std::vector<double> mass;  // kg
-  std::vector<Vec3> v;       // m/s
-  std::vector<ImpactSet::Row> rows;
+  vector<double> mass;  // kg
+  vector<Vec3> v;       // m/s
+  vector<ImpactSet::Row> rows;
 
-  double energy(const std::vector<Vec3>& at) const {  // J
+  double energy(const vector<Vec3>& at) const {  // J
     double sum = 0;
-    for (std::size_t i = 0; i < mass.size(); ++i) sum += 0.5 * mass[i] * at[i].squaredNorm();
+    for (size_t i = 0; i < mass.size(); ++i) sum += 0.5 * mass[i] * at[i].squaredNorm();
     return sum;
   }
 };
 
 struct Resolved {
-  std::vector<Vec3> v;                      // m/s
-  std::vector<ImpactSet::Impact> impacts;   // of all rounds
-  std::vector<ImpactSet::Impact> absorbed;  // of the end of endless rounds
-  std::uint32_t rounds = 0;
+  vector<Vec3> v;                      // m/s
+  vector<ImpactSet::Impact> impacts;   // of all rounds
+  vector<ImpactSet::Impact> absorbed;  // of the end of endless rounds
+  uint32_t rounds = 0;
   bool finished = true;
   bool without_room = false;
   bool leaves_open = false;
@@ -43,9 +42,9 @@ struct Resolved {
   bool solved = true;
 };
 
-inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'000'000) {
+inline Resolved resolve(const Cluster& cluster, uint32_t most_rounds = 1'000'000) {
   ImpactSet set;
-  for (std::size_t i = 0; i < cluster.mass.size(); ++i) set.add_body(cluster.mass[i], cluster.v[i]);
+  for (size_t i = 0; i < cluster.mass.size(); ++i) set.add_body(cluster.mass[i], cluster.v[i]);
   for (const ImpactSet::Row& row : cluster.rows) set.add_row(row);
 
   Resolved outcome;
@@ -55,8 +54,8 @@ inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'00
 
   int idle = 0;
   for (;;) {
-    std::vector<std::uint32_t> approaching;
-    for (std::uint32_t c = 0; c < set.rows(); ++c)
+    vector<uint32_t> approaching;
+    for (uint32_t c = 0; c < set.rows(); ++c)
       if (set.approaches(c)) approaching.push_back(c);
     if (approaching.empty()) break;
     if (set.rounds() > most_rounds || idle > 1) {
@@ -77,11 +76,11 @@ inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'00
 
   const auto& rest = set.finish();
   outcome.absorbed.insert(outcome.absorbed.end(), rest.begin(), rest.end());
-  for (std::uint32_t i = 0; i < set.bodies(); ++i) {
+  for (uint32_t i = 0; i < set.bodies(); ++i) {
     outcome.v.push_back(set.velocity(i));
     greatest = std::max(greatest, outcome.v.back().norm());
   }
-  for (std::uint32_t c = 0; c < set.rows(); ++c)
+  for (uint32_t c = 0; c < set.rows(); ++c)
     outcome.approach = std::max(outcome.approach, set.approach(c) / std::max(greatest, 1e-300));
   outcome.rounds = set.rounds();
   outcome.without_room = set.without_room();
@@ -93,27 +92,27 @@ inline Resolved resolve(const Cluster& cluster, std::uint32_t most_rounds = 1'00
 }
 
 /// A row of touching balls along x, with these speeds (m/s).
-inline Cluster row(const std::vector<double>& mass, const std::vector<double>& speed, const std::vector<double>& e) {
+inline Cluster row(const vector<double>& mass, const vector<double>& speed, const vector<double>& e) {
   Cluster cluster{mass, {}, {}};
   for (const double v : speed) cluster.v.emplace_back(v, 0, 0);
-  for (std::uint32_t i = 0; i + 1 < mass.size(); ++i)
+  for (uint32_t i = 0; i + 1 < mass.size(); ++i)
     cluster.rows.push_back({i, i + 1, Vec3::UnitX(), Vec3(2.0 * i + 1, 0, 0), 0, e[i % e.size()]});
   return cluster;
 }
 
 /// Bodies at places with given normals: a row for each pair (a, b, normal, e).
-inline void join(Cluster& cluster, std::uint32_t a, std::uint32_t b, const Vec3& normal, double e, double surface = 0) {
+inline void join(Cluster& cluster, uint32_t a, uint32_t b, const Vec3& normal, double e, double surface = 0) {
   const auto n = static_cast<double>(cluster.rows.size());
   cluster.rows.push_back({a, b, normal, Vec3(n, 0, 0), surface, e});
 }
 
 /// Equal balls of radius 1 m at these places, with a row for each pair that touches.
-inline Cluster balls(const std::vector<Vec3>& x, double e) {
+inline Cluster balls(const vector<Vec3>& x, double e) {
   Cluster cluster;
   cluster.mass.assign(x.size(), 1);
   cluster.v.assign(x.size(), Vec3::Zero());
-  for (std::uint32_t i = 0; i < x.size(); ++i)
-    for (std::uint32_t j = i + 1; j < x.size(); ++j) {
+  for (uint32_t i = 0; i < x.size(); ++i)
+    for (uint32_t j = i + 1; j < x.size(); ++j) {
       const Vec3 d = x[j] - x[i];
       if (d.norm() < 2 + 1e-9) cluster.rows.push_back({i, j, d / d.norm(), x[i] + x[j], 0, e});
     }
@@ -123,8 +122,8 @@ inline Cluster balls(const std::vector<Vec3>& x, double e) {
 /// The random numbers of clusters, the same on every machine.
 class Draw {
  public:
-  explicit Draw(std::uint64_t seed) : generator_(seed) {}
-  std::uint64_t below(std::uint64_t n) { return generator_() % n; }
+  explicit Draw(uint64_t seed) : generator_(seed) {}
+  uint64_t below(uint64_t n) { return generator_() % n; }
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1p-53;
   }
@@ -142,7 +141,7 @@ class Draw {
 };
 
 /// How the restitutions of a random cluster are drawn.
-enum class Restitutions : std::uint8_t { zero, one, any, some_zero_and_one, half, nine_tenths, small, all_kinds };
+enum class Restitutions : uint8_t { zero, one, any, some_zero_and_one, half, nine_tenths, small, all_kinds };
 
 inline double draw_restitution(Draw& draw, Restitutions kind) {
   switch (kind) {
@@ -151,7 +150,7 @@ inline double draw_restitution(Draw& draw, Restitutions kind) {
     case Restitutions::one:
       return 1;
     case Restitutions::some_zero_and_one: {
-      const std::uint64_t which = draw.below(3);
+      const uint64_t which = draw.below(3);
       return which == 0 ? 0 : which == 1 ? 1 : draw.between(0, 1);
     }
     case Restitutions::half:
@@ -167,62 +166,62 @@ inline double draw_restitution(Draw& draw, Restitutions kind) {
 
 /// Whether the walls of a random cluster move: towards it and away; where strings or rods hold it, only away. Opposite
 /// walls do not close.
-enum class Walls : std::uint8_t { still, moving };
+enum class Walls : uint8_t { still, moving };
 
 /// Up to `most` balls, in the plane or in space, on a lattice or a tree of random touches, with up to two walls, masses
 /// over up to six decades, and in a third of the cases strings and rods.
-inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutions kind = Restitutions::all_kinds,
+inline Cluster random_cluster(uint64_t seed, uint64_t most, Restitutions kind = Restitutions::all_kinds,
                               Walls motion_of_walls = Walls::still) {
   Draw draw(seed);
   Draw motion_draw(seed + 0x9e3779b97f4a7c15);
-  const std::uint64_t n = 2 + draw.below(most - 1);
+  const uint64_t n = 2 + draw.below(most - 1);
   const bool planar = draw.below(2) == 0;
   const bool on_lattice = draw.below(2) == 0;
   if (kind == Restitutions::all_kinds) kind = static_cast<Restitutions>(draw.below(7));
-  const std::uint64_t walls = draw.below(3);
-  const std::uint64_t motion = draw.below(3);
+  const uint64_t walls = draw.below(3);
+  const uint64_t motion = draw.below(3);
   const double decades = 3 * static_cast<double>(draw.below(3));
   const bool tied = draw.below(3) == 0;
 
   // Each ball touches one that is there, and no other by more than rounding.
-  std::vector<Vec3> x{Vec3::Zero()};
-  std::vector<double> radius{1};
+  vector<Vec3> x{Vec3::Zero()};
+  vector<double> radius{1};
   const double h = std::sqrt(3.0);
   const double q = std::sqrt(2.0);
-  const std::vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
-  const std::vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0}, {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
-                               {-q, 0, q}, {-q, 0, -q}, {0, q, q},  {0, q, -q},  {0, -q, q}, {0, -q, -q}};
+  const vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
+  const vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0}, {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
+                          {-q, 0, q}, {-q, 0, -q}, {0, q, q},  {0, q, -q},  {0, -q, q}, {0, -q, -q}};
   for (int tries = 0; x.size() < n && tries < 20'000; ++tries) {
-    const std::size_t i = draw.below(x.size());
+    const size_t i = draw.below(x.size());
     const double r = on_lattice ? 1 : std::pow(10, draw.between(-0.3, 0.3));
-    const std::vector<Vec3>& steps = planar ? flat : deep;
+    const vector<Vec3>& steps = planar ? flat : deep;
     const Vec3 at = on_lattice ? Vec3(x[i] + steps[draw.below(steps.size())])
                                : Vec3(x[i] + (radius[i] + r) * draw.direction(planar));
     bool clear = true;
-    for (std::size_t k = 0; k < x.size(); ++k) clear = clear && (at - x[k]).norm() >= radius[k] + r - 1e-9;
+    for (size_t k = 0; k < x.size(); ++k) clear = clear && (at - x[k]).norm() >= radius[k] + r - 1e-9;
     if (!clear) continue;
     x.push_back(at);
     radius.push_back(r);
   }
 
   Cluster cluster;
-  for (std::uint32_t i = 0; i < x.size(); ++i)
-    for (std::uint32_t j = i + 1; j < x.size(); ++j) {
+  for (uint32_t i = 0; i < x.size(); ++i)
+    for (uint32_t j = i + 1; j < x.size(); ++j) {
       const Vec3 d = x[j] - x[i];
       if (d.norm() < radius[i] + radius[j] + 1e-9)
         cluster.rows.push_back({i, j, d / d.norm(), x[i] + x[j], 0, draw_restitution(draw, kind)});
     }
 
   // Walls that the outermost balls touch; some of them opposite to a pair.
-  for (std::uint64_t k = 0; k < walls; ++k) {
+  for (uint64_t k = 0; k < walls; ++k) {
     Vec3 normal = draw.direction(planar);
     const bool opposite = k == 1 && draw.below(2) == 0;
     if (opposite) normal = -cluster.rows.back().normal;
     double outermost = -1e9;
-    for (std::size_t i = 0; i < x.size(); ++i) outermost = std::max(outermost, x[i].dot(normal) + radius[i]);
+    for (size_t i = 0; i < x.size(); ++i) outermost = std::max(outermost, x[i].dot(normal) + radius[i]);
     double surface = motion_of_walls == Walls::still ? 0 : motion_draw.between(tied ? 0 : -1, 1);
     if (opposite) surface = std::max(surface, -cluster.rows.back().surface);
-    for (std::uint32_t i = 0; i < x.size(); ++i)
+    for (uint32_t i = 0; i < x.size(); ++i)
       if (x[i].dot(normal) + radius[i] > outermost - 1e-9)
         cluster.rows.push_back({i, fixed, normal, x[i] + x[i], surface, draw_restitution(draw, kind)});
   }
@@ -230,7 +229,7 @@ inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutio
   // Velocities: random ones, one ball alone, or all towards the middle.
   Vec3 middle = Vec3::Zero();
   for (const Vec3& at : x) middle += at / static_cast<double>(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (size_t i = 0; i < x.size(); ++i) {
     cluster.mass.push_back(std::pow(10, draw.between(-decades / 2, decades / 2)));
     Vec3 v = Vec3::Zero();
     if (motion == 0) v = draw.between(0, 1) * draw.direction(planar);
@@ -241,10 +240,10 @@ inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutio
   if (!tied) return cluster;
 
   // Strings and rods to points and between balls. The velocities keep their lengths.
-  std::vector<ContactConstraint> links;
-  for (std::uint64_t k = 1 + draw.below(3); k > 0; --k) {
-    const auto a = static_cast<std::uint32_t>(draw.below(x.size()));
-    const auto b = static_cast<std::uint32_t>(draw.below(x.size()));
+  vector<ContactConstraint> links;
+  for (uint64_t k = 1 + draw.below(3); k > 0; --k) {
+    const auto a = static_cast<uint32_t>(draw.below(x.size()));
+    const auto b = static_cast<uint32_t>(draw.below(x.size()));
     ImpactSet::Row link{a, fixed, draw.direction(planar), x[a] + x[a]};
     link.kind = draw.below(2) == 0 ? ImpactSet::Kind::taut : ImpactSet::Kind::rod;
     if (a != b && draw.below(2) == 0) {
@@ -257,24 +256,24 @@ inline Cluster random_cluster(std::uint64_t seed, std::uint64_t most, Restitutio
     links.back().bilateral = true;
     links.back().slack = 1e-12;
   }
-  std::vector<double> inverse_mass;
+  vector<double> inverse_mass;
   for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
   solve({inverse_mass, cluster.v, links});
   return cluster;
 }
 
 /// The same cluster under other numbers of bodies and rows. `number`: by body, its new one.
-inline Cluster renamed(const Cluster& given, std::uint64_t seed, std::vector<std::uint32_t>& number) {
+inline Cluster renamed(const Cluster& given, uint64_t seed, vector<uint32_t>& number) {
   Draw draw(seed);
   const auto shuffle = [&](auto& list) {
-    for (std::size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[draw.below(k)]);
+    for (size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[draw.below(k)]);
   };
   number.resize(given.mass.size());
   std::iota(number.begin(), number.end(), 0u);
   shuffle(number);
 
   Cluster other = given;
-  for (std::size_t i = 0; i < number.size(); ++i) {
+  for (size_t i = 0; i < number.size(); ++i) {
     other.mass[number[i]] = given.mass[i];
     other.v[number[i]] = given.v[i];
   }
@@ -304,24 +303,24 @@ inline Cluster mirrored(const Cluster& given) {
 /// What is wrong with the outcomes of many random clusters. The energy of a cluster is the greatest of that before,
 /// that after, and the work of walls.
 struct Findings {
-  std::uint64_t clusters = 0;
-  double gain = 0;                // share of the energy, the most that is made
-  double books = 0;               // share of the energy, the most that rows do not add up to
-  double momentum = 0;            // share of the sum of m v
-  double approach = 0;            // share of the greatest speed
-  double pull = 0;                // share of the sum of m v: the greatest sum of impulses that pulls
-  double least_loss = 0;          // share of the energy, of a row with e > 0
-  double projection = 0;          // e = 0: share of the speeds, from one projection
-  double distance = 0;            // the same with strings and rods, of the distance from the start
-  double mirror = 0;              // share of the greatest speed, in the mirror
-  std::uint64_t other_bits = 0;   // under other names
-  std::uint64_t mirror_bits = 0;  // in the mirror
-  std::uint64_t mirror_far = 0;   // in the mirror, by more than 1e-15 of the greatest speed
-  std::uint64_t unfinished = 0;
-  std::uint64_t unsolved = 0;
-  std::uint64_t ended = 0;         // by their limit
-  std::uint64_t without_room = 0;  // of these
-  std::uint32_t rounds = 0;
+  uint64_t clusters = 0;
+  double gain = 0;           // share of the energy, the most that is made
+  double books = 0;          // share of the energy, the most that rows do not add up to
+  double momentum = 0;       // share of the sum of m v
+  double approach = 0;       // share of the greatest speed
+  double pull = 0;           // share of the sum of m v: the greatest sum of impulses that pulls
+  double least_loss = 0;     // share of the energy, of a row with e > 0
+  double projection = 0;     // e = 0: share of the speeds, from one projection
+  double distance = 0;       // the same with strings and rods, of the distance from the start
+  double mirror = 0;         // share of the greatest speed, in the mirror
+  uint64_t other_bits = 0;   // under other names
+  uint64_t mirror_bits = 0;  // in the mirror
+  uint64_t mirror_far = 0;   // in the mirror, by more than 1e-15 of the greatest speed
+  uint64_t unfinished = 0;
+  uint64_t unsolved = 0;
+  uint64_t ended = 0;         // by their limit
+  uint64_t without_room = 0;  // of these
+  uint32_t rounds = 0;
 };
 
 /// The energy, the books and the impulses of an outcome.
@@ -329,7 +328,7 @@ inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findi
   double lost = 0;
   double work = 0;  // of walls
   double of_walls = 0;
-  std::vector<double> impulse(cluster.rows.size(), 0.0);
+  vector<double> impulse(cluster.rows.size(), 0.0);
   for (const auto* const list : {&outcome.impacts, &outcome.absorbed})
     for (const ImpactSet::Impact& impact : *list) {
       lost += impact.lost;
@@ -351,11 +350,11 @@ inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findi
   double momentum = 0;
   Vec3 change = Vec3::Zero();
   bool tied = false;
-  for (std::size_t i = 0; i < cluster.mass.size(); ++i) {
+  for (size_t i = 0; i < cluster.mass.size(); ++i) {
     momentum += cluster.mass[i] * std::max(cluster.v[i].norm(), outcome.v[i].norm());
     change += cluster.mass[i] * (outcome.v[i] - cluster.v[i]);
   }
-  for (std::size_t c = 0; c < cluster.rows.size(); ++c) {
+  for (size_t c = 0; c < cluster.rows.size(); ++c) {
     const ImpactSet::Row& r = cluster.rows[c];
     if (r.b == fixed) change += impulse[c] * r.normal;
     tied = tied || r.kind != ImpactSet::Kind::touching;
@@ -367,8 +366,8 @@ inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findi
 /// With e = 0 throughout, the outcome is one projection.
 inline void examine_projection(const Cluster& cluster, const Resolved& outcome, Findings& all) {
   if (!std::ranges::all_of(cluster.rows, [](const ImpactSet::Row& r) { return r.restitution == 0; })) return;
-  std::vector<double> inverse_mass;
-  std::vector<ContactConstraint> rows;
+  vector<double> inverse_mass;
+  vector<ContactConstraint> rows;
   for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
   for (const ImpactSet::Row& r : cluster.rows) {
     rows.push_back({r.a, r.b, r.normal});
@@ -376,7 +375,7 @@ inline void examine_projection(const Cluster& cluster, const Resolved& outcome, 
     rows.back().bilateral = r.kind == ImpactSet::Kind::rod;
     rows.back().slack = 1e-12;
   }
-  std::vector<Vec3> v = cluster.v;
+  vector<Vec3> v = cluster.v;
   solve({inverse_mass, v, rows});
 
   // Strings and rods may hold a cluster so that its motion is the smallest remainder. Its distance from the start is
@@ -386,7 +385,7 @@ inline void examine_projection(const Cluster& cluster, const Resolved& outcome, 
   double other = 0;
   bool tied = false;
   for (const ImpactSet::Row& r : cluster.rows) tied = tied || r.kind != ImpactSet::Kind::touching;
-  for (std::size_t i = 0; i < v.size(); ++i) {
+  for (size_t i = 0; i < v.size(); ++i) {
     off += cluster.mass[i] * (v[i] - outcome.v[i]).squaredNorm();
     one += cluster.mass[i] * (v[i] - cluster.v[i]).squaredNorm();
     other += cluster.mass[i] * (outcome.v[i] - cluster.v[i]).squaredNorm();
@@ -399,7 +398,7 @@ inline void examine_projection(const Cluster& cluster, const Resolved& outcome, 
   greatest = std::max(greatest, apart / std::sqrt(2 * energy));
 }
 
-inline void examine(std::uint64_t seed, std::uint64_t most, Findings& all, Walls walls = Walls::still) {
+inline void examine(uint64_t seed, uint64_t most, Findings& all, Walls walls = Walls::still) {
   const Cluster cluster = random_cluster(seed, most, Restitutions::all_kinds, walls);
   const Resolved outcome = resolve(cluster);
   ++all.clusters;
@@ -413,16 +412,16 @@ inline void examine(std::uint64_t seed, std::uint64_t most, Findings& all, Walls
   examine_projection(cluster, outcome, all);
 
   // Other names.
-  std::vector<std::uint32_t> number;
+  vector<uint32_t> number;
   const Resolved other = resolve(renamed(cluster, seed, number));
   bool same = true;
-  for (std::size_t i = 0; i < number.size(); ++i) same = same && other.v[number[i]] == outcome.v[i];
+  for (size_t i = 0; i < number.size(); ++i) same = same && other.v[number[i]] == outcome.v[i];
   all.other_bits += !same;
 
   // The mirror.
   const Resolved image = resolve(mirrored(cluster));
   double off = 0;
-  for (std::size_t i = 0; i < image.v.size(); ++i) {
+  for (size_t i = 0; i < image.v.size(); ++i) {
     const Vec3& v = image.v[i];
     off = std::max(off, (Vec3(-v.x(), v.y(), v.z()) - outcome.v[i]).norm() / std::max(outcome.greatest, 1e-300));
   }

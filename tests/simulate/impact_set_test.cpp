@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "simulate/impact_clusters.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -12,18 +13,18 @@ using namespace impact_clusters;
 
 const double root_of_3 = std::sqrt(3.0);
 
-void expect_velocities(const Resolved& outcome, const std::vector<Vec3>& expected, const std::string& what = "") {
+void expect_velocities(const Resolved& outcome, const vector<Vec3>& expected, const string& what = "") {
   ASSERT_TRUE(outcome.finished) << what;
   ASSERT_EQ(outcome.v.size(), expected.size()) << what;
   double greatest = 1;
   for (const Vec3& v : expected) greatest = std::max(greatest, v.norm());
-  for (std::size_t i = 0; i < expected.size(); ++i)
+  for (size_t i = 0; i < expected.size(); ++i)
     EXPECT_LE((outcome.v[i] - expected[i]).norm(), 4e-15 * greatest)
         << what << " body " << i << ": " << outcome.v[i].transpose() << ", not " << expected[i].transpose();
 }
 
-void expect_speeds_x(const Resolved& outcome, const std::vector<double>& expected, const std::string& what = "") {
-  std::vector<Vec3> all;
+void expect_speeds_x(const Resolved& outcome, const vector<double>& expected, const string& what = "") {
+  vector<Vec3> all;
   for (const double v : expected) all.emplace_back(v, 0, 0);
   expect_velocities(outcome, all, what);
 }
@@ -88,13 +89,13 @@ TEST(ImpactSet, EqualElasticBallsInARowExchangeSpeeds) {
   // Any row leaves sorted, equal speeds included.
   Draw draw(5);
   for (int k = 0; k < 300; ++k) {
-    const std::size_t n = 2 + draw.below(13);
-    std::vector<double> speed;
-    for (std::size_t i = 0; i < n; ++i)
+    const size_t n = 2 + draw.below(13);
+    vector<double> speed;
+    for (size_t i = 0; i < n; ++i)
       speed.push_back(k % 2 == 0 ? draw.between(-1, 1) : static_cast<double>(draw.below(4)));
-    std::vector<double> sorted = speed;
-    std::sort(sorted.begin(), sorted.end());
-    expect_speeds_x(resolve(row(std::vector<double>(n, 1), speed, {1})), sorted, "row " + std::to_string(k));
+    vector<double> sorted = speed;
+    std::ranges::sort(sorted);
+    expect_speeds_x(resolve(row(vector<double>(n, 1), speed, {1})), sorted, "row " + std::to_string(k));
   }
 }
 
@@ -118,7 +119,7 @@ TEST(ImpactSet, EndlessRoundsEndInTheirLimit) {
 
 /// Symmetric; the first ball of the break comes back at a fifth of its speed.
 TEST(ImpactSet, ARackOfSixBreaksSymmetrically) {
-  std::vector<Vec3> x{{-2, 0, 0}};
+  vector<Vec3> x{{-2, 0, 0}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) x.emplace_back(i * root_of_3, 2.0 * j - i, 0);
   Cluster c = balls(x, 1);
@@ -126,16 +127,16 @@ TEST(ImpactSet, ARackOfSixBreaksSymmetrically) {
   const Resolved outcome = resolve(c);
   const double a = 1.05746259830521;
   const double b = 3.28178047749893;
-  const std::vector<Vec3> expected{{-2, 0, 0},          {-48.0 / 95, 0, 0}, {-66.0 / 95, -a, 0}, {-66.0 / 95, a, 0},
-                                   {108.0 / 19, -b, 0}, {48.0 / 19, 0, 0},  {108.0 / 19, b, 0}};
+  const vector<Vec3> expected{{-2, 0, 0},          {-48.0 / 95, 0, 0}, {-66.0 / 95, -a, 0}, {-66.0 / 95, a, 0},
+                              {108.0 / 19, -b, 0}, {48.0 / 19, 0, 0},  {108.0 / 19, b, 0}};
   ASSERT_EQ(outcome.v.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LE((outcome.v[i] - expected[i]).norm(), 2e-14) << i;
+  for (size_t i = 0; i < expected.size(); ++i) EXPECT_LE((outcome.v[i] - expected[i]).norm(), 2e-14) << i;
 }
 
 /// A slab of 1 kg falls at 1 m/s on crates of these masses (kg).
-Cluster slab(const std::vector<double>& crates, const std::vector<double>& e) {
+Cluster slab(const vector<double>& crates, const vector<double>& e) {
   Cluster c{{1}, {{0, -1, 0}}, {}};
-  for (std::uint32_t k = 0; k < crates.size(); ++k) {
+  for (uint32_t k = 0; k < crates.size(); ++k) {
     c.mass.push_back(crates[k]);
     c.v.push_back(Vec3::Zero());
     join(c, 0, k + 1, {0, -1, 0}, e[k % e.size()]);
@@ -191,7 +192,7 @@ TEST(ImpactSet, ABallInAValleyComesBackOnItsAxis) {
 TEST(ImpactSet, AStackOnTheFloorPassesABlowUpAndDown) {
   Cluster c{{1, 1, 1, 1}, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), {0, -1, 0}}, {}};
   join(c, 0, fixed, {0, -1, 0}, 0.5);
-  for (std::uint32_t k = 0; k < 3; ++k) join(c, k, k + 1, {0, 1, 0}, 0.5);
+  for (uint32_t k = 0; k < 3; ++k) join(c, k, k + 1, {0, 1, 0}, 0.5);
   const Resolved outcome = resolve(c);
   expect_velocities(
       outcome, {{0, 3861 * 0x1p-28, 0}, {0, 58743 * 0x1p-28, 0}, {0, 61227 * 0x1p-26, 0}, {0, 11503 * 0x1p-21, 0}});
@@ -255,12 +256,12 @@ TEST(ImpactSet, RestitutionAboveOneMakesEnergy) {
 }
 
 /// Balls of 0.5 m in a triangle with `rows` rows, the pairs that touch with restitution e. Returns their places (m).
-std::vector<Vec3> add_triangle(Cluster& c, int rows, double e) {
-  std::vector<Vec3> places;
+vector<Vec3> add_triangle(Cluster& c, int rows, double e) {
+  vector<Vec3> places;
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j <= i; ++j) places.emplace_back(root_of_3 / 2 * i, j - 0.5 * i, 0);
-  for (std::uint32_t i = 0; i < places.size(); ++i)
-    for (std::uint32_t j = i + 1; j < places.size(); ++j)
+  for (uint32_t i = 0; i < places.size(); ++i)
+    for (uint32_t j = i + 1; j < places.size(); ++j)
       if ((places[j] - places[i]).norm() < 1.001) join(c, i, j, (places[j] - places[i]).normalized(), e);
   c.mass.resize(places.size(), 1);
   c.v.resize(places.size(), Vec3::Zero());
@@ -270,16 +271,16 @@ std::vector<Vec3> add_triangle(Cluster& c, int rows, double e) {
 /// The greatest change of a velocity (m/s).
 double change_of(const Resolved& one, const Resolved& other) {
   double most = 0;
-  for (std::size_t i = 0; i < one.v.size(); ++i) most = std::max(most, (one.v[i] - other.v[i]).norm());
+  for (size_t i = 0; i < one.v.size(); ++i) most = std::max(most, (one.v[i] - other.v[i]).norm());
   return most;
 }
 
 /// A pyramid of 15 that falls flat on the floor at 1 m/s, disturbed by up to `by` (m/s).
-Cluster fallen_pyramid(double by, std::uint64_t seed) {
+Cluster fallen_pyramid(double by, uint64_t seed) {
   Cluster c;
-  const std::vector<Vec3> places = add_triangle(c, 5, 0.9);
+  const vector<Vec3> places = add_triangle(c, 5, 0.9);
   Draw draw(seed);
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
+  for (uint32_t i = 0; i < places.size(); ++i) {
     c.v[i] = Vec3(1 + by * draw.between(-1, 1), by * draw.between(-1, 1), 0);
     if (places[i].x() > 3.4) join(c, i, fixed, Vec3::UnitX(), 0.9);
   }
@@ -290,7 +291,7 @@ TEST(ImpactSet, APyramidThatFallsFlatIsContinuous) {
   const Resolved flat = resolve(fallen_pyramid(0, 0));
   double most = 0;
   for (const double by : {1e-9, 1e-6, 1e-3})
-    for (std::uint64_t seed = 0; seed < 30; ++seed)
+    for (uint64_t seed = 0; seed < 30; ++seed)
       most = std::max(most, change_of(flat, resolve(fallen_pyramid(by, seed))) / by);
   EXPECT_LT(most, 10);  // measured: 1.7
 }
@@ -318,8 +319,7 @@ TEST(ImpactSet, ARackStruckOffItsAxisIsContinuous) {
 /// Rounding of a thousand random clusters.
 TEST(ImpactSet, RandomClustersKeepAllGuarantees) {
   Findings all;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed)
-    examine(seed, 24, all, seed % 2 == 0 ? Walls::still : Walls::moving);
+  for (uint64_t seed = 0; seed < 1000; ++seed) examine(seed, 24, all, seed % 2 == 0 ? Walls::still : Walls::moving);
   expect_guarantees(all);
   EXPECT_GT(all.ended, 100u);
 }

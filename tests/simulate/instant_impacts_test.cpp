@@ -6,6 +6,7 @@
 #include <set>
 
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,14 +27,14 @@ Problem break_of(int rows, double e, double off = 0) {
 /// The greatest difference between the velocities of balls of a break and those of their images in its axis (m/s).
 double asymmetry(int rows, const State& state) {
   double most = std::abs(state.velocity[0].z());
-  std::size_t first = 1;
+  size_t first = 1;
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j <= i; ++j) {
-      Vec3 image = state.velocity[first + static_cast<std::size_t>(i - j)];
+      Vec3 image = state.velocity[first + static_cast<size_t>(i - j)];
       image.z() = -image.z();
-      most = std::max(most, (state.velocity[first + static_cast<std::size_t>(j)] - image).norm());
+      most = std::max(most, (state.velocity[first + static_cast<size_t>(j)] - image).norm());
     }
-    first += static_cast<std::size_t>(i) + 1;
+    first += static_cast<size_t>(i) + 1;
   }
   return most;
 }
@@ -44,7 +45,7 @@ TEST(InstantImpacts, ABreakIsSymmetric) {
       const Problem problem = break_of(rows, e);
       const Outcome run = run_exact(problem);
       EXPECT_LT(asymmetry(rows, run.end), 1e-14) << rows << ' ' << e;  // measured: 2e-16
-      EXPECT_GE(run.collisions.size(), static_cast<std::size_t>(rows));
+      EXPECT_GE(run.collisions.size(), static_cast<size_t>(rows));
     }
 }
 
@@ -64,9 +65,9 @@ TEST(InstantImpacts, ABallOnTwoThatTouchLeavesByTheClosedForm) {
 }
 
 /// The same scene with its bodies in another order: body k is number order[k].
-Problem reordered(const Problem& given, const std::vector<std::size_t>& order) {
+Problem reordered(const Problem& given, const vector<size_t>& order) {
   Problem other = given;
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (size_t k = 0; k < order.size(); ++k) {
     other.initial.position[order[k]] = given.initial.position[k];
     other.initial.velocity[order[k]] = given.initial.velocity[k];
     other.world.mass[order[k]] = given.world.mass[k];
@@ -84,14 +85,14 @@ TEST(InstantImpacts, NamesDecideNothing) {
     const Outcome first = run_exact(problem);
     EXPECT_GT(first.collisions.size(), 30u);
 
-    std::vector<std::size_t> order(problem.world.mass.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    vector<size_t> order(problem.world.mass.size());
+    std::iota(order.begin(), order.end(), size_t{0});
     for (int k = 0; k < 6; ++k) {
       std::rotate(order.begin(), order.begin() + 3, order.end());
       std::reverse(order.begin() + k, order.end());
       const Outcome run = run_exact(reordered(problem, order));
       ASSERT_EQ(run.collisions.size(), first.collisions.size()) << e;
-      for (std::size_t i = 0; i < order.size(); ++i) {
+      for (size_t i = 0; i < order.size(); ++i) {
         EXPECT_EQ(run.end.position[order[i]], first.end.position[i]) << e << ' ' << i;
         EXPECT_EQ(run.end.velocity[order[i]], first.end.velocity[i]) << e << ' ' << i;
       }
@@ -108,7 +109,7 @@ TEST(InstantImpacts, ACradleWorksFromBothEnds) {
   problem.options.duration = 1.5;
   const Outcome run = run_exact(problem);
   const double expected[] = {-0.5, 0, 0, 0, 1};
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(run.end.velocity[i].x(), expected[i]) << i;
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(run.end.velocity[i].x(), expected[i]) << i;
 }
 
 TEST(InstantImpacts, ABallInAValleyComesBackOnItsAxis) {
@@ -184,7 +185,7 @@ TEST(InstantImpacts, ALongChainPassesABlowOnAndEndsInItsLimit) {
     for (int i = 0; i < 100; ++i) problem.ball({1.0 * i, 0, 0}, {0, 0, 0}, 1, 0.5, e);
     problem.options.duration = 2;
     const Outcome run = run_exact(problem);
-    for (std::size_t i = 0; i < 101; ++i) {
+    for (size_t i = 0; i < 101; ++i) {
       const double expected = e < 1 ? 1.0 / 101 : i == 100 ? 1 : 0;
       EXPECT_NEAR(run.end.velocity[i].x(), expected, e < 1 ? 1e-14 : 0) << e << ' ' << i;
     }
@@ -207,7 +208,7 @@ TEST(InstantImpacts, WhatRigidBodiesLeaveOpenIsCounted) {
   row.options.duration = 2;
   const Outcome run = run_exact(row);
   EXPECT_EQ(run.tally.shared.ties, 1u);
-  for (int i = -1; i <= 1; ++i) EXPECT_EQ(run.end.velocity[static_cast<std::size_t>(i + 1)].x(), 0.5 * i);
+  for (int i = -1; i <= 1; ++i) EXPECT_EQ(run.end.velocity[static_cast<size_t>(i + 1)].x(), 0.5 * i);
 }
 
 /// One by one, the fastest first, is another law. It is what `check --accuracy` compares with.
@@ -269,8 +270,8 @@ TEST(InstantImpacts, ABlowPassesStraightThroughABlockOfBoxes) {
     for (int j = 0; j < 6; ++j) problem.body(Volume::box(Vec3::Ones()), {1.0 * i, 0, j - 2.5}, Vec3::Zero(), 1, 0);
   problem.options.duration = 0.5;
   const Outcome run = run_exact(problem);
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j)
+  for (size_t i = 0; i < 6; ++i)
+    for (size_t j = 0; j < 6; ++j)
       EXPECT_NEAR(run.end.velocity[1 + 6 * i + j].x(), j == 2 || j == 3 ? 12.5 : 0, 1e-13) << i << ' ' << j;
 }
 

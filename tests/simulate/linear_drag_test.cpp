@@ -11,6 +11,7 @@
 #include "simulate/pile.h"
 #include "simulate/random.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -56,9 +57,9 @@ TEST(LinearFlight, BouncesAreTheReferences) {
     problem.world.forces = {{Drag{3 * c["k"].get<double>(), 0, Vec3::Zero()}}};
     problem.options.duration = c["impacts"].back()["t"].get<double>() + 1e-9;
     const Outcome got = run(problem);
-    ASSERT_EQ(got.collisions.size(), c["impacts"].back()["n"].get<std::size_t>());
+    ASSERT_EQ(got.collisions.size(), c["impacts"].back()["n"].get<size_t>());
     for (const nlohmann::json& impact : c["impacts"]) {
-      const Collision& collision = got.collisions[impact["n"].get<std::size_t>() - 1];
+      const Collision& collision = got.collisions[impact["n"].get<size_t>() - 1];
       EXPECT_NEAR(collision.time, impact["t"].get<double>(), 1e-13);
       EXPECT_NEAR(collision.approach_speed, std::abs(impact["v_before"].get<double>()), 1e-12);
     }
@@ -140,7 +141,7 @@ TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
     const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
     const Outcome got = run_to_end(*simulator, options.duration);
     double error = 0;
-    for (std::size_t i = 0; i < 2; ++i) error = std::max(error, (got.end.position[i] - exact.end.position[i]).norm());
+    for (size_t i = 0; i < 2; ++i) error = std::max(error, (got.end.position[i] - exact.end.position[i]).norm());
     if (last > 0) {
       EXPECT_NEAR(std::log2(last / error), 4, 0.3) << step;
     }
@@ -280,7 +281,7 @@ TEST(LinearDrag, InOtherUnitsAllIsTheSameToTheLastBit) {
          {std::tuple(256.0, 1.0, 1.0), {1.0, 256.0, 1.0}, {1.0, 0x1p-10, 1.0}, {0x1p-20, 0x1p10, 0x1p-30}}) {
       const Outcome again = run(in_units(length, time, mass, linear, 7));
       ASSERT_EQ(again.collisions.size(), first.collisions.size());
-      for (std::size_t i = 0; i < 12; ++i) {
+      for (size_t i = 0; i < 12; ++i) {
         EXPECT_EQ(again.end.position[i], length * first.end.position[i]);
         EXPECT_EQ(again.end.velocity[i], length / time * first.end.velocity[i]);
       }

@@ -1,6 +1,5 @@
 #pragma once
 // Kepler's motion in 64-bit mantissas by his own equation: the reference of orbits.
-#include <array>
 #include <cmath>
 
 #include "numerics/vec3.h"

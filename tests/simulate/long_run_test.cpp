@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -60,7 +61,7 @@ TEST(Clock, AMillionSecondsAreKeptToo) {
 
 /// The distance of balls from their starts (m, in diameters), at reduced density 0.3. They run for so many collisions a
 /// ball, reverse, and run as long again.
-double way_off_after_reversal(double collisions_a_ball, std::uint64_t seed) {
+double way_off_after_reversal(double collisions_a_ball, uint64_t seed) {
   Random random(seed);
   Problem problem;
   const double side = std::cbrt(125 / 0.3);  // m; diameter 1 m
@@ -82,13 +83,12 @@ double way_off_after_reversal(double collisions_a_ball, std::uint64_t seed) {
   turned.options.duration = time;
   const State back = run_exact(turned).end;
   double worst = 0;
-  for (std::size_t i = 0; i < 125; ++i)
-    worst = std::max(worst, (back.position[i] - problem.initial.position[i]).norm());
+  for (size_t i = 0; i < 125; ++i) worst = std::max(worst, (back.position[i] - problem.initial.position[i]).norm());
   return worst;
 }
 
 TEST(Reversal, AGasReturnsToItsStartAfterEightCollisionsABall) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+  for (uint64_t seed = 1; seed <= 5; ++seed)
     EXPECT_LT(way_off_after_reversal(8, seed), 2e-10) << seed;  // diameters; measured: 1.0e-11 to 6.3e-11
 }
 
@@ -100,7 +100,7 @@ TEST(FreeFall, ACloseGroupFallsFarAtOnce) {
   problem.options.duration = 14280;
   const Outcome run = run_exact(problem);
   EXPECT_TRUE(run.all.empty());
-  for (std::size_t i = 0; i < 12; ++i) {
+  for (size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(run.end.position[i].x(), 0.25 * static_cast<double>(i));
     EXPECT_NEAR(run.end.position[i].y() / (-0.5 * 9.80665 * 14280 * 14280), 1, 1e-15);
   }

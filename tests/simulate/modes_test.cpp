@@ -4,6 +4,7 @@
 #include "simulate/exact_parts.h"
 #include "simulate/impact/body_removal.h"
 #include "simulate/loop/exact_simulator.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,8 +19,8 @@ Problem two_on_a_floor(double height = 0, double e = 0.5) {
   return p;
 }
 
-std::uint64_t changes_of(const ModeChanges& modes, Mode from, Mode to) {
-  return modes.counts()[static_cast<std::size_t>(from)][static_cast<std::size_t>(to)];
+uint64_t changes_of(const ModeChanges& modes, Mode from, Mode to) {
+  return modes.counts()[static_cast<size_t>(from)][static_cast<size_t>(to)];
 }
 
 /// Brings body 0 into a mode, by the function that does so in a run.

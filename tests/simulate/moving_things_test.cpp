@@ -5,13 +5,14 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-void expect_balanced(const Problem& problem, const Outcome& run, double scale, const std::string& what = "") {
+void expect_balanced(const Problem& problem, const Outcome& run, double scale, const string& what = "") {
   const double rounding = 2e-14 * (1 + std::sqrt(static_cast<double>(run.collisions.size())));
   EXPECT_NEAR(residual(problem, run), 0, rounding * scale) << what;
   EXPECT_NEAR(unbooked(problem, run), 0, rounding * scale) << what;
@@ -31,7 +32,7 @@ TEST(MovingThings, ABallBetweenAWallAtRestAndOneThatClosesInHasTheSpeedsOfTheClo
     double v = v0, t = length / (v0 + u), gap = length - u * t;
     problem.options.duration = u > 0 ? 0.987 * length / u : 100;
     if (u < 0) problem.options.duration = 20;
-    std::vector<double> times, speeds;
+    vector<double> times, speeds;
     while (t < problem.options.duration) {
       v += 2 * u;
       times.push_back(t), speeds.push_back(v);
@@ -45,7 +46,7 @@ TEST(MovingThings, ABallBetweenAWallAtRestAndOneThatClosesInHasTheSpeedsOfTheClo
     }
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), times.size()) << u;
-    for (std::size_t k = 0; k < times.size(); ++k) {
+    for (size_t k = 0; k < times.size(); ++k) {
       EXPECT_NEAR(run.collisions[k].time, times[k], 1e-13 * times[k]) << u << ' ' << k;
       EXPECT_NEAR(run.collisions[k].energy_lost, 0, 1e-13) << k;
     }
@@ -154,7 +155,7 @@ TEST(MovingThings, APaddleInWindowsChangesEachHop) {
 
 TEST(MovingThings, ManyWindowsMoveAThingWithoutErrorThatGrows) {
   // 10,000 windows of 0.1 m/s over 0.01 s: the sum of the products of the doubles, not of rounded sums.
-  std::vector<MotionWindow> windows;
+  vector<MotionWindow> windows;
   long double sum = 0;
   for (int k = 0; k < 10000; ++k) {
     const double from = 0.02 * k, until = from + 0.01;
@@ -234,8 +235,8 @@ TEST(MovingThings, ABodyWithoutRoomEndsTheRun) {
       problem.plane({0, 0, 0}, {0, 1, 0});
       problem.plane({0, 2, 0}, {0, -1, 0});
       problem.move(2, {{0, forever, {0, -0.5, 0}}});
-      const std::string error = error_of(problem);
-      EXPECT_NE(error.find("no room left between"), std::string::npos) << e << ' ' << gravity << ": " << error;
+      const string error = error_of(problem);
+      EXPECT_NE(error.find("no room left between"), string::npos) << e << ' ' << gravity << ": " << error;
       // A press that leaves room is no error.
       problem.move(2, {{0, 1.9, {0, -0.5, 0}}});
       EXPECT_EQ(error_of(problem), "") << e << ' ' << gravity;
@@ -253,9 +254,9 @@ TEST(MovingThings, ABodyInACornerHasNoRoomBetweenAllThreeThings) {
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.obstacle({-1, 0.45, 0}, Volume::sphere(0.3));
   problem.move(3, {{0, forever, {1, 0, 0}}});
-  const std::string error = error_of(problem);
+  const string error = error_of(problem);
   EXPECT_NE(error.find("body 0 has no room left between body 1, body 2 and body 3: end or slow their `motion`"),
-            std::string::npos)
+            string::npos)
       << error;
 }
 

@@ -8,12 +8,13 @@
 #include "physics/world.h"
 #include "simulate/random.h"
 #include "simulate/space/neighbours.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 struct Wandering {
-  std::string name;
+  string name;
   double radii;  // the largest over the smallest
   Vec3 from;     // m
   double half;   // m, of the cube that bodies wander in
@@ -26,7 +27,7 @@ class Near : public ::testing::TestWithParam<Wandering> {};
 TEST(NearOnADiagonal, HasAllThatMayTouch) {
   constexpr Entity bodies = 3000;
   World world;
-  std::vector<Vec3> x;
+  vector<Vec3> x;
   for (Entity i = 0; i < bodies; ++i) {
     world.mass.push_back(1);
     world.radius.push_back(0.1);
@@ -37,9 +38,9 @@ TEST(NearOnADiagonal, HasAllThatMayTouch) {
   neighbours.start(x);
   for (int round = 0; round < 2; ++round)
     for (Entity i = 1; i + 1 < bodies; ++i) {
-      const std::span<const Entity> list = neighbours.bodies(i);
+      const span<const Entity> list = neighbours.bodies(i);
       EXPECT_LT(list.size(), 50u);
-      for (const Entity j : {i - 1, i + 1}) EXPECT_EQ(std::count(list.begin(), list.end(), j), 1);
+      for (const Entity j : {i - 1, i + 1}) EXPECT_EQ(std::ranges::count(list, j), 1);
       neighbours.renew(i, x[i], Vec3::Zero());
     }
 }
@@ -49,7 +50,7 @@ TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
   for (const double reach : {1e-9, 1e-3, 0.03, 0.5}) {
     constexpr Entity bodies = 400;
     World world;
-    std::vector<Vec3> x;
+    vector<Vec3> x;
     for (Entity i = 0; i < bodies; ++i) {
       world.mass.push_back(1);
       world.radius.push_back(random(0.3, 0.5));
@@ -60,11 +61,11 @@ TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
     neighbours.start(x);
     for (Entity i = 0; i < bodies; ++i) neighbours.hold(i, x[i], reach);
     for (Entity i = 0; i < bodies; ++i) {
-      const std::span<const Entity> list = neighbours.bodies(i);
+      const span<const Entity> list = neighbours.bodies(i);
       for (Entity j = 0; j < bodies; ++j) {
         if (j == i) continue;
         const double gap = (x[j] - x[i]).norm() - world.radius[i] - world.radius[j];
-        const auto times = std::count(list.begin(), list.end(), j);
+        const auto times = std::ranges::count(list, j);
         EXPECT_LE(times, gap > 12 * reach + 2 ? 0 : 1) << reach;
         EXPECT_GE(times, gap <= 2 * reach ? 1 : 0) << reach;
       }
@@ -79,7 +80,7 @@ TEST_P(Near, HasAllThatMayTouch) {
   constexpr Entity bodies = 150;
   Random random;
   World world;
-  std::vector<Vec3> x;
+  vector<Vec3> x;
   for (Entity i = 0; i < bodies; ++i) {
     world.mass.push_back(1);
     world.radius.push_back(how.scale * 0.1 * std::pow(how.radii, random(0, 1)));
@@ -99,18 +100,18 @@ TEST_P(Near, HasAllThatMayTouch) {
       if (random(0, 1) < 0.01) x[i] = how.scale * (how.from + in_cube(random, 100 * how.half));
       if ((x[i] - neighbours.center(i)).norm() <= neighbours.room(i)) continue;
       ++renewed;
-      const std::span<const Entity> before = neighbours.bodies(i);
+      const span<const Entity> before = neighbours.bodies(i);
       const std::set<Entity> known(before.begin(), before.end());
-      const std::span<const Entity> came = neighbours.renew(i, x[i], how.scale * in_cube(random, 1));
+      const span<const Entity> came = neighbours.renew(i, x[i], how.scale * in_cube(random, 1));
       for (const Entity j : came) EXPECT_FALSE(known.contains(j));
       for (const Entity j : neighbours.bodies(i))
-        EXPECT_TRUE(known.contains(j) || std::find(came.begin(), came.end(), j) != came.end());
+        EXPECT_TRUE(known.contains(j) || std::ranges::find(came, j) != came.end());
       EXPECT_LE((x[i] - neighbours.center(i)).norm(), neighbours.room(i));
       if (random(0, 1) < 0.05) neighbours.shrink(i, x[i]);
     }
     if (round % 10 != 9) continue;
     for (Entity i = 0; i < bodies; ++i) {
-      const std::span<const Entity> list = neighbours.bodies(i);
+      const span<const Entity> list = neighbours.bodies(i);
       const std::set<Entity> known(list.begin(), list.end());
       EXPECT_EQ(known.size(), list.size());
       for (Entity j = 0; j < bodies; ++j) {
@@ -123,12 +124,12 @@ TEST_P(Near, HasAllThatMayTouch) {
           EXPECT_FALSE(known.contains(j)) << i << " and " << j;
         }
       }
-      const std::span<const Entity> surfaces = neighbours.surfaces(i);
+      const span<const Entity> surfaces = neighbours.surfaces(i);
       for (Entity k = 0; k < world.planes.size(); ++k) {
         const Plane& plane = world.planes[k];
         const double gap = (neighbours.center(i) - plane.point).dot(plane.normal) - world.radius[i];
         if (gap <= neighbours.room(i)) {
-          EXPECT_TRUE(std::find(surfaces.begin(), surfaces.end(), bodies + k) != surfaces.end());
+          EXPECT_TRUE(std::ranges::find(surfaces, bodies + k) != surfaces.end());
         }
       }
     }
@@ -145,25 +146,25 @@ INSTANTIATE_TEST_SUITE_P(Wander, Near,
                          [](const auto& wandering) { return wandering.param.name; });
 
 struct First {
-  const std::vector<int>* rank;
-  bool operator()(std::uint32_t i, std::uint32_t j) const { return (*rank)[i] < (*rank)[j]; }
+  const vector<int>* rank;
+  bool operator()(uint32_t i, uint32_t j) const { return (*rank)[i] < (*rank)[j]; }
 };
 
 TEST(Tournament, FindsTheFirstOfManyAndOfEqualTimesTheOneBefore) {
   Random random;
-  for (const std::uint32_t entries : {1u, 7u, 8u, 9u, 64u, 65u, 700u}) {
-    std::vector<double> time(entries, std::numeric_limits<double>::infinity());
-    std::vector<int> rank(entries);
+  for (const uint32_t entries : {1u, 7u, 8u, 9u, 64u, 65u, 700u}) {
+    vector<double> time(entries, std::numeric_limits<double>::infinity());
+    vector<int> rank(entries);
     for (int& r : rank) r = static_cast<int>(random(0, 5));
     Tournament<First> queue(entries, First{&rank});
     EXPECT_EQ(queue.first(), Tournament<First>::none);
     for (int step = 0; step < 3000; ++step) {
-      const auto i = static_cast<std::uint32_t>(random(0, entries));
+      const auto i = static_cast<uint32_t>(random(0, entries));
       rank[i] = static_cast<int>(random(0, 1000)) * 1000 + static_cast<int>(i);  // no two alike
       time[i] = random(0, 1) < 0.2 ? std::numeric_limits<double>::infinity() : std::floor(random(0, 9));
       queue.update(i, time[i]);
-      std::uint32_t first = 0;
-      for (std::uint32_t k = 1; k < entries; ++k)
+      uint32_t first = 0;
+      for (uint32_t k = 1; k < entries; ++k)
         if (time[k] < time[first] || (time[k] == time[first] && rank[k] < rank[first])) first = k;
       EXPECT_EQ(queue.first_time(), time[first]);
       if (time[first] < std::numeric_limits<double>::infinity()) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 /// N, by the numbers that the two things have in `order`: body k of the problem is number order[k] there.
 using Forces = std::map<std::pair<Entity, Entity>, double>;
 
-Forces forces_of(const Problem& problem, const std::vector<Entity>& order) {
+Forces forces_of(const Problem& problem, const vector<Entity>& order) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, problem.options.duration);
   const auto name = [&](Entity e) { return problem.world.is_body(e) ? order[e] : e; };
@@ -27,20 +28,20 @@ Forces forces_of(const Problem& problem, const std::vector<Entity>& order) {
   return forces;
 }
 
-std::vector<Entity> in_order(const Problem& problem) {
-  std::vector<Entity> order(problem.world.body_count());
+vector<Entity> in_order(const Problem& problem) {
+  vector<Entity> order(problem.world.body_count());
   std::iota(order.begin(), order.end(), Entity{0});
   return order;
 }
 
 /// A slab of 80 N on a square of n x n supports of 20 N each.
-Problem slab_on(std::uint32_t n, bool balls) {
+Problem slab_on(uint32_t n, bool balls) {
   Problem problem;
   problem.world.gravity = Vec3(0, -10, 0);
   problem.options.duration = 0.01;
   problem.plane(Vec3::Zero(), Vec3::UnitY());
   problem.body(Volume::box(Vec3(2.0 * n, 0.5, 2.0 * n)), {1.0 * (n - 1), 1.25, 1.0 * (n - 1)}, Vec3::Zero(), 8);
-  for (std::uint32_t k = 0; k < n * n; ++k) {
+  for (uint32_t k = 0; k < n * n; ++k) {
     const Vec3 x(2.0 * (k % n), 0.5, 2.0 * (k / n));
     problem.body(balls ? Volume::sphere(0.5) : Volume::box(Vec3::Ones()), x, Vec3::Zero(), 2);
   }
@@ -49,7 +50,7 @@ Problem slab_on(std::uint32_t n, bool balls) {
 
 TEST(OpenForces, SupportsOfASlabShareItsWeight) {
   for (const bool balls : {false, true})
-    for (const std::uint32_t n : {2u, 5u, 8u}) {
+    for (const uint32_t n : {2u, 5u, 8u}) {
       const Problem problem = slab_on(n, balls);
       const Forces forces = forces_of(problem, in_order(problem));
       const Entity floor = problem.world.body_count();
@@ -76,7 +77,7 @@ TEST(OpenForces, WallsThatJustTouchAStackDoNotPress) {
 }
 
 /// A wall of 36 bricks in courses, its bodies in this order, mirrored with sign -1.
-Problem brick_wall(const std::vector<Entity>& order, double sign) {
+Problem brick_wall(const vector<Entity>& order, double sign) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
   problem.options.duration = 0.01;
@@ -90,7 +91,7 @@ Problem brick_wall(const std::vector<Entity>& order, double sign) {
 }
 
 TEST(OpenForces, OfAWallOfBricksAreTheSameUnderAnyNamesAndInTheMirror) {
-  std::vector<Entity> order(36);
+  vector<Entity> order(36);
   std::iota(order.begin(), order.end(), Entity{0});
   const Forces expected = forces_of(brick_wall(order, 1), order);
   EXPECT_EQ(expected.size(), 61u);

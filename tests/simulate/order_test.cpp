@@ -2,13 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <string>
 
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -49,8 +48,7 @@ double error(const Problem& problem, Integrator method, double steps, const Know
 }
 
 /// The slope of log error over log step, fitted through all.
-double fitted_order(const Problem& problem, Integrator method, const std::vector<double>& steps,
-                    const KnownEnd& known_end) {
+double fitted_order(const Problem& problem, Integrator method, const vector<double>& steps, const KnownEnd& known_end) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const double n : steps) {
     const double x = -std::log(n), y = std::log(error(problem, method, n, known_end));
@@ -62,7 +60,7 @@ double fitted_order(const Problem& problem, Integrator method, const std::vector
 
 void expect_orders(const Problem& problem, const KnownEnd& known_end, double first, const char* measured) {
   for (int m = 0; m < 3; ++m) {
-    const std::vector<double> steps = {first, 2 * first, 4 * first, 8 * first};
+    const vector<double> steps = {first, 2 * first, 4 * first, 8 * first};
     const double order = fitted_order(problem, methods[m], steps, known_end);
     EXPECT_GT(order, orders[m] - 0.15) << names[m] << "; measured: " << measured;
     // Impacts may reverse the velocity error of Euler's method, which then cancels.
@@ -100,7 +98,7 @@ TEST(Order, IsTheMethodsForAnOscillatorThatStrikesAWall) {
 }
 
 /// Linear drag: v = vt + (v0 - vt) exp(-k t), on a floor at 0, from rest at height h.
-KnownEnd drag_bounce(double k, double g, double e, double h, const std::vector<double>& impacts, double time) {
+KnownEnd drag_bounce(double k, double g, double e, double h, const vector<double>& impacts, double time) {
   double y = h, v = 0, t = 0;
   const double vt = -g / k;
   const auto fly = [&](double length) {
@@ -129,7 +127,7 @@ TEST(Order, IsTheMethodsForABallThatBouncesInAThickMedium) {
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.world.forces = {{Drag{k * mass, 0, Vec3::Zero()}}};
   problem.options.duration = 2.2;  // between the third and the fourth impact
-  std::vector<double> impacts;
+  vector<double> impacts;
   for (int n = 0; n < 3; ++n) impacts.push_back(bounce["impacts"][n]["t"]);
   KnownEnd known_end = drag_bounce(k, g, e, h, impacts, 2.2);
   known_end.x.y() += 0.25;

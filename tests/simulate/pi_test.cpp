@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -22,7 +22,7 @@ Tally heavy_against_wall(double ratio, double duration) {
 }
 
 TEST(PiBilliard, CollisionsCountTheDigitsOfPi) {
-  const std::uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159, 3141592};
+  const uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159, 3141592};
   for (int k = 0; k < 7; ++k)
     EXPECT_EQ(heavy_against_wall(std::pow(100.0, k), 1e6).collisions(), digits[k]) << "mass ratio 100^" << k;
 }
@@ -41,7 +41,7 @@ TEST(PiBilliard, AThousandthOfAnAngleDecidesBetweenNeighbours) {
     for (long double side : {-1e-3L, 1e-3L}) {
       const long double cot = 1 / std::tan(3.14159265358979323846264338327950288L / (n + side));
       const double ratio = static_cast<double>(cot * cot);
-      EXPECT_EQ(heavy_against_wall(ratio, 1e6).collisions(), static_cast<std::uint64_t>(side < 0 ? n - 1 : n))
+      EXPECT_EQ(heavy_against_wall(ratio, 1e6).collisions(), static_cast<uint64_t>(side < 0 ? n - 1 : n))
           << n << (side < 0 ? " less" : " more");
     }
   }
@@ -60,9 +60,9 @@ Problem squeezed(double room, double e) {
 
 // A million collisions in 1e-3 of 1e7 s.
 TEST(StandingClock, EndsARunWithAdviceForItsRestitution) {
-  const std::string what = "bodies collide so often that the clock stands still ";
+  const string what = "bodies collide so often that the clock stands still ";
   const auto ends = [&](const Problem& problem) {
-    const std::string error = error_of(problem);
+    const string error = error_of(problem);
     return error.substr(std::min(error.size(), error.find(what)));
   };
   EXPECT_EQ(ends(squeezed(0x1p-30, 1 + 1e-9)),

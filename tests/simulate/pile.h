@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,7 +14,7 @@ inline Problem loose_pile(int side, int layers, double duration) {
   Problem problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);
   const double pitch = 1.15, width = side * pitch;
-  std::uint64_t state = 12345;
+  uint64_t state = 12345;
   const auto off = [&] {
     state = state * 6364136223846793005ull + 1442695040888963407ull;
     return 0.1 * (static_cast<double>(state >> 11) * 0x1p-53 - 0.5);
@@ -35,9 +36,9 @@ inline Problem loose_pile(int side, int layers, double duration) {
 }
 
 /// By body: whether it slides on a level surface without other contacts. Without friction this never ends.
-inline std::vector<std::uint8_t> gliding(const World& world, Simulator& simulator) {
+inline vector<uint8_t> gliding(const World& world, Simulator& simulator) {
   const State& state = simulator.state();
-  std::vector<std::uint8_t> glides(world.body_count());
+  vector<uint8_t> glides(world.body_count());
   for (Entity a = 0; a < world.body_count(); ++a)
     glides[a] = state.velocity[a].squaredNorm() > 0 && state.velocity[a].y() == 0;
   for (const ContactForce& c : simulator.contacts())
@@ -47,7 +48,7 @@ inline std::vector<std::uint8_t> gliding(const World& world, Simulator& simulato
 
 /// J, of all other bodies.
 inline double energy_of_pile(const World& world, Simulator& simulator) {
-  const std::vector<std::uint8_t> glides = gliding(world, simulator);
+  const vector<uint8_t> glides = gliding(world, simulator);
   double energy = 0;
   for (Entity a = 0; a < world.body_count(); ++a)
     if (!glides[a]) energy += 0.5 * world.mass[a] * simulator.state().velocity[a].squaredNorm();
@@ -57,18 +58,18 @@ inline double energy_of_pile(const World& world, Simulator& simulator) {
 /// At these times only sliding bodies move, to the last bit, and nothing overlaps. Before, no overlap exceeds
 /// `deepest_ever` (m). The contact forces on each ball balance its weight, except for the share `unbalanced`.
 /// So many balls may glide, and one of a hundred: between balls at rest they bounce ever more slowly, without end.
-inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, const std::vector<double>& times,
+inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, const vector<double>& times,
                                 double deepest_ever = 1e-9, double unbalanced = 1e-9, double still = 0,
                                 int gliders = 0) {
   const World& world = problem.world;
   const Entity n = world.body_count(), floor = n;
-  std::vector<Vec3> first;
+  vector<Vec3> first;
   for (double t : times) {
     go_to(simulator, t);
     const State& state = simulator.state();
-    const std::vector<std::uint8_t> glides = gliding(world, simulator);
+    const vector<uint8_t> glides = gliding(world, simulator);
     EXPECT_LE(energy_of_pile(world, simulator), still) << t;
-    EXPECT_LE(std::count(glides.begin(), glides.end(), 1), gliders + static_cast<int>(n) / 100) << t;
+    EXPECT_LE(std::ranges::count(glides, 1), gliders + static_cast<int>(n) / 100) << t;
     if (first.empty()) first = state.position;
     // A body stopped by linear drag is at the end of its path, to rounding.
     for (Entity a = 0; a < n; ++a) {
@@ -85,7 +86,7 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
   }
   EXPECT_LT(deepest, 1e-9);
   EXPECT_LT(simulator.tally().max_overlap, deepest_ever);
-  std::vector<Vec3> held(n, world.gravity);
+  vector<Vec3> held(n, world.gravity);
   double on_floor = 0;
   for (const ContactForce& c : simulator.contacts()) {
     EXPECT_GT(c.force, 0);

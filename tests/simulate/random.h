@@ -1,14 +1,14 @@
 #pragma once
 // The tests' own random numbers: the same on every machine.
-#include <cstdint>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
 class Random {
  public:
-  explicit Random(std::uint64_t seed = 42) : state_(seed * 7919 + 13) {
+  explicit Random(uint64_t seed = 42) : state_(seed * 7919 + 13) {
     for (int i = 0; i < 5; ++i) (*this)(0, 1);
   }
   double operator()(double low, double high) {
@@ -17,7 +17,7 @@ class Random {
   }
 
  private:
-  std::uint64_t state_;
+  uint64_t state_;
 };
 
 /// A point of the cube of edge 2 * half around 0.

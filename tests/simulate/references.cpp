@@ -2,10 +2,12 @@
 
 #include <fstream>
 
+#include "std.h"
+
 namespace carom {
 
-nlohmann::json reference(const std::string& name) {
-  std::ifstream file(std::string(DATA_DIR) + "/references/" + name + ".json");
+nlohmann::json reference(const string& name) {
+  std::ifstream file(string(DATA_DIR) + "/references/" + name + ".json");
   return nlohmann::json::parse(file);
 }
 
@@ -15,9 +17,9 @@ Vec3 vec3(const nlohmann::json& j) {
 
 double number(const nlohmann::json& j) {
   if (j.is_number()) return j.get<double>();
-  const std::string s = j.get<std::string>();
+  const string s = j.get<string>();
   const auto slash = s.find('/');
-  return slash == std::string::npos ? std::stod(s) : std::stod(s.substr(0, slash)) / std::stod(s.substr(slash + 1));
+  return slash == string::npos ? std::stod(s) : std::stod(s.substr(0, slash)) / std::stod(s.substr(slash + 1));
 }
 
 }  // namespace carom

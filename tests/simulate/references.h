@@ -1,14 +1,14 @@
 #pragma once
 // The reference numbers of tests/data/references/. Apart from build.h, since most tests need no JSON.
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
 /// The file `name`.json.
-nlohmann::json reference(const std::string& name);
+nlohmann::json reference(const string& name);
 
 /// [x, y, z].
 Vec3 vec3(const nlohmann::json& j);

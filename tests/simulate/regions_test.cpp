@@ -9,12 +9,13 @@
 #include "physics/attractor.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 struct WithRegions : Outcome {
-  std::vector<RegionCrossing> crossings;
+  vector<RegionCrossing> crossings;
 };
 
 WithRegions run_with(const Problem& problem, double slice = 1e9) {
@@ -90,7 +91,7 @@ TEST(Regions, SeeABallThatBouncesInside) {
   const WithRegions run = run_with(problem);
   ASSERT_EQ(run.crossings.size(), 10u);
   const double fall = std::sqrt(0.75);
-  for (std::size_t k = 0; k < 10; ++k) {
+  for (size_t k = 0; k < 10; ++k) {
     EXPECT_EQ(run.crossings[k].region, 0u) << "at its lowest point it touches the other one";
     EXPECT_EQ(run.crossings[k].enters, k % 2 == 0);
     const double bounce = 1 + 2 * std::floor(static_cast<double>(k) / 2);
@@ -134,14 +135,14 @@ TEST(Regions, AreLeftOnAKeplerOrbitAtTheTimesOfKeplersEquation) {
   const WithRegions run = run_with(problem);
   // r = 1 - e cos E is 1 at E = pi/2.
   const double half = std::acos(e) - e * std::sin(std::acos(e)), middle = pi / 2 - e;
-  std::map<std::uint32_t, std::vector<double>> times;
+  std::map<uint32_t, vector<double>> times;
   for (const RegionCrossing& crossing : run.crossings) times[crossing.region].push_back(crossing.time);
   ASSERT_EQ(times[0].size(), 4u);
   ASSERT_EQ(times[1].size(), 5u);
   const double of_side[] = {half, 2 * pi - half, 2 * pi + half, 4 * pi - half};
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(times[0][k], of_side[k], 2e-14);  // measured: 4e-15
+  for (size_t k = 0; k < 4; ++k) EXPECT_NEAR(times[0][k], of_side[k], 2e-14);  // measured: 4e-15
   const double of_ball[] = {0, middle, 2 * pi - middle, 2 * pi + middle, 4 * pi - middle};
-  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(times[1][k], of_ball[k], 2e-14);  // measured: 4e-15
+  for (size_t k = 0; k < 5; ++k) EXPECT_NEAR(times[1][k], of_ball[k], 2e-14);  // measured: 4e-15
 }
 
 TEST(Regions, OfTheRadiusOfAnOrbitAreNeitherEnteredNorLeft) {
@@ -213,14 +214,14 @@ Problem gas(int count) {
 TEST(Regions, CountAsDenseSamplesOfTheFlightsDo) {
   const Problem problem = gas(20);
   const WithRegions run = run_with(problem);
-  std::map<std::pair<std::uint32_t, Entity>, int> count, sampled;
+  std::map<std::pair<uint32_t, Entity>, int> count, sampled;
   for (const RegionCrossing& crossing : run.crossings) ++count[{crossing.region, crossing.body}];
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  std::map<std::pair<std::uint32_t, Entity>, bool> inside;
+  std::map<std::pair<uint32_t, Entity>, bool> inside;
   for (int i = 0; i <= 40000; ++i) {
     go_to(*simulator, 4e-4 * i / 4);
     const State& state = simulator->state();
-    for (std::uint32_t r = 0; r < problem.world.regions.size(); ++r)
+    for (uint32_t r = 0; r < problem.world.regions.size(); ++r)
       for (Entity body = 0; body < 20; ++body) {
         bool& now = inside[{r, body}];
         if (now == holds(problem.world.regions[r], state.position[body])) continue;
@@ -244,9 +245,9 @@ TEST(Regions, TakeTurnsInOrderOfTimeAndChangeNothing) {
   EXPECT_EQ(run.end.position, plain.end.position);
   EXPECT_EQ(run.end.velocity, plain.end.velocity);
   ASSERT_EQ(run.all.size(), plain.all.size());
-  for (std::size_t k = 0; k < run.all.size(); ++k) EXPECT_EQ(run.all[k].time, plain.all[k].time);
-  std::map<std::pair<std::uint32_t, Entity>, bool> inside;
-  for (std::size_t k = 0; k < run.crossings.size(); ++k) {
+  for (size_t k = 0; k < run.all.size(); ++k) EXPECT_EQ(run.all[k].time, plain.all[k].time);
+  std::map<std::pair<uint32_t, Entity>, bool> inside;
+  for (size_t k = 0; k < run.crossings.size(); ++k) {
     const RegionCrossing& crossing = run.crossings[k];
     bool& now = inside[{crossing.region, crossing.body}];
     EXPECT_NE(now, crossing.enters);
@@ -269,8 +270,7 @@ TEST(Regions, ScaleByPowersOfTwoAndTurnWithTheAxes) {
   scaled.options.duration *= 0x1p10;
   const WithRegions other = run_with(scaled);
   ASSERT_EQ(run.crossings.size(), other.crossings.size());
-  for (std::size_t k = 0; k < run.crossings.size(); ++k)
-    EXPECT_EQ(run.crossings[k].time * 0x1p10, other.crossings[k].time);
+  for (size_t k = 0; k < run.crossings.size(); ++k) EXPECT_EQ(run.crossings[k].time * 0x1p10, other.crossings[k].time);
 
   const auto turned = [](const Vec3& v) { return Vec3(v.z(), -v.y(), v.x()); };
   Problem mirrored = gas(20);
@@ -284,7 +284,7 @@ TEST(Regions, ScaleByPowersOfTwoAndTurnWithTheAxes) {
   mirrored.options.duration = 1;
   const WithRegions mirror = run_with(mirrored);
   ASSERT_GT(mirror.crossings.size(), 15u);
-  for (std::size_t k = 0; k < mirror.crossings.size(); ++k)
+  for (size_t k = 0; k < mirror.crossings.size(); ++k)
     EXPECT_NEAR(run.crossings[k].time, mirror.crossings[k].time, 1e-11);  // rounding, amplified by collisions
 }
 
@@ -321,8 +321,8 @@ TEST(Removal, LeavesNoCrossingOfThatInstantOut) {
   problem.world.regions = {beyond, region_at({2, 0, 0}, Volume::box({2, 2, 2})), removing(beyond), beyond, before};
   problem.options.duration = 2;
   WithRegions run = run_with(problem);
-  const std::vector<RegionCrossing> all = {{0, 4, 0, true}, {1, 0, 0, true}, {1, 1, 0, true},
-                                           {1, 2, 0, true}, {1, 3, 0, true}, {1, 4, 0, false}};
+  const vector<RegionCrossing> all = {{0, 4, 0, true}, {1, 0, 0, true}, {1, 1, 0, true},
+                                      {1, 2, 0, true}, {1, 3, 0, true}, {1, 4, 0, false}};
   EXPECT_EQ(run.crossings, all);
   EXPECT_EQ(run.tally.removed.bodies, 1u);
   EXPECT_FALSE(run.tally.end);
@@ -399,7 +399,7 @@ TEST(Removal, OfAJointBodyTakesAllItsParts) {
   ASSERT_EQ(run.crossings.size(), 1u);
   // They meet at t = 1, at x = -0.5, and go on at half the speed.
   EXPECT_NEAR(run.crossings[0].time, 4, 1e-14);
-  EXPECT_EQ(run.end.part_of, (std::vector<Entity>{no_entity, no_entity}));
+  EXPECT_EQ(run.end.part_of, (vector<Entity>{no_entity, no_entity}));
   EXPECT_NEAR(run.tally.removed.energy, 0.25, 1e-15);
   EXPECT_EQ(kinetic_energy(problem.world, run.end), 0);
 }
@@ -515,7 +515,7 @@ TEST(Stops, AfterTheCollisions) {
   Problem problem = gas(20);
   problem.world.regions.clear();
   const WithRegions whole = run_with(problem);
-  for (const std::uint64_t n : {1u, 7u, 100u}) {
+  for (const uint64_t n : {1u, 7u, 100u}) {
     problem.options.stop_collisions = n;
     const WithRegions run = run_with(problem);
     ASSERT_TRUE(run.tally.end);
@@ -537,7 +537,7 @@ TEST(Stops, AfterACollisionLetCrossingsOfThatInstantHappen) {
   const WithRegions run = run_with(problem);
   ASSERT_TRUE(run.tally.end);
   EXPECT_EQ(run.tally.end->time, 2);
-  EXPECT_EQ(run.crossings, (std::vector<RegionCrossing>{{2, 0, 2, true}}));
+  EXPECT_EQ(run.crossings, (vector<RegionCrossing>{{2, 0, 2, true}}));
   EXPECT_EQ(run.tally.removed.bodies, 1u);
 }
 
@@ -651,13 +651,13 @@ TEST(Stops, OfTheBooksEngineAreAtFrames) {
   BookOptions options;
   options.step = 0.25;
   const auto simulator = make_book_simulator(problem.world, problem.initial, options);
-  std::vector<RegionCrossing> crossings;
+  vector<RegionCrossing> crossings;
   for (const double time : {0.0, 1.0, 1.1, 1.2, 1.3, 2.0}) {
     simulator->advance_to(time);
     crossings.insert(crossings.end(), simulator->crossings().begin(), simulator->crossings().end());
     EXPECT_EQ(simulator->tally().end.has_value(), time >= 1.25);
   }
-  EXPECT_EQ(crossings, (std::vector<RegionCrossing>{{1.25, 0, 0, true}}));
+  EXPECT_EQ(crossings, (vector<RegionCrossing>{{1.25, 0, 0, true}}));
   EXPECT_EQ(simulator->state().position[0], Vec3(1.25, 0, 0));
 }
 

@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -73,9 +74,9 @@ TEST(RestitutionAboveOne, SpeedsWithoutBoundEndTheRunWithWhatToDo) {
   for (double e : {2.0, 1.5, 1.1, 1.01, 1.001}) {
     Problem problem = between_walls(e);
     problem.options.duration = 2000;
-    const std::string error = error_of(problem);
-    EXPECT_NE(error.find("adds energy"), std::string::npos) << e << ": " << error;
-    EXPECT_NE(error.find("lower"), std::string::npos) << e << ": " << error;
+    const string error = error_of(problem);
+    EXPECT_NE(error.find("adds energy"), string::npos) << e << ": " << error;
+    EXPECT_NE(error.find("lower"), string::npos) << e << ": " << error;
   }
 }
 
@@ -84,12 +85,12 @@ TEST(RestitutionAboveOne, OnOneSideAloneEndsTheRunToo) {
   Problem problem = between_walls(2);
   problem.world.pairs = {{0, 1, 1, 1, 0.9}, {0, 1, 2, 1, 2}};
   problem.options.duration = 2000;
-  const std::string error = error_of(problem);
-  EXPECT_NE(error.find("adds energy"), std::string::npos) << error;
+  const string error = error_of(problem);
+  EXPECT_NE(error.find("adds energy"), string::npos) << error;
 }
 
 /// m^3, of a body that may have merged.
-double volume_of(const State& state, std::size_t i) {
+double volume_of(const State& state, size_t i) {
   return (state.volume.empty() ? Volume::sphere(state.radius[i]) : state.volume[i]).size();
 }
 
@@ -101,7 +102,7 @@ TEST(Merge, JointBodiesKeepMassMomentumCentreAndVolume) {
   const Outcome run = run_exact(problem);
   ASSERT_EQ(run.tally.merges, 1u);
   const State& s = run.end;
-  EXPECT_EQ(s.part_of, (std::vector<Entity>{0, 0}));
+  EXPECT_EQ(s.part_of, (vector<Entity>{0, 0}));
   EXPECT_EQ(s.mass[0], 4);
   EXPECT_EQ(s.mass[1], 0);
   EXPECT_LT((s.velocity[0] - Vec3(1.25, 0.125, 0)).norm(), 1e-15);
@@ -123,7 +124,7 @@ TEST(Merge, ABallOnACurvedSurfaceMergesWithOneThatFallsOnIt) {
     const double before = potential_energy(problem.world, problem.initial);
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.tally.merges, 1u);
-    const std::size_t whole = heavier > 1 ? 1 : 0;
+    const size_t whole = heavier > 1 ? 1 : 0;
     EXPECT_EQ(run.end.mass[whole], 1 + heavier);
     EXPECT_LT(run.end.position[whole].y(), -10);  // off the globe
     const double after = 0.5 * run.end.mass[whole] * run.end.velocity[whole].squaredNorm() +
@@ -140,12 +141,12 @@ TEST(Merge, ARowBecomesOneLump) {
   const Outcome run = run_exact(problem);
   const double mass = 39;  // 1 + 2 + 3 + 1 + ... + 2
   EXPECT_EQ(run.tally.merges, 19u);
-  for (std::size_t i = 0; i < 20; ++i) {
+  for (size_t i = 0; i < 20; ++i) {
     EXPECT_NEAR(run.end.velocity[i].x(), 1 / mass, 1e-16);
     EXPECT_EQ(run.end.part_of[i], run.end.part_of[0]);
   }
   double volume = 0, m = 0;
-  for (std::size_t i = 0; i < 20; ++i)
+  for (size_t i = 0; i < 20; ++i)
     if (run.end.mass[i] > 0) {
       volume += volume_of(run.end, i);
       m += run.end.mass[i];
@@ -166,7 +167,7 @@ TEST(Merge, ACloudThatFallsTogetherKeepsItsSums) {
   }
   Vec3 p = Vec3::Zero(), center = Vec3::Zero();
   double mass = 0, volume = 0;
-  for (std::size_t i = 0; i < 100; ++i) {
+  for (size_t i = 0; i < 100; ++i) {
     mass += problem.world.mass[i];
     p += problem.world.mass[i] * problem.initial.velocity[i];
     center += problem.world.mass[i] * problem.initial.position[i];
@@ -175,7 +176,7 @@ TEST(Merge, ACloudThatFallsTogetherKeepsItsSums) {
   const Outcome run = run_exact(problem);
   double end_mass = 0, end_volume = 0, kinetic = 0;
   Vec3 end_p = Vec3::Zero(), end_center = Vec3::Zero();
-  for (std::size_t i = 0; i < 100; ++i) {
+  for (size_t i = 0; i < 100; ++i) {
     if (run.end.mass[i] == 0) continue;
     end_mass += run.end.mass[i];
     end_p += run.end.mass[i] * run.end.velocity[i];

@@ -8,6 +8,7 @@
 #include "physics/force_law.h"
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -18,10 +19,10 @@ struct Press {
 };
 
 /// Runs to the end; at `times` nothing moves, to the last bit, and the forces are these.
-void expect_rest(const Problem& problem, const std::vector<Press>& forces, const std::vector<double>& times,
-                 const std::string& what, double tolerance) {
+void expect_rest(const Problem& problem, const vector<Press>& forces, const vector<double>& times, const string& what,
+                 double tolerance) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  std::vector<Vec3> first;
+  vector<Vec3> first;
   for (double t : times) {
     go_to(*simulator, t);
     EXPECT_EQ(kinetic_energy(problem.world, simulator->state()), 0) << what << " at " << t;
@@ -43,7 +44,7 @@ void expect_rest(const Problem& problem, const std::vector<Press>& forces, const
 }
 
 /// The same, begun at rest and begun a little above.
-void expect_rest_and_landing(Problem problem, const std::vector<Press>& forces, const std::string& what) {
+void expect_rest_and_landing(Problem problem, const vector<Press>& forces, const string& what) {
   problem.options.duration = 20;
   expect_rest(problem, forces, {0, 0.1, 3, 20}, what + ", from the start", 1e-14);  // measured: 8.9e-16
   for (Vec3& x : problem.initial.position) x -= 0.125 * problem.world.gravity.normalized();
@@ -106,7 +107,7 @@ Problem pyramid() {
 
 TEST(Rest, APyramidOfFourPressesOnFloorAndWalls) {
   const double f = 3 * g_n / 3 / 0.8, wall = f * 0.6 / std::sqrt(2.0), floor = g_n + g_n;
-  std::vector<Press> forces;
+  vector<Press> forces;
   for (Entity k = 0; k < 3; ++k) {
     forces.push_back({k, 3, f});
     forces.push_back({k, 4, floor});
@@ -166,7 +167,7 @@ TEST(Rest, AColumnOfBallsBetweenWallsStands) {
   problem.world.gravity = Vec3(0, -g_n, 0);
   problem.room({-0.25, 0, -0.25}, {0.25, 100, 0.25});
   for (int i = 0; i < 10; ++i) problem.ball({0, 0.25 + 0.5 * i, 0}, {0, 0, 0}, 1, 0.25, 0);
-  std::vector<Press> forces;
+  vector<Press> forces;
   for (Entity i = 0; i < 9; ++i) forces.push_back({i, i + 1, g_n * (9 - i)});
   forces.push_back({0, 12, 10 * g_n});
   problem.options.duration = 20;
@@ -212,7 +213,7 @@ TEST(Rest, AnElasticHopBelowRoundingIsNone) {
 }
 
 /// A ball of 1 kg with e = 1 strikes body `target` along `v` at 1 s; the body is at rest before, and moves after.
-void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& v, const std::string& what) {
+void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& v, const string& what) {
   const Vec3 x = problem.initial.position[target];
   const Entity n = problem.world.body_count();
   problem.world.restitution[target] = 1;

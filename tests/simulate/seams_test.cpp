@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/floors.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 TEST(Seams, OfTilesAndWallsDoNothingToABodyNorToOneThatCarriesOthers) {
   for (const Sliding kind : {Sliding::ball, Sliding::box, Sliding::cylinder})
     for (const int riders : {0, 1, 2})
-      for (std::uint64_t seed = 1; seed <= 200; ++seed)
+      for (uint64_t seed = 1; seed <= 200; ++seed)
         EXPECT_EQ(fault_of(random_crossing(kind, seed, riders)), "")
             << seed << ", body " << static_cast<int>(kind) << ", " << riders;
 }
@@ -23,7 +24,7 @@ TEST(Seams, OfTilesAndWallsDoNothingToABodyNorToOneThatCarriesOthers) {
 // Where two planes meet at an angle, the body continues along the second: it rises by the angle times the distance.
 TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
   for (const Sliding kind : {Sliding::ball, Sliding::box, Sliding::cylinder})
-    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    for (uint64_t seed = 1; seed <= 60; ++seed) {
       Random random(seed);
       const double e = 0.5 * static_cast<double>(seed % 3), r = random(0.05, 0.5);
       const double top = seed % 4 == 0 ? 0 : random(-2, 2), speed = random(0.5, 3);
@@ -48,7 +49,7 @@ TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
 
 /// Boxes and upright cylinders with half extents a and b, in decimals as in a scene. One passes the other with their
 /// faces in one plane, except for rounding.
-Problem passing(std::uint64_t seed) {
+Problem passing(uint64_t seed) {
   Random random(seed);
   const auto decimal = [&](double low, double high) { return std::round(random(low, high) * 20) / 20; };
   const auto three = [&](double low, double high) {
@@ -80,7 +81,7 @@ Problem passing(std::uint64_t seed) {
 }
 
 TEST(FlushFaces, DoNotMeet) {
-  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+  for (uint64_t seed = 1; seed <= 2000; ++seed) {
     Problem problem = passing(seed);
     EXPECT_TRUE(run_exact(problem).collisions.empty()) << seed;
     problem.world.forces = {{Drag{0.2, 0, Vec3::Zero()}}};

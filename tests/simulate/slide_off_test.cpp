@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -36,7 +37,7 @@ Leaving leaving(double s, double v0) {
 /// Ball 0 slides over the top at `start` (s) and leaves as expected. Shortly before, the top carries it; shortly after,
 /// it is on the parabola of free flight.
 void expect_leaves(const Problem& problem, const Leaving& expected, double start, const Vec3& center,
-                   const std::string& what) {
+                   const string& what) {
   constexpr double late = 1e-8;  // s; measured: contacts() is right to within 5e-10
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, start + expected.time - late);
@@ -90,7 +91,7 @@ TEST(SlideOff, NeitherNumberNorWhatHappensFarAwayChangesAnyBit) {
     for (const bool other : {false, true}) {
       const Outcome many = run_exact(balls_off_balls(balls, other));
       for (int k = 0; k < balls; ++k) {
-        const auto i = static_cast<std::size_t>(k);
+        const auto i = static_cast<size_t>(k);
         EXPECT_EQ(many.end.position[i].head<2>(), one.end.position[0].head<2>()) << balls << ' ' << other << ' ' << k;
         EXPECT_EQ(many.end.velocity[i], one.end.velocity[0]) << balls << ' ' << other << ' ' << k;
       }

@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "geometry/contact_time.h"
 #include "physics/force_law.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -29,7 +29,7 @@ Problem cradle(int balls, double angle, double e, double radius = 0.0625) {
 }
 
 /// The speed (m/s) at the lowest point of a ball of the cradle, by its energy, with the sign of its place.
-double speed_at_the_bottom(const Problem& problem, const State& state, std::size_t k) {
+double speed_at_the_bottom(const Problem& problem, const State& state, size_t k) {
   const double x = state.position[k].x() - problem.world.strings[k].anchor.x();
   const double height = x * x / (1 + std::sqrt(1 - x * x));
   return std::copysign(std::sqrt(state.velocity[k].squaredNorm() + 2 * weight * height), x);
@@ -41,11 +41,11 @@ TEST(SlowImpacts, ACradlesBallsSeparateByTheirRestitution) {
       for (const double e : {0.5, 0.7, 0.9, 0.95, 0.99, 0.999, 1.0}) {
         const Problem problem = cradle(balls, angle, e);
         const Outcome run = run_exact(problem);
-        ASSERT_GE(run.collisions.size(), static_cast<std::size_t>(balls - 1)) << balls << " " << angle << " " << e;
+        ASSERT_GE(run.collisions.size(), static_cast<size_t>(balls - 1)) << balls << " " << angle << " " << e;
 
         // All impacts happen at the bottom, in the order of the records.
         const double first = 2 * std::sqrt(weight) * std::sin(angle * M_PI / 360);  // m/s
-        std::vector<double> v(static_cast<std::size_t>(balls), 0.0);
+        vector<double> v(static_cast<size_t>(balls), 0.0);
         v[0] = first;
         for (const Collision& met : run.collisions) {
           const double approach = v[met.a] - v[met.b], change = (1 + e) / 2 * approach;
@@ -55,10 +55,10 @@ TEST(SlowImpacts, ACradlesBallsSeparateByTheirRestitution) {
         }
         // At e = 0.5 the impacts of 6 and 7 balls are a collapse, which leaves exp(-8).
         const double bound = e == 0.5 && balls > 5 ? 1e-4 : 1e-10;
-        for (std::size_t k = 0; k < v.size(); ++k)
+        for (size_t k = 0; k < v.size(); ++k)
           EXPECT_NEAR(speed_at_the_bottom(problem, run.end, k), v[k], bound * first)
               << balls << " " << angle << " " << e;
-        for (std::size_t k = 1; k < v.size(); ++k) EXPECT_LE(v[k - 1] - v[k], bound * first);
+        for (size_t k = 1; k < v.size(); ++k) EXPECT_LE(v[k - 1] - v[k], bound * first);
       }
 }
 
@@ -164,7 +164,7 @@ TEST(SlowImpacts, ABallThatGrazesASleepingOneKeepsItsSpeedAlongIt) {
 }
 
 /// Balls that fall freely and strike one another, with e = 0.9 or so low that they collapse.
-Problem swarm(std::uint64_t seed) {
+Problem swarm(uint64_t seed) {
   Problem problem;
   problem.world.gravity = Vec3(0, -weight, 0);
   problem.options.duration = 3;
@@ -179,8 +179,8 @@ Problem swarm(std::uint64_t seed) {
 }
 
 TEST(SlowImpacts, WhatIsFarAwayOrWithoutStrengthChangesNoBitOfFreeFall) {
-  std::size_t impacts = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  size_t impacts = 0;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
     const Problem alone = swarm(seed);
     Problem above_a_plane = alone, beside_a_wall = alone, in_no_wind = alone, above_a_globe = alone;
     above_a_plane.plane({0, -1e5, 0}, {0, 1, 0});

@@ -4,16 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <functional>
-#include <memory>
 #include <ostream>
-#include <string>
 #include <type_traits>
-#include <vector>
 
 #include "simulate/simulator.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,17 +20,17 @@ class BitHash {
   void add(const Values&... values) {
     (one(values), ...);
   }
-  std::uint64_t value() const { return hash_; }
+  uint64_t value() const { return hash_; }
 
  private:
-  void word(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3; }
+  void word(uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3; }
   template <typename T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void one(T value) {
     if constexpr (std::is_same_v<T, double>)
-      word(std::bit_cast<std::uint64_t>(value));
+      word(std::bit_cast<uint64_t>(value));
     else
-      word(static_cast<std::uint64_t>(value));
+      word(static_cast<uint64_t>(value));
   }
   void one(const Vec3& v) {
     for (const double x : v) one(x);
@@ -116,14 +112,14 @@ class BitHash {
     add(bodies, energy, momentum);
   }
 
-  std::uint64_t hash_ = 0xcbf29ce484222325;
+  uint64_t hash_ = 0xcbf29ce484222325;
 };
 
 /// All that a simulator shows after an advance.
 struct Shown {
-  std::string error;  // empty: none
-  double time = 0;    // s
-  std::uint64_t state = 0, collisions = 0, paths = 0, crossings = 0, tally = 0, extremes = 0, contacts = 0;
+  string error;     // empty: none
+  double time = 0;  // s
+  uint64_t state = 0, collisions = 0, paths = 0, crossings = 0, tally = 0, extremes = 0, contacts = 0;
 
   friend bool operator==(const Shown&, const Shown&) = default;
 };
@@ -134,7 +130,7 @@ inline std::ostream& operator<<(std::ostream& out, const Shown& shown) {
              << shown.tally << " extremes " << shown.extremes << " contacts " << shown.contacts;
 }
 
-inline std::uint64_t hash_of_bits(const auto& values) {
+inline uint64_t hash_of_bits(const auto& values) {
   BitHash hash;
   hash.add(values);
   return hash.value();
@@ -165,20 +161,20 @@ inline Shown advance(Simulator& simulator, double time) {
   }
 }
 
-using MakeSimulator = std::function<std::unique_ptr<Simulator>()>;
+using MakeSimulator = function<unique_ptr<Simulator>()>;
 
-inline std::unique_ptr<Simulator> restored(const MakeSimulator& make, const std::string& bytes) {
-  std::unique_ptr<Simulator> simulator = make();
+inline unique_ptr<Simulator> restored(const MakeSimulator& make, const string& bytes) {
+  unique_ptr<Simulator> simulator = make();
   simulator->restore(bytes);
   return simulator;
 }
 
 /// The run through these times (s), each reached by one call or by several. `between` may replace the simulator between
 /// two calls, and before the first.
-inline std::vector<Shown> run_through(const MakeSimulator& make, const std::vector<double>& times,
-                                      const std::function<void(std::unique_ptr<Simulator>&)>& between) {
-  std::unique_ptr<Simulator> simulator = make();
-  std::vector<Shown> all = {shown_by(*simulator)};
+inline vector<Shown> run_through(const MakeSimulator& make, const vector<double>& times,
+                                 const function<void(unique_ptr<Simulator>&)>& between) {
+  unique_ptr<Simulator> simulator = make();
+  vector<Shown> all = {shown_by(*simulator)};
   between(simulator);
   for (const double time : times)
     while (simulator->time() < time) {
@@ -191,19 +187,19 @@ inline std::vector<Shown> run_through(const MakeSimulator& make, const std::vect
 
 /// Four runs are the same: one that is never saved, one that is saved between all advances, one that is restored from
 /// the last one's bytes each time, and one that is restored once, after so many advances.
-inline void expect_same_when_restored(const MakeSimulator& make, const std::vector<double>& times, std::size_t once) {
-  const std::vector<Shown> plain = run_through(make, times, [](const auto&) {});
+inline void expect_same_when_restored(const MakeSimulator& make, const vector<double>& times, size_t once) {
+  const vector<Shown> plain = run_through(make, times, [](const auto&) {});
 
-  std::vector<std::string> states;
-  const std::vector<Shown> saved = run_through(make, times, [&](auto& simulator) {
+  vector<string> states;
+  const vector<Shown> saved = run_through(make, times, [&](auto& simulator) {
     states.push_back(simulator->save());
     EXPECT_EQ(shown_by(*restored(make, states.back())), shown_by(*simulator));
   });
   EXPECT_EQ(saved, plain) << "saving has changed the run";
 
-  std::size_t k = 0;
-  const std::vector<Shown> always = run_through(make, times, [&](auto& simulator) {
-    const std::string bytes = simulator->save();
+  size_t k = 0;
+  const vector<Shown> always = run_through(make, times, [&](auto& simulator) {
+    const string bytes = simulator->save();
     EXPECT_TRUE(k < states.size() && bytes == states[k]) << "other bytes after advance " << k;
     ++k;
     simulator = restored(make, bytes);
@@ -211,8 +207,8 @@ inline void expect_same_when_restored(const MakeSimulator& make, const std::vect
   EXPECT_EQ(always, plain) << "restored again and again";
 
   once %= states.size();
-  std::size_t at = 0;
-  const std::vector<Shown> restored_once = run_through(make, times, [&](auto& simulator) {
+  size_t at = 0;
+  const vector<Shown> restored_once = run_through(make, times, [&](auto& simulator) {
     if (at++ == once) simulator = restored(make, states[once]);
   });
   EXPECT_EQ(restored_once, plain) << "restored after advance " << once;

@@ -7,6 +7,7 @@
 #include "physics/archive.h"
 #include "physics/world.h"
 #include "simulate/pile.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -22,8 +23,8 @@ Problem recorded(Problem problem) {
   return problem;
 }
 
-std::vector<double> times_until(double end, int count) {
-  std::vector<double> times;
+vector<double> times_until(double end, int count) {
+  vector<double> times;
   for (int k = 1; k <= count; ++k) times.push_back(end * k / count);
   return times;
 }
@@ -45,8 +46,8 @@ TEST(Snapshot, OfACrowdInSlabsIsTheSameByAnyNumberOfThreads) {
   Problem problem = loose_pile(8, 32, 4);
   const auto simulator = maker(problem)();
   go_to(*simulator, 1.5);
-  const std::string bytes = simulator->save();
-  std::string later;
+  const string bytes = simulator->save();
+  string later;
   for (const int threads : {1, 2}) {
     problem.options.threads = threads;
     const auto other = restored(maker(problem), bytes);
@@ -149,7 +150,7 @@ Problem forced(Integrator integrator, bool closed_forms) {
 }
 
 TEST(Snapshot, GoesOnWithPathsByEveryMethodUnderEveryForce) {
-  const std::vector<std::vector<Force>> cases = {
+  const vector<vector<Force>> cases = {
       {},
       {{Drag{0.3, 0, Vec3(0.1, 0, 0)}, 0, 2}},
       {{Drag{0.3, 0.2, Vec3::Zero()}}},
@@ -157,7 +158,7 @@ TEST(Snapshot, GoesOnWithPathsByEveryMethodUnderEveryForce) {
       {{Spring{Vec3(0, 0.1, 0), 3, 0, 0}, 0.5, 4, {1, 2, 7}}},
       {{Spring{Vec3(0, 0.1, 0), 3, 0.4, 0.2}, 0.5, 4}},
       {{Attractor{Vec3(5, 0, 0), 2, 0}, 0, 3, {0, 1, 2, 3}}, {UniformForce{Vec3(0.5, 0, 0)}, 1, 4}}};
-  for (const std::vector<Force>& forces : cases)
+  for (const vector<Force>& forces : cases)
     for (const Integrator integrator : {Integrator::dop853, Integrator::rk4, Integrator::verlet, Integrator::euler})
       for (const bool closed_forms : {true, false}) {
         if (!closed_forms && integrator != Integrator::dop853) continue;
@@ -214,8 +215,8 @@ TEST(Snapshot, ThatIsTruncatedOrTooLongIsRefused) {
   const MakeSimulator make = maker(problem);
   const auto simulator = make();
   go_to(*simulator, 1);
-  const std::string bytes = simulator->save();
-  for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 50)
+  const string bytes = simulator->save();
+  for (size_t length = 0; length < bytes.size(); length += 1 + length / 50)
     EXPECT_THROW(restored(make, bytes.substr(0, length)), ArchiveError) << length;
   EXPECT_THROW(restored(make, bytes.substr(0, bytes.size() - 1)), ArchiveError);
   EXPECT_THROW(restored(make, bytes + '\0'), ArchiveError);
@@ -224,7 +225,7 @@ TEST(Snapshot, ThatIsTruncatedOrTooLongIsRefused) {
 
 TEST(Snapshot, OfAnotherSceneIsRefused) {
   const Problem problem = loose_pile(3, 3, 5);
-  const std::string bytes = maker(problem)()->save();
+  const string bytes = maker(problem)()->save();
 
   Problem more = problem;
   more.ball({1, 20, 1}, Vec3::Zero());

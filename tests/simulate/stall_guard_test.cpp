@@ -2,15 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "simulate/simulation_error.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// Counts impacts while the clock, at 5 s of 10, creeps by 5e-15 s each. Gives the error, or nothing.
-std::string creep(double e, int impacts, bool moving = false) {
+string creep(double e, int impacts, bool moving = false) {
   StallGuard guard(2, 10);
   double now = 5;
   try {

@@ -11,6 +11,7 @@
 #include "simulate/build.h"
 #include "simulate/pile.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -61,7 +62,7 @@ TEST(Forces, ADampedSpringIsTheReference) {
 void expect_impacts(const Problem& problem, const nlohmann::json& impacts, double step, double tolerance) {
   const Outcome got = run(problem, step);
   for (const nlohmann::json& impact : impacts) {
-    const std::size_t n = impact["n"];
+    const size_t n = impact["n"];
     const double speed =
         std::abs(impact.contains("v_before") ? impact["v_before"].get<double>() : impact["speed_before"].get<double>());
     if (impact["t"].get<double>() > problem.options.duration || speed < 0.05) break;  // hops as short as steps
@@ -237,13 +238,13 @@ TEST(Outputs, RequestedTwiceAreTheSame) {
     const Tally before = simulator->tally();
     const State first = simulator->state();
     const auto forces = simulator->contacts();
-    const std::vector<ContactForce> requested(forces.begin(), forces.end());
+    const vector<ContactForce> requested(forces.begin(), forces.end());
     const State& second = simulator->state();
     const auto again = simulator->contacts();
     EXPECT_EQ(first.position, second.position) << time;
     EXPECT_EQ(first.velocity, second.velocity) << time;
     ASSERT_EQ(requested.size(), again.size()) << time;
-    for (std::size_t k = 0; k < requested.size(); ++k) EXPECT_EQ(requested[k].force, again[k].force) << time;
+    for (size_t k = 0; k < requested.size(); ++k) EXPECT_EQ(requested[k].force, again[k].force) << time;
     EXPECT_EQ(before.energy_lost, simulator->tally().energy_lost) << time;
     EXPECT_EQ(before.work, simulator->tally().work) << time;
   }

@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "numerics/polynomial.h"
 #include "physics/force_law.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -77,7 +77,7 @@ TEST(Strings, ASlackStringHoldsNothingAndGoesTautAtTheTimeOfTheClosedForm) {
   ASSERT_EQ(run.collisions.size(), 1u);
   const Collision& taut = run.collisions[0];
   const double drop = std::sqrt(1.3 * 1.3 - 0.25), at = std::sqrt(2 * drop / g_n), v = g_n * at;
-  EXPECT_EQ(taut.kind, CollisionKind::string);
+  EXPECT_EQ(taut.kind, CollisionKind::taut);
   EXPECT_NEAR(taut.time, at, 1e-15);
   EXPECT_NEAR(taut.approach_speed, v * drop / 1.3, 1e-14);
   EXPECT_EQ(taut.separation_speed, 0);
@@ -98,7 +98,7 @@ TEST(Strings, ABallInASlackSphereOfStringBouncesByItsRestitution) {
   EXPECT_EQ(run.collisions.size(), 11u);
   EXPECT_NEAR(run.end.velocity[0].norm(), 2, 1e-14);
   EXPECT_NEAR(run.end.position[0].norm(), 0.6, 1e-13);
-  for (std::size_t k = 0; k < run.collisions.size(); ++k)
+  for (size_t k = 0; k < run.collisions.size(); ++k)
     EXPECT_NEAR(run.collisions[k].time, 0.4 + 0.8 * static_cast<double>(k), 1e-13);
 }
 
@@ -126,7 +126,7 @@ TEST(Strings, AnImpulseAlongATautStringAtTheStartIsAnImpactOfIt) {
     ASSERT_EQ(simulator->tally().collisions(), 1u);
     ASSERT_EQ(simulator->collisions().size(), 1u);
     const Collision& impact = simulator->collisions()[0];
-    EXPECT_EQ(impact.kind, CollisionKind::string);
+    EXPECT_EQ(impact.kind, CollisionKind::taut);
     EXPECT_EQ(impact.time, 0);
     EXPECT_NEAR(impact.approach_speed, 2, 1e-15);
     EXPECT_NEAR(impact.impulse, 4, 1e-14);
@@ -290,7 +290,7 @@ TEST(Strings, AnImpulseRunsThroughAllTautStringsAtOnce) {
   // Unknowns: the changes of A's, B's and C's velocities, the impulses of four strings and that of the bullet, J.
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(14, 14);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(14), solution;
-  for (int i = 0; i < 9; ++i) m(i, i) = problem.world.mass[static_cast<std::size_t>(i / 3)];
+  for (int i = 0; i < 9; ++i) m(i, i) = problem.world.mass[static_cast<size_t>(i / 3)];
   const auto row = [&](int c, Entity body, const Vec3& along) {
     for (int k = 0; k < 3; ++k) {
       m(9 + c, 3 * static_cast<int>(body) + k) += along[k];
@@ -298,7 +298,7 @@ TEST(Strings, AnImpulseRunsThroughAllTautStringsAtOnce) {
     }
   };
   for (int c = 0; c < 4; ++c) {
-    const String& s = problem.world.strings[static_cast<std::size_t>(c)];
+    const String& s = problem.world.strings[static_cast<size_t>(c)];
     const Vec3 x = problem.initial.position[s.body];
     const Vec3 along = ((s.other == no_entity ? s.anchor : problem.initial.position[s.other]) - x).normalized();
     row(c, s.body, along);
@@ -311,7 +311,7 @@ TEST(Strings, AnImpulseRunsThroughAllTautStringsAtOnce) {
   for (int c = 0; c < 4; ++c) ASSERT_GT(solution[9 + c], 0) << "string " << c << " has a share";
   EXPECT_NEAR(run.collisions[0].impulse, solution[13], 1e-12);
   for (int i = 0; i < 3; ++i)
-    EXPECT_LT((run.end.position[static_cast<std::size_t>(i)] - problem.initial.position[static_cast<std::size_t>(i)] -
+    EXPECT_LT((run.end.position[static_cast<size_t>(i)] - problem.initial.position[static_cast<size_t>(i)] -
                0x1p-20 * solution.segment<3>(3 * i))
                   .norm(),
               1e-10)
@@ -411,51 +411,50 @@ TEST(Strings, AsManyBallsOfACradleRiseAsAreLifted) {
 /// short that its error is rounding.
 class ChainReference {
  public:
-  ChainReference(std::vector<double> mass, std::vector<double> length, std::vector<double> angle)
+  ChainReference(vector<double> mass, vector<double> length, vector<double> angle)
       : mass_(std::move(mass)), length_(std::move(length)), angle_(std::move(angle)), rate_(angle_.size(), 0) {}
 
-  std::vector<Vec3> after(double time, int steps) {
+  vector<Vec3> after(double time, int steps) {
     const double h = time / steps;
-    const std::size_t n = angle_.size();
+    const size_t n = angle_.size();
     for (int k = 0; k < steps; ++k) {
-      std::vector<double> a[4], r[4];
+      vector<double> a[4], r[4];
       const double at[] = {0, 0.5, 0.5, 1};
       for (int s = 0; s < 4; ++s) {
-        std::vector<double> angle = angle_, rate = rate_;
-        for (std::size_t i = 0; s > 0 && i < n; ++i) {
+        vector<double> angle = angle_, rate = rate_;
+        for (size_t i = 0; s > 0 && i < n; ++i) {
           angle[i] += h * at[s] * r[s - 1][i];
           rate[i] += h * at[s] * a[s - 1][i];
         }
         a[s] = accelerations(angle, rate);
         r[s] = rate;
       }
-      for (std::size_t i = 0; i < n; ++i) {
+      for (size_t i = 0; i < n; ++i) {
         angle_[i] += h / 6 * (r[0][i] + 2 * r[1][i] + 2 * r[2][i] + r[3][i]);
         rate_[i] += h / 6 * (a[0][i] + 2 * a[1][i] + 2 * a[2][i] + a[3][i]);
       }
     }
-    std::vector<Vec3> x;
+    vector<Vec3> x;
     Vec3 end = Vec3::Zero();
-    for (std::size_t i = 0; i < n; ++i)
-      x.push_back(end += length_[i] * Vec3(std::sin(angle_[i]), -std::cos(angle_[i]), 0));
+    for (size_t i = 0; i < n; ++i) x.push_back(end += length_[i] * Vec3(std::sin(angle_[i]), -std::cos(angle_[i]), 0));
     return x;
   }
 
  private:
-  std::vector<double> accelerations(const std::vector<double>& angle, const std::vector<double>& rate) const {
+  vector<double> accelerations(const vector<double>& angle, const vector<double>& rate) const {
     const auto n = static_cast<Eigen::Index>(angle.size());
     Eigen::MatrixXd inertia(n, n);
     Eigen::VectorXd torque(n);
     const auto below = [&](Eigen::Index i) {
       double sum = 0;
-      for (auto k = static_cast<std::size_t>(i); k < mass_.size(); ++k) sum += mass_[k];
+      for (auto k = static_cast<size_t>(i); k < mass_.size(); ++k) sum += mass_[k];
       return sum;
     };
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto p = static_cast<std::size_t>(i);
+      const auto p = static_cast<size_t>(i);
       torque[i] = -below(i) * g_n * length_[p] * std::sin(angle[p]);
       for (Eigen::Index j = 0; j < n; ++j) {
-        const auto q = static_cast<std::size_t>(j);
+        const auto q = static_cast<size_t>(j);
         const double both = below(std::max(i, j)) * length_[p] * length_[q];
         inertia(i, j) = both * std::cos(angle[p] - angle[q]);
         torque[i] -= both * std::sin(angle[p] - angle[q]) * rate[q] * rate[q];
@@ -465,14 +464,14 @@ class ChainReference {
     return {a.data(), a.data() + n};
   }
 
-  std::vector<double> mass_, length_, angle_, rate_;  // kg, m, rad, rad/s
+  vector<double> mass_, length_, angle_, rate_;  // kg, m, rad, rad/s
 };
 
 TEST(Strings, AChainMovesAsLagrangesEquationsOfItsAnglesSay) {
   for (const bool rod : {false, true})
     for (const int n : {2, 3, 5, 10}) {
       Tied problem;
-      std::vector<double> mass, length, angle;
+      vector<double> mass, length, angle;
       Vec3 end = Vec3::Zero();
       for (int k = 0; k < n; ++k) {
         mass.push_back(1 + 0.5 * (k % 3));
@@ -487,7 +486,7 @@ TEST(Strings, AChainMovesAsLagrangesEquationsOfItsAnglesSay) {
       problem.options.duration = 0.6;
       const Outcome run = run_exact(problem);
       EXPECT_TRUE(run.collisions.empty()) << n;
-      const std::vector<Vec3> x = ChainReference(mass, length, angle).after(0.6, 12000);
+      const vector<Vec3> x = ChainReference(mass, length, angle).after(0.6, 12000);
       for (Entity i = 0; i < x.size(); ++i)
         EXPECT_LT((run.end.position[i] - x[i]).norm(), 1e-11) << rod << " " << n << ": " << i;
       EXPECT_NEAR(residual(problem, run), 0, 1e-9);
@@ -506,8 +505,7 @@ TEST(Strings, UnderASpringAStringGoesTautAtTheTimeOfTheClosedForm) {
   problem.options.duration = 10 * taut;
   const Outcome run = run_exact(problem);
   ASSERT_EQ(run.collisions.size(), 5u);
-  for (std::size_t k = 0; k < 5; ++k)
-    EXPECT_NEAR(run.collisions[k].time, (2.0 * static_cast<double>(k) + 1) * taut, 1e-13);
+  for (size_t k = 0; k < 5; ++k) EXPECT_NEAR(run.collisions[k].time, (2.0 * static_cast<double>(k) + 1) * taut, 1e-13);
   EXPECT_LT(run.end.position[bob].norm(), 1e-12);
 }
 
@@ -684,16 +682,16 @@ TEST(Strings, AStringThatIsTooShortAtTheStartIsAnError) {
   Tied problem;
   const Entity bob = problem.ball({0, -1, 0}, {0, 0, 0}, 1, 0.1);
   problem.anchored(bob, {0, 0, 0}, 0.99);
-  EXPECT_NE(error_of(problem).find("the string of body 0 is 0.98999999999999999 m long"), std::string::npos)
+  EXPECT_NE(error_of(problem).find("the string of body 0 is 0.98999999999999999 m long"), string::npos)
       << error_of(problem);
   problem.world.strings[0] = {bob, no_entity, Vec3::Zero(), 1.01, 0, true};
-  EXPECT_NE(error_of(problem).find("the rod of body 0"), std::string::npos);
+  EXPECT_NE(error_of(problem).find("the rod of body 0"), string::npos);
 }
 
 TEST(Strings, BodiesThatMergeHaveNone) {
   Tied problem = pendulum(0.5, 1);
   problem.options.merge = true;
-  EXPECT_NE(error_of(problem).find("cannot merge"), std::string::npos);
+  EXPECT_NE(error_of(problem).find("cannot merge"), string::npos);
 }
 
 TEST(Strings, ARodPushes) {
@@ -789,7 +787,7 @@ TEST(Strings, NeitherLengthsNorEnergyDriftAmongBallsTiedAtRandom) {
     for (int k = 1; k <= 512; ++k) {
       go_to(*simulator, k / 1024.0);
       for (const Vec3& v : simulator->state().velocity) fastest = std::max(fastest, v.norm());
-      const std::vector<Vec3>& x = simulator->state().position;
+      const vector<Vec3>& x = simulator->state().position;
       for (const String& s : problem.world.strings) {
         const double over = (x[s.body] - (s.other == no_entity ? s.anchor : x[s.other])).norm() - s.length;
         farthest = std::max(farthest, s.rod ? std::abs(over) : over);
@@ -811,8 +809,8 @@ TEST(Strings, AFrameWithMoreRodsThanItNeedsMovesAsARigidBody) {
   // A square with both diagonals, in a plane; a tetrahedron with a fifth point.
   for (const bool flat : {true, false}) {
     Tied problem;
-    const std::vector<Vec3> at = flat ? std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}
-                                      : std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    const vector<Vec3> at = flat ? vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}
+                                 : vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
     const Vec3 turn(0, 0, 2);
     Vec3 center = Vec3::Zero(), drift = Vec3::Zero();
     for (const Vec3& x : at) {
@@ -845,7 +843,7 @@ TEST(Strings, RecordedPiecesOfPathsGiveTheStateOfASwing) {
   problem.options.duration = 1;
   problem.options.record_paths = true;
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  std::vector<PathPiece> last(2);
+  vector<PathPiece> last(2);
   for (const PathPiece& piece : simulator->paths()) last[piece.body] = piece;
   for (int k = 1; k <= 50; ++k) {
     const double time = 0.02 * k;
@@ -957,7 +955,7 @@ TEST(Rods, ThatJamBodiesEndTheRun) {
       problem.between(0, 1, 0.75).rod = true;
       const Spring spring{{far + 3, 4, 1}, strength, 0, 0};
       problem.world.forces.push_back({spring, 0, std::numeric_limits<double>::infinity(), {0}});
-      EXPECT_NE(error_of(problem).find("jammed"), std::string::npos) << strength << ' ' << far << error_of(problem);
+      EXPECT_NE(error_of(problem).find("jammed"), string::npos) << strength << ' ' << far << error_of(problem);
     }
 }
 
@@ -968,13 +966,13 @@ TEST(Rods, AndStraightStringsThatJamABallEndTheRun) {
     Tied rope;
     rope.ball({far, 0.5, 0}, {0, 0, 0}, 1, 0.1);
     for (const double side : {-1, 1}) rope.anchored(0, {far + side, 0.5, 0}, 1);
-    EXPECT_NE(error_of(rope).find("jammed"), std::string::npos) << far << error_of(rope);
+    EXPECT_NE(error_of(rope).find("jammed"), string::npos) << far << error_of(rope);
     Tied floor;
     floor.world.gravity = Vec3(0.5, -9.81, 0);
     floor.ball({far, 0.5, 0}, {0, 0, 0}, 1, 0.5);
     floor.plane({0, 0, 0}, {0, 1, 0});
     floor.anchored(0, {far, -1, 0}, 1.5).rod = true;
-    EXPECT_NE(error_of(floor).find("jammed"), std::string::npos) << far << error_of(floor);
+    EXPECT_NE(error_of(floor).find("jammed"), string::npos) << far << error_of(floor);
   }
 }
 
@@ -994,14 +992,14 @@ TEST(Strings, ThatAreAlmostStraightBearAsTheirSagSays) {
       // What the rounding of coordinates makes of the sag, as a share of it.
       const double rounding = 0x1p-53 * (far + 1) / (sag * sag);
       if (rounding > 4e-3) {
-        EXPECT_NE(error_of(problem).find("jammed"), std::string::npos) << far << ' ' << sag;
+        EXPECT_NE(error_of(problem).find("jammed"), string::npos) << far << ' ' << sag;
         continue;
       }
       if (rounding > 1e-4) continue;
       const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
       const Outcome run = run_to_end(*simulator, 1);
       EXPECT_LT((run.end.position[0] - ball).norm(), 1e-3 * sag);
-      const std::span<const ContactForce> forces = simulator->contacts();
+      const span<const ContactForce> forces = simulator->contacts();
       ASSERT_EQ(forces.size(), 2u);
       for (const ContactForce& f : forces) EXPECT_NEAR(f.force * 2 * sag / 10, 1, 4 * rounding + 2 * sag * sag);
     }
@@ -1051,9 +1049,9 @@ TEST(Rods, LeaveNoRoomBeforeAThingThatMoves) {
   const auto error_at = [](Tied& problem, double e, double time) {
     for (double& each : problem.world.restitution) each = e;
     problem.options.duration = 4;
-    const std::string error = error_of(problem);
-    EXPECT_NE(error.find("no room left between"), std::string::npos) << e << ": " << error;
-    EXPECT_NEAR(std::strtod(error.c_str() + std::string("at t = ").size(), nullptr), time, 1e-12) << error;
+    const string error = error_of(problem);
+    EXPECT_NE(error.find("no room left between"), string::npos) << e << ": " << error;
+    EXPECT_NEAR(std::strtod(error.c_str() + string("at t = ").size(), nullptr), time, 1e-12) << error;
   };
   for (const double e : {0.0, 0.5, 1.0}) {
     Tied rod;
@@ -1110,7 +1108,7 @@ TEST(Rods, MayJustFit) {
 // tension: it is an impact with its own restitution. By hand: the rod takes 1/3 J, the string gives the ends 0.4 m/s.
 TEST(Strings, WithoutTensionAtTheStartBounceInAnyOrderOfBodies) {
   const Vec3 places[] = {{0, 0, 0}, {1, 0, 0}, {0.6, -0.8, 0}};
-  for (const std::vector<Entity>& order : {std::vector<Entity>{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 2, 1}})
+  for (const vector<Entity>& order : {vector<Entity>{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 2, 1}})
     for (const bool falls : {false, true})
       for (const bool far_floor : {false, true})
         for (const bool swapped : {false, true}) {
@@ -1128,7 +1126,7 @@ TEST(Strings, WithoutTensionAtTheStartBounceInAnyOrderOfBodies) {
           problem.options.duration = 0.25;
           const Outcome run = run_exact(problem);
           EXPECT_NEAR(run.tally.energy_lost, 2.0 / 3, 1e-13) << falls << far_floor << swapped;
-          std::size_t of_string = 0;
+          size_t of_string = 0;
           for (const Collision& c : run.collisions) {
             if (c.restitution == 0) continue;
             ++of_string;

@@ -7,6 +7,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -62,7 +63,7 @@ std::set<double> instants_of(const Problem& problem) {
 /// How far from one another bodies are at the end of two runs (m).
 double apart(const State& a, const State& b) {
   double most = 0;
-  for (std::size_t i = 0; i < a.position.size(); ++i) most = std::max(most, (a.position[i] - b.position[i]).norm());
+  for (size_t i = 0; i < a.position.size(); ++i) most = std::max(most, (a.position[i] - b.position[i]).norm());
   return most;
 }
 
@@ -83,7 +84,7 @@ double nearest(Problem problem, double time, const Edge& set_edge) {
 }
 
 TEST(Switches, OfForcesAtTheInstantOfAnyOtherEventAreTaken) {
-  std::size_t tried = 0;
+  size_t tried = 0;
   for (const Problem& problem : {bouncing(), shuttling(), on_strings(), dragged()})
     for (const double time : instants_of(problem)) {
       const UniformForce across{Vec3(0, 0, 1)};
@@ -105,7 +106,7 @@ TEST(Switches, OfForcesAtTheInstantOfAnyOtherEventAreTaken) {
 }
 
 TEST(Switches, OfThingsThatMoveAtTheInstantOfAnyOtherEventAreTaken) {
-  std::size_t tried = 0;
+  size_t tried = 0;
   for (const Problem& problem : {bouncing(), shuttling(), dragged()})
     for (const double time : instants_of(problem)) {
       const auto move = [&](Problem& p, double at) {

@@ -4,13 +4,14 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 constexpr double tight = 5e-15;  // relative, four units in the last place
 
-void expect_close(const Vec3& got, const Vec3& expected, double tolerance, const std::string& what) {
+void expect_close(const Vec3& got, const Vec3& expected, double tolerance, const string& what) {
   EXPECT_LE((got - expected).norm(), tolerance * expected.norm())
       << what << ": " << got.transpose() << " for " << expected.transpose();
 }
@@ -26,7 +27,7 @@ void expect_case(const nlohmann::json& reference_case, const nlohmann::json& p, 
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), 1u) << "e = " << e;
     const Collision& c = run.collisions[0];
-    const std::string what = "e = " + std::to_string(e);
+    const string what = "e = " + std::to_string(e);
     EXPECT_NEAR(c.time / r["t_contact"].get<double>(), 1, tight) << what;
     EXPECT_NEAR(c.impulse / r["impulse"].get<double>(), 1, tight) << what;
     EXPECT_NEAR(c.approach_speed / r["approach_speed"].get<double>(), 1, tight) << what;

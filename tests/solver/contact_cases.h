@@ -2,23 +2,20 @@
 // Problems of contact: rows, stacks, lattices and random packings of balls, wedges and near copies; with masses over
 // any number of decades; under gravity, pushed, or struck. For tests and for ./dev bench contacts.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom::contact_cases {
 
-inline constexpr std::uint32_t fixed = ContactConstraint::fixed;
+inline constexpr uint32_t fixed = ContactConstraint::fixed;
 
 /// The cases' own random numbers: the same on every machine.
 class Draw {
  public:
-  explicit Draw(std::uint64_t seed) : state_(seed * 7919 + 13) {}
+  explicit Draw(uint64_t seed) : state_(seed * 7919 + 13) {}
   double operator()(double low, double high) {
     state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
     return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
@@ -32,20 +29,20 @@ class Draw {
   }
 
  private:
-  std::uint64_t state_;
+  uint64_t state_;
 };
 
 struct Case {
-  std::string name;
-  std::vector<double> inverse_mass;  // 1/kg
-  std::vector<Vec3> motion;          // free
-  std::vector<ContactConstraint> contacts;
+  string name;
+  vector<double> inverse_mass;  // 1/kg
+  vector<Vec3> motion;          // free
+  vector<ContactConstraint> contacts;
 };
 
 /// Balls of diameter 1 m in a box; those that are no farther apart than `near` (m) are in contact.
 struct Balls {
-  std::vector<Vec3> center;  // m
-  Vec3 low, high;            // m, corners of the box
+  vector<Vec3> center;  // m
+  Vec3 low, high;       // m, corners of the box
   double near = 1e-9;
 };
 
@@ -81,19 +78,18 @@ inline Balls lattice(int cells) {
   return balls;
 }
 
-inline std::vector<ContactConstraint> contacts_of(const Balls& balls) {
-  using Cell = std::array<std::int64_t, 3>;
+inline vector<ContactConstraint> contacts_of(const Balls& balls) {
+  using Cell = array<int64_t, 3>;
   const double reach = 1 + balls.near;
   const auto cell_of = [&](const Vec3& x) {
-    return Cell{static_cast<std::int64_t>(std::floor(x.x() / reach)),
-                static_cast<std::int64_t>(std::floor(x.y() / reach)),
-                static_cast<std::int64_t>(std::floor(x.z() / reach))};
+    return Cell{static_cast<int64_t>(std::floor(x.x() / reach)), static_cast<int64_t>(std::floor(x.y() / reach)),
+                static_cast<int64_t>(std::floor(x.z() / reach))};
   };
-  std::vector<std::pair<Cell, std::uint32_t>> cells;
-  for (std::uint32_t i = 0; i < balls.center.size(); ++i) cells.emplace_back(cell_of(balls.center[i]), i);
-  std::sort(cells.begin(), cells.end());
-  std::vector<ContactConstraint> contacts;
-  for (std::uint32_t i = 0; i < balls.center.size(); ++i) {
+  vector<std::pair<Cell, uint32_t>> cells;
+  for (uint32_t i = 0; i < balls.center.size(); ++i) cells.emplace_back(cell_of(balls.center[i]), i);
+  std::ranges::sort(cells);
+  vector<ContactConstraint> contacts;
+  for (uint32_t i = 0; i < balls.center.size(); ++i) {
     const Vec3& x = balls.center[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (x[axis] - balls.low[axis] <= 0.5 + balls.near)
@@ -115,7 +111,7 @@ inline std::vector<ContactConstraint> contacts_of(const Balls& balls) {
 }
 
 /// Soft balls at random places that push each other apart: about 4 contacts a ball.
-inline Balls packing(int n, std::uint64_t seed) {
+inline Balls packing(int n, uint64_t seed) {
   Balls balls;
   Draw draw(seed);
   const double edge = std::cbrt(n * 3.14159265358979 / 6 / 0.66);
@@ -127,7 +123,7 @@ inline Balls packing(int n, std::uint64_t seed) {
   }
   balls.near = 0;
   for (int pass = 0; pass < 400; ++pass) {
-    std::vector<Vec3> push(balls.center.size(), Vec3::Zero());
+    vector<Vec3> push(balls.center.size(), Vec3::Zero());
     for (const ContactConstraint& c : contacts_of(balls)) {
       const Vec3& x = balls.center[c.a];
       if (c.b == ContactConstraint::fixed) {
@@ -139,26 +135,25 @@ inline Balls packing(int n, std::uint64_t seed) {
         push[c.b] -= 0.25 * gap * c.normal;
       }
     }
-    for (std::size_t i = 0; i < push.size(); ++i) balls.center[i] += push[i];
+    for (size_t i = 0; i < push.size(); ++i) balls.center[i] += push[i];
   }
   balls.near = 0.01;
   return balls;
 }
 
 enum class Load { gravity, push, impact };
-inline constexpr std::array loads{Load::gravity, Load::push, Load::impact};
+inline constexpr array loads{Load::gravity, Load::push, Load::impact};
 
 /// Masses are 1 kg over up to so many decades. A push: a fifth of the balls are pushed at random; an impact: all move
 /// at random.
-inline Case loaded(const std::string& name, const Balls& balls, Load load, double decades, std::uint64_t seed = 1) {
-  constexpr std::array words{"gravity", "push", "impact"};
-  Case c{
-      name + ", " + words[static_cast<std::size_t>(load)] + ", masses 1e" + std::to_string(static_cast<int>(decades)),
-      {},
-      {},
-      contacts_of(balls)};
+inline Case loaded(const string& name, const Balls& balls, Load load, double decades, uint64_t seed = 1) {
+  constexpr array words{"gravity", "push", "impact"};
+  Case c{name + ", " + words[static_cast<size_t>(load)] + ", masses 1e" + std::to_string(static_cast<int>(decades)),
+         {},
+         {},
+         contacts_of(balls)};
   Draw draw(seed);
-  for (std::size_t i = 0; i < balls.center.size(); ++i) {
+  for (size_t i = 0; i < balls.center.size(); ++i) {
     c.inverse_mass.push_back(std::pow(10.0, draw(0, decades)));
     Vec3 u(0, 0, load == Load::impact ? 0 : -9.81);
     const double chance = draw(0, 1), size = draw(0, 1);
@@ -186,11 +181,11 @@ inline Case wedge(double angle, bool squeezed) {
 }
 
 /// Each contact twice, the second turned by this angle (rad).
-inline Case with_copies(Case c, double angle, std::uint64_t seed = 1) {
+inline Case with_copies(Case c, double angle, uint64_t seed = 1) {
   Draw draw(seed);
   c.name += ", copies 1e" + std::to_string(static_cast<int>(std::lround(std::log10(angle))));
-  const std::size_t n = c.contacts.size();
-  for (std::size_t k = 0; k < n; ++k) {
+  const size_t n = c.contacts.size();
+  for (size_t k = 0; k < n; ++k) {
     ContactConstraint copy = c.contacts[k];
     copy.normal = (copy.normal + angle * draw.direction()).normalized();
     c.contacts.push_back(copy);

@@ -10,6 +10,7 @@
 #include "solver/contact_cases.h"
 #include "solver/contact_interior_point.h"
 #include "solver/contact_reference.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -22,9 +23,9 @@ Certificate solve_case(Case& c) {
   return solve({c.inverse_mass, c.motion, c.contacts});
 }
 
-double difference(const std::vector<Vec3>& u, const std::vector<Vec3>& v) {
+double difference(const vector<Vec3>& u, const vector<Vec3>& v) {
   double most = 0;
-  for (std::size_t i = 0; i < u.size(); ++i) most = std::max(most, (u[i] - v[i]).norm() / (1e-3 + u[i].norm()));
+  for (size_t i = 0; i < u.size(); ++i) most = std::max(most, (u[i] - v[i]).norm() / (1e-3 + u[i].norm()));
   return most;
 }
 
@@ -44,9 +45,9 @@ bool expect_exact(const Case& given) {
 /// A row of three along x: a wall, a light ball, a heavy one that comes in at 1 m/s.
 TEST(ContactProblem, ALightBallBetweenAWallAndAHeavyOneStopsIt) {
   for (const double light : {1.0, 1e-4, 1e-9, 1e-14}) {
-    const std::vector<double> inverse_mass{1 / light, 1};
-    std::vector<Vec3> u{{0.3, 0, 0}, {-1, 0, 0}};
-    std::vector<ContactConstraint> contacts{{0, fixed, {-1, 0, 0}}, {0, 1, {1, 0, 0}}};
+    const vector<double> inverse_mass{1 / light, 1};
+    vector<Vec3> u{{0.3, 0, 0}, {-1, 0, 0}};
+    vector<ContactConstraint> contacts{{0, fixed, {-1, 0, 0}}, {0, 1, {1, 0, 0}}};
     EXPECT_TRUE(solve({inverse_mass, u, contacts}).solved());
     EXPECT_LT(std::abs(u[0].x()), 1e-30) << light;  // m/s; measured: 0
     EXPECT_LT(std::abs(u[1].x()), 1e-30) << light;
@@ -56,10 +57,10 @@ TEST(ContactProblem, ALightBallBetweenAWallAndAHeavyOneStopsIt) {
 }
 
 TEST(ContactProblem, WhatPartsKeepsItsBits) {
-  const std::vector<double> inverse_mass{1, 2, 0.1};
-  std::vector<Vec3> u{{0.5, 0.1, 0}, {1, 3, 0.7}, {0.1, 1e-3, 7}};
-  const std::vector<Vec3> before = u;
-  std::vector<ContactConstraint> contacts{{0, 1, {1, 0, 0}}, {0, fixed, {-1, 0, 0}}};
+  const vector<double> inverse_mass{1, 2, 0.1};
+  vector<Vec3> u{{0.5, 0.1, 0}, {1, 3, 0.7}, {0.1, 1e-3, 7}};
+  const vector<Vec3> before = u;
+  vector<ContactConstraint> contacts{{0, 1, {1, 0, 0}}, {0, fixed, {-1, 0, 0}}};
   EXPECT_TRUE(solve({inverse_mass, u, contacts}).solved());
   EXPECT_EQ(u, before);
   EXPECT_EQ(contacts[0].force, 0);
@@ -71,7 +72,7 @@ TEST(ContactProblem, AStackBearsItsWeight) {
     Case c = loaded("stack", stack(n), Load::gravity, 0);
     EXPECT_TRUE(solve_case(c).solved()) << n;
     for (const Vec3& u : c.motion) EXPECT_LT(u.norm(), 1e-25) << n;
-    for (std::size_t k = 0; k < c.contacts.size(); ++k) {
+    for (size_t k = 0; k < c.contacts.size(); ++k) {
       const double above = static_cast<double>(n) - c.contacts[k].a - (c.contacts[k].b == fixed ? 0 : 1);
       EXPECT_NEAR(c.contacts[k].force, 9.81 * above, 1e-12 * above) << n;
     }
@@ -83,7 +84,7 @@ TEST(ContactProblem, AStruckRowGoesOnWithItsMomentum) {
   for (const int n : {2, 9, 60, 300}) {
     Case c = loaded("row", row(n), Load::gravity, 0);
     std::erase_if(c.contacts, [](const ContactConstraint& contact) { return contact.b == fixed; });
-    std::fill(c.motion.begin(), c.motion.end(), Vec3::Zero());
+    std::ranges::fill(c.motion, Vec3::Zero());
     c.motion[0] = Vec3(1, 0, 0);
     EXPECT_TRUE(solve_case(c).solved());
     for (const Vec3& u : c.motion) EXPECT_NEAR(u.x(), 1.0 / n, 1e-16) << n;
@@ -122,9 +123,9 @@ TEST(ContactProblem, WedgesAndNearCopiesAreExact) {
 TEST(ContactProblem, ABallIsSqueezedOutOfAWedge) {
   for (int k = 1; k <= 10; ++k) {
     const double angle = std::pow(10.0, -k), c = std::cos(angle), s = std::sin(angle);
-    const std::vector<double> inverse_mass{1};
-    std::vector<Vec3> u{Vec3::Zero()};
-    std::vector<ContactConstraint> contacts{{0, fixed, {c, 0, -s}, 1}, {0, fixed, {-c, 0, -s}, 1}};
+    const vector<double> inverse_mass{1};
+    vector<Vec3> u{Vec3::Zero()};
+    vector<ContactConstraint> contacts{{0, fixed, {c, 0, -s}, 1}, {0, fixed, {-c, 0, -s}, 1}};
     EXPECT_TRUE(solve({inverse_mass, u, contacts}).solved());
     EXPECT_NEAR(u[0].z(), 1 / s, 1e-15 / s) << angle;
     EXPECT_NEAR(u[0].x(), 0, 1e-15) << angle;
@@ -151,7 +152,7 @@ TEST(ContactProblem, BothMethodsFindTheSameMotion) {
         DualActiveSet method;
         EXPECT_TRUE(method.solve(island, one).judgement.within_slack);
         EXPECT_TRUE(ContactInteriorPoint(island).solve(other).within_slack);
-        for (std::size_t i = 0; i < one.motion.size(); ++i)
+        for (size_t i = 0; i < one.motion.size(); ++i)
           EXPECT_NEAR(one.motion[i].hi, other.motion[i].hi, 1e-14);  // of a greatest of 1; measured: 1e-16
       }
 }
@@ -165,9 +166,8 @@ TEST(ContactProblem, OtherUnitsGiveTheSameBits) {
         for (double& w : q.inverse_mass) w *= 0x1p-5;
         for (Vec3& u : q.motion) u *= 0x1p7;
         EXPECT_EQ(solve_case(p).change, solve_case(q).change);
-        for (std::size_t i = 0; i < p.motion.size(); ++i) EXPECT_EQ(p.motion[i] * 0x1p7, q.motion[i]);
-        for (std::size_t k = 0; k < p.contacts.size(); ++k)
-          EXPECT_EQ(p.contacts[k].force * 0x1p12, q.contacts[k].force);
+        for (size_t i = 0; i < p.motion.size(); ++i) EXPECT_EQ(p.motion[i] * 0x1p7, q.motion[i]);
+        for (size_t k = 0; k < p.contacts.size(); ++k) EXPECT_EQ(p.contacts[k].force * 0x1p12, q.contacts[k].force);
       }
 }
 
@@ -175,9 +175,9 @@ TEST(ContactProblem, OtherUnitsGiveTheSameBits) {
 TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   const Case given = loaded("", packing(30, 2), Load::push, 3);
   Case p = given, reversed = given, beside = given;
-  std::reverse(reversed.contacts.begin(), reversed.contacts.end());
-  const auto n = static_cast<std::uint32_t>(given.motion.size());
-  for (std::size_t i = 0; i < n; ++i) {
+  std::ranges::reverse(reversed.contacts);
+  const auto n = static_cast<uint32_t>(given.motion.size());
+  for (size_t i = 0; i < n; ++i) {
     beside.inverse_mass.push_back(1e9 * given.inverse_mass[i]);
     beside.motion.push_back(1e9 * given.motion[i]);
   }
@@ -190,7 +190,7 @@ TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   solve_case(reversed);
   solve_case(beside);
   EXPECT_LE(difference(p.motion, reversed.motion), 1e-15);  // measured: 0
-  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(p.motion[i], beside.motion[i]);
+  for (size_t i = 0; i < n; ++i) EXPECT_EQ(p.motion[i], beside.motion[i]);
 }
 
 /// One contact is removed and restored, by a solver that keeps its factors: the motion is the same.
@@ -201,9 +201,9 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
       ContactSolver solver;
       Case first = given;
       EXPECT_TRUE(solver.solve({first.inverse_mass, first.motion, first.contacts}).solved());
-      for (std::size_t away = 0; away < given.contacts.size(); away += 11) {
+      for (size_t away = 0; away < given.contacts.size(); away += 11) {
         Case without = given;
-        without.contacts.erase(without.contacts.begin() + static_cast<std::ptrdiff_t>(away));
+        without.contacts.erase(without.contacts.begin() + static_cast<ptrdiff_t>(away));
         Case cold = without, again = given;
         EXPECT_TRUE(solver.solve({without.inverse_mass, without.motion, without.contacts}).solved());
         solve_case(cold);
@@ -229,9 +229,9 @@ TEST(ContactProblem, AWarmStartAfterProblemsOfOtherSizesFindsTheSame) {
 
 /// A rod between two balls: they turn about their centre and keep their distance, which takes a pull.
 TEST(ContactProblem, BilateralContactsPullToo) {
-  const std::vector<double> inverse_mass{1, 0.5};
-  std::vector<Vec3> a{{0, 0, 0}, {0, 0, 0}};
-  std::vector<ContactConstraint> contacts{{0, 1, {1, 0, 0}, -3}};
+  const vector<double> inverse_mass{1, 0.5};
+  vector<Vec3> a{{0, 0, 0}, {0, 0, 0}};
+  vector<ContactConstraint> contacts{{0, 1, {1, 0, 0}, -3}};
   contacts[0].bilateral = true;
   EXPECT_TRUE(solve({inverse_mass, a, contacts}).solved());
   EXPECT_NEAR(a[0].x(), 2, 1e-15);
@@ -249,18 +249,18 @@ TEST(ContactProblem, BilateralContactsMayBeRedundant) {
 
 /// Two walls that close in on a ball.
 TEST(ContactProblem, InfeasibleContactsAreReported) {
-  const std::vector<double> inverse_mass{1};
-  std::vector<Vec3> u{{0.2, 0, 0}};
-  std::vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 1}, {0, fixed, {-1, 0, 0}, 1}};
+  const vector<double> inverse_mass{1};
+  vector<Vec3> u{{0.2, 0, 0}};
+  vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 1}, {0, fixed, {-1, 0, 0}, 1}};
   const Certificate certificate = solve({inverse_mass, u, contacts});
   EXPECT_EQ(certificate.verdict, Verdict::infeasible);
   EXPECT_GT(certificate.change, 0.1);
 }
 
 TEST(ContactProblem, NothingAtAllIsSolved) {
-  std::vector<Vec3> u{Vec3::Zero()};
-  const std::vector<double> inverse_mass{1};
-  std::vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 0, 0, 7}};
+  vector<Vec3> u{Vec3::Zero()};
+  const vector<double> inverse_mass{1};
+  vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 0, 0, 7}};
   EXPECT_TRUE(solve({inverse_mass, u, {}}).solved());
   EXPECT_TRUE(solve({inverse_mass, u, contacts}).solved());
   EXPECT_EQ(contacts[0].force, 0);

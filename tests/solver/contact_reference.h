@@ -4,10 +4,10 @@
 // motion is unique.
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "solver/contact_cases.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom::contact_cases {
 
@@ -20,17 +20,17 @@ inline Quad square_root(Quad x) {
 }
 
 struct Reference {
-  std::vector<Quad> motion;  // 3 a body
+  vector<Quad> motion;  // 3 a body
   bool holds = false;
 
   /// The greatest difference of a motion. It is relative to the body's speed before or after, or to a thousandth of the
   /// greatest speed.
-  double error(const std::vector<Vec3>& free, const std::vector<Vec3>& u) const {
+  double error(const vector<Vec3>& free, const vector<Vec3>& u) const {
     double speed = 0, most = 0;
     for (const Vec3& v : free) speed = std::max(speed, v.norm());
-    for (std::size_t i = 0; i < u.size(); ++i)
+    for (size_t i = 0; i < u.size(); ++i)
       for (int k = 0; k < 3; ++k) {
-        const double off = std::abs(static_cast<double>(motion[3 * i + static_cast<std::size_t>(k)] - Quad(u[i][k])));
+        const double off = std::abs(static_cast<double>(motion[3 * i + static_cast<size_t>(k)] - Quad(u[i][k])));
         if (off > 0) most = std::max(most, off / std::max({u[i].norm(), free[i].norm(), 1e-3 * speed}));
       }
     return most;
@@ -38,12 +38,12 @@ struct Reference {
 };
 
 /// `contacts`: with the forces of a solution; those above 0 press.
-inline Reference reference(const std::vector<double>& inverse_mass, const std::vector<Vec3>& free,
-                           const std::vector<ContactConstraint>& contacts) {
-  std::vector<const ContactConstraint*> rows;
+inline Reference reference(const vector<double>& inverse_mass, const vector<Vec3>& free,
+                           const vector<ContactConstraint>& contacts) {
+  vector<const ContactConstraint*> rows;
   for (const ContactConstraint& c : contacts)
     if (c.force > 0) rows.push_back(&c);
-  const std::size_t m = rows.size();
+  const size_t m = rows.size();
   const auto product = [&](const ContactConstraint& p, const ContactConstraint& q) {
     Quad shared = 0, along = 0;
     if (p.a == q.a) shared += inverse_mass[p.a];
@@ -53,42 +53,42 @@ inline Reference reference(const std::vector<double>& inverse_mass, const std::v
     for (int k = 0; k < 3; ++k) along += Quad(p.normal[k]) * q.normal[k];
     return shared * along;
   };
-  const auto rate = [&](const std::vector<Quad>& u, const ContactConstraint& c) {
+  const auto rate = [&](const vector<Quad>& u, const ContactConstraint& c) {
     Quad sum = -Quad(c.target);
-    for (std::size_t k = 0; k < 3; ++k)
+    for (size_t k = 0; k < 3; ++k)
       sum += Quad(c.normal[static_cast<int>(k)]) * ((c.b == fixed ? Quad(0) : u[3 * c.b + k]) - u[3 * c.a + k]);
     return sum;
   };
   Reference result;
   for (const Vec3& u : free)
     for (int k = 0; k < 3; ++k) result.motion.push_back(u[k]);
-  std::vector<Quad> factor(m * m, 0), scale(m), force(m, 0);
-  std::vector<char> spanned(m, 0);  // by rows before it
-  for (std::size_t i = 0; i < m; ++i) scale[i] = 1 / square_root(product(*rows[i], *rows[i]));
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
+  vector<Quad> factor(m * m, 0), scale(m), force(m, 0);
+  vector<char> spanned(m, 0);  // by rows before it
+  for (size_t i = 0; i < m; ++i) scale[i] = 1 / square_root(product(*rows[i], *rows[i]));
+  for (size_t i = 0; i < m; ++i)
+    for (size_t j = 0; j <= i; ++j) {
       if (spanned[j]) continue;
       Quad sum = scale[i] * scale[j] * product(*rows[i], *rows[j]);
-      for (std::size_t k = 0; k < j; ++k) sum -= factor[i * m + k] * factor[j * m + k];
+      for (size_t k = 0; k < j; ++k) sum -= factor[i * m + k] * factor[j * m + k];
       spanned[j] = j == i && sum < 1e-28;
       if (!spanned[j]) factor[i * m + j] = j < i ? sum / factor[j * m + j] : square_root(sum);
     }
   // Once for the value, twice for what ill-conditioned factors leave.
   for (int pass = 0; pass < 3; ++pass) {
-    std::vector<Quad> x(m, 0);
-    for (std::size_t i = 0; i < m; ++i) {
+    vector<Quad> x(m, 0);
+    for (size_t i = 0; i < m; ++i) {
       if (spanned[i]) continue;
       x[i] = -rate(result.motion, *rows[i]) * scale[i];
-      for (std::size_t k = 0; k < i; ++k) x[i] -= factor[i * m + k] * x[k];
+      for (size_t k = 0; k < i; ++k) x[i] -= factor[i * m + k] * x[k];
       x[i] /= factor[i * m + i];
     }
-    for (std::size_t i = m; i-- > 0;) {
+    for (size_t i = m; i-- > 0;) {
       if (spanned[i]) continue;
-      for (std::size_t k = i + 1; k < m; ++k) x[i] -= factor[k * m + i] * x[k];
+      for (size_t k = i + 1; k < m; ++k) x[i] -= factor[k * m + i] * x[k];
       x[i] /= factor[i * m + i];
       force[i] += x[i];
       const ContactConstraint& c = *rows[i];
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (size_t k = 0; k < 3; ++k) {
         const Quad push = x[i] * scale[i] * Quad(c.normal[static_cast<int>(k)]);
         result.motion[3 * c.a + k] -= inverse_mass[c.a] * push;
         if (c.b != fixed) result.motion[3 * c.b + k] += inverse_mass[c.b] * push;

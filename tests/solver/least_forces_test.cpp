@@ -9,23 +9,24 @@
 #include <random>
 
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr std::uint32_t immovable = ContactConstraint::fixed;
+constexpr uint32_t immovable = ContactConstraint::fixed;
 
 /// Bodies at rest under 10 m/s^2, with contacts.
 struct Standing {
-  std::vector<double> inverse_mass;  // 1/kg
-  std::vector<ContactConstraint> contacts;
+  vector<double> inverse_mass;  // 1/kg
+  vector<ContactConstraint> contacts;
 
   /// The forces (N) by contact, as the solver gives them.
-  std::vector<double> forces() const {
-    std::vector<Vec3> a(inverse_mass.size(), Vec3(0, -10, 0));
-    std::vector<ContactConstraint> solved = contacts;
+  vector<double> forces() const {
+    vector<Vec3> a(inverse_mass.size(), Vec3(0, -10, 0));
+    vector<ContactConstraint> solved = contacts;
     EXPECT_TRUE(solve({inverse_mass, a, solved, true}).solved());
-    std::vector<double> all;
+    vector<double> all;
     for (const ContactConstraint& c : solved) all.push_back(c.force);
     return all;
   }
@@ -37,27 +38,27 @@ Standing standing_of(const nlohmann::json& entry) {
   for (const auto& c : entry["contacts"]) {
     const int b = c[1];
     standing.contacts.push_back(
-        {c[0].get<std::uint32_t>(), b < 0 ? immovable : static_cast<std::uint32_t>(b), Vec3(c[2], c[3], c[4])});
+        {c[0].get<uint32_t>(), b < 0 ? immovable : static_cast<uint32_t>(b), Vec3(c[2], c[3], c[4])});
   }
   return standing;
 }
 
 /// The same with other numbers of bodies and contacts. Contact k of it is contact which[k] of the given one.
-Standing renumbered(const Standing& given, std::uint64_t seed, std::vector<std::size_t>& which) {
+Standing renumbered(const Standing& given, uint64_t seed, vector<size_t>& which) {
   std::mt19937_64 draw(seed);
   const auto shuffle = [&](auto& list) {
-    for (std::size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[draw() % k]);
+    for (size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[draw() % k]);
   };
-  std::vector<std::uint32_t> number(given.inverse_mass.size());
+  vector<uint32_t> number(given.inverse_mass.size());
   std::iota(number.begin(), number.end(), 0u);
   shuffle(number);
   which.resize(given.contacts.size());
-  std::iota(which.begin(), which.end(), std::size_t{0});
+  std::iota(which.begin(), which.end(), size_t{0});
   shuffle(which);
 
   Standing other = given;
-  for (std::size_t i = 0; i < number.size(); ++i) other.inverse_mass[number[i]] = given.inverse_mass[i];
-  for (std::size_t k = 0; k < which.size(); ++k) {
+  for (size_t i = 0; i < number.size(); ++i) other.inverse_mass[number[i]] = given.inverse_mass[i];
+  for (size_t k = 0; k < which.size(); ++k) {
     ContactConstraint c = given.contacts[which[k]];
     c.a = number[c.a];
     if (c.b != immovable) {
@@ -75,13 +76,13 @@ TEST(LeastForces, AreThoseOfAnIndependentSolverInAnyOrder) {
   EXPECT_EQ(all.size(), 13u);
   for (const auto& entry : all) {
     const Standing standing = standing_of(entry);
-    const std::vector<double> expected = entry["force"];
-    const double greatest = *std::max_element(expected.begin(), expected.end());
+    const vector<double> expected = entry["force"];
+    const double greatest = *std::ranges::max_element(expected);
 
-    for (std::uint64_t seed = 0; seed < 4; ++seed) {
-      std::vector<std::size_t> which;
-      const std::vector<double> forces = renumbered(standing, seed, which).forces();
-      for (std::size_t k = 0; k < which.size(); ++k)
+    for (uint64_t seed = 0; seed < 4; ++seed) {
+      vector<size_t> which;
+      const vector<double> forces = renumbered(standing, seed, which).forces();
+      for (size_t k = 0; k < which.size(); ++k)
         EXPECT_NEAR(forces[k], expected[which[k]], 1e-11 * greatest) << entry["name"] << ' ' << seed << ' ' << k;
     }
   }
@@ -97,15 +98,15 @@ TEST(LeastForces, OfASlabAreTheSameOnAllItsLegs) {
 
 /// A slab on so many balls, which stand on the floor.
 TEST(LeastForces, OfASlabOnBallsAreTheSameOnAll) {
-  for (const std::uint32_t balls : {25u, 64u, 400u}) {
+  for (const uint32_t balls : {25u, 64u, 400u}) {
     Standing slab{{1.0 / 8}, {}};
-    for (std::uint32_t k = 1; k <= balls; ++k) {
+    for (uint32_t k = 1; k <= balls; ++k) {
       slab.inverse_mass.push_back(1);
       slab.contacts.push_back({0, k, Vec3(0, -1, 0)});
       slab.contacts.push_back({k, immovable, Vec3(0, -1, 0)});
     }
-    const std::vector<double> forces = slab.forces();
-    for (std::uint32_t k = 0; k < balls; ++k) {
+    const vector<double> forces = slab.forces();
+    for (uint32_t k = 0; k < balls; ++k) {
       EXPECT_NEAR(forces[2 * k], 80.0 / balls, 1e-12) << balls;
       EXPECT_NEAR(forces[2 * k + 1], 80.0 / balls + 10, 1e-12) << balls;
     }
@@ -117,15 +118,15 @@ TEST(LeastForces, CorrectedOnesLeaveNoMotion) {
   const auto all = nlohmann::json::parse(std::ifstream(DATA_DIR "/open_forces.json"));
   for (const auto& entry : all) {
     Standing standing = standing_of(entry);
-    const std::vector<double> expected = entry["force"];
-    for (std::size_t k = 0; k < expected.size(); ++k)
+    const vector<double> expected = entry["force"];
+    for (size_t k = 0; k < expected.size(); ++k)
       standing.contacts[k].force = expected[k] * (k % 2 == 0 ? 1.001 : 0.999);
-    std::vector<Vec3> a(standing.inverse_mass.size(), Vec3(0, -10, 0));
+    vector<Vec3> a(standing.inverse_mass.size(), Vec3(0, -10, 0));
     correct_hold({standing.inverse_mass, a, standing.contacts});
 
-    const double greatest = *std::max_element(expected.begin(), expected.end());
+    const double greatest = *std::ranges::max_element(expected);
     for (const Vec3& left : a) EXPECT_LT(left.norm(), 1e-11) << entry["name"];
-    for (std::size_t k = 0; k < expected.size(); ++k) {
+    for (size_t k = 0; k < expected.size(); ++k) {
       EXPECT_GE(standing.contacts[k].force, 0);
       EXPECT_NEAR(standing.contacts[k].force, expected[k], 0.01 * greatest) << entry["name"];
     }
@@ -137,7 +138,7 @@ TEST(LeastForces, OfWhatOnlyTouchesAreZero) {
   Standing box{{1}, {}};
   for (int k = 0; k < 3; ++k) box.contacts.push_back({0, immovable, Vec3(0, -1, 0)});
   for (const double side : {-1.0, 1.0}) box.contacts.push_back({0, immovable, Vec3(side, 0, 0)});
-  const std::vector<double> forces = box.forces();
+  const vector<double> forces = box.forces();
   EXPECT_EQ(forces[3], 0);
   EXPECT_EQ(forces[4], 0);
   EXPECT_NEAR(forces[0], 10.0 / 3, 1e-14);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "physics/world.h"
+#include "std.h"
 #include "stress/digits.h"
 #include "stress/gaps.h"
 #include "stress/paths.h"
@@ -16,7 +16,7 @@ namespace carom::stress {
 
 namespace {
 
-std::string names_of(Entity a, Entity b) {
+string names_of(Entity a, Entity b) {
   return std::to_string(a) + " and " + std::to_string(b);
 }
 
@@ -72,8 +72,8 @@ class Check {
     same("with more outputs", seen_);
     if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
     if (!finite()) return;
-    paths_ = std::make_unique<Paths>(scene_, times_, seen_, first_.records, in_contact());
-    for (std::string& overlap : paths_->overlaps()) fail(std::move(overlap));
+    paths_ = make_unique<Paths>(scene_, times_, seen_, first_.records, in_contact());
+    for (string& overlap : paths_->overlaps()) fail(std::move(overlap));
     energy();
     rows();
     momentum();
@@ -84,26 +84,25 @@ class Check {
   }
 
  private:
-  void fail(std::string what) {
+  void fail(string what) {
     if (verdict_.violations.size() < 12) verdict_.violations.push_back(std::move(what));
   }
 
   /// A run that may end with an error is checked up to some of its collisions.
   void stop() {
-    const bool lively =
-        std::any_of(world_.restitution.begin(), world_.restitution.end(), [](double e) { return e > 1; });
-    if (!scene_.may_stop && first_.error.find("max_collisions") != std::string::npos) {
+    const bool lively = std::ranges::any_of(world_.restitution, [](double e) { return e > 1; });
+    if (!scene_.may_stop && first_.error.find("max_collisions") != string::npos) {
       // Many collisions are no fault if they come to an end. Light balls in a row between heavy ones, with e = 0.9,
       // have 24,845 in 0.03 s of CPU time. Endless ones exceed the time limit.
       RandomScene unlimited = scene_;
       unlimited.options.max_collisions = 0;
       return Check(unlimited, patience_, verdict_).run();
     }
-    if (!scene_.may_stop || (!lively && first_.error.find("clock") != std::string::npos))
+    if (!scene_.may_stop || (!lively && first_.error.find("clock") != string::npos))
       return fail("error: " + first_.error);
     verdict_.stopped = true;
     double end = 0;
-    std::size_t count = 0;
+    size_t count = 0;
     for (const Collision& c : first_.records) {
       if (++count > 300 || c.approach_speed > 1e6 * first_.records[0].approach_speed) break;
       end = c.time;
@@ -117,13 +116,13 @@ class Check {
   }
 
   void same(const char* how, const Watched& other) {
-    const std::string what = difference(first_, other, 0, 0, 0);
-    if (!what.empty()) fail(std::string(how) + " differs: " + what);
+    const string what = difference(first_, other, 0, 0, 0);
+    if (!what.empty()) fail(string(how) + " differs: " + what);
   }
 
   bool finite() {
     for (const State& s : seen_.seen)
-      for (std::size_t i = 0; i < s.position.size(); ++i)
+      for (size_t i = 0; i < s.position.size(); ++i)
         if (!s.position[i].allFinite() || !s.velocity[i].allFinite()) {
           fail("body " + std::to_string(i) + " is nowhere at t = " + text(s.time));
           return false;
@@ -142,8 +141,7 @@ class Check {
       const long double potential = -m * world_.gravity.cast<long double>().dot(s.position[i].cast<long double>());
       sum += kinetic + potential;
       for (const Force& f : world_.forces) {
-        if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::count(f.on.begin(), f.on.end(), i)))
-          continue;
+        if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::ranges::count(f.on, i))) continue;
         sum -= (per_mass(f) ? world_.mass[i] : 1) * value(f).cast<long double>().dot(s.position[i].cast<long double>());
       }
       double pull = world_.gravity.cwiseAbs().dot(s.position[i].cwiseAbs());
@@ -226,7 +224,7 @@ class Check {
 
   void record(const Collision& c) {
     if (c.kind == CollisionKind::rest) return;
-    const std::string what = "record of " + names_of(c.a, c.b) + " at t = " + text(c.time) + ": ";
+    const string what = "record of " + names_of(c.a, c.b) + " at t = " + text(c.time) + ": ";
     if (c.approach_speed < 0) fail(what + "they separate at " + text(-c.approach_speed) + " m/s");
     if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + "its normal has length 1 + " + text(c.normal.norm() - 1));
     if (scene_.options.merge && c.kind == CollisionKind::merge) return;
@@ -246,7 +244,7 @@ class Check {
     if (scene_.options.merge) return;
     const auto at = std::lower_bound(times_.begin(), times_.end(), c.time);
     if (at == times_.end() || *at != c.time) return;
-    const State& s = seen_.seen[static_cast<std::size_t>(at - times_.begin())];
+    const State& s = seen_.seen[static_cast<size_t>(at - times_.begin())];
     const bool body = world_.is_body(c.b);
     const Vec3 xb = body ? s.position[c.b] : fixed_position(world_, c.b, {c.time, 0});
     const double distance =
@@ -267,7 +265,7 @@ class Check {
     const auto draw = [&](int k) { return static_cast<int>((scene_.seed * 2654435761u >> (8 * k)) % 41) - 20; };
     const int length = draw(0), time = draw(1), mass_unit = draw(2);
     const Watched other = watch(scaled(scene_, length, time, mass_unit), {}, patience_);
-    const std::string what = difference(first_, other, length, time, mass_unit);
+    const string what = difference(first_, other, length, time, mass_unit);
     if (!what.empty())
       fail("scaled by powers of two " + std::to_string(length) + ", " + std::to_string(time) + ", " +
            std::to_string(mass_unit) + " differs: " + what);
@@ -298,8 +296,8 @@ class Check {
   const double patience_;  // s of CPU time, for a run
   Verdict& verdict_;
   Watched first_, seen_;
-  std::vector<double> times_;
-  std::unique_ptr<Paths> paths_;
+  vector<double> times_;
+  unique_ptr<Paths> paths_;
 };
 
 }  // namespace

@@ -1,15 +1,14 @@
 #pragma once
 // Invariants of every run of every scene.
-#include <string>
-#include <vector>
 
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom::stress {
 
 struct Verdict {
-  std::vector<std::string> violations;  // empty: all is well
-  std::uint64_t collisions = 0;
+  vector<string> violations;  // empty: all is well
+  uint64_t collisions = 0;
   bool crowds = false;   // some bodies moved as a crowd
   bool stopped = false;  // at a limit, as it may
 };

@@ -1,11 +1,11 @@
 // The same scenes in long steps of time, by every method. A run ends, no position is undefined, no bodies overlap, and
 // outputs change nothing. Energy does not grow, except by Euler's method, of order 1.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "physics/world.h"
 #include "simulate/exact.h"
+#include "std.h"
 #include "stress/check.h"
 #include "stress/digits.h"
 #include "stress/gaps.h"
@@ -18,7 +18,7 @@ constexpr double deepest = 1e-8;    // of the smaller radius, in crowds, and
 constexpr double most_gain = 1e-6;  // of the energy; measured: below 1e-7 in 1,371 scenes
 
 struct Observed {
-  std::vector<State> states;
+  vector<State> states;
   Tally tally;
 };
 
@@ -51,7 +51,7 @@ long double energy(const World& world, const State& s, long double& size) {
     add(0.5L * m * s.velocity[i].cast<long double>().squaredNorm());
     for (int axis = 0; axis < 3; ++axis) add(-m * world.gravity[axis] * x[axis]);
     for (const Force& f : world.forces) {
-      if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::count(f.on.begin(), f.on.end(), i))) continue;
+      if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::ranges::count(f.on, i))) continue;
       for (int axis = 0; axis < 3; ++axis) add(-(per_mass(f) ? m : 1) * value(f)[axis] * x[axis]);
     }
   }
@@ -66,13 +66,13 @@ Verdict check_stepped(const RandomScene& scene) {
   ExactOptions options;
   options.integrator = static_cast<Integrator>(scene.seed / 13 % 3);
   options.duration = scene.options.duration;
-  const int steps = std::array{50, 100, 300}[scene.seed / 39 % 3];
+  const int steps = array{50, 100, 300}[scene.seed / 39 % 3];
   options.step = options.duration / steps;
   options.max_collisions = scene.options.max_collisions;
   options.record_collisions = false;
-  const std::string what =
+  const string what =
       "in " + std::to_string(steps) + " steps by method " + std::to_string(static_cast<int>(options.integrator)) + ": ";
-  const auto fail = [&](const std::string& why) {
+  const auto fail = [&](const string& why) {
     if (verdict.violations.size() < 12) verdict.violations.push_back(what + why);
   };
   Observed once, often;
@@ -81,7 +81,7 @@ Verdict check_stepped(const RandomScene& scene) {
     often = run(scene, options, 23);
   } catch (const SimulationError& error) {
     verdict.stopped = true;
-    const bool so_many = std::string(error.what()).find("max_collisions") != std::string::npos;
+    const bool so_many = string(error.what()).find("max_collisions") != string::npos;
     if (!scene.may_stop && !so_many) fail(error.what());
     return verdict;
   }
@@ -89,7 +89,7 @@ Verdict check_stepped(const RandomScene& scene) {
   const State &start = once.states.front(), &end = once.states.back();
   if (end.position != often.states.back().position || end.velocity != often.states.back().velocity)
     fail("outputs change where it ends");
-  const bool lively = std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e > 1; });
+  const bool lively = std::ranges::any_of(world.restitution, [](double e) { return e > 1; });
   for (const State& s : often.states)
     for (Entity a = 0; a < world.body_count(); ++a) {
       if (!s.position[a].allFinite() || !s.velocity[a].allFinite()) {

@@ -1,14 +1,14 @@
 #pragma once
 // The numbers that a random scene is made of: from given bytes while they last, then from a seed.
-#include <string_view>
 
 #include "simulate/random.h"
+#include "std.h"
 
 namespace carom::stress {
 
 class Draws {
  public:
-  explicit Draws(std::uint64_t seed, std::string_view bytes = {}) : random_(seed), bytes_(bytes) {}
+  explicit Draws(uint64_t seed, string_view bytes = {}) : random_(seed), bytes_(bytes) {}
 
   double operator()(double low, double high) {
     if (bytes_.size() < 2) return random_(low, high);
@@ -19,7 +19,7 @@ class Draws {
 
  private:
   Random random_;
-  std::string_view bytes_;
+  string_view bytes_;
 };
 
 }  // namespace carom::stress

@@ -1,10 +1,10 @@
 // Families of random scenes, each for one kind of difficulty.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "physics/bounds.h"
 #include "physics/world.h"
+#include "std.h"
 #include "stress/make_scene.h"
 
 namespace carom::stress {
@@ -76,7 +76,7 @@ void walls(Maker& m) {
     m.wall(m.somewhere(2), m.chance(0.3) ? Vec3(Vec3::Unit(m.whole(0, 2))) : m.direction(), {0.31, 0.7, 0.2},
            m.uniform(0.05, 3), m.uniform(0.05, 3));
   for (int k = m.whole(1, 8); k > 0; --k) {
-    const Wall& w = m.scene.world.walls[static_cast<std::size_t>(m.whole(0, count - 1))];
+    const Wall& w = m.scene.world.walls[static_cast<size_t>(m.whole(0, count - 1))];
     const double radius = m.spread(1e-3, 0.5);
     const auto along = [&] { return m.chance(0.4) ? m.any({-1, 1}) : m.uniform(-1.1, 1.1); };
     const Vec3 target = w.center + w.half_width * along() * w.right + w.half_height * along() * w.up;
@@ -254,7 +254,7 @@ double time_in_bounds(const RandomScene& scene) {
     speed = std::max(speed, (scene.initial.velocity[i] + kick).norm());
   }
   for (const Force& f : world.forces)
-    pull += value(f).norm() / (per_mass(f) ? 1 : *std::min_element(world.mass.begin(), world.mass.end()));
+    pull += value(f).norm() / (per_mass(f) ? 1 : *std::ranges::min_element(world.mass));
   const double way = 0.1 * bounds_of(world).place;
   return 2 * way / (speed + std::sqrt(speed * speed + 2 * pull * way));
 }
@@ -270,16 +270,16 @@ constexpr Family families[] = {{"gas", gas},         {"space", space},   {"grazi
 
 }  // namespace
 
-std::span<const char* const> family_names() {
+span<const char* const> family_names() {
   static const auto names = [] {
-    std::array<const char*, std::size(families)> list;
+    array<const char*, std::size(families)> list;
     std::transform(std::begin(families), std::end(families), list.begin(), [](const Family& f) { return f.name; });
     return list;
   }();
   return names;
 }
 
-RandomScene make_scene(std::uint64_t seed, std::string_view bytes) {
+RandomScene make_scene(uint64_t seed, string_view bytes) {
   RandomScene scene;
   const Family& family = families[seed % std::size(families)];
   Maker maker(seed, scene, bytes);
@@ -290,15 +290,11 @@ RandomScene make_scene(std::uint64_t seed, std::string_view bytes) {
   scene.options.duration = std::min(scene.options.duration, time_in_bounds(scene));
   // Endless bounces may exceed the limit of collisions.
   const auto lasting = [](const auto& thing) { return thing.restitution.value_or(0) >= 1; };
-  scene.may_stop =
-      scene.may_stop ||
-      std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e >= 1; }) ||
-      std::any_of(world.pairs.begin(), world.pairs.end(), [](const PairRestitution& p) { return p.value >= 1; }) ||
-      std::any_of(world.planes.begin(), world.planes.end(), lasting) ||
-      std::any_of(world.walls.begin(), world.walls.end(), lasting) ||
-      std::any_of(world.obstacles.begin(), world.obstacles.end(), lasting);
-  const bool spheres =
-      std::all_of(world.volume.begin(), world.volume.end(), [](const Volume& v) { return v.shape == Shape::sphere; });
+  scene.may_stop = scene.may_stop || std::ranges::any_of(world.restitution, [](double e) { return e >= 1; }) ||
+                   std::ranges::any_of(world.pairs, [](const PairRestitution& p) { return p.value >= 1; }) ||
+                   std::ranges::any_of(world.planes, lasting) || std::ranges::any_of(world.walls, lasting) ||
+                   std::ranges::any_of(world.obstacles, lasting);
+  const bool spheres = std::ranges::all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
   if (spheres && !maker.chance(0.1)) world.volume.clear();
   return scene;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "physics/world.h"
+#include "std.h"
 #include "stress/gaps.h"
 
 namespace carom::stress {
@@ -28,7 +29,7 @@ Vec3 settled(Vec3 v, Step step) {
 
 }  // namespace
 
-Maker::Maker(std::uint64_t seed, RandomScene& made, std::string_view bytes) : scene(made), random_(seed, bytes) {
+Maker::Maker(uint64_t seed, RandomScene& made, string_view bytes) : scene(made), random_(seed, bytes) {
   scene.seed = seed;
   scene.options.max_collisions = 20000;
 }
@@ -54,7 +55,7 @@ Vec3 Maker::within(const Vec3& low, const Vec3& high) {
 }
 
 void Maker::plane(const Vec3& point, const Vec3& normal) {
-  scene.world.planes.push_back({point, settled(normal, unit), std::nullopt});
+  scene.world.planes.push_back({point, settled(normal, unit), nullopt});
 }
 
 void Maker::wall(const Vec3& center, const Vec3& normal, const Vec3& up, double width, double height) {
@@ -63,7 +64,7 @@ void Maker::wall(const Vec3& center, const Vec3& normal, const Vec3& up, double 
     const Vec3 along = unit(v);
     return unit(along - n * along.dot(n));
   });
-  scene.world.walls.push_back({center, n, unit(u.cross(n)), u, width / 2, height / 2, std::nullopt});
+  scene.world.walls.push_back({center, n, unit(u.cross(n)), u, width / 2, height / 2, nullopt});
 }
 
 void Maker::room(double half) {
@@ -74,7 +75,7 @@ void Maker::room(double half) {
 }
 
 void Maker::obstacle(const Vec3& center, const Volume& volume) {
-  scene.world.obstacles.push_back({center, volume, std::nullopt});
+  scene.world.obstacles.push_back({center, volume, nullopt});
 }
 
 Entity Maker::body(const Vec3& x, const Vec3& v, const Volume& volume, double mass, double e) {
@@ -155,7 +156,7 @@ void Maker::rules() {
   for (int k = whole(1, 3); k > 0; --k) {
     const auto a = static_cast<Entity>(whole(0, static_cast<int>(world.body_count()) - 1));
     const auto b = static_cast<Entity>(whole(0, all - 1));
-    const bool known = std::any_of(world.pairs.begin(), world.pairs.end(), [&](const PairRestitution& p) {
+    const bool known = std::ranges::any_of(world.pairs, [&](const PairRestitution& p) {
       return (p.a_first == a && p.b_first == b) || (p.a_first == b && p.b_first == a);
     });
     if (a != b && !known) world.pairs.push_back({a, 1, b, 1, restitution()});
@@ -165,7 +166,7 @@ void Maker::rules() {
 void Maker::motions(World& world, double duration, double speed) {
   for (Entity e = world.body_count(); e < world.body_count() + world.fixed_count(); ++e) {
     if (!chance(0.5)) continue;
-    std::vector<MotionWindow> windows;
+    vector<MotionWindow> windows;
     double from = chance(0.4) ? 0 : duration * uniform(0, 0.7);
     for (int k = whole(1, 3); k > 0; --k) {
       const bool last = k == 1 && chance(0.3);

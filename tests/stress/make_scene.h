@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "std.h"
 #include "stress/draws.h"
 #include "stress/scene.h"
 
@@ -11,7 +12,7 @@ namespace carom::stress {
 
 class Maker {
  public:
-  Maker(std::uint64_t seed, RandomScene& scene, std::string_view bytes = {});
+  Maker(uint64_t seed, RandomScene& scene, string_view bytes = {});
 
   // Numbers.
   double uniform(double low, double high) { return random_(low, high); }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "physics/world.h"
 #include "simulate/exact.h"
 #include "simulate/random.h"
+#include "std.h"
 #include "stress/scene.h"
 #include "stress/seen_otherwise.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 enum class Way { exact, euler, verlet, rk4 };
 
-Motion of_seed(std::uint64_t seed) {
+Motion of_seed(uint64_t seed) {
   RandomScene scene = make_scene(seed);
   return {std::move(scene.world), std::move(scene.initial), scene.options.duration, scene.options.rest_speed,
           scene.options.merge};
@@ -30,14 +30,14 @@ Motion of_seed(std::uint64_t seed) {
 /// an attractor.
 enum Drive { linear_drag, quadratic_drag, spring, attractor, drives };
 
-Motion driven(Drive drive, std::uint64_t seed) {
+Motion driven(Drive drive, uint64_t seed) {
   Random random(seed);
   Motion motion;
   World& world = motion.world;
   world.gravity = Vec3(0.25, -2, 0.5);
   for (int k = 0; k < 3; ++k) {
     world.planes.push_back({Vec3::Constant(-2), Vec3::Unit(k), 0.75});
-    world.planes.push_back({Vec3::Constant(2), -Vec3::Unit(k), std::nullopt});
+    world.planes.push_back({Vec3::Constant(2), -Vec3::Unit(k), nullopt});
   }
   for (int i = 0; i < 8; ++i) {
     const double r = random(0.1, 0.3);
@@ -74,7 +74,7 @@ Motion driven(Drive drive, std::uint64_t seed) {
 Observed run(const Motion& motion, Way way) {
   Observed seen;
   try {
-    std::unique_ptr<Simulator> simulator;
+    unique_ptr<Simulator> simulator;
     if (way == Way::exact) {
       ExactOptions options;
       options.duration = motion.duration;
@@ -104,7 +104,7 @@ Observed run(const Motion& motion, Way way) {
   return seen;
 }
 
-std::string mirror_difference(const Motion& motion, Way way, int axis) {
+string mirror_difference(const Motion& motion, Way way, int axis) {
   const auto flip = [&](Vec3 v) {
     v[axis] = -v[axis];
     return v;
@@ -112,18 +112,18 @@ std::string mirror_difference(const Motion& motion, Way way, int axis) {
   return difference(run(motion, way), run(mirrored(motion, axis), way), 1, flip, flip);
 }
 
-std::string unit_difference(const Motion& motion, Way way, const Units& units) {
+string unit_difference(const Motion& motion, Way way, const Units& units) {
   const double l = std::ldexp(1, -units.length), t = std::ldexp(1, -units.time), m = std::ldexp(1, -units.mass);
   return difference(
       run(motion, way), run(scaled(motion, units), way), m * l * l / (t * t),
       [&](const Vec3& x) { return Vec3(x * l); }, [&](const Vec3& v) { return Vec3(v * (l / t)); });
 }
 
-constexpr std::array ways{Way::exact, Way::euler, Way::verlet, Way::rk4};
-constexpr std::array all_units{Units{20, 0, 0}, Units{0, -12, 0}, Units{0, 0, 30}, Units{-30, 7, -24}};
+constexpr array ways{Way::exact, Way::euler, Way::verlet, Way::rk4};
+constexpr array all_units{Units{20, 0, 0}, Units{0, -12, 0}, Units{0, 0, 30}, Units{-30, 7, -24}};
 
 /// The number of seeds, evenly divided among the families.
-std::uint64_t seeds(Way way) {
+uint64_t seeds(Way way) {
   return way == Way::exact ? 13 * 12 : 13 * 6;
 }
 
@@ -135,13 +135,13 @@ bool follows(Way way, int drive) {
 class Metamorphic : public ::testing::TestWithParam<Way> {};
 
 TEST_P(Metamorphic, AMirroredSceneMovesMirroredToTheBit) {
-  for (std::uint64_t seed = 0; seed < seeds(GetParam()); ++seed)
+  for (uint64_t seed = 0; seed < seeds(GetParam()); ++seed)
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_EQ(mirror_difference(of_seed(seed), GetParam(), axis), "") << "seed " << seed << ", axis " << axis;
 }
 
 TEST_P(Metamorphic, OtherUnitsGiveTheSameBits) {
-  for (std::uint64_t seed = 0; seed < seeds(GetParam()); ++seed)
+  for (uint64_t seed = 0; seed < seeds(GetParam()); ++seed)
     for (const Units& units : all_units)
       EXPECT_EQ(unit_difference(of_seed(seed), GetParam(), units), "")
           << "seed " << seed << ", units 2^" << units.length << " m, 2^" << units.time << " s, 2^" << units.mass
@@ -165,16 +165,16 @@ TEST_P(Metamorphic, ForcesThatVaryHaveTheSameBitsInOtherUnits) {
           << " kg";
 }
 
-std::string name_of(const ::testing::TestParamInfo<Way>& way) {
-  constexpr std::array names{"exact", "euler", "verlet", "rk4"};
-  return names[static_cast<std::size_t>(way.param)];
+string name_of(const ::testing::TestParamInfo<Way>& way) {
+  constexpr array names{"exact", "euler", "verlet", "rk4"};
+  return names[static_cast<size_t>(way.param)];
 }
 INSTANTIATE_TEST_SUITE_P(Ways, Metamorphic, ::testing::ValuesIn(ways), name_of);
 
 // Scenes without planes, which reach everywhere, and without forces and pairs that name bodies by number.
 TEST(FarAway, AnotherSceneChangesNoBit) {
   int tried = 0;
-  for (std::uint64_t seed = 0; seed < 13 * 12; ++seed) {
+  for (uint64_t seed = 0; seed < 13 * 12; ++seed) {
     Motion motion = of_seed(seed), other = of_seed(seed + 13 * 100);
     for (Motion* m : {&motion, &other}) {
       m->world.pairs.clear();
@@ -190,8 +190,8 @@ TEST(FarAway, AnotherSceneChangesNoBit) {
     const Observed alone = run(motion, Way::exact), seen = run(both, Way::exact);
     if (!alone.error.empty() || !seen.error.empty()) continue;
     ++tried;
-    const std::size_t from = first ? 0 : other.initial.position.size();
-    for (std::size_t i = 0; i < motion.initial.position.size(); ++i) {
+    const size_t from = first ? 0 : other.initial.position.size();
+    for (size_t i = 0; i < motion.initial.position.size(); ++i) {
       EXPECT_EQ(alone.end.position[i], seen.end.position[from + i]) << "seed " << seed << ", body " << i;
       EXPECT_EQ(alone.end.velocity[i], seen.end.velocity[from + i]) << "seed " << seed << ", body " << i;
     }
@@ -200,9 +200,9 @@ TEST(FarAway, AnotherSceneChangesNoBit) {
 }
 
 /// The bodies in another order. (`motion` has no pairs and no forces on single bodies, which go by number.)
-Motion reordered(const Motion& motion, const std::vector<Entity>& order) {
+Motion reordered(const Motion& motion, const vector<Entity>& order) {
   Motion other = motion;
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (size_t k = 0; k < order.size(); ++k) {
     const Entity i = order[k];
     other.world.mass[k] = motion.world.mass[i];
     other.world.radius[k] = motion.world.radius[i];
@@ -217,12 +217,12 @@ Motion reordered(const Motion& motion, const std::vector<Entity>& order) {
 
 /// m: greatest difference of the bodies' final positions. (A graze within rounding may count once or twice.)
 double order_difference(const Motion& motion, Way way) {
-  std::vector<Entity> order(motion.world.body_count());
+  vector<Entity> order(motion.world.body_count());
   std::iota(order.rbegin(), order.rend(), Entity{0});  // backwards
   const Observed a = run(motion, way), b = run(reordered(motion, order), way);
   if (a.error != b.error) return std::numeric_limits<double>::infinity();
   double most = 0;
-  for (std::size_t k = 0; k < order.size(); ++k)
+  for (size_t k = 0; k < order.size(); ++k)
     most = std::max(most, (a.end.position[order[k]] - b.end.position[k]).norm());
   return most;
 }
@@ -235,7 +235,7 @@ TEST_P(Metamorphic, BodiesInAnotherOrderMoveTheSame) {
     motion.duration = 0.5;
     EXPECT_LT(order_difference(motion, GetParam()), 1e-12) << "force " << drive;
   }
-  for (std::uint64_t seed = 2; seed < 13 * 20; seed += 13) {  // grazing pairs
+  for (uint64_t seed = 2; seed < 13 * 20; seed += 13) {  // grazing pairs
     Motion motion = of_seed(seed);
     motion.world.pairs.clear();
     EXPECT_LT(order_difference(motion, GetParam()), 1e-9) << "seed " << seed;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "physics/world.h"
+#include "std.h"
 #include "stress/gaps.h"
 
 namespace carom::stress {
@@ -25,8 +26,8 @@ Long3 on(const Long3& x, const Long3& v, const Long3& a, long double t) {
 
 }  // namespace
 
-Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const Watched& seen,
-             const std::vector<Collision>& records, double in_contact)
+Paths::Paths(const RandomScene& scene, const vector<double>& times, const Watched& seen,
+             const vector<Collision>& records, double in_contact)
     : scene_(scene), times_(times), seen_(seen), in_contact_(in_contact), recorded_(scene.world.body_count()) {
   const World& world = scene.world;
   for (const Collision& c : records)
@@ -43,7 +44,7 @@ Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const W
     return most;
   };
   Entity e = world.body_count();
-  for (std::size_t k = 0; k < world.planes.size(); ++k) extent_.push_back(farthest(e++));
+  for (size_t k = 0; k < world.planes.size(); ++k) extent_.push_back(farthest(e++));
   for (const Wall& w : world.walls) extent_.push_back(farthest(e++) + w.half_width + w.half_height);
   for (const Obstacle& o : world.obstacles) extent_.push_back(farthest(e++) + o.volume.reach());
 }
@@ -60,18 +61,18 @@ double Paths::allowed(Entity a, Entity b) const {
 
 /// Whether body i drifts straight all the time.
 bool Paths::drifts(Entity i, double from, double until) const {
-  const std::vector<Piece>& pieces = seen_.pieces[i];
+  const vector<Piece>& pieces = seen_.pieces[i];
   const auto next =
       std::upper_bound(pieces.begin(), pieces.end(), from, [](double t, const Piece& p) { return t < p.from; });
   return next != pieces.begin() && std::prev(next)->drifts && (next == pieces.end() || next->from >= until);
 }
 
 /// The paths from sample k to the next.
-std::vector<Paths::Path> Paths::between(std::size_t k) const {
+vector<Paths::Path> Paths::between(size_t k) const {
   const World& world = scene_.world;
   const State &now = seen_.seen[k], &then = seen_.seen[k + 1];
   const double h = times_[k + 1] - times_[k];
-  std::vector<Path> paths;
+  vector<Path> paths;
   for (Entity i = 0; i < world.body_count(); ++i) {
     Path path{now.position[i], now.velocity[i], Vec3::Zero(), true};
     path.a = (then.velocity[i] - now.velocity[i]) / h;
@@ -113,7 +114,7 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
   };
   const double tolerance = allowed(a, b);
   double least = at(0);
-  std::vector<Span> spans;
+  vector<Span> spans;
   const double end = at(length);
   least = std::min(least, end);
   spans.push_back(span(0, length, least, end));
@@ -134,12 +135,12 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
   return least;
 }
 
-std::vector<std::string> Paths::overlaps() const {
-  std::vector<std::string> found;
+vector<string> Paths::overlaps() const {
+  vector<string> found;
   std::set<std::pair<Entity, Entity>> known;
   World world = scene_.world;
   const Entity bodies = world.body_count(), all = bodies + world.fixed_count();
-  for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+  for (size_t k = 0; k + 1 < times_.size(); ++k) {
     const State& s = seen_.seen[k];
     if (!s.part_of.empty()) {
       world.mass = s.mass;
@@ -147,7 +148,7 @@ std::vector<std::string> Paths::overlaps() const {
       if (!world.volume.empty()) world.volume = s.volume;
     }
     const auto gone = [&](Entity e) { return e < bodies && !s.part_of.empty() && s.part_of[e] != e; };
-    const std::vector<Path> paths = between(k);
+    const vector<Path> paths = between(k);
     const double length = times_[k + 1] - times_[k];
     for (Entity a = 0; a < bodies; ++a) {
       if (gone(a)) continue;

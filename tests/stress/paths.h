@@ -1,9 +1,8 @@
 #pragma once
 // The bodies' paths between two states, rebuilt from these: a dense search for overlaps, without the program's own
 // times of impact.
-#include <string>
-#include <vector>
 
+#include "std.h"
 #include "stress/scene.h"
 #include "stress/watch.h"
 
@@ -11,11 +10,11 @@ namespace carom::stress {
 
 class Paths {
  public:
-  Paths(const RandomScene& scene, const std::vector<double>& times, const Watched& seen,
-        const std::vector<Collision>& records, double in_contact);
+  Paths(const RandomScene& scene, const vector<double>& times, const Watched& seen, const vector<Collision>& records,
+        double in_contact);
 
   /// Every overlap beyond the allowed one, as text (the first of each pair).
-  std::vector<std::string> overlaps() const;
+  vector<string> overlaps() const;
 
   /// m: possible error of the gap of two things, from the size of its terms.
   double rounding(Entity a, Entity b) const;
@@ -27,16 +26,16 @@ class Paths {
     Vec3 x, v, a;  // at the beginning
     bool known;    // it is a parabola: the body has no record on the way, and the ends fit; or a drift in a crowd
   };
-  std::vector<Path> between(std::size_t k) const;
+  vector<Path> between(size_t k) const;
   bool drifts(Entity i, double from, double until) const;
   double deepest(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double length) const;
 
   const RandomScene& scene_;
-  const std::vector<double>& times_;
+  const vector<double>& times_;
   const Watched& seen_;
   const double in_contact_;
-  std::vector<double> extent_;                 // m, by entity
-  std::vector<std::vector<double>> recorded_;  // s, by body: when it collided, ascending
+  vector<double> extent_;            // m, by entity
+  vector<vector<double>> recorded_;  // s, by body: when it collided, ascending
 };
 
 }  // namespace carom::stress

@@ -1,20 +1,17 @@
 #pragma once
 // A random scene, determined by its seed on every machine (but not by every compiler: the order of evaluating arguments
 // differs).
-#include <cstdint>
-#include <span>
-#include <string>
-#include <string_view>
 
 #include "physics/state.h"
 #include "physics/world.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom::stress {
 
 struct RandomScene {
-  std::uint64_t seed = 0;
-  std::string family;
+  uint64_t seed = 0;
+  string family;
   World world;
   State initial;
   ExactOptions options;
@@ -22,16 +19,16 @@ struct RandomScene {
   bool may_stop = false;
 };
 
-std::span<const char* const> family_names();
+span<const char* const> family_names();
 
 /// The seed modulo the number of families chooses one. `bytes`: the source of its numbers while they last.
-RandomScene make_scene(std::uint64_t seed, std::string_view bytes = {});
+RandomScene make_scene(uint64_t seed, string_view bytes = {});
 
 /// The same scene with fixed things that move.
 RandomScene with_motions(RandomScene scene);
 
 /// The scene as a file that `carom run` reads, to the last bit. `simulate`: more keys (", engine: book").
-std::string as_yaml(const RandomScene& scene, const std::string& simulate = {});
+string as_yaml(const RandomScene& scene, const string& simulate = {});
 
 /// Forces of random scenes are uniform.
 inline bool per_mass(const Force& f) {

@@ -2,12 +2,11 @@
 // A scene transformed: mirrored, in other units, with another scene far away. It must move the same, to the bit.
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
 
 #include "physics/force.h"
 #include "simulate/exact.h"
 #include "simulate/simulation_error.h"
+#include "std.h"
 
 namespace carom::stress {
 
@@ -34,7 +33,7 @@ inline Motion mirrored(Motion m, int axis) {
     for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
     w.right = -w.right;  // right x up = normal
   }
-  for (std::vector<MotionLeg>& legs : world.motions)
+  for (vector<MotionLeg>& legs : world.motions)
     for (MotionLeg& leg : legs) flip(leg.velocity), flip(leg.start), flip(leg.start_low);
   for (Force& f : world.forces) {
     if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
@@ -66,7 +65,7 @@ inline Motion scaled(Motion m, const Units& units) {
   for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
   for (String& s : world.strings) s.anchor *= l, s.length *= l;
   for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
-  for (std::vector<MotionLeg>& legs : world.motions)
+  for (vector<MotionLeg>& legs : world.motions)
     for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
   for (Force& f : world.forces) {
     f.from *= t;
@@ -97,9 +96,9 @@ inline Motion scaled(Motion m, const Units& units) {
 
 struct Observed {
   State end;
-  std::uint64_t collisions = 0;
+  uint64_t collisions = 0;
   double energy_lost = 0;  // J
-  std::string error;
+  string error;
 };
 
 /// -0 equals 0. So does a number below 1e-290, to which speeds fall impact by impact and where doubles lose digits.
@@ -112,13 +111,13 @@ inline bool same(const Vec3& a, const Vec3& b) {
 
 /// The first difference of two runs in a bit; empty: none. `back` transforms b's vectors to those of a.
 template <typename Position, typename Velocity>
-inline std::string difference(const Observed& a, const Observed& b, double lost, const Position& back_x,
-                              const Velocity& back_v) {
+inline string difference(const Observed& a, const Observed& b, double lost, const Position& back_x,
+                         const Velocity& back_v) {
   if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
   if (!a.error.empty()) return {};
   if (a.collisions != b.collisions)
     return std::to_string(a.collisions) + " and " + std::to_string(b.collisions) + " collisions";
-  for (std::size_t i = 0; i < a.end.position.size(); ++i)
+  for (size_t i = 0; i < a.end.position.size(); ++i)
     if (!same(a.end.position[i], back_x(b.end.position[i])) || !same(a.end.velocity[i], back_v(b.end.velocity[i])))
       return "body " + std::to_string(i);
   return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
@@ -148,7 +147,7 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   join(world.obstacles, one.world.obstacles, two.world.obstacles);
   join(world.walls, one.world.walls, two.world.walls);
   join(world.strings, one.world.strings, two.world.strings);
-  for (std::size_t k = one.world.strings.size(); k < world.strings.size(); ++k) {
+  for (size_t k = one.world.strings.size(); k < world.strings.size(); ++k) {
     String& s = world.strings[k];
     s.body += one.world.body_count();
     if (s.other != no_entity) s.other += one.world.body_count();

@@ -1,6 +1,7 @@
 // The fast part of the stress run (the long one: ./dev stress).
 #include <gtest/gtest.h>
 
+#include "std.h"
 #include "stress/check.h"
 
 namespace carom::stress {
@@ -12,35 +13,34 @@ class RandomScenes : public ::testing::TestWithParam<int> {};
 
 TEST_P(RandomScenes, HoldEveryInvariant) {
   for (int k = 0; k < scenes_per_group; ++k) {
-    const RandomScene scene = make_scene(static_cast<std::uint64_t>(GetParam() + groups * k));
-    for (const std::string& violation : check(scene).violations)
+    const RandomScene scene = make_scene(static_cast<uint64_t>(GetParam() + groups * k));
+    for (const string& violation : check(scene).violations)
       ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
   }
 }
 
 TEST_P(RandomScenes, HoldInStepsToo) {
   for (int k = 0; k < 4 * scenes_per_group; ++k) {
-    const RandomScene scene = make_scene(static_cast<std::uint64_t>(GetParam() + groups * k));
-    for (const std::string& violation : check_stepped(scene).violations)
+    const RandomScene scene = make_scene(static_cast<uint64_t>(GetParam() + groups * k));
+    for (const string& violation : check_stepped(scene).violations)
       ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
   }
 }
 
 TEST_P(RandomScenes, HoldEveryInvariantWhereFixedThingsMove) {
   for (int k = 0; k < scenes_per_group; ++k) {
-    const RandomScene scene = with_motions(make_scene(static_cast<std::uint64_t>(GetParam() + groups * k)));
+    const RandomScene scene = with_motions(make_scene(static_cast<uint64_t>(GetParam() + groups * k)));
     if (!scene.world.moves()) continue;
-    for (const std::string& violation : check(scene).violations)
+    for (const string& violation : check(scene).violations)
       ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
-    for (const std::string& violation : check_stepped(scene).violations)
+    for (const string& violation : check_stepped(scene).violations)
       ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
   }
 }
 
 // A group is a family: the seed modulo their number chooses it.
-INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups), [](const auto& group) {
-  return std::string(family_names()[static_cast<std::size_t>(group.param)]);
-});
+INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups),
+                         [](const auto& group) { return string(family_names()[static_cast<size_t>(group.param)]); });
 
 TEST(RareCoincidences, HoldEveryInvariant) {
   // Seeds of rare coincidences:
@@ -49,10 +49,10 @@ TEST(RareCoincidences, HoldEveryInvariant) {
   // - collapses next to collapses, and elastic hops below the resolution of positions
   // - light bodies between heavy ones, and steps that end before the gaps which they close have closed
   // - sleeping bodies that a crowd strikes
-  for (std::uint64_t seed : {6612, 6652, 7835, 11193, 24774, 64307, 73809, 91581, 91871, 212398, 233112, 235841,
-                             1000190, 5002318, 5005659}) {
+  for (uint64_t seed : {6612, 6652, 7835, 11193, 24774, 64307, 73809, 91581, 91871, 212398, 233112, 235841, 1000190,
+                        5002318, 5005659}) {
     const RandomScene scene = make_scene(seed);
-    for (const std::string& violation : check(scene).violations)
+    for (const string& violation : check(scene).violations)
       ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
   }
 }
@@ -62,16 +62,16 @@ TEST(RareCoincidences, HoldInStepsToo) {
   // - clusters that dissolve before they move
   // - islands whose bodies are struck from two sides at once, go far in a step, or stop short of one another
   // - speeds without bound, light bodies between heavy ones, and a body struck off its support
-  for (std::uint64_t seed : {4004, 4212, 5031, 5976, 10201, 20081, 30169, 31444, 104513, 104764, 1100769}) {
+  for (uint64_t seed : {4004, 4212, 5031, 5976, 10201, 20081, 30169, 31444, 104513, 104764, 1100769}) {
     const RandomScene scene = make_scene(seed);
-    for (const std::string& violation : check_stepped(scene).violations)
+    for (const string& violation : check_stepped(scene).violations)
       ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
   }
 }
 
 TEST(RandomScene, IsMadeOfItsSeedAlone) {
   EXPECT_EQ(groups, static_cast<int>(family_names().size()));
-  for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_EQ(as_yaml(make_scene(seed)), as_yaml(make_scene(seed)));
+  for (uint64_t seed = 0; seed < 100; ++seed) EXPECT_EQ(as_yaml(make_scene(seed)), as_yaml(make_scene(seed)));
   EXPECT_NE(as_yaml(make_scene(0)), as_yaml(make_scene(groups)));
 }
 

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <memory>
 
 #include "physics/world.h"
+#include "std.h"
 #include "stress/digits.h"
 
 namespace carom::stress {
 
 namespace {
 
-constexpr std::size_t most_collisions_sampled = 60;
+constexpr size_t most_collisions_sampled = 60;
 constexpr int looks = 24;
 
 bool same(double a, double b) {
@@ -21,10 +21,10 @@ bool same(double a, double b) {
 
 }  // namespace
 
-Watched watch(const RandomScene& scene, const std::vector<double>& times, double patience) {
+Watched watch(const RandomScene& scene, const vector<double>& times, double patience) {
   Watched run;
   const std::clock_t begin = std::clock();
-  std::unique_ptr<Simulator> simulator;
+  unique_ptr<Simulator> simulator;
   const auto keep = [&] {
     run.records.insert(run.records.end(), simulator->collisions().begin(), simulator->collisions().end());
     for (const PathPiece& piece : simulator->paths()) run.pieces[piece.body].push_back({piece.from, piece.kicked});
@@ -58,27 +58,27 @@ Watched watch(const RandomScene& scene, const std::vector<double>& times, double
   return run;
 }
 
-std::vector<double> sample_times(const RandomScene& scene, const std::vector<Collision>& records) {
+vector<double> sample_times(const RandomScene& scene, const vector<Collision>& records) {
   const double duration = scene.options.duration;
-  std::vector<double> times;
+  vector<double> times;
   for (int k = 1; k <= looks; ++k) times.push_back(duration * k / looks);
   const auto about = [&](double t) {
     if (t > 0) times.push_back(std::nextafter(t, 0));
     times.push_back(t);
     times.push_back(std::nextafter(t, duration));
   };
-  const std::size_t stride = records.size() / most_collisions_sampled + 1;
-  for (std::size_t k = 0; k < records.size(); ++k)
+  const size_t stride = records.size() / most_collisions_sampled + 1;
+  for (size_t k = 0; k < records.size(); ++k)
     if (k < most_collisions_sampled / 2 || k % stride == 0) about(records[k].time);
   for (const Force& f : scene.world.forces)
     for (const double t : {f.from, f.until})
       if (t > 0 && t < duration) about(t);
-  for (const std::vector<MotionLeg>& legs : scene.world.motions)
+  for (const vector<MotionLeg>& legs : scene.world.motions)
     for (const MotionLeg& leg : legs)
       if (leg.from > 0 && leg.from < duration) about(leg.from);
   times.erase(std::remove_if(times.begin(), times.end(), [&](double t) { return !(t >= 0 && t <= duration); }),
               times.end());
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
@@ -109,7 +109,7 @@ RandomScene scaled(RandomScene scene, int length, int time, int mass) {
     f.from *= t;
     f.until *= t;
   }
-  for (std::vector<MotionLeg>& legs : world.motions)
+  for (vector<MotionLeg>& legs : world.motions)
     for (MotionLeg& leg : legs) {
       leg.from *= t;
       leg.velocity *= l / t;
@@ -124,14 +124,14 @@ RandomScene scaled(RandomScene scene, int length, int time, int mass) {
   return scene;
 }
 
-std::string difference(const Watched& a, const Watched& b, int length, int time, int mass) {
+string difference(const Watched& a, const Watched& b, int length, int time, int mass) {
   if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
   const double l = std::ldexp(1, -length), t = std::ldexp(1, -time), m = std::ldexp(1, -mass), v = l / t;
   const auto vectors = [](const Vec3& p, const Vec3& q) {
     return same(p.x(), q.x()) && same(p.y(), q.y()) && same(p.z(), q.z());
   };
-  const std::size_t n = std::min(a.records.size(), b.records.size());
-  for (std::size_t k = 0; k < n; ++k) {
+  const size_t n = std::min(a.records.size(), b.records.size());
+  for (size_t k = 0; k < n; ++k) {
     const Collision &c = a.records[k], &d = b.records[k];
     if (c.kind != d.kind || c.a != d.a || c.b != d.b || !same(c.time, d.time * t) || !vectors(c.normal, d.normal) ||
         !vectors(c.position, d.position * l) || !same(c.approach_speed, d.approach_speed * v) ||
@@ -144,7 +144,7 @@ std::string difference(const Watched& a, const Watched& b, int length, int time,
   if (a.records.size() != b.records.size())
     return std::to_string(a.records.size()) + " records and " + std::to_string(b.records.size());
   if (!a.error.empty()) return {};
-  for (std::size_t i = 0; i < a.end.position.size(); ++i)
+  for (size_t i = 0; i < a.end.position.size(); ++i)
     if (!vectors(a.end.position[i], b.end.position[i] * l) || !vectors(a.end.velocity[i], b.end.velocity[i] * v))
       return "body " + std::to_string(i) + " at the end, though all records are the same";
   if (!same(a.tally.energy_lost, b.tally.energy_lost * m * v * v)) return "energy lost";
@@ -173,7 +173,7 @@ RandomScene turned(RandomScene scene) {
     turn(o.center);
     turn(o.volume.half);
   }
-  for (std::vector<MotionLeg>& legs : world.motions)
+  for (vector<MotionLeg>& legs : world.motions)
     for (MotionLeg& leg : legs)
       for (Vec3* v : {&leg.velocity, &leg.start, &leg.start_low}) turn(*v);
   for (Force& f : world.forces) turn(value(f));

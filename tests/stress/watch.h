@@ -1,9 +1,7 @@
 #pragma once
 // A run and its recorded states.
-#include <optional>
-#include <string>
-#include <vector>
 
+#include "std.h"
 #include "stress/scene.h"
 
 namespace carom::stress {
@@ -15,27 +13,27 @@ struct Piece {
 };
 
 struct Watched {
-  std::vector<std::vector<Piece>> pieces;  // by body, with states at requested times only
-  std::vector<Collision> records;
-  std::vector<State> seen;  // at the requested times
+  vector<vector<Piece>> pieces;  // by body, with states at requested times only
+  vector<Collision> records;
+  vector<State> seen;  // at the requested times
   State start, end;
   Tally tally;
-  std::string error;      // of the end of the run
+  string error;           // of the end of the run
   bool too_slow = false;  // it exceeded the time limit
 };
 
 /// Runs a scene, with states at these times (s, ascending), to the end; for at most this long (s of CPU time).
-Watched watch(const RandomScene& scene, const std::vector<double>& times, double patience);
+Watched watch(const RandomScene& scene, const vector<double>& times, double patience);
 
 /// Times (s) for states of a scene with known collisions: some, and just before and after collisions and changes of the
 /// forces.
-std::vector<double> sample_times(const RandomScene& scene, const std::vector<Collision>& records);
+vector<double> sample_times(const RandomScene& scene, const vector<Collision>& records);
 
 /// The scene with lengths, times and masses multiplied by 2^these.
 RandomScene scaled(RandomScene scene, int length, int time, int mass);
 
 /// The first difference of two runs of the same scene in a bit; empty: none. Those of b are in units of 2^these.
-std::string difference(const Watched& a, const Watched& b, int length, int time, int mass);
+string difference(const Watched& a, const Watched& b, int length, int time, int mass);
 
 /// The scene with its axes turned, x to y to z to x; with x and z exchanged where upright cylinders forbid that.
 RandomScene turned(RandomScene scene);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "std.h"
 #include "stress/digits.h"
 #include "stress/scene.h"
 
@@ -11,42 +12,42 @@ namespace {
 
 using stress::text;
 
-std::string text(const Vec3& v) {
+string text(const Vec3& v) {
   return "[" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + "]";
 }
 
-std::string text(const Volume& v) {
+string text(const Volume& v) {
   if (v.shape == Shape::sphere) return "radius: " + text(v.half.x());
   if (v.shape == Shape::cylinder)
     return "cylinder: {radius: " + text(v.half.x()) + ", height: " + text(2 * v.half.y()) + "}";
   return "box: " + text(Vec3(2 * v.half));
 }
 
-std::string text(const std::optional<double>& restitution) {
+string text(const optional<double>& restitution) {
   return restitution ? ", restitution: " + text(*restitution) : "";
 }
 
-std::string text(const UniformForce& law) {
+string text(const UniformForce& law) {
   return "uniform: " + text(law.force);
 }
-std::string text(const UniformAcceleration& law) {
+string text(const UniformAcceleration& law) {
   return "acceleration: " + text(law.value);
 }
-std::string text(const Drag& law) {
+string text(const Drag& law) {
   return "drag: {linear: " + text(law.linear) + ", quadratic: " + text(law.quadratic) + ", wind: " + text(law.wind) +
          "}";
 }
-std::string text(const Spring& law) {
+string text(const Spring& law) {
   return "spring: {anchor: " + text(law.anchor) + ", stiffness: " + text(law.stiffness) +
          ", rest_length: " + text(law.rest_length) + ", damping: " + text(law.damping) + "}";
 }
-std::string text(const Attractor& law) {
+string text(const Attractor& law) {
   return "attractor: {center: " + text(law.center) + ", strength: " + text(law.strength) +
          ", softening: " + text(law.softening) + "}";
 }
 
 /// b0, b1, …, then p, w, o, s for planes, walls, obstacles, strings.
-std::string name(const World& world, Entity e) {
+string name(const World& world, Entity e) {
   if (world.is_body(e)) return "b" + std::to_string(e);
   const auto k = e - world.body_count();
   if (world.is_plane(e)) return "p" + std::to_string(k);
@@ -55,9 +56,9 @@ std::string name(const World& world, Entity e) {
   return "s" + std::to_string(k - world.fixed_count());
 }
 
-std::string bodies(const RandomScene& scene) {
+string bodies(const RandomScene& scene) {
   const World& world = scene.world;
-  std::string out = world.volume.empty() ? "balls:\n" : "bodies:\n";
+  string out = world.volume.empty() ? "balls:\n" : "bodies:\n";
   for (Entity i = 0; i < world.body_count(); ++i) {
     out += "  " + name(world, i) + ": {mass: " + text(world.mass[i]) + ", " + text(world.volume_of(i)) +
            ", position: " + text(scene.initial.position[i]) + ", velocity: " + text(scene.initial.velocity[i]) +
@@ -68,11 +69,11 @@ std::string bodies(const RandomScene& scene) {
   return world.body_count() == 0 ? "" : out;
 }
 
-std::string motion(const World& world, Entity e) {
+string motion(const World& world, Entity e) {
   if (!world.moves(e)) return "";
-  const std::vector<MotionLeg>& legs = world.legs(e);
-  std::string list;
-  for (std::size_t k = 0; k < legs.size(); ++k) {
+  const vector<MotionLeg>& legs = world.legs(e);
+  string list;
+  for (size_t k = 0; k < legs.size(); ++k) {
     if (legs[k].velocity.isZero(0)) continue;
     list += (list.empty() ? "{from: " : ", {from: ") + text(legs[k].from);
     if (k + 1 < legs.size()) list += ", until: " + text(legs[k + 1].from);
@@ -81,8 +82,8 @@ std::string motion(const World& world, Entity e) {
   return ", motion: [" + list + "]";
 }
 
-std::string fixed(const World& world) {
-  std::string out;
+string fixed(const World& world) {
+  string out;
   Entity e = world.body_count();
   if (!world.planes.empty()) out += "planes:\n";
   for (const Plane& p : world.planes) {
@@ -106,9 +107,9 @@ std::string fixed(const World& world) {
   return out;
 }
 
-std::string strings(const World& world) {
-  std::string out = world.strings.empty() ? "" : "strings:\n";
-  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+string strings(const World& world) {
+  string out = world.strings.empty() ? "" : "strings:\n";
+  for (size_t k = 0; k < world.strings.size(); ++k) {
     const String& s = world.strings[k];
     out += "  " + name(world, world.string_number(k)) +
            ": {from: " + (s.other == no_entity ? text(s.anchor) : name(world, s.other)) +
@@ -118,15 +119,15 @@ std::string strings(const World& world) {
   return out;
 }
 
-std::string on_text(const World& world, const std::vector<Entity>& bodies) {
-  std::string on;
+string on_text(const World& world, const vector<Entity>& bodies) {
+  string on;
   for (Entity i : bodies) on += (on.empty() ? "" : ", ") + name(world, i);
   return on.empty() ? "" : ", on: [" + on + "]";
 }
 
-std::string regions(const World& world) {
-  std::string out = world.regions.empty() ? "" : "regions:\n";
-  for (std::size_t k = 0; k < world.regions.size(); ++k) {
+string regions(const World& world) {
+  string out = world.regions.empty() ? "" : "regions:\n";
+  for (size_t k = 0; k < world.regions.size(); ++k) {
     const WorldRegion& r = world.regions[k];
     out += "  r" + std::to_string(k) + ": {" +
            (r.is_side() ? "plane: {point: " + text(r.position) + ", normal: " + text(r.normal) + "}"
@@ -140,8 +141,8 @@ std::string regions(const World& world) {
   return out;
 }
 
-std::string forces(const World& world) {
-  std::string out = world.forces.empty() ? "" : "forces:\n";
+string forces(const World& world) {
+  string out = world.forces.empty() ? "" : "forces:\n";
   for (const Force& f : world.forces) {
     out += "  - {" + std::visit([](const auto& law) { return text(law); }, f.law) + ", from: " + text(f.from);
     if (std::isfinite(f.until)) out += ", until: " + text(f.until);
@@ -150,11 +151,11 @@ std::string forces(const World& world) {
   return out;
 }
 
-std::string restitution(const World& world) {
+string restitution(const World& world) {
   static const char* const rules[] = {"average",        "minimum",       "maximum", "product",
                                       "geometric_mean", "mass_weighted", "book"};
-  std::string out = "restitution: {combine: " + std::string(rules[static_cast<int>(world.combine)]);
-  std::string list;
+  string out = "restitution: {combine: " + string(rules[static_cast<int>(world.combine)]);
+  string list;
   for (const PairRestitution& p : world.pairs)
     list += (list.empty() ? "" : ", ") + ("{between: [" + name(world, p.a_first)) + ", " + name(world, p.b_first) +
             "], value: " + text(p.value) + "}";
@@ -163,9 +164,9 @@ std::string restitution(const World& world) {
 
 }  // namespace
 
-std::string as_yaml(const RandomScene& scene, const std::string& more) {
+string as_yaml(const RandomScene& scene, const string& more) {
   const ExactOptions& o = scene.options;
-  std::string simulate = "simulate: {duration: " + text(o.duration) + more;
+  string simulate = "simulate: {duration: " + text(o.duration) + more;
   if (o.rest_speed > 0) simulate += ", rest_speed: " + text(o.rest_speed);
   if (o.merge) simulate += ", contact: merge";
   if (o.max_collisions > 0) simulate += ", max_collisions: " + std::to_string(o.max_collisions);

@@ -1,5 +1,6 @@
 // Tasks by several processes.
 #include "study/workers.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -12,15 +13,15 @@ namespace carom {
 namespace {
 
 struct Work {
-  std::size_t count;
-  std::function<std::string(std::size_t)> work;
-  std::function<void()> stop_check = [] {};
+  size_t count;
+  function<string(size_t)> work;
+  function<void()> stop_check = [] {};
 
-  std::map<std::size_t, TaskOutcome> go(std::size_t jobs) const {
-    std::size_t next = 0;
-    std::map<std::size_t, TaskOutcome> outcomes;
+  std::map<size_t, TaskOutcome> go(size_t jobs) const {
+    size_t next = 0;
+    std::map<size_t, TaskOutcome> outcomes;
     Tasks tasks;
-    tasks.next = [&] { return next < count ? std::optional(next++) : std::nullopt; };
+    tasks.next = [&] { return next < count ? optional(next++) : nullopt; };
     tasks.work = work;
     tasks.done = [&](const TaskOutcome& outcome) { EXPECT_TRUE(outcomes.emplace(outcome.task, outcome).second); };
     tasks.stop_check = stop_check;
@@ -30,8 +31,8 @@ struct Work {
 };
 
 TEST(Workers, DoEveryTaskOnceWhateverTheirNumber) {
-  for (const std::size_t jobs : {1, 2, 7}) {
-    const auto outcomes = Work{100, [](std::size_t task) { return std::string(task * 1000, 'x'); }}.go(jobs);
+  for (const size_t jobs : {1, 2, 7}) {
+    const auto outcomes = Work{100, [](size_t task) { return string(task * 1000, 'x'); }}.go(jobs);
     ASSERT_EQ(outcomes.size(), 100u);
     for (const auto& [task, outcome] : outcomes) {
       EXPECT_EQ(outcome.kind, TaskOutcome::Kind::done);
@@ -42,34 +43,34 @@ TEST(Workers, DoEveryTaskOnceWhateverTheirNumber) {
 
 TEST(Workers, TaskThatThrowsFailsAloneWithItsReason) {
   const auto outcomes = Work{
-      10, [](std::size_t task) -> std::string {
+      10, [](size_t task) -> string {
         if (task == 4) throw std::runtime_error("it is the fourth");
         return "fine";
       }}.go(2);
   EXPECT_EQ(outcomes.at(4).kind, TaskOutcome::Kind::failed);
   EXPECT_EQ(outcomes.at(4).text, "it is the fourth");
-  for (const std::size_t task : {0, 3, 5, 9}) EXPECT_EQ(outcomes.at(task).kind, TaskOutcome::Kind::done);
+  for (const size_t task : {0, 3, 5, 9}) EXPECT_EQ(outcomes.at(task).kind, TaskOutcome::Kind::done);
 }
 
 TEST(Workers, ProcessThatIsKilledTakesOneTaskWithIt) {
   const auto outcomes = Work{
-      20, [](std::size_t task) -> std::string {
+      20, [](size_t task) -> string {
         if (task % 5 == 0) kill(getpid(), SIGKILL);
         return "fine";
       }}.go(3);
   ASSERT_EQ(outcomes.size(), 20u);
   for (const auto& [task, outcome] : outcomes) {
     EXPECT_EQ(outcome.kind, task % 5 == 0 ? TaskOutcome::Kind::lost : TaskOutcome::Kind::done);
-    EXPECT_EQ(outcome.text.find("signal 9") != std::string::npos, task % 5 == 0) << outcome.text;
+    EXPECT_EQ(outcome.text.find("signal 9") != string::npos, task % 5 == 0) << outcome.text;
   }
 }
 
 TEST(Workers, StopCheckThatThrowsEndsAllProcesses) {
   int checks = 0;
   const Work work{1000,
-                  [](std::size_t) {
+                  [](size_t) {
                     usleep(20'000);
-                    return std::string();
+                    return string();
                   },
                   [&checks] {
                     if (++checks == 3) throw std::runtime_error("stop");

@@ -1,5 +1,6 @@
 // Evenly spaced numbers as decimals.
 #include "yaml/decimal.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +10,17 @@
 namespace carom {
 namespace {
 
-using Texts = std::vector<std::string>;
+using Texts = vector<string>;
 
-Decimal decimal(const std::string& text) {
+Decimal decimal(const string& text) {
   return parse_decimal(text).value();
 }
 
-Texts spread_of(const std::string& from, const std::string& to, std::uint64_t count) {
+Texts spread_of(const string& from, const string& to, uint64_t count) {
   return spread(decimal(from), decimal(to), count);
 }
 
-Texts steps_of(const std::string& from, const std::string& to, const std::string& step) {
+Texts steps_of(const string& from, const string& to, const string& step) {
   return steps(decimal(from), decimal(to), decimal(step), 1000);
 }
 
@@ -39,7 +40,7 @@ TEST(Decimal, EndsFarApartDoNotOverflow) {
   EXPECT_EQ(all.front(), "0.000000000000000001");
   EXPECT_EQ(all.back(), "100000000000000000");
   double before = 0;
-  for (std::size_t i = 1; i < all.size(); ++i) {
+  for (size_t i = 1; i < all.size(); ++i) {
     const double value = std::stod(all[i]);
     EXPECT_GT(value, before) << i;
     EXPECT_NEAR(value / 1e17, static_cast<double>(i) / 1999, 1e-15) << i;
@@ -67,10 +68,10 @@ TEST(Spread, EveryHundredthIsTheDecimalThatIsWritten) {
   const Texts all = spread_of("0", "10", 1001);
   for (int i = 0; i <= 1000; ++i) {
     double value = 0;
-    std::from_chars(all[static_cast<std::size_t>(i)].data(),
-                    all[static_cast<std::size_t>(i)].data() + all[static_cast<std::size_t>(i)].size(), value);
-    EXPECT_EQ(value, i / 100.0) << all[static_cast<std::size_t>(i)];
-    EXPECT_LE(all[static_cast<std::size_t>(i)].size(), 4u);
+    std::from_chars(all[static_cast<size_t>(i)].data(),
+                    all[static_cast<size_t>(i)].data() + all[static_cast<size_t>(i)].size(), value);
+    EXPECT_EQ(value, i / 100.0) << all[static_cast<size_t>(i)];
+    EXPECT_LE(all[static_cast<size_t>(i)].size(), 4u);
   }
 }
 

@@ -1,4 +1,5 @@
 #include "yaml/other_case.h"
+#include "std.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

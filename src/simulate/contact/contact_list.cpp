@@ -9,6 +9,7 @@
 #include "physics/world.h"
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,27 +27,26 @@ void ContactList::add(const ContactConstraint& pair, const Contact& name, double
   slow.push_back(never);
 }
 
-void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const {
+void ContactList::check_room(const ExactBodies& bodies, const vector<Vec3>& velocities) const {
   if (!bodies.moving.any() || pairs.empty()) return;
   const World& world = bodies.world;
 
   // m/s. A rod must not get longer either.
-  const auto excess = [&](std::size_t c) {
+  const auto excess = [&](size_t c) {
     const double speed = approach(velocities, pairs[c]);
     return pairs[c].bilateral ? std::abs(speed) : speed;
   };
-  std::size_t worst = 0;
-  for (std::size_t c = 1; c < pairs.size(); ++c)
+  size_t worst = 0;
+  for (size_t c = 1; c < pairs.size(); ++c)
     if (excess(c) > excess(worst)) worst = c;
 
   // The things around the body, and the directions to them. A rod holds it from both sides.
   const auto& [body, thing, of_worst] = names[worst];
-  std::vector<Entity> around = {thing};
-  std::vector<Vec3> directions = {approach(velocities, pairs[worst]) < 0 ? Vec3(-pairs[worst].normal)
-                                                                         : pairs[worst].normal};
+  vector<Entity> around = {thing};
+  vector<Vec3> directions = {approach(velocities, pairs[worst]) < 0 ? Vec3(-pairs[worst].normal) : pairs[worst].normal};
 
   // Its other contacts, of which it may be the first body or the second.
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
+  for (size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
     if (c == worst || (i != body && world.second_body(e) != body)) continue;
     around.push_back(i == body || world.is_string(e) ? e : i);
@@ -58,24 +58,24 @@ void ContactList::check_room(const ExactBodies& bodies, const std::vector<Vec3>&
   }
 
   // The fewest of them that hold it all around.
-  std::vector<Entity> things;
-  for (const std::size_t k : vanishing_sum(directions, 0, exact_tolerance::level)) things.push_back(around[k]);
+  vector<Entity> things;
+  for (const size_t k : vanishing_sum(directions, 0, exact_tolerance::level)) things.push_back(around[k]);
   if (!things.empty()) bodies.fail_squeezed(body, std::move(things));
 
   // They do not hold the body all around: the thing on its other side.
-  std::size_t other = 0;
-  for (std::size_t k = 1; k < around.size(); ++k)
+  size_t other = 0;
+  for (size_t k = 1; k < around.size(); ++k)
     if (directions[k].dot(directions[0]) < std::min(0.0, directions[other].dot(directions[0]))) other = k;
   if (other > 0) bodies.fail_squeezed(body, {thing, around[other]});
 }
 
-void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::size_t first, double beside) {
+void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first, double beside) {
   const World& world = bodies.world;
-  const auto fixed = [&](std::size_t c) { return world.is_fixed(names[c].e); };
-  const auto flat = [&](std::size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
+  const auto fixed = [&](size_t c) { return world.is_fixed(names[c].e); };
+  const auto flat = [&](size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
 
   // Whether contact number `floor` is with a flat surface that hides the thing of contact c.
-  const auto hides = [&](std::size_t floor, std::size_t c) {
+  const auto hides = [&](size_t floor, size_t c) {
     const Vec3& n = pairs[floor].normal;
     if (floor == c || gaps[floor] > beside || !flat(floor) ||
         (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level))
@@ -83,16 +83,15 @@ void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, std::siz
     return bodies.hidden(names[c].i, x, names[c].e, -n, bodies.fixed_velocity(names[floor].e));
   };
 
-  std::vector<std::size_t> hidden;
-  for (std::size_t c = first; c < pairs.size(); ++c)
-    for (std::size_t floor = first; floor < pairs.size() && fixed(c); ++floor)
+  vector<size_t> hidden;
+  for (size_t c = first; c < pairs.size(); ++c)
+    for (size_t floor = first; floor < pairs.size() && fixed(c); ++floor)
       if (hides(floor, c)) {
         hidden.push_back(c);
         break;
       }
 
-  if (!hidden.empty())
-    drop_if(first, [&](std::size_t c) { return std::binary_search(hidden.begin(), hidden.end(), c); });
+  if (!hidden.empty()) drop_if(first, [&](size_t c) { return std::binary_search(hidden.begin(), hidden.end(), c); });
 }
 
 }  // namespace carom

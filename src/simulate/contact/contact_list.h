@@ -1,14 +1,11 @@
 #pragma once
 // Contacts of an island: the things that touch, beside the solver's constraints for them.
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "geometry/touch.h"
 #include "numerics/disjoint_sets.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -16,25 +13,24 @@ struct ExactBodies;
 
 /// Two things in contact.
 struct Contact {
-  Entity i;              // a body; in steps i < e
-  Entity e;              // A string between two bodies is the e of one of them.
-  std::uint8_t feature;  // as in Touch
+  Entity i;         // a body; in steps i < e
+  Entity e;         // A string between two bodies is the e of one of them.
+  uint8_t feature;  // as in Touch
 
   void keep(auto& archive) { archive(i, e, feature); }
 };
 
 /// By body: the first of the bodies that pairs connect with it. `connects`: whether pair number c does.
 template <typename Connects>
-std::vector<std::uint32_t> connected_parts(std::size_t bodies, std::span<const ContactConstraint> pairs,
-                                           const Connects& connects) {
+vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs, const Connects& connects) {
   DisjointSets sets(bodies);
-  for (std::size_t c = 0; c < pairs.size(); ++c)
+  for (size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].b != ContactConstraint::fixed && connects(c)) sets.join(pairs[c].a, pairs[c].b);
 
-  std::vector<std::uint32_t> part(bodies);
-  std::vector<std::uint32_t> first(bodies, ContactConstraint::fixed);
-  for (std::uint32_t k = 0; k < bodies; ++k) {
-    std::uint32_t& of_part = first[sets.root(k)];
+  vector<uint32_t> part(bodies);
+  vector<uint32_t> first(bodies, ContactConstraint::fixed);
+  for (uint32_t k = 0; k < bodies; ++k) {
+    uint32_t& of_part = first[sets.root(k)];
     of_part = std::min(of_part, k);
     part[k] = of_part;
   }
@@ -42,25 +38,25 @@ std::vector<std::uint32_t> connected_parts(std::size_t bodies, std::span<const C
 }
 
 struct ContactList {
-  std::vector<ContactConstraint> pairs;
-  std::vector<Contact> names;  // of the pairs
-  std::vector<double> gaps;    // m, of the pairs, at present
+  vector<ContactConstraint> pairs;
+  vector<Contact> names;  // of the pairs
+  vector<double> gaps;    // m, of the pairs, at present
   // m/s, of the pairs: a faster approach is an impact of its own.
-  std::vector<double> slow;
+  vector<double> slow;
 
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
   /// Drops contacts of a body at x (m), from number `first` on, with things that lie wholly behind a flat fixed surface
   /// beside it. The surface must be no farther away than `beside` (m). Surfaces level with it stay.
-  void drop_hidden(const ExactBodies& bodies, const Vec3& x, std::size_t first, double beside = never);
+  void drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first, double beside = never);
   /// Throws SimulationError if things that move leave a body no room: the one with the fastest approach at these
   /// velocities (m/s), which contacts could not prevent.
-  void check_room(const ExactBodies& bodies, const std::vector<Vec3>& velocities) const;
+  void check_room(const ExactBodies& bodies, const vector<Vec3>& velocities) const;
   /// Drops the contacts from number `first` on for which drops(number) is true.
   template <typename Drops>
-  void drop_if(std::size_t first, Drops drops) {
-    std::size_t kept = first;
-    for (std::size_t c = first; c < pairs.size(); ++c) {
+  void drop_if(size_t first, Drops drops) {
+    size_t kept = first;
+    for (size_t c = first; c < pairs.size(); ++c) {
       if (drops(c)) continue;
       pairs[kept] = pairs[c];
       names[kept] = names[c];

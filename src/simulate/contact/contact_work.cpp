@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulate/event_log.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,13 +16,12 @@ void ContactWork::change(Entity i, const Instant& now, double power) {
   power_.write(i) = {now, power};
 }
 
-void ContactWork::follow(const std::vector<Entity>& members, const Instant& now,
-                         std::shared_ptr<const WorkingPath> path) {
+void ContactWork::follow(const vector<Entity>& members, const Instant& now, std::shared_ptr<const WorkingPath> path) {
   const auto from_now = std::make_shared<Path>(Path{now, std::move(path)});
   for (const Entity i : members) path_.write(i) = from_now;
 }
 
-void ContactWork::end_paths(const std::vector<Entity>& members, const Instant& now) {
+void ContactWork::end_paths(const vector<Entity>& members, const Instant& now) {
   if (path_.empty()) return;
   for (const Entity i : members) {
     if (!path_[i]) continue;

@@ -1,12 +1,11 @@
 #pragma once
 // The work that fixed things which move do on bodies in lasting contact with them: contact force times velocity, booked
 // as it accrues. Nothing is stored where nothing moves.
-#include <memory>
-#include <vector>
 
 #include "numerics/lazy_array.h"
 #include "physics/entity.h"
 #include "simulate/path/instant.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,15 +26,15 @@ class ContactWork {
   /// From this instant on, such things do work on body i at this rate (W). The work until then is booked.
   void change(Entity i, const Instant& now, double power);
   /// Such things do work along a path from this instant on. `members`: the bodies on the path.
-  void follow(const std::vector<Entity>& members, const Instant& now, std::shared_ptr<const WorkingPath> path);
+  void follow(const vector<Entity>& members, const Instant& now, std::shared_ptr<const WorkingPath> path);
   /// Books the work along the paths of these bodies, which end at this instant.
-  void end_paths(const std::vector<Entity>& members, const Instant& now);
+  void end_paths(const vector<Entity>& members, const Instant& now);
 
   /// All paths are of the type Made.
   template <typename Made>
   void keep(auto& archive) {
     archive(power_, path_);
-    for (std::size_t i = 0; i < path_.size(); ++i) {
+    for (size_t i = 0; i < path_.size(); ++i) {
       if (!path_[i]) continue;
       auto made = std::static_pointer_cast<const Made>(path_[i]->path);
       archive(made);

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -52,11 +52,11 @@ bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
   return speed * speed < press * exact_tolerance::fading_hop * world.radius[i] && damps(world, i, now.hi);
 }
 
-void ExactBodies::fail_squeezed(Entity i, std::vector<Entity> things) const {
-  std::sort(things.begin(), things.end());
+void ExactBodies::fail_squeezed(Entity i, vector<Entity> things) const {
+  std::ranges::sort(things);
   things.erase(std::unique(things.begin(), things.end()), things.end());
-  std::vector<std::string> after = {" has no room left between "};
-  for (std::size_t k = 0; k < things.size(); ++k)
+  vector<string> after = {" has no room left between "};
+  for (size_t k = 0; k < things.size(); ++k)
     after.emplace_back(k + 2 < things.size()    ? ", "
                        : k + 2 == things.size() ? " and "
                                                 : ": end or slow their `motion` before, leave room for the body, or "
@@ -65,14 +65,14 @@ void ExactBodies::fail_squeezed(Entity i, std::vector<Entity> things) const {
   throw SimulationError(fmt::format("at t = {} s ", now.hi), std::move(things), std::move(after));
 }
 
-std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {
-  const std::span<const Entity> near = neighbours.near(i);
-  std::vector<Entity> all(near.begin(), near.end());
-  std::sort(all.begin(), all.end());
+vector<Entity> ExactBodies::neighbours_of(Entity i) const {
+  const span<const Entity> near = neighbours.near(i);
+  vector<Entity> all(near.begin(), near.end());
+  std::ranges::sort(all);
   return all;
 }
 
-Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const {
+Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, uint8_t feature) const {
   if (world.is_body(b) && world.volume.empty()) {
     // The normal uses the actual distance, not the sum of the radii. It is then a unit vector, and energy is conserved
     // to rounding.
@@ -112,14 +112,14 @@ bool ExactBodies::is_taut(Entity string) const {
   return s.rod || string_now(string).gap <= contact_gap(s.body, position(s.body), position_of(string));
 }
 
-bool ExactBodies::any_taut(std::span<const Entity> those) const {
-  return ties.any() && std::any_of(those.begin(), those.end(), [&](Entity i) {
-           const std::span<const Entity> strings = ties.of(i);
-           return std::any_of(strings.begin(), strings.end(), [&](Entity string) { return is_taut(string); });
+bool ExactBodies::any_taut(span<const Entity> those) const {
+  return ties.any() && std::ranges::any_of(those, [&](Entity i) {
+           const span<const Entity> strings = ties.of(i);
+           return std::ranges::any_of(strings, [&](Entity string) { return is_taut(string); });
          });
 }
 
-bool ExactBodies::any_meets(std::span<const Entity> those) const {
+bool ExactBodies::any_meets(span<const Entity> those) const {
   // Whether body i and e approach. The length of a rod must not change either way.
   const auto meets = [&](Entity i, Entity e, const Touch& there) {
     const Vec3 v = velocity(i);
@@ -130,9 +130,9 @@ bool ExactBodies::any_meets(std::span<const Entity> those) const {
   };
   const auto string_meets = [&](Entity e) { return is_taut(e) && meets(world.string(e).body, e, string_now(e)); };
 
-  return std::any_of(those.begin(), those.end(), [&](Entity i) {
-    const std::span<const Entity> strings = ties.of(i);
-    const std::vector<Entity> near = neighbours_of(i);
+  return std::ranges::any_of(those, [&](Entity i) {
+    const span<const Entity> strings = ties.of(i);
+    const vector<Entity> near = neighbours_of(i);
     const Vec3 x = position(i);
     const auto neighbour_meets = [&](Entity e) {
       const Vec3 xe = position_of(e);
@@ -140,8 +140,7 @@ bool ExactBodies::any_meets(std::span<const Entity> those) const {
       return there.gap <= contact_gap(i, x, xe) && meets(i, e, there);
     };
 
-    return std::any_of(strings.begin(), strings.end(), string_meets) ||
-           std::any_of(near.begin(), near.end(), neighbour_meets);
+    return std::ranges::any_of(strings, string_meets) || std::ranges::any_of(near, neighbour_meets);
   });
 }
 

@@ -4,8 +4,6 @@
 // Each body keeps one event, the first of its own. The first of all these is the next event. A predicted collision is a
 // function of the two flights alone. It has the same bits from either side and at any time of prediction.
 #include <algorithm>
-#include <span>
-#include <vector>
 
 #include "geometry/touch.h"
 #include "simulate/contact/contact_work.h"
@@ -14,6 +12,7 @@
 #include "simulate/path/paths.h"
 #include "simulate/space/neighbours.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,7 +35,7 @@ struct ExactBodies : BodyPaths {
   static constexpr double immovable = never;  // kg
 
   /// Throws SimulationError: these things, of which one moves, leave body i no room.
-  [[noreturn]] void fail_squeezed(Entity i, std::vector<Entity> things) const;
+  [[noreturn]] void fail_squeezed(Entity i, vector<Entity> things) const;
   /// The latest end of body i's flight: the end of a step of its own or of its island.
   [[gnu::always_inline]] Instant flight_end(Entity i) const {
     Instant end{never, 0};
@@ -68,7 +67,7 @@ struct ExactBodies : BodyPaths {
   PairState in_frame_of(Entity a, Entity b) const;
 
   /// Bodies and fixed things near body i, ascending. Sums in this order do not depend on the order of the lists.
-  std::vector<Entity> neighbours_of(Entity i) const;
+  vector<Entity> neighbours_of(Entity i) const;
   /// The contact of a string's body with it, at present.
   Touch string_now(Entity string) const;
   /// Whether a string between bodies in lasting contact is taut, and its length does not change but for rounding. A rod
@@ -79,12 +78,12 @@ struct ExactBodies : BodyPaths {
   /// Whether a string is as long as it can be, but for rounding. A rod always is.
   bool is_taut(Entity string) const;
   /// Whether one of these bodies has a taut string, or a rod.
-  bool any_taut(std::span<const Entity> those) const;
+  bool any_taut(span<const Entity> those) const;
   /// Whether one of these bodies approaches what it touches, or the length of a taut string or of a rod, by more than
   /// rounding.
-  bool any_meets(std::span<const Entity> those) const;
+  bool any_meets(span<const Entity> those) const;
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
-  Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
+  Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, uint8_t feature) const;
 
   /// The largest gap between body i, at x, and a thing at xe that counts as contact (m).
   double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;

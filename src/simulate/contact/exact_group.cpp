@@ -14,6 +14,7 @@
 #include "simulate/path/path_log.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -71,7 +72,7 @@ void ExactGroup::unite(Entity a, Entity b) {
 
 void ExactGroup::wake(Entity i) {
   bool crowd = false;
-  std::vector<Entity> todo;
+  vector<Entity> todo;
   const auto rouse = [&](Entity k) {
     // Constrained motion rests on its partners.
     crowd = crowd || modes_.partners(k).empty();
@@ -94,10 +95,10 @@ void ExactGroup::wake(Entity i) {
 }
 
 /// The sleeping bodies that touch body i, and those at the other ends of its taut strings and of its rods, each once.
-std::vector<Entity> ExactGroup::asleep_beside(Entity i) const {
+vector<Entity> ExactGroup::asleep_beside(Entity i) const {
   const double near = std::max(exact_tolerance::waking_gap * bodies_.world.radius[i], member[i].gap);  // m
   const Vec3 x = bodies_.position(i);
-  std::vector<Entity> asleep;
+  vector<Entity> asleep;
   for (const Entity e : bodies_.neighbours_of(i)) {
     if (!bodies_.world.is_body(e) || bodies_.mode(e) != Mode::asleep) continue;
     if (touch(bodies_.world, i, x, e, bodies_.position(e)).gap <= near) asleep.push_back(e);
@@ -118,7 +119,7 @@ void ExactGroup::join_at_rest(Entity i) {
 
 void ExactGroup::join_initial(Entity first) {
   const World& world = bodies_.world;
-  std::vector<Entity> todo{first};
+  vector<Entity> todo{first};
   while (!todo.empty()) {
     const Entity i = todo.back();
     todo.pop_back();
@@ -161,10 +162,10 @@ void ExactGroup::join_initial(Entity first) {
 void ExactGroup::join_by_strings() {
   const World& world = bodies_.world;
   Numbering moved(numbers);  // bodies that only strings hold
-  std::vector<Vec3> a;       // m/s^2, of these
-  std::vector<double> inverse_mass;
-  std::vector<ContactConstraint> rows;
-  std::vector<Entity> strings;  // of the rows
+  vector<Vec3> a;            // m/s^2, of these
+  vector<double> inverse_mass;
+  vector<ContactConstraint> rows;
+  vector<Entity> strings;  // of the rows
 
   // Adds body i to the problem, unless it is there. Returns its number there.
   const auto place = [&](Entity i) {
@@ -175,8 +176,8 @@ void ExactGroup::join_by_strings() {
     return moved.number(i);
   };
 
-  std::vector<Entity> held;
-  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+  vector<Entity> held;
+  for (size_t k = 0; k < world.strings.size(); ++k) {
     const Entity string = world.string_number(k);
     const String& s = world.strings[k];
     const Touch there = bodies_.string_now(string);
@@ -214,7 +215,7 @@ void ExactGroup::join_by_strings() {
   solve({inverse_mass, a, rows, true});
 
   // Other strings hold if they are under tension.
-  for (std::size_t k = 0; k < rows.size(); ++k)
+  for (size_t k = 0; k < rows.size(); ++k)
     if (!rows[k].bilateral && rows[k].force > 0) held.push_back(strings[k]);
 
   for (const Entity string : held) {
@@ -260,7 +261,7 @@ void ExactGroup::forget_apart() {
     const Vec3 xe = bodies_.position_of(thing);
     return touch(bodies_.world, a, x, thing, xe).gap > bodies_.contact_gap(a, x, xe);
   });
-  many_parted_ = std::max<std::size_t>(64, 2 * parted_.size());
+  many_parted_ = std::max<size_t>(64, 2 * parted_.size());
 }
 
 bool ExactGroup::has_parted(Entity a, Entity thing) const {
@@ -280,11 +281,11 @@ double ExactGroup::pressing_force(Entity i, Entity e) const {
   return 0;
 }
 
-std::vector<Entity> ExactGroup::withdraw(Entity i) {
+vector<Entity> ExactGroup::withdraw(Entity i) {
   if (!in_lasting_contact(bodies_.mode(i))) return {};
 
   // What sleeps beside it may rest on it. One that wakes may wake the next.
-  std::vector<Entity> left;
+  vector<Entity> left;
   if (bodies_.mode(i) == Mode::asleep) wake(i);
   for (const Entity e : asleep_beside(i)) {
     if (bodies_.mode(e) != Mode::asleep) continue;
@@ -294,7 +295,7 @@ std::vector<Entity> ExactGroup::withdraw(Entity i) {
 
   // Its island goes on without it, if it has other members.
   forget_forces(i);
-  std::vector<Entity> stay;
+  vector<Entity> stay;
   for (const Entity k : bodies_.islands.of(i).members)
     if (k != i) stay.push_back(k);
   if (!stay.empty()) left.push_back(stay.front());
@@ -322,7 +323,7 @@ bool ExactGroup::hides(Entity i, Entity fixed) const {
 bool ExactGroup::switches(Entity i) const {
   const auto now = [&](Entity e) { return bodies_.moving.switches(e, bodies_.now); };
   return std::ranges::any_of(modes_.partners(i), now) ||
-         std::any_of(pressing[i].begin(), pressing[i].end(), [&](const PressingContact& p) { return now(p.partner); });
+         std::ranges::any_of(pressing[i], [&](const PressingContact& p) { return now(p.partner); });
 }
 
 /// The power of the moving things that press on body i (W).
@@ -336,7 +337,7 @@ void ExactGroup::note_power(Entity i) {
   bodies_.contact_work.change(i, bodies_.now, power(i));
 }
 
-void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
+void ExactGroup::report(Entity i, vector<ContactForce>& forces) const {
   if (bodies_.mode(i) != Mode::asleep) return;
   for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
 }

@@ -3,11 +3,11 @@
 // no closed form. Each island moves in steps of its own: by constrained motion (constrained_motion.h), or as a
 // crowd where contacts change too often (crowd_motion.h). This class holds the data of these bodies.
 #include <utility>
-#include <vector>
 
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/contact/mode_changes.h"
 #include "simulate/contact/numbering.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,8 +36,8 @@ struct Floor {
 struct IslandMember {
   // The last time at which it was struck, or pressed on by things other than flat surfaces.
   Instant needed;
-  std::vector<Floor> floors;  // the flat fixed things that carry it
-  double gap = 0;             // m: the widest gap at which things press on it while it sleeps
+  vector<Floor> floors;  // the flat fixed things that carry it
+  double gap = 0;        // m: the widest gap at which things press on it while it sleeps
 
   void keep(auto& archive) { archive(needed, floors, gap); }
 };
@@ -47,7 +47,7 @@ class ExactGroup {
   ExactGroup(ExactBodies& bodies, ModeChanges& modes, FlatContacts& flat, const CollapseDetector& collapses,
              PathLog& paths);
 
-  LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what pressed on it in the last step
+  LazyArray<vector<PressingContact>> pressing;  // by the lower body: what pressed on it in the last step
   Numbering::Numbers numbers;
   LazyArray<IslandMember> member;  // by body
 
@@ -87,7 +87,7 @@ class ExactGroup {
   double pressing_force(Entity i, Entity e) const;
   /// Takes body i out of its island, or out of what rests in contact with it: that wakes. Nothing is done to a free
   /// body. Returns one member of each island that has lost it. Their forces are to be found anew.
-  std::vector<Entity> withdraw(Entity i);
+  vector<Entity> withdraw(Entity i);
 
   /// Whether body i cannot strike this fixed thing, because it lies behind one that constrained motion keeps the body
   /// on.
@@ -98,14 +98,14 @@ class ExactGroup {
   /// Stores the power of the moving things that press on member i from this instant on.
   void note_power(Entity i);
   /// Appends the forces of sleeping bodies.
-  void report(Entity i, std::vector<ContactForce>& forces) const;
+  void report(Entity i, vector<ContactForce>& forces) const;
 
   void keep(auto& archive) { archive(pressing, member, parted_, many_parted_); }
 
  private:
   void enlist(Entity i);
   void forget_forces(Entity i);
-  std::vector<Entity> asleep_beside(Entity i) const;
+  vector<Entity> asleep_beside(Entity i) const;
   void join_at_rest(Entity i);
   void check_length(Entity string, double gap) const;
   double initial_rounding(Entity string) const;
@@ -117,8 +117,8 @@ class ExactGroup {
   FlatContacts& flat_;
   const CollapseDetector& collapses_;
   PathLog& paths_;
-  std::vector<std::pair<Entity, Entity>> parted_;  // sorted
-  std::size_t many_parted_ = 64;
+  vector<std::pair<Entity, Entity>> parted_;  // sorted
+  size_t many_parted_ = 64;
 };
 
 }  // namespace carom

@@ -2,17 +2,17 @@
 // The body has unit mass, because its own mass has no effect on the allowed motion.
 #include "simulate/contact/flat_contact_problems.h"
 
-#include <array>
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t most_flat = 32;
+constexpr size_t most_flat = 32;
 
-FlatSolution solve_one_body(const Vec3& u, std::span<const FlatSurface> surfaces, bool bilateral) {
-  std::array<ContactConstraint, most_flat> contacts;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+FlatSolution solve_one_body(const Vec3& u, span<const FlatSurface> surfaces, bool bilateral) {
+  array<ContactConstraint, most_flat> contacts;
+  for (size_t k = 0; k < surfaces.size(); ++k) {
     contacts[k] = {0, ContactConstraint::fixed, -surfaces[k].normal};
     contacts[k].bilateral = bilateral;
     contacts[k].surface = -surfaces[k].u;
@@ -23,7 +23,7 @@ FlatSolution solve_one_body(const Vec3& u, std::span<const FlatSurface> surfaces
   solution.u = u;
   solution.certificate = solve({{&unit_mass, 1}, {&solution.u, 1}, {contacts.data(), surfaces.size()}, true});
 
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+  for (size_t k = 0; k < surfaces.size(); ++k) {
     if (contacts[k].force > 0) solution.active |= 1u << k;
     solution.work += contacts[k].work();
   }
@@ -32,11 +32,11 @@ FlatSolution solve_one_body(const Vec3& u, std::span<const FlatSurface> surfaces
 
 }  // namespace
 
-FlatSolution solve_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces) {
+FlatSolution solve_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces) {
   return solve_one_body(u, surfaces, false);
 }
 
-FlatSolution keep_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces) {
+FlatSolution keep_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces) {
   return solve_one_body(u, surfaces, true);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // The contact problems of one body on flat surfaces, solved by contact_problem.h. u: a velocity or an acceleration.
-#include <span>
 
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,9 +21,9 @@ struct FlatSurface {
 };
 
 /// The allowed motion for one body and flat surfaces. At most 32 of them.
-FlatSolution solve_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces);
+FlatSolution solve_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces);
 
 /// u with the surfaces' components along their normals: motion that keeps all contacts.
-FlatSolution keep_flat_contacts(const Vec3& u, std::span<const FlatSurface> surfaces);
+FlatSolution keep_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces);
 
 }  // namespace carom

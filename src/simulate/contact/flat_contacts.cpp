@@ -13,6 +13,7 @@
 #include "physics/world.h"
 #include "simulate/contact/collapse_detector.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,16 +21,16 @@ using exact_tolerance::velocity_rounding;
 
 namespace {
 
-constexpr std::size_t most = FlatContactList::most;
+constexpr size_t most = FlatContactList::most;
 
 }  // namespace
 
 /// Stores the surfaces of all contacts except those with `without`. Returns their number. Their motion is `share` times
 /// their velocity: 1 where velocities are meant. Accelerations of a body that they carry have to outweigh drag.
-std::size_t FlatContacts::surfaces_of(const FlatContactList& contacts, Entity without, double share,
-                                      Surfaces& surfaces) const {
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < contacts.count; ++k) {
+size_t FlatContacts::surfaces_of(const FlatContactList& contacts, Entity without, double share,
+                                 Surfaces& surfaces) const {
+  size_t n = 0;
+  for (size_t k = 0; k < contacts.count; ++k) {
     const auto& [surface, feature, normal, settling, rest_time, residual_speed] = contacts.at[k];
     if (surface == without) continue;
     const double along = bodies_.moving.any() ? normal.dot(bodies_.fixed_velocity(surface)) : 0;
@@ -39,7 +40,7 @@ std::size_t FlatContacts::surfaces_of(const FlatContactList& contacts, Entity wi
 }
 
 bool FlatContacts::switches(Entity i) const {
-  for (std::size_t k = 0; k < contacts_[i].count; ++k)
+  for (size_t k = 0; k < contacts_[i].count; ++k)
     if (bodies_.moving.switches(contacts_[i].at[k].surface, bodies_.now)) return true;
   return false;
 }
@@ -51,18 +52,18 @@ FadingPath FlatContacts::path_of(Entity surface, const Instant& start) const {
 }
 
 /// The fewest surfaces that hold the body between them; all of them, if none do.
-std::vector<Entity> FlatContacts::opposite_surfaces(const FlatContactList& contacts) {
-  std::vector<Vec3> normals;
-  std::vector<std::size_t> fewest;
-  for (std::size_t k = 0; k < contacts.count; ++k) {
+vector<Entity> FlatContacts::opposite_surfaces(const FlatContactList& contacts) {
+  vector<Vec3> normals;
+  vector<size_t> fewest;
+  for (size_t k = 0; k < contacts.count; ++k) {
     normals.push_back(contacts.at[k].normal);
     fewest.push_back(k);
   }
-  for (std::size_t k = 0; k < contacts.count; ++k)
+  for (size_t k = 0; k < contacts.count; ++k)
     if (auto some = vanishing_sum(normals, k, exact_tolerance::level); !some.empty() && some.size() < fewest.size())
       fewest = std::move(some);
-  std::vector<Entity> surfaces;
-  for (const std::size_t k : fewest) surfaces.push_back(contacts.at[k].surface);
+  vector<Entity> surfaces;
+  for (const size_t k : fewest) surfaces.push_back(contacts.at[k].surface);
   return surfaces;
 }
 
@@ -82,14 +83,14 @@ FlatSolution FlatContacts::book(Entity i, const FlatSolution& solution, double& 
 }
 
 bool FlatContacts::carry(Entity i, Entity surface) const {
-  for (std::size_t k = 0; k < contacts_[i].count; ++k)
+  for (size_t k = 0; k < contacts_[i].count; ++k)
     if (contacts_[i].at[k].surface == surface) return true;
   return false;
 }
 
 bool FlatContacts::hide(Entity i, Entity fixed) const {
   const FlatContactList& contacts = contacts_[i];
-  for (std::size_t k = 0; k < contacts.count; ++k)
+  for (size_t k = 0; k < contacts.count; ++k)
     if (bodies_.hidden(i, bodies_.position(i), fixed, contacts.at[k].normal,
                        bodies_.fixed_velocity(contacts.at[k].surface)))
       return true;
@@ -98,7 +99,7 @@ bool FlatContacts::hide(Entity i, Entity fixed) const {
 
 void FlatContacts::remove_level(Entity i, const Vec3& normal) {
   const FlatContactList contacts = contacts_[i];
-  for (std::size_t k = 0; k < contacts.count; ++k)
+  for (size_t k = 0; k < contacts.count; ++k)
     if ((contacts.at[k].normal - normal).norm() <= exact_tolerance::level) remove(i, contacts.at[k].surface);
 }
 
@@ -106,7 +107,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   const World& world = bodies_.world;
   const FlatContactList contacts = contacts_[i];
   Vec3 normal = Vec3::Zero();
-  for (std::size_t k = 0; k < contacts.count; ++k)
+  for (size_t k = 0; k < contacts.count; ++k)
     if (contacts.at[k].surface == surface) normal = contacts.at[k].normal;
   remove(i, surface);
 
@@ -173,7 +174,7 @@ void FlatContacts::note_mode(Entity i) {
 
 void FlatContacts::remove(Entity i, Entity surface) {
   FlatContactList& contacts = contacts_.write(i);
-  for (std::size_t k = 0; k < contacts.count; ++k) {
+  for (size_t k = 0; k < contacts.count; ++k) {
     if (contacts.at[k].surface != surface) continue;
     contacts.at[k] = contacts.at[--contacts.count];
     break;
@@ -217,7 +218,7 @@ void FlatContacts::find_initial(Entity i) {
 }
 
 void FlatContacts::end_bounces(Entity i) {
-  for (std::size_t k = 0; k < contacts_[i].count; ++k) {
+  for (size_t k = 0; k < contacts_[i].count; ++k) {
     FlatContact& contact = contacts_.write(i).at[k];
     if (!contact.settling || bodies_.now < contact.rest_time) continue;
 
@@ -250,9 +251,9 @@ void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double ap
   bodies_.log.record(met);
 }
 
-void FlatContacts::keep(FlatContactList& contacts, const std::array<bool, most>& which) {
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < contacts.count; ++k)
+void FlatContacts::keep(FlatContactList& contacts, const array<bool, most>& which) {
+  size_t kept = 0;
+  for (size_t k = 0; k < contacts.count; ++k)
     if (which[k]) contacts.at[kept++] = contacts.at[k];
   contacts.count = kept;
 }
@@ -264,18 +265,18 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   const Vec3 x = bodies_.position(i);
   const double noise = velocity_rounding * (v.norm() + bodies_.flights[i].v.norm());
 
-  std::array<bool, most> kept;
-  std::array<double, most> press;
+  array<bool, most> kept;
+  array<double, most> press;
   // A bounce that ends at once.
   struct Bounce {
     FlatContact contact;
     double approach;  // m/s
     double e;
   };
-  std::array<Bounce, most> bounces;
-  std::size_t bounced = 0;
+  array<Bounce, most> bounces;
+  size_t bounced = 0;
 
-  for (std::size_t k = 0; k < contacts.count; ++k) {
+  for (size_t k = 0; k < contacts.count; ++k) {
     const FlatContact& contact = contacts.at[k];
     const Vec3 n = -contact.normal;  // into the surface
     const Vec3 of_surface = bodies_.fixed_velocity(contact.surface);
@@ -295,8 +296,8 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
     if (kept[k]) bounces[bounced++] = {contact, u, e};
   }
 
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < contacts.count; ++k)
+  size_t n = 0;
+  for (size_t k = 0; k < contacts.count; ++k)
     if (kept[k]) press[n++] = press[k];
   keep(contacts, kept);
 
@@ -306,7 +307,7 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   FlatSolution solution = book(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
 
   // A push into one surface may lift the body off another.
-  for (std::size_t k = 0; k < contacts.count; ++k) {
+  for (size_t k = 0; k < contacts.count; ++k) {
     const double u = surfaces[k].normal.dot(solution.u) - surfaces[k].u;
     kept[k] = u <= noise + velocity_rounding * std::abs(surfaces[k].u) || bodies_.too_low(x, u, press[k]);
   }
@@ -319,8 +320,8 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   // Bounces are in turn with the impact that threw the body at the surfaces.
   lost += 0.5 * mass * (v - allowed).dot(v + allowed);
   double squares = 0;  // m^2/s^2
-  for (std::size_t k = 0; k < bounced; ++k) squares += bounces[k].approach * bounces[k].approach;
-  for (std::size_t k = 0; k < bounced; ++k) {
+  for (size_t k = 0; k < bounced; ++k) squares += bounces[k].approach * bounces[k].approach;
+  for (size_t k = 0; k < bounced; ++k) {
     const auto& [contact, approach, e] = bounces[k];
     collapses_.count_in_turn(i, 1 - e);
     record_bounce(i, contact, approach, e, lost * (approach * approach / squares));
@@ -333,11 +334,11 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
 Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
   FlatContactList& contacts = contacts_.write(i);
   Surfaces surfaces;
-  const std::size_t n = surfaces_of(contacts, no_entity, bodies_.fade[i], surfaces);
+  const size_t n = surfaces_of(contacts, no_entity, bodies_.fade[i], surfaces);
   const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
   bodies_.log.note(solution.certificate);
-  std::array<bool, most> presses;
-  for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
+  array<bool, most> presses;
+  for (size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
   keep(contacts, presses);
   note_mode(i);
   return solution.u;
@@ -346,16 +347,16 @@ Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
 FlatSolution FlatContacts::acceleration_without(Entity i, Entity surface) const {
   if (!lies_on_flat(bodies_.mode(i))) return {bodies_.applied[i]};
   Surfaces surfaces;
-  const std::size_t n = surfaces_of(contacts_[i], surface, bodies_.fade[i], surfaces);
+  const size_t n = surfaces_of(contacts_[i], surface, bodies_.fade[i], surfaces);
   return solve_flat_contacts(bodies_.applied[i], {surfaces.data(), n});
 }
 
 /// The flat surfaces that body i lies on: those that carry it, and others that it touches at the same level.
-std::vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const {
+vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const {
   const World& world = bodies_.world;
   const FlatContactList& contacts = contacts_[i];
-  std::vector<SurfaceForce> surfaces;
-  for (std::size_t k = 0; k < contacts.count; ++k) surfaces.push_back({contacts.at[k].surface, -contacts.at[k].normal});
+  vector<SurfaceForce> surfaces;
+  for (size_t k = 0; k < contacts.count; ++k) surfaces.push_back({contacts.at[k].surface, -contacts.at[k].normal});
 
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity(i);
@@ -378,9 +379,9 @@ std::vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) c
 }
 
 /// The forces on body i by the surfaces that it lies on.
-std::vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const {
-  std::vector<SurfaceForce> forces = surfaces_below(i);
-  std::vector<ContactConstraint> pairs;
+vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const {
+  vector<SurfaceForce> forces = surfaces_below(i);
+  vector<ContactConstraint> pairs;
   for (SurfaceForce& of : forces) {
     if (bodies_.moving.any()) of.along = of.normal.dot(bodies_.fixed_velocity(of.surface));
     pairs.push_back({0, ContactConstraint::fixed, of.normal});
@@ -390,7 +391,7 @@ std::vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const 
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
   solve({{&inverse_mass, 1}, {&a, 1}, pairs, true});
-  for (std::size_t k = 0; k < pairs.size(); ++k) forces[k].force = std::max(pairs[k].force, 0.0);
+  for (size_t k = 0; k < pairs.size(); ++k) forces[k].force = std::max(pairs[k].force, 0.0);
   return forces;
 }
 
@@ -404,7 +405,7 @@ double FlatContacts::power(Entity i) const {
   return power;
 }
 
-void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
+void FlatContacts::report(Entity i, vector<ContactForce>& forces) const {
   for (const SurfaceForce& of : forces_on(i))
     if (of.force > 0) forces.push_back({i, of.surface, of.force});
 }

@@ -5,13 +5,12 @@
 // slower than rest_speed. It then moves in the surface, the reaction reduces its acceleration, and its path is a
 // parabola again. Contact of any other kind, with a body, an edge, a corner or a round thing, has no such path. Such
 // bodies join islands (exact_group.h).
-#include <array>
-#include <vector>
 
 #include "physics/contact_force.h"
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/contact/flat_contact_problems.h"
 #include "simulate/contact/mode_changes.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,7 +19,7 @@ class CollapseDetector;
 /// A flat surface that carries a body.
 struct FlatContact {
   Entity surface;
-  std::uint8_t feature;        // of the pair (touch.h; of a ball and a wall: contact_time.h)
+  uint8_t feature;             // of the pair (touch.h; of a ball and a wall: contact_time.h)
   Vec3 normal = Vec3::Zero();  // unit, from the surface to the body
   // Bounces have not ended. They end at the time below.
   bool settling;
@@ -32,14 +31,14 @@ struct FlatContact {
 
 /// The flat contacts of a body.
 struct FlatContactList {
-  static constexpr std::size_t most = 4;
-  std::array<FlatContact, most> at;
-  std::size_t count = 0;
+  static constexpr size_t most = 4;
+  array<FlatContact, most> at;
+  size_t count = 0;
 
   void keep(auto& archive) {
     archive(count);
     archive.check(count <= most);
-    for (std::size_t k = 0; k < count; ++k) archive(at[k]);
+    for (size_t k = 0; k < count; ++k) archive(at[k]);
   }
 };
 
@@ -94,16 +93,16 @@ class FlatContacts {
   }
 
   /// Appends the forces that keep body i on its surfaces.
-  void report(Entity i, std::vector<ContactForce>& forces) const;
+  void report(Entity i, vector<ContactForce>& forces) const;
 
   void keep(auto& archive) { archive(contacts_); }
 
  private:
   void note_mode(Entity i);
-  using Surfaces = std::array<FlatSurface, FlatContactList::most>;
-  std::size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
+  using Surfaces = array<FlatSurface, FlatContactList::most>;
+  size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
   FlatSolution book(Entity i, const FlatSolution& solution, double& lost);
-  static std::vector<Entity> opposite_surfaces(const FlatContactList& contacts);
+  static vector<Entity> opposite_surfaces(const FlatContactList& contacts);
   /// The force of a surface on a body.
   struct SurfaceForce {
     Entity surface;
@@ -111,12 +110,12 @@ class FlatContacts {
     double along = 0;  // m/s, of the surface along the normal
     double force = 0;  // N
   };
-  std::vector<SurfaceForce> surfaces_below(Entity i) const;
-  std::vector<SurfaceForce> forces_on(Entity i) const;
+  vector<SurfaceForce> surfaces_below(Entity i) const;
+  vector<SurfaceForce> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);
   void record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost);
-  static void keep(FlatContactList& contacts, const std::array<bool, FlatContactList::most>& which);
+  static void keep(FlatContactList& contacts, const array<bool, FlatContactList::most>& which);
 
   ExactBodies& bodies_;
   ModeChanges& modes_;

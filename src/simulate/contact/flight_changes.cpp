@@ -10,6 +10,7 @@
 #include "simulate/contact/flat_contacts.h"
 #include "simulate/path/path_log.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -198,10 +199,10 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
 double FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
   double all = 0;
   const World& world = bodies_.merged.given();
-  const std::span<const Entity> parts = bodies_.merged.parts_of(i);
+  const span<const Entity> parts = bodies_.merged.parts_of(i);
 
-  for (const Entity part : parts.empty() ? std::span<const Entity>(&i, 1) : parts)
-    for (std::size_t k = 0; k < world.forces.size(); ++k) {
+  for (const Entity part : parts.empty() ? span<const Entity>(&i, 1) : parts)
+    for (size_t k = 0; k < world.forces.size(); ++k) {
       const Force& force = world.forces[k];
       if (!acts(force, part, time)) continue;
 

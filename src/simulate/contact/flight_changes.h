@@ -1,11 +1,10 @@
 #pragma once
 // Begins flights, and books the effect of forces on those that end.
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/path/curved_flights.h"
+#include "std.h"
 
 namespace carom {
 
@@ -71,9 +70,7 @@ class FlightChanges {
     changed_[changed_count_++] = i;
   }
   /// The bodies noted since the last call, in no order, some of them more than once. Valid until the next note.
-  [[gnu::always_inline]] std::span<Entity> take_changed() {
-    return {changed_.data(), std::exchange(changed_count_, 0)};
-  }
+  [[gnu::always_inline]] span<Entity> take_changed() { return {changed_.data(), std::exchange(changed_count_, 0)}; }
 
   void keep(auto& archive) { archive(curved_, in_contact_, ended_); }
 
@@ -99,10 +96,10 @@ class FlightChanges {
   PathLog& paths_;
   CurvedFlights curved_;
   // What moves a body in its flight: parabolas or free motion, a crowd, or a path of constrained motion.
-  enum class Contact : std::uint8_t { none, crowd, followed };
+  enum class Contact : uint8_t { none, crowd, followed };
   LazyArray<Contact> in_contact_;  // by body, of its present flight
-  std::vector<Entity> changed_;    // longer than the list of noted bodies
-  std::size_t changed_count_ = 0;  // in that list
+  vector<Entity> changed_;         // longer than the list of noted bodies
+  size_t changed_count_ = 0;       // in that list
   bool ended_ = false;             // the last flights are booked
 };
 

@@ -6,35 +6,37 @@
 #include <algorithm>
 #include <utility>
 
+#include "std.h"
+
 namespace carom {
 
-std::uint32_t Islands::take_place() {
+uint32_t Islands::take_place() {
   ++count_;
   if (vacant_.empty()) {
     islands_.emplace_back();
-    return static_cast<std::uint32_t>(islands_.size() - 1);
+    return static_cast<uint32_t>(islands_.size() - 1);
   }
-  const std::uint32_t place = vacant_.back();
+  const uint32_t place = vacant_.back();
   vacant_.pop_back();
   return place;
 }
 
-void Islands::release(std::uint32_t place) {
+void Islands::release(uint32_t place) {
   islands_[place] = {};
   vacant_.push_back(place);
   --count_;
 }
 
 void Islands::create(Entity i, const Instant& end) {
-  const std::uint32_t place = take_place();
+  const uint32_t place = take_place();
   islands_[place].members.push_back(i);
   islands_[place].end = end;
   island_.write(i) = place;
 }
 
 void Islands::merge(Entity a, Entity b, const Instant& end) {
-  std::uint32_t into = island_[a];
-  std::uint32_t from = island_[b];
+  uint32_t into = island_[a];
+  uint32_t from = island_[b];
   if (into == from) return;
   if (islands_[into].members.size() < islands_[from].members.size()) std::swap(into, from);
 
@@ -59,21 +61,21 @@ void Islands::merge(Entity a, Entity b, const Instant& end) {
   release(from);
 }
 
-void Islands::retain(Entity member, std::vector<Entity> stay) {
-  const std::uint32_t place = island_[member];
+void Islands::retain(Entity member, vector<Entity> stay) {
+  const uint32_t place = island_[member];
   for (const Entity i : islands_[place].members) island_.write(i) = none;
   for (const Entity i : stay) island_.write(i) = place;
   islands_[place].members = std::move(stay);
   if (islands_[place].members.empty()) release(place);
 }
 
-std::vector<Entity> Islands::split(Entity i, std::span<const std::uint32_t> labels) {
-  const std::uint32_t whole = island_[i];
-  const std::vector<Entity> members = std::exchange(islands_[whole].members, {});
-  std::vector<std::uint32_t> place(members.size());  // by label
-  std::vector<Entity> first;
+vector<Entity> Islands::split(Entity i, span<const uint32_t> labels) {
+  const uint32_t whole = island_[i];
+  const vector<Entity> members = std::exchange(islands_[whole].members, {});
+  vector<uint32_t> place(members.size());  // by label
+  vector<Entity> first;
 
-  for (std::size_t k = 0; k < members.size(); ++k) {
+  for (size_t k = 0; k < members.size(); ++k) {
     // The first member of a part makes its island. The first part keeps the old one.
     if (labels[k] == k) {
       place[k] = first.empty() ? whole : take_place();

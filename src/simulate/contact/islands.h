@@ -3,25 +3,22 @@
 // bodies do not connect. Each island moves by itself, in steps of its own. The number and the motion of other islands
 // have no effect on it.
 #include <algorithm>
-#include <cstdint>
 #include <deque>
-#include <memory>
-#include <span>
-#include <vector>
 
 #include "geometry/contact_time.h"
 #include "numerics/lazy_array.h"
 #include "physics/entity.h"
 #include "simulate/path/instant.h"
+#include "std.h"
 
 namespace carom {
 
 struct Crowd;
 
 struct Island {
-  std::vector<Entity> members;  // ascending after each step
-  Instant end{never, 0};        // time of the next step
-  bool busy = false;            // its contacts change too often for constrained motion
+  vector<Entity> members;  // ascending after each step
+  Instant end{never, 0};   // time of the next step
+  bool busy = false;       // its contacts change too often for constrained motion
   // Constrained: the end of the step if nothing happens before.
   Instant planned{never, 0};
   double next_length = 0;  // s, a good length for the next step of constrained motion
@@ -29,15 +26,15 @@ struct Island {
   Instant counted;
   // The last change of contact.
   Instant changed;
-  std::uint32_t changes = 0;  // changes of contact since `counted`
-  std::uint32_t calm = 0;     // consecutive steps of a crowd in which the same pairs pressed
+  uint32_t changes = 0;  // changes of contact since `counted`
+  uint32_t calm = 0;     // consecutive steps of a crowd in which the same pairs pressed
   // After so many of these the island is not busy.
-  std::uint32_t calm_needed = 0;
-  std::uint64_t pressing = 0;  // a hash of the pairs that pressed
+  uint32_t calm_needed = 0;
+  uint64_t pressing = 0;  // a hash of the pairs that pressed
   // What is left of the crowds of its members: that of its last step, or those that have united or split since.
-  std::vector<std::shared_ptr<Crowd>> crowds;
+  vector<std::shared_ptr<Crowd>> crowds;
   // Bodies of other kinds near it, with a new path since its last step.
-  std::vector<Entity> watched;
+  vector<Entity> watched;
 
   void keep(auto& archive) {
     archive(members, end, busy, planned, next_length, counted, changed, changes, calm, calm_needed, pressing);
@@ -67,23 +64,23 @@ class Islands {
   /// Unites the islands of two members. Its next step is due at `end`.
   void merge(Entity a, Entity b, const Instant& end);
   /// Reduces an island to the members in `stay`.
-  void retain(Entity member, std::vector<Entity> stay);
+  void retain(Entity member, vector<Entity> stay);
   /// Splits an island. Members with another label become islands of their own, equal in all other data.
   /// `labels`: by member, the index of the first member of its part. Returns one member of each part.
-  std::vector<Entity> split(Entity i, std::span<const std::uint32_t> labels);
+  vector<Entity> split(Entity i, span<const uint32_t> labels);
 
   void keep(auto& archive) { archive(islands_, vacant_, island_, count_); }
 
  private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr uint32_t none = ~uint32_t{0};
 
-  std::uint32_t take_place();
-  void release(std::uint32_t place);
+  uint32_t take_place();
+  void release(uint32_t place);
 
   std::deque<Island> islands_;
-  std::vector<std::uint32_t> vacant_;
-  LazyArray<std::uint32_t> island_;  // by body
-  std::size_t count_ = 0;
+  vector<uint32_t> vacant_;
+  LazyArray<uint32_t> island_;  // by body
+  size_t count_ = 0;
 };
 
 }  // namespace carom

@@ -1,13 +1,11 @@
 #pragma once
 // The one place where a body's mode changes. What hangs on the mode changes with it: the number of bodies at rest, the
 // work of moving things on the body, and the lists of partners in contact.
-#include <array>
-#include <cstdint>
-#include <vector>
 
 #include "numerics/lazy_array.h"
 #include "physics/entity.h"
 #include "simulate/path/modes.h"
+#include "std.h"
 
 namespace carom {
 
@@ -35,14 +33,14 @@ class ModeChanges {
   void remove(Entity i);
 
   /// The things that constrained motion keeps body i in contact with. Sleepers keep those of their last step.
-  const std::vector<Entity>& partners(Entity i) const { return partners_[i]; }
+  const vector<Entity>& partners(Entity i) const { return partners_[i]; }
   bool are_partners(Entity i, Entity e) const;
   /// Begins the lists of body i anew, and adds a thing to those of both.
   void clear_partners(Entity i);
   void add_partner(Entity i, Entity e);
 
   /// How often bodies have changed from one mode to another one.
-  using Counts = std::array<std::array<std::uint64_t, number_of_modes>, number_of_modes>;  // from, to
+  using Counts = array<array<uint64_t, number_of_modes>, number_of_modes>;  // from, to
   const Counts& counts() const { return counts_; }
 
   void keep(auto& archive) { archive(presses_, partners_, counts_); }
@@ -53,8 +51,8 @@ class ModeChanges {
   void part_from_partners(Entity i);
 
   ExactBodies& bodies_;
-  LazyArray<std::uint8_t> presses_;          // by body: it is a member, and a thing presses on it
-  LazyArray<std::vector<Entity>> partners_;  // by body
+  LazyArray<uint8_t> presses_;          // by body: it is a member, and a thing presses on it
+  LazyArray<vector<Entity>> partners_;  // by body
   Counts counts_{};
 };
 

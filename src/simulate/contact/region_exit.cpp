@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "std.h"
+
 namespace carom {
 
 double region_exit(const ExactBodies& bodies, Entity i) {
@@ -77,7 +79,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   return (bodies.now.hi + t) * (1 - 0x1p-52);
 }
 
-std::span<const Entity> renew_region(ExactBodies& bodies, Entity i, double until) {
+span<const Entity> renew_region(ExactBodies& bodies, Entity i, double until) {
   const Flight f = bodies.flights[i];
   const double since = bodies.now - f.start;
 

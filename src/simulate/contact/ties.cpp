@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 
 Ties::Ties(const World& world) : world_(world), any_(!world.strings.empty()) {
   if (!any_) return;
   of_.resize(world.body_count());
-  for (std::size_t k = 0; k < world.strings.size(); ++k) {
+  for (size_t k = 0; k < world.strings.size(); ++k) {
     of_[world.strings[k].body].push_back(world.string_number(k));
     if (world.strings[k].other != no_entity) of_[world.strings[k].other].push_back(world.string_number(k));
   }

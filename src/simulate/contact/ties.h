@@ -1,9 +1,8 @@
 #pragma once
 // The strings and rods of each body. A string has one name for both of its ends: its own number.
-#include <span>
-#include <vector>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,9 +14,7 @@ class Ties {
   /// Whether there are any. Where there are none, no other function need be called.
   bool any() const { return any_; }
   /// The strings of body i, ascending.
-  std::span<const Entity> of(Entity i) const {
-    return any_ ? std::span<const Entity>(of_[i]) : std::span<const Entity>();
-  }
+  span<const Entity> of(Entity i) const { return any_ ? span<const Entity>(of_[i]) : span<const Entity>(); }
   /// The body at the end of a string that body i does not hold; no_entity: the anchor is there.
   Entity other(Entity string, Entity i) const;
   /// Removes the strings of body i.
@@ -28,7 +25,7 @@ class Ties {
  private:
   const World& world_;
   const bool any_;
-  std::vector<std::vector<Entity>> of_;  // by body; empty: there are none
+  vector<vector<Entity>> of_;  // by body; empty: there are none
 };
 
 }  // namespace carom

@@ -1,8 +1,6 @@
 // The vector kernels of crowds, for pairs and for fours of rows.
 #include "simulate/crowd/crowd_kernels.h"
 
-#include <cstddef>
-
 #include "geometry/contact_time.h"
 #include "numerics/processor.h"
 
@@ -25,6 +23,7 @@ CAROM_BEGIN_AVX2
 namespace fours {
 #define LANES 4
 #include "simulate/crowd/crowd_kernels.inc"
+#include "std.h"
 #undef LANES
 }  // namespace fours
 CAROM_END_TARGET
@@ -32,8 +31,8 @@ CAROM_END_TARGET
 
 }  // namespace
 
-std::vector<CrowdKernels> crowd_kernels() {
-  std::vector<CrowdKernels> all{pairs::kernels};
+vector<CrowdKernels> crowd_kernels() {
+  vector<CrowdKernels> all{pairs::kernels};
 #ifdef __x86_64__
   if (has_avx2()) all.push_back(fours::kernels);
 #endif

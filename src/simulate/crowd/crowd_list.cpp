@@ -10,6 +10,7 @@
 #include "simulate/contact/contact_list.h"
 #include "simulate/crowd/crowd_slabs.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 namespace tol = exact_tolerance;
@@ -31,7 +32,7 @@ void CrowdList::begin(Crowd& crowd, double need) const {
   list.listed = false;
 }
 
-std::vector<Entity> CrowdList::hold_regions(const Crowd& crowd, std::span<const Entity> members) {
+vector<Entity> CrowdList::hold_regions(const Crowd& crowd, span<const Entity> members) {
   for (const Entity i : members) {
     const Vec3 x = bodies_.position(i);
     bodies_.hold_to_bounds(i, bodies_.now.hi, x, bodies_.velocity_without_kick(i, bodies_.now));
@@ -40,10 +41,10 @@ std::vector<Entity> CrowdList::hold_regions(const Crowd& crowd, std::span<const 
 
   // Each is looked at once.
   seen_.resize(bodies_.world.body_count());
-  std::vector<Entity> looked(members.begin(), members.end());
+  vector<Entity> looked(members.begin(), members.end());
   for (const Entity i : members) seen_[i] = 1;
 
-  std::vector<Entity> near;
+  vector<Entity> near;
   for (const Entity i : members)
     for (const Entity e : bodies_.neighbours.bodies(i)) {
       if (seen_[e] != 0) continue;
@@ -95,16 +96,16 @@ CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Enti
 }
 
 /// Adds the pairs of member k with later bodies and with things.
-void CrowdList::list_member(const Crowd& crowd, std::uint32_t k, double skin, Pairs& pairs) const {
+void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& pairs) const {
   const World& world = bodies_.world;
   const Entity i = crowd.members[k];
   const Vec3 x = crowd.position(k);
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
-  const std::size_t first = pairs.size();
+  const size_t first = pairs.size();
   ContactList fixed;  // to find those that others hide
 
   const double soon = 2 * crowd.list.reach / tol::steps_of_list;  // m
-  const auto add = [&](std::uint32_t b, Entity e, bool balls, double gap) {
+  const auto add = [&](uint32_t b, Entity e, bool balls, double gap) {
     CrowdRows::Pair pair;
     pair.a = k;
     pair.b = b;
@@ -124,7 +125,7 @@ void CrowdList::list_member(const Crowd& crowd, std::uint32_t k, double skin, Pa
   };
 
   for (const Entity e : bodies_.neighbours.bodies(i)) {
-    const std::uint32_t b = numbers_[e];
+    const uint32_t b = numbers_[e];
     const bool asleep = b == Numbering::none && bodies_.mode(e) == Mode::asleep;
     if (!asleep && (b == Numbering::none || e < i)) continue;
     const Vec3 xe = asleep ? bodies_.position(e) : crowd.position(b);
@@ -147,48 +148,48 @@ void CrowdList::list_member(const Crowd& crowd, std::uint32_t k, double skin, Pa
   for (const Contact& contact : fixed.names) add(Numbering::none, contact.e, false, 0);
 
   // The order of lists of neighbours has no effect.
-  std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
+  std::sort(pairs.begin() + static_cast<ptrdiff_t>(first), pairs.end(),
             [](const CrowdRows::Pair& p, const CrowdRows::Pair& q) { return p.name.e < q.name.e; });
 }
 
 /// Gives the new pairs, of so many members, the forces and shells that the same pairs have in the rows of `crowd`.
-void CrowdList::take_over_forces(const Crowd& crowd, std::size_t members) {
+void CrowdList::take_over_forces(const Crowd& crowd, size_t members) {
   struct Kept {
     Entity e;
     double force;
     double shell;
   };
 
-  std::vector<std::uint32_t> start(members + 2, 0);
-  const auto number = [&](std::size_t g, std::size_t lane) { return numbers_[crowd.rows.names[g][lane].a]; };
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
-    if (const std::uint32_t a = number(g, lane); a != Numbering::none) ++start[a + 2];
+  vector<uint32_t> start(members + 2, 0);
+  const auto number = [&](size_t g, size_t lane) { return numbers_[crowd.rows.names[g][lane].a]; };
+  crowd.rows.for_each([&](size_t g, size_t lane) {
+    if (const uint32_t a = number(g, lane); a != Numbering::none) ++start[a + 2];
   });
 
-  for (std::size_t a = 2; a < start.size(); ++a) start[a] += start[a - 1];
-  std::vector<Kept> kept(start.back());
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
-    const std::uint32_t a = number(g, lane);
+  for (size_t a = 2; a < start.size(); ++a) start[a] += start[a - 1];
+  vector<Kept> kept(start.back());
+  crowd.rows.for_each([&](size_t g, size_t lane) {
+    const uint32_t a = number(g, lane);
     if (a == Numbering::none) return;
     const RowState& state = crowd.rows.state[g];
     kept[start[a + 1]++] = {crowd.rows.names[g][lane].e, state.force[lane], state.shell[lane]};
   });
 
   for (CrowdRows::Pair& pair : pairs_)
-    for (std::uint32_t k = start[pair.a]; k < start[pair.a + 1]; ++k)
+    for (uint32_t k = start[pair.a]; k < start[pair.a + 1]; ++k)
       if (kept[k].e == pair.name.e) {
         pair.force = kept[k].force;
         pair.shell = kept[k].shell;
       }
 }
 
-void CrowdList::list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before) {
+void CrowdList::list(Crowd& crowd, span<const std::shared_ptr<Crowd>> before) {
   arrange_in_slabs(crowd, 2 * crowd.list.reach);
   const Numbering members(numbers_, crowd.members);
 
-  std::vector<Pairs> of_slab(crowd.rows.first.size() - 1);
-  threads_.each_slab(crowd.rows, [&](std::size_t slab) {
-    for (std::uint32_t k = crowd.rows.first[slab]; k < crowd.rows.first[slab + 1]; ++k)
+  vector<Pairs> of_slab(crowd.rows.first.size() - 1);
+  threads_.each_slab(crowd.rows, [&](size_t slab) {
+    for (uint32_t k = crowd.rows.first[slab]; k < crowd.rows.first[slab + 1]; ++k)
       list_member(crowd, k, 2 * crowd.list.reach, of_slab[slab]);
   });
   pairs_.clear();
@@ -208,7 +209,7 @@ void CrowdList::list_part(Crowd& part) {
 
   Pairs pairs;
   for (const CrowdRows::Pair& pair : pairs_) {
-    const std::uint32_t a = numbers_[pair.name.a];
+    const uint32_t a = numbers_[pair.name.a];
     if (a == Numbering::none) continue;
     pairs.push_back(pair);
     pairs.back().a = a;
@@ -218,10 +219,10 @@ void CrowdList::list_part(Crowd& part) {
 }
 
 /// The number of a fixed or sleeping thing in the present part of the crowd's rows. It is given one, unless it has one.
-std::uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
-  std::uint32_t& number = thing_number_[thing];
+uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
+  uint32_t& number = thing_number_[thing];
   if (number != Numbering::none) return number;
-  number = crowd.movable() + static_cast<std::uint32_t>(crowd.things.size());
+  number = crowd.movable() + static_cast<uint32_t>(crowd.things.size());
   crowd.things.push_back(thing);
   const bool body = bodies_.world.is_body(thing);
   crowd.x.push_back(four_of(bodies_.position_of(thing), body ? bodies_.world.radius[thing] : 0));
@@ -236,25 +237,25 @@ void CrowdList::write(Crowd& crowd, const Pairs& pairs) {
   crowd.v.resize(crowd.members.size());
   crowd.things.clear();
 
-  std::vector<Pairs> of_part = pairs_of_parts(crowd.rows, pairs);
+  vector<Pairs> of_part = pairs_of_parts(crowd.rows, pairs);
   for (Pairs& part : of_part) {
-    const std::size_t first = crowd.things.size();
+    const size_t first = crowd.things.size();
     for (CrowdRows::Pair& pair : part)
       if (pair.b == Numbering::none) pair.b = number_of(crowd, pair.name.e);
-    for (std::size_t k = first; k < crowd.things.size(); ++k) thing_number_[crowd.things[k]] = Numbering::none;
+    for (size_t k = first; k < crowd.things.size(); ++k) thing_number_[crowd.things[k]] = Numbering::none;
   }
 
-  const auto dummy = static_cast<std::uint32_t>(crowd.x.size());
+  const auto dummy = static_cast<uint32_t>(crowd.x.size());
   crowd.x.resize(crowd.x.size() + of_part.size());
   crowd.v.resize(crowd.v.size() + of_part.size());
   crowd.rows.clear();
-  for (std::uint32_t p = 0; p < of_part.size(); ++p) crowd.rows.add_part(of_part[p], crowd.movable(), dummy + p);
+  for (uint32_t p = 0; p < of_part.size(); ++p) crowd.rows.add_part(of_part[p], crowd.movable(), dummy + p);
   crowd.list.listed = true;
 }
 
 /// The gap of member k and thing e at present, along the normal that is best for a relative displacement (m). Volumes
 /// that do not turn are apart along any axis along which their extents are, so that this is a choice.
-Touch CrowdList::closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3& xe, const Vec3& moved) const {
+Touch CrowdList::closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe, const Vec3& moved) const {
   const World& world = bodies_.world;
   const Entity i = crowd.members[k];
   const Vec3 x = crowd.position(k);
@@ -290,13 +291,13 @@ Touch CrowdList::closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3
 
 void CrowdList::measure(Crowd& crowd, double seconds) {
   CrowdRows& rows = crowd.rows;
-  threads_.each(rows, [&](std::size_t p) {
+  threads_.each(rows, [&](size_t p) {
     const auto& [begin, balls, end] = rows.parts[p];
     kernels_.measure(rows.hot.data() + begin, rows.state.data() + begin, balls - begin, crowd.x.data());
-    rows.for_each({balls, balls, end}, [&](std::size_t g, std::size_t lane) {
+    rows.for_each({balls, balls, end}, [&](size_t g, size_t lane) {
       RowGroup& row = rows.hot[g];
-      const std::uint32_t a = row.a[lane];
-      const std::uint32_t b = row.b[lane];
+      const uint32_t a = row.a[lane];
+      const uint32_t b = row.b[lane];
       const Vec3 moved = seconds * (crowd.drift(b) - crowd.drift(a));
 
       const Touch there = closest(crowd, a, rows.names[g][lane].e, crowd.position(b), moved);

@@ -1,8 +1,5 @@
 #pragma once
 // Which pairs of a crowd may press, where they are closest, and which other bodies a crowd may meet.
-#include <memory>
-#include <span>
-#include <vector>
 
 #include "geometry/touch.h"
 #include "simulate/contact/exact_bodies.h"
@@ -10,6 +7,7 @@
 #include "simulate/crowd/crowd.h"
 #include "simulate/crowd/crowd_kernels.h"
 #include "simulate/crowd/crowd_threads.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,7 +18,7 @@ class CrowdList {
       : bodies_(bodies), numbers_(numbers), threads_(threads) {}
 
   /// What a body of another kind, or of another crowd, may do to a crowd in some time to come.
-  enum class Outlook : std::uint8_t {
+  enum class Outlook : uint8_t {
     apart,       // it meets no member
     may_come,    // it is still far away, and may meet one
     may_strike,  // the same in the step to come
@@ -31,11 +29,11 @@ class CrowdList {
   void begin(Crowd& crowd, double need) const;
   /// Makes the regions of these members so wide that they hold while the list does. Returns the bodies of other kinds
   /// that are near.
-  std::vector<Entity> hold_regions(const Crowd& crowd, std::span<const Entity> members);
+  vector<Entity> hold_regions(const Crowd& crowd, span<const Entity> members);
   Outlook outlook(const Crowd& crowd, Entity e) const;
   /// Lists the pairs that may press while the list holds. Forces are those of the same pairs in the crowds `before`,
   /// which may be this one.
-  void list(Crowd& crowd, std::span<const std::shared_ptr<Crowd>> before);
+  void list(Crowd& crowd, span<const std::shared_ptr<Crowd>> before);
   /// The same for a part of the crowd that was listed last. No pair connects it to other parts.
   void list_part(Crowd& part);
   /// Measures gaps and normals. `seconds`: of the drift to come.
@@ -44,20 +42,20 @@ class CrowdList {
  private:
   double surface_skin(const Crowd& crowd) const;
   Outlook outlook_on(const Crowd& crowd, Entity member, Entity e) const;
-  Touch closest(const Crowd& crowd, std::size_t k, Entity e, const Vec3& xe, const Vec3& moved) const;
-  using Pairs = std::vector<CrowdRows::Pair>;
-  void list_member(const Crowd& crowd, std::uint32_t k, double skin, Pairs& pairs) const;
-  void take_over_forces(const Crowd& crowd, std::size_t members);
-  std::uint32_t number_of(Crowd& crowd, Entity thing);
+  Touch closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe, const Vec3& moved) const;
+  using Pairs = vector<CrowdRows::Pair>;
+  void list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& pairs) const;
+  void take_over_forces(const Crowd& crowd, size_t members);
+  uint32_t number_of(Crowd& crowd, Entity thing);
   void write(Crowd& crowd, const Pairs& pairs);
 
   ExactBodies& bodies_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   Numbering::Numbers& numbers_;
   CrowdThreads& threads_;
-  std::vector<std::uint32_t> thing_number_;  // by entity, while a part of the rows is written
-  Pairs pairs_;                              // of the crowd that was listed last
-  std::vector<std::uint8_t> seen_;           // by body, while near ones are found
+  vector<uint32_t> thing_number_;  // by entity, while a part of the rows is written
+  Pairs pairs_;                    // of the crowd that was listed last
+  vector<uint8_t> seen_;           // by body, while near ones are found
 };
 
 }  // namespace carom

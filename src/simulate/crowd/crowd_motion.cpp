@@ -14,6 +14,7 @@
 #include "simulate/contact/exact_group.h"
 #include "simulate/contact/flight_changes.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -93,7 +94,7 @@ void CrowdMotion::close(Crowd& crowd, const Instant& at) const {
   crowd.list.gone += since * greatest(crowd.v);
 
   const double age = since - 0.5 * crowd.step.length;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (size_t k = 0; k < crowd.members.size(); ++k) {
     add(crowd.x[k], since * crowd.drift(k));
     if (!full) add(crowd.v[k], age * crowd.a[k]);
     crowd.lag[k] = full ? age : 0;
@@ -107,16 +108,16 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
   const World& world = bodies_.world;
 
   // Energy, less the work of forces.
-  double gain = crowd.sum([&](std::size_t k) {
+  double gain = crowd.sum([&](size_t k) {
     return 0.5 * world.mass[crowd.members[k]] * crowd.velocity(k, age).squaredNorm() - work_on(crowd, k, since);
   });
   gain -= crowd.step.kinetic;
-  const std::ptrdiff_t pressed = std::ranges::count(crowd.pressed, 1);
+  const ptrdiff_t pressed = std::ranges::count(crowd.pressed, 1);
   bodies_.log.add_stepped_contact(since * static_cast<double>(pressed));
 
   // Things that move push a against the normal. Velocities of the step's ends have parts of two steps' forces.
   if (bodies_.moving.any())
-    crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    crowd.rows.for_each([&](size_t g, size_t lane) {
       const RowGroup& row = crowd.rows.hot[g];
       if (row.b[lane] < crowd.movable()) return;
       const RowState& state = crowd.rows.state[g];
@@ -131,14 +132,14 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
     });
 
   // At an interruption the velocities of then become drifts, which are not ahead.
-  std::vector<double> lent(crowd.members.size(), 0);
-  for (std::size_t k = 0; full && k < lent.size(); ++k) lent[k] = steps_.lent(crowd, k, age);
-  steps_.take(crowd, -gain, crowd.sum([&](std::size_t k) { return lent[k] - crowd.lent[k]; }));
+  vector<double> lent(crowd.members.size(), 0);
+  for (size_t k = 0; full && k < lent.size(); ++k) lent[k] = steps_.lent(crowd, k, age);
+  steps_.take(crowd, -gain, crowd.sum([&](size_t k) { return lent[k] - crowd.lent[k]; }));
   crowd.lent = std::move(lent);
 }
 
 /// The work of forces on member k in `since` (s) of its drift, and what it loses of potential energy (J).
-double CrowdMotion::work_on(const Crowd& crowd, std::size_t k, double since) const {
+double CrowdMotion::work_on(const Crowd& crowd, size_t k, double since) const {
   const Entity i = crowd.members[k];
   const World& world = bodies_.world;
   const Vec3 moved = since * crowd.drift(k);
@@ -152,7 +153,7 @@ double CrowdMotion::work_on(const Crowd& crowd, std::size_t k, double since) con
 void CrowdMotion::free_flights(Crowd& crowd) const {
   if (!crowd.step.valid) return;
   crowd.step.valid = false;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (size_t k = 0; k < crowd.members.size(); ++k) {
     const Entity i = crowd.members[k];
     if (bodies_.mode(i) != Mode::stepped) continue;
     bodies_.flights.set(i, {bodies_.now, crowd.position(k), crowd.velocity(k, crowd.lag[k]), Vec3::Zero()});
@@ -162,7 +163,7 @@ void CrowdMotion::free_flights(Crowd& crowd) const {
 
 /// The crowd of all members of an island, at present.
 Crowd& CrowdMotion::gather(Island& island) {
-  std::sort(island.members.begin(), island.members.end());
+  std::ranges::sort(island.members);
   if (island.crowds.size() == 1 && island.crowds[0].use_count() == 1 && island.crowds[0]->step.valid &&
       island.crowds[0]->is_of(island.members))
     return *island.crowds[0];
@@ -170,7 +171,7 @@ Crowd& CrowdMotion::gather(Island& island) {
   const auto made = std::make_shared<Crowd>();
   Crowd& crowd = *made;
   crowd.members = island.members;
-  const std::size_t n = crowd.members.size();
+  const size_t n = crowd.members.size();
   crowd.by_name.resize(n);
   std::iota(crowd.by_name.begin(), crowd.by_name.end(), 0u);
   crowd.x.resize(n);
@@ -183,7 +184,7 @@ Crowd& CrowdMotion::gather(Island& island) {
   crowd.still.resize(n, 0);
 
   // Members of crowds go on as they are.
-  std::vector<std::uint8_t> known(n, 0);
+  vector<uint8_t> known(n, 0);
   for (const std::shared_ptr<Crowd>& other : island.crowds) {
     take_over(crowd, *other, known);
     crowd.earlier.push_back(other);
@@ -191,7 +192,7 @@ Crowd& CrowdMotion::gather(Island& island) {
   }
 
   // Others come from their flights.
-  for (std::size_t k = 0; k < n; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     if (known[k] < 2) take_in(crowd, k, known[k] == 0);
     crowd.smallest = std::min(crowd.smallest, bodies_.world.radius[crowd.members[k]]);
   }
@@ -202,11 +203,11 @@ Crowd& CrowdMotion::gather(Island& island) {
 
 /// Takes over what an earlier crowd has of these members. `known`, by member: 1 if it was in that crowd, and 2 if its
 /// place and drift there are still its own.
-void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std::uint8_t>& known) const {
+void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, vector<uint8_t>& known) const {
   const Numbering numbers(group_.numbers, crowd.members);
-  std::size_t common = 0;
-  for (std::size_t k = 0; k < earlier.members.size(); ++k) {
-    const std::uint32_t number = numbers.number(earlier.members[k]);
+  size_t common = 0;
+  for (size_t k = 0; k < earlier.members.size(); ++k) {
+    const uint32_t number = numbers.number(earlier.members[k]);
     if (number == Numbering::none || bodies_.mode(earlier.members[k]) != Mode::stepped) continue;
     ++common;
     crowd.idle[number] = earlier.idle[k];
@@ -235,7 +236,7 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, std::vector<std:
 }
 
 /// Takes member k from its flight at present. `comes`: it was in no crowd before.
-void CrowdMotion::take_in(Crowd& crowd, std::size_t k, bool comes) {
+void CrowdMotion::take_in(Crowd& crowd, size_t k, bool comes) {
   const Entity i = crowd.members[k];
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity_without_kick(i, bodies_.now);
@@ -254,7 +255,7 @@ void CrowdMotion::renew_forces(Crowd& crowd) const {
   const World& world = bodies_.world;
   crowd.load = 0;
   crowd.step.next_switch = bodies_.moving.any() ? bodies_.moving.next_switch(bodies_.now.floor()) : never;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (size_t k = 0; k < crowd.members.size(); ++k) {
     const Entity i = crowd.members[k];
     if (!world.forces.empty()) {
       bodies_.apply_forces(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]));
@@ -270,7 +271,7 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
   double length = fastest > 0 ? quality_.displacement * crowd.smallest / fastest : never;
   if (crowd.load > 0) length = std::min(length, quality_.longest_step * std::sqrt(2 * crowd.smallest / crowd.load));
   if (bodies_.varying)
-    for (std::size_t k = 0; k < crowd.members.size(); ++k)
+    for (size_t k = 0; k < crowd.members.size(); ++k)
       if (const Entity i = crowd.members[k]; bodies_.bent[i]) {
         const double rate = force_rate(bodies_.world, i, crowd.position(k), crowd.drift(k));
         if (rate > 0) length = std::min(length, quality_.longest_step / rate);
@@ -283,7 +284,7 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
 bool CrowdMotion::take_guests(Entity i) {
   const std::shared_ptr<Crowd> crowd = bodies_.islands.of(i).crowds.front();
   CrowdReach& list = crowd->list;
-  std::vector<Entity> near = std::exchange(bodies_.islands.of(i).watched, {});
+  vector<Entity> near = std::exchange(bodies_.islands.of(i).watched, {});
   const double length = crowd->step.length;
   const double need = std::max(list.need, length * (greatest(crowd->v) + 0.5 * length * crowd->load));
 
@@ -305,7 +306,7 @@ bool CrowdMotion::take_guests(Entity i) {
   // Those that join bring others.
   bool any = false;
   for (;;) {
-    const std::vector<Entity> guests = choose_guests(*crowd, near);
+    const vector<Entity> guests = choose_guests(*crowd, near);
     if (guests.empty()) break;
     any = true;
     near = list_.hold_regions(*crowd, unite(i, guests));
@@ -316,12 +317,12 @@ bool CrowdMotion::take_guests(Entity i) {
 }
 
 /// Lets these bodies join the island of member i. Returns all that are new in it.
-std::vector<Entity> CrowdMotion::unite(Entity i, std::span<const Entity> guests) {
-  std::vector<Entity> came;
+vector<Entity> CrowdMotion::unite(Entity i, span<const Entity> guests) {
+  vector<Entity> came;
   for (const Entity e : guests) {
     group_.join(e);
     if (bodies_.islands.same(i, e)) continue;
-    const std::vector<Entity>& members = bodies_.islands.of(e).members;
+    const vector<Entity>& members = bodies_.islands.of(e).members;
     came.insert(came.end(), members.begin(), members.end());
     group_.unite(i, e);
   }
@@ -338,8 +339,8 @@ void CrowdMotion::go_on_with(Entity i, Crowd& earlier) {
 }
 
 /// Of these outsiders, those that are to join. Others that come nearer are looked at again.
-std::vector<Entity> CrowdMotion::choose_guests(Crowd& crowd, std::span<const Entity> near) {
-  std::vector<Entity> guests;
+vector<Entity> CrowdMotion::choose_guests(Crowd& crowd, span<const Entity> near) {
+  vector<Entity> guests;
   for (const Entity e : near) {
     const Mode mode = bodies_.mode(e);
     if (!is_in_world(mode) || mode == Mode::asleep) continue;
@@ -351,7 +352,7 @@ std::vector<Entity> CrowdMotion::choose_guests(Crowd& crowd, std::span<const Ent
     if (outlook == CrowdList::Outlook::may_strike || outlook == CrowdList::Outlook::may_come)
       crowd.list.coming.push_back(e);
   }
-  std::sort(guests.begin(), guests.end());
+  std::ranges::sort(guests);
   return guests;
 }
 
@@ -366,7 +367,7 @@ bool CrowdMotion::list(Crowd& crowd) {
 /// Lets members fly that nothing has pressed on for a while, and that are so far from the others that they would not
 /// join again. Returns whether there are some.
 bool CrowdMotion::let_go(Crowd& crowd) {
-  const auto is_near = [&](std::size_t k) {
+  const auto is_near = [&](size_t k) {
     const Entity i = crowd.members[k];
     const Vec3 x = crowd.position(k);
     return std::ranges::any_of(bodies_.neighbours.bodies(i), [&](Entity e) {
@@ -376,8 +377,8 @@ bool CrowdMotion::let_go(Crowd& crowd) {
     });
   };
 
-  std::vector<Entity> stay;
-  for (const std::uint32_t k : crowd.by_name) {
+  vector<Entity> stay;
+  for (const uint32_t k : crowd.by_name) {
     const Entity i = crowd.members[k];
     if (crowd.idle[k] < tol::idle_steps || is_near(k)) {
       stay.push_back(i);
@@ -402,25 +403,25 @@ bool CrowdMotion::let_go(Crowd& crowd) {
 /// Splits off parts that no near pairs connect, and in which contacts press. They become islands of their own. Returns
 /// whether there are some.
 bool CrowdMotion::split(Crowd& crowd) {
-  const std::size_t n = crowd.members.size();
+  const size_t n = crowd.members.size();
   DisjointSets sets(n);
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
     if (row.b[lane] < crowd.movable()) sets.join(row.a[lane], row.b[lane]);
   });
 
   // Parts with contacts, each by its first member. All others stay with the first of them.
-  std::vector<std::uint8_t> presses(n, 0);
-  for (std::uint32_t k = 0; k < n; ++k)
+  vector<uint8_t> presses(n, 0);
+  for (uint32_t k = 0; k < n; ++k)
     if (crowd.pressed[k] != 0) presses[sets.root(k)] = 1;
-  std::vector<std::uint32_t> first(n, ContactConstraint::fixed);
-  std::vector<std::uint32_t> label(n);
-  std::uint32_t rest = ContactConstraint::fixed;
-  std::size_t parts = 0;
+  vector<uint32_t> first(n, ContactConstraint::fixed);
+  vector<uint32_t> label(n);
+  uint32_t rest = ContactConstraint::fixed;
+  size_t parts = 0;
 
-  for (std::uint32_t k = 0; k < n; ++k) {
-    const std::size_t root = sets.root(crowd.by_name[k]);
-    std::uint32_t& of_part = presses[root] != 0 ? first[root] : rest;
+  for (uint32_t k = 0; k < n; ++k) {
+    const size_t root = sets.root(crowd.by_name[k]);
+    uint32_t& of_part = presses[root] != 0 ? first[root] : rest;
     if (of_part == ContactConstraint::fixed) {
       of_part = k;
       ++parts;
@@ -445,7 +446,7 @@ bool CrowdMotion::split(Crowd& crowd) {
 
 /// Moves the things that move to their present places.
 void CrowdMotion::move_things(Crowd& crowd) const {
-  for (std::size_t k = 0; k < crowd.things.size(); ++k) {
+  for (size_t k = 0; k < crowd.things.size(); ++k) {
     if (!bodies_.world.moves(crowd.things[k])) continue;
     crowd.x[crowd.members.size() + k] = four_of(bodies_.fixed_position(crowd.things[k]), 0);
     crowd.v[crowd.members.size() + k] = four_of(bodies_.fixed_velocity(crowd.things[k]), 0);
@@ -471,7 +472,7 @@ void CrowdMotion::begin(Crowd& crowd) {
   flights_.note_changed(crowd.members.front());
 
   const Instant middle = bodies_.now + 0.5 * crowd.step.length;
-  for (const std::uint32_t k : crowd.by_name) {
+  for (const uint32_t k : crowd.by_name) {
     const Entity i = crowd.members[k];
     modes_.press(i, crowd.pressed[k] != 0);
     bodies_.note_speed(i, crowd.drift(k));
@@ -480,9 +481,9 @@ void CrowdMotion::begin(Crowd& crowd) {
   }
 }
 
-void CrowdMotion::report(const Island& island, std::vector<ContactForce>& forces) {
+void CrowdMotion::report(const Island& island, vector<ContactForce>& forces) {
   for (const std::shared_ptr<Crowd>& crowd : island.crowds)
-    crowd->rows.for_each([&](std::size_t g, std::size_t lane) {
+    crowd->rows.for_each([&](size_t g, size_t lane) {
       const auto& [i, e] = crowd->rows.names[g][lane];
       const double force = crowd->rows.state[g].force[lane];
       if (force > 0) forces.push_back({i, e, force});
@@ -491,20 +492,20 @@ void CrowdMotion::report(const Island& island, std::vector<ContactForce>& forces
 
 /// Counts steps in which the same pairs press. After some of them the shells close, and constrained motion follows.
 void CrowdMotion::count_calm(Island& island, Crowd& crowd) {
-  std::uint64_t hash = 0;
+  uint64_t hash = 0;
   double widest = 0;
-  std::size_t pressing = 0;
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  size_t pressing = 0;
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     if (!(crowd.rows.state[g].force[lane] > 0)) return;
     const auto& [i, e] = crowd.rows.names[g][lane];
-    hash += (std::uint64_t{i} << 32 | e) * 0x9e3779b97f4a7c15u;
+    hash += (uint64_t{i} << 32 | e) * 0x9e3779b97f4a7c15u;
     widest = std::max(widest, crowd.rows.state[g].shell[lane]);
     ++pressing;
   });
 
   island.calm = hash == island.pressing ? island.calm + 1 : 0;
   island.pressing = hash;
-  crowd.rest.closing = island.calm >= std::max<std::size_t>(island.calm_needed, pressing);
+  crowd.rest.closing = island.calm >= std::max<size_t>(island.calm_needed, pressing);
   if (!crowd.rest.closing) return;
 
   // Shells close bit by bit, so that bodies do not fall.

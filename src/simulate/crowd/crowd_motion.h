@@ -13,12 +13,12 @@
 // Drifts are straight, and bodies are convex and do not turn. The half space at a pair's closest points therefore
 // contains the other body for the whole step, and no pair overlaps at any instant. The step is a leapfrog: it has order
 // 2 but for impacts, which are early by up to a step. Contacts keep a gap of up to the shell.
-#include <vector>
 
 #include "physics/contact_force.h"
 #include "simulate/crowd/crowd_list.h"
 #include "simulate/crowd/crowd_sleep.h"
 #include "simulate/crowd/crowd_steps.h"
+#include "std.h"
 
 namespace carom {
 
@@ -34,24 +34,24 @@ class CrowdMotion {
   /// Books the present steps of an island up to `time` (s), the run's end.
   void book_last(const Island& island, double time) const;
   /// Appends the forces in the present step of an island.
-  static void report(const Island& island, std::vector<ContactForce>& forces);
+  static void report(const Island& island, vector<ContactForce>& forces);
 
  private:
   // What was before the step.
   void close(Crowd& crowd, const Instant& at) const;
   void book(Crowd& crowd, double since, bool full) const;
-  double work_on(const Crowd& crowd, std::size_t k, double since) const;
+  double work_on(const Crowd& crowd, size_t k, double since) const;
   void free_flights(Crowd& crowd) const;
 
   // What takes part.
   Crowd& gather(Island& island);
-  void take_in(Crowd& crowd, std::size_t k, bool comes);
-  void take_over(Crowd& crowd, const Crowd& earlier, std::vector<std::uint8_t>& known) const;
+  void take_in(Crowd& crowd, size_t k, bool comes);
+  void take_over(Crowd& crowd, const Crowd& earlier, vector<uint8_t>& known) const;
   void renew_forces(Crowd& crowd) const;
   double longest_step(const Crowd& crowd) const;
   bool take_guests(Entity i);
-  std::vector<Entity> choose_guests(Crowd& crowd, std::span<const Entity> near);
-  std::vector<Entity> unite(Entity i, std::span<const Entity> guests);
+  vector<Entity> choose_guests(Crowd& crowd, span<const Entity> near);
+  vector<Entity> unite(Entity i, span<const Entity> guests);
   void go_on_with(Entity i, Crowd& earlier);
   bool list(Crowd& crowd);
   bool let_go(Crowd& crowd);

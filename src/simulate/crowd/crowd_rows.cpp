@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <bit>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
 
-constexpr std::uint32_t colours = 64;
+constexpr uint32_t colours = 64;
 
 /// Numbers of pairs, by colour. The last list has the pairs without a colour.
-using Colours = std::array<std::vector<std::uint32_t>, colours + 1>;
+using Colours = array<vector<uint32_t>, colours + 1>;
 
 }  // namespace
 
@@ -24,10 +26,10 @@ void CrowdRows::clear() {
   parts.clear();
 }
 
-void CrowdRows::add_part(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy) {
+void CrowdRows::add_part(span<const Pair> pairs, uint32_t movable, uint32_t dummy) {
   RowPart part{groups(), groups(), groups()};
 
-  const auto fill = [&](std::size_t group, std::size_t lane, const Pair& pair) {
+  const auto fill = [&](size_t group, size_t lane, const Pair& pair) {
     hot[group].a[lane] = pair.a;
     hot[group].b[lane] = pair.b;
     hot[group].share[lane] = 1 / pair.inverse;
@@ -44,7 +46,7 @@ void CrowdRows::add_part(std::span<const Pair> pairs, std::uint32_t movable, std
     change.push_back({});
     state.push_back({});
     names.push_back({});
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (size_t lane = 0; lane < lanes; ++lane) {
       hot.back().a[lane] = hot.back().b[lane] = dummy;
       state.back().gap[lane] = 1;
     }
@@ -53,28 +55,28 @@ void CrowdRows::add_part(std::span<const Pair> pairs, std::uint32_t movable, std
 
   // Pairs of balls come first.
   Colours by_colour;
-  used_.resize(std::max<std::size_t>(used_.size(), movable));
+  used_.resize(std::max<size_t>(used_.size(), movable));
   for (const bool balls : {true, false}) {
     for (const Pair& pair : pairs) used_[pair.a] = used_[pair.b < movable ? pair.b : pair.a] = 0;
-    for (std::vector<std::uint32_t>& colour : by_colour) colour.clear();
-    for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+    for (vector<uint32_t>& colour : by_colour) colour.clear();
+    for (uint32_t k = 0; k < pairs.size(); ++k) {
       const Pair& pair = pairs[k];
       if (pair.balls != balls) continue;
-      const std::uint64_t taken = used_[pair.a] | (pair.b < movable ? used_[pair.b] : 0);
-      const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
+      const uint64_t taken = used_[pair.a] | (pair.b < movable ? used_[pair.b] : 0);
+      const auto colour = static_cast<uint32_t>(std::countr_one(taken));
       by_colour[colour].push_back(k);
 
       if (colour == colours) continue;
-      used_[pair.a] |= std::uint64_t{1} << colour;
-      if (pair.b < movable) used_[pair.b] |= std::uint64_t{1} << colour;
+      used_[pair.a] |= uint64_t{1} << colour;
+      if (pair.b < movable) used_[pair.b] |= uint64_t{1} << colour;
     }
 
     // Groups of four, but for pairs without a colour. Those that press are together.
-    for (std::uint32_t colour = 0; colour <= colours; ++colour) {
-      const std::size_t together = colour == colours ? 1 : lanes;
+    for (uint32_t colour = 0; colour <= colours; ++colour) {
+      const size_t together = colour == colours ? 1 : lanes;
       std::stable_partition(by_colour[colour].begin(), by_colour[colour].end(),
-                            [&](std::uint32_t k) { return pairs[k].near; });
-      for (std::size_t k = 0; k < by_colour[colour].size(); ++k) {
+                            [&](uint32_t k) { return pairs[k].near; });
+      for (size_t k = 0; k < by_colour[colour].size(); ++k) {
         if (k % together == 0) open_group();
         fill(hot.size() - 1, k % together, pairs[by_colour[colour][k]]);
       }

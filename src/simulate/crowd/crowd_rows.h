@@ -4,15 +4,11 @@
 // Groups of rows follow one another in colours. Rows of one colour share no body, so that their order has no effect.
 // What every sweep reads lies apart from what is read once in a step.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -31,7 +27,7 @@ inline void add(Four& four, const Vec3& change) {
   for (int k = 0; k < 3; ++k) four.at[k] += change[k];
 }
 /// The greatest length of these vectors.
-inline double greatest(const std::vector<Four>& all) {
+inline double greatest(const vector<Four>& all) {
   double squared = 0;
   for (const Four& each : all) squared = std::max(squared, vector_of(each).squaredNorm());
   return std::sqrt(squared);
@@ -46,8 +42,8 @@ struct alignas(32) RowGroup {
   double base[4];     // m
   double share[4];    // kg: 1 / (1 / m_a + 1 / m_b)
   double impulse[4];  // N s
-  std::uint32_t a[4];
-  std::uint32_t b[4];
+  uint32_t a[4];
+  uint32_t b[4];
 };
 
 /// The same four: for the test of convergence, and for conjugate directions.
@@ -76,13 +72,13 @@ struct RowName {
 
 /// Where a pair's row is.
 struct RowPlace {
-  std::size_t group;
-  std::size_t lane;
+  size_t group;
+  size_t lane;
 };
 
 /// of(begin) + ... + of(end - 1), the same where the order is the opposite one.
 template <typename Of>
-double sum_in_pairs(std::size_t begin, std::size_t end, const Of& of) {
+double sum_in_pairs(size_t begin, size_t end, const Of& of) {
   double sum = 0;
   for (; begin + 1 < end; ++begin, --end) sum += of(begin) + of(end - 1);
   return begin < end ? sum + of(begin) : sum;
@@ -90,23 +86,23 @@ double sum_in_pairs(std::size_t begin, std::size_t end, const Of& of) {
 
 /// Rows that one thread takes: groups from `begin` on, those of pairs of balls first.
 struct RowPart {
-  std::size_t begin = 0;
-  std::size_t balls = 0;  // the end of those
-  std::size_t end = 0;
+  size_t begin = 0;
+  size_t balls = 0;  // the end of those
+  size_t end = 0;
 };
 
 /// Parts are those of slabs of space. Then those of pairs that lie in two slabs: between slabs 0 and 1, 2 and 3, ...,
 /// then between 1 and 2, 3 and 4, ... The last has all other rows. With one slab there is one part.
 class CrowdRows {
  public:
-  static constexpr std::size_t lanes = 4;
+  static constexpr size_t lanes = 4;
   static constexpr double new_pair = -1;  // m, the shell of a pair that is not yet measured
 
   /// A listed pair, by the numbers of bodies in the crowd. Things that forces do not move have numbers from `movable`
   /// on, in each part their own.
   struct Pair {
-    std::uint32_t a;
-    std::uint32_t b;
+    uint32_t a;
+    uint32_t b;
     RowName name;
     bool balls;      // both are balls
     double inverse;  // 1/kg
@@ -120,14 +116,14 @@ class CrowdRows {
   void clear();
   /// Adds a part with these pairs, in this order but for colours. `movable`: the number of bodies. `dummy`: the number
   /// of a thing for lanes without a row.
-  void add_part(std::span<const Pair> pairs, std::uint32_t movable, std::uint32_t dummy);
+  void add_part(span<const Pair> pairs, uint32_t movable, uint32_t dummy);
 
-  std::size_t groups() const { return hot.size(); }
+  size_t groups() const { return hot.size(); }
   /// Calls what(group, lane) for each row of a part, or for each row, in order.
   template <typename What>
   void for_each(const RowPart& part, const What& what) const {
-    for (std::size_t g = part.begin; g < part.end; ++g)
-      for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (size_t g = part.begin; g < part.end; ++g)
+      for (size_t lane = 0; lane < lanes; ++lane)
         if (hot[g].share[lane] > 0) what(g, lane);
   }
   template <typename What>
@@ -135,21 +131,21 @@ class CrowdRows {
     for_each({0, 0, hot.size()}, what);
   }
 
-  Vec3 normal(std::size_t group, std::size_t lane) const {
+  Vec3 normal(size_t group, size_t lane) const {
     return {hot[group].nx[lane], hot[group].ny[lane], hot[group].nz[lane]};
   }
 
-  std::size_t slabs() const { return parts.size() == 1 ? 1 : parts.size() / 2; }
+  size_t slabs() const { return parts.size() == 1 ? 1 : parts.size() / 2; }
   /// Parts of one phase share no body that moves: they are those from one of these numbers on up to the next.
-  std::array<std::size_t, 5> phases() const {
-    const std::size_t n = slabs();
+  array<size_t, 5> phases() const {
+    const size_t n = slabs();
     if (n == 1) return {0, 1, 1, 1, 1};
     return {0, n, n + n / 2, 2 * n - 1, 2 * n};
   }
   /// The sum over parts. Mirror images of a crowd have the parts of each phase in the opposite order, and the same sum.
   template <typename Of>
   double sum(const Of& of) const {
-    const std::array<std::size_t, 5> phase = phases();
+    const array<size_t, 5> phase = phases();
     double sum = 0;
     for (int k = 0; k < 4; ++k) sum += sum_in_pairs(phase[k], phase[k + 1], of);
     return sum;
@@ -157,16 +153,16 @@ class CrowdRows {
 
   void keep(auto& archive) { archive(hot, change, state, names, parts, place, first); }
 
-  std::vector<RowGroup> hot;
-  std::vector<RowChange> change;
-  std::vector<RowState> state;
-  std::vector<std::array<RowName, lanes>> names;
-  std::vector<RowPart> parts;
-  std::vector<std::uint32_t> place;  // by member: 2 s in slab s, 2 s + 1 on the cut behind it
-  std::vector<std::uint32_t> first;  // by slab: the first number of its members, and behind the last slab their count
+  vector<RowGroup> hot;
+  vector<RowChange> change;
+  vector<RowState> state;
+  vector<array<RowName, lanes>> names;
+  vector<RowPart> parts;
+  vector<uint32_t> place;  // by member: 2 s in slab s, 2 s + 1 on the cut behind it
+  vector<uint32_t> first;  // by slab: the first number of its members, and behind the last slab their count
 
  private:
-  std::vector<std::uint64_t> used_;  // scratch: by body, a bit for each colour
+  vector<uint64_t> used_;  // scratch: by body, a bit for each colour
 };
 
 }  // namespace carom

@@ -1,10 +1,9 @@
 #pragma once
 // Slabs of space: what threads take of a large crowd. They depend on its places alone, and mirror images of a crowd
 // have mirror images of its slabs.
-#include <span>
-#include <vector>
 
 #include "simulate/crowd/crowd.h"
+#include "std.h"
 
 namespace carom {
 
@@ -14,6 +13,6 @@ namespace carom {
 void arrange_in_slabs(Crowd& crowd, double beyond_radii);
 
 /// The pairs of each part of the rows, in the order of their names.
-std::vector<std::vector<CrowdRows::Pair>> pairs_of_parts(const CrowdRows& rows, std::span<const CrowdRows::Pair> pairs);
+vector<vector<CrowdRows::Pair>> pairs_of_parts(const CrowdRows& rows, span<const CrowdRows::Pair> pairs);
 
 }  // namespace carom

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "numerics/disjoint_sets.h"
@@ -13,14 +12,15 @@
 #include "simulate/contact/flight_changes.h"
 #include "simulate/tolerances.h"
 #include "solver/least_forces.h"
+#include "std.h"
 
 namespace carom {
 
 namespace tol = exact_tolerance;
 
 void CrowdSleep::wake_pressed(Crowd& crowd) {
-  std::vector<RowName> pressed = std::exchange(crowd.struck, {});
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  vector<RowName> pressed = std::exchange(crowd.struck, {});
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     if (crowd.presses_on_sleeper(g, lane, bodies_.world)) pressed.push_back(crowd.rows.names[g][lane]);
   });
 
@@ -32,40 +32,40 @@ void CrowdSleep::wake_pressed(Crowd& crowd) {
 
 /// By member: whether it is to rest. All are if all hardly move. A part of a crowd must have done so for a while, with
 /// all that press on one another in it: what moves may be about to press on it.
-std::vector<std::uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
+vector<uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
   const double limit = tol::standstill * std::sqrt(crowd.load * crowd.smallest);  // m/s
-  const auto moves = [&](std::size_t k) { return !(crowd.load > 0) || crowd.drift(k).norm() > limit; };
-  const auto count = static_cast<std::uint32_t>(crowd.members.size());
+  const auto moves = [&](size_t k) { return !(crowd.load > 0) || crowd.drift(k).norm() > limit; };
+  const auto count = static_cast<uint32_t>(crowd.members.size());
   bool all = true;
-  for (std::uint32_t k = 0; all && k < count; ++k) all = !moves(k);
-  std::vector<std::uint8_t> rests(count, all ? 1 : 0);
+  for (uint32_t k = 0; all && k < count; ++k) all = !moves(k);
+  vector<uint8_t> rests(count, all ? 1 : 0);
   if (all || ++crowd.rest.steps % tol::steps_to_look != 0) return rests;
 
   DisjointSets parts(count);
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
     if (crowd.rows.state[g].force[lane] > 0 && row.b[lane] < crowd.movable()) parts.join(row.a[lane], row.b[lane]);
   });
 
-  std::vector<std::uint8_t> moving(count, 0);  // by part
-  for (std::uint32_t k = 0; k < count; ++k)
+  vector<uint8_t> moving(count, 0);  // by part
+  for (uint32_t k = 0; k < count; ++k)
     if (moves(k)) moving[parts.root(k)] = 1;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    crowd.still[k] = moving[parts.root(k)] != 0 ? 0 : static_cast<std::uint8_t>(std::min(crowd.still[k] + 1, 255));
+  for (uint32_t k = 0; k < count; ++k) {
+    crowd.still[k] = moving[parts.root(k)] != 0 ? 0 : static_cast<uint8_t>(std::min(crowd.still[k] + 1, 255));
     rests[k] = crowd.still[k] >= tol::still_looks ? 1 : 0;
   }
 
   // The few that rest among others that move would wake soon.
-  if (2 * std::ranges::count(rests, 1) < static_cast<std::ptrdiff_t>(count)) std::ranges::fill(rests, 0);
+  if (2 * std::ranges::count(rests, 1) < static_cast<ptrdiff_t>(count)) std::ranges::fill(rests, 0);
   return rests;
 }
 
 /// Whether the crowd has been slow as a whole for a while, and something has pressed on each of its members.
 bool CrowdSleep::has_settled(Crowd& crowd) const {
   const double limit = tol::slow_preview * std::sqrt(crowd.load * crowd.smallest);  // m/s
-  const double squares = crowd.sum([&](std::size_t k) { return crowd.drift(k).squaredNorm(); });
+  const double squares = crowd.sum([&](size_t k) { return crowd.drift(k).squaredNorm(); });
   const bool carried =
-      crowd.load > 0 && std::ranges::all_of(crowd.idle, [](std::uint8_t steps) { return steps <= tol::idle_steps; });
+      crowd.load > 0 && std::ranges::all_of(crowd.idle, [](uint8_t steps) { return steps <= tol::idle_steps; });
 
   if (!carried || squares > limit * limit * static_cast<double>(crowd.members.size())) {
     crowd.rest.slow_since = {never, 0};
@@ -76,21 +76,21 @@ bool CrowdSleep::has_settled(Crowd& crowd) const {
 }
 
 /// The pairs that touch, of the members that are to rest, with their present forces (N).
-CrowdSleep::Holding CrowdSleep::touching(const Crowd& crowd, std::span<const std::uint8_t> rests) const {
+CrowdSleep::Holding CrowdSleep::touching(const Crowd& crowd, span<const uint8_t> rests) const {
   Holding holding;
   holding.number.resize(crowd.members.size(), ContactConstraint::fixed);
-  for (const std::uint32_t k : crowd.by_name)
+  for (const uint32_t k : crowd.by_name)
     if (rests[k] != 0) {
-      holding.number[k] = static_cast<std::uint32_t>(holding.members.size());
+      holding.number[k] = static_cast<uint32_t>(holding.members.size());
       holding.members.push_back(k);
     }
 
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
     const bool body = row.b[lane] < crowd.movable();
     if (rests[row.a[lane]] == 0 || (body && rests[row.b[lane]] == 0)) return;
     if (crowd.rows.state[g].gap[lane] > 2 * crowd.step.shell + tol::waking_gap * crowd.smallest) return;
-    const std::uint32_t b = body ? holding.number[row.b[lane]] : ContactConstraint::fixed;
+    const uint32_t b = body ? holding.number[row.b[lane]] : ContactConstraint::fixed;
     holding.pairs.push_back({holding.number[row.a[lane]], b, crowd.rows.normal(g, lane)});
     holding.pairs.back().force = crowd.rows.state[g].force[lane];
     holding.rows.push_back({g, lane});
@@ -101,9 +101,9 @@ CrowdSleep::Holding CrowdSleep::touching(const Crowd& crowd, std::span<const std
 
 /// Finds the forces that would hold them. Returns whether they do.
 bool CrowdSleep::solve_rest(const Crowd& crowd, Holding& holding) {
-  std::vector<Vec3> motion;  // m/s^2
-  std::vector<double> inverse_mass;
-  for (const std::uint32_t k : holding.members) {
+  vector<Vec3> motion;  // m/s^2
+  vector<double> inverse_mass;
+  for (const uint32_t k : holding.members) {
     motion.push_back(bodies_.applied[crowd.members[k]]);
     inverse_mass.push_back(1 / bodies_.world.mass[crowd.members[k]]);
   }
@@ -118,18 +118,18 @@ bool CrowdSleep::solve_rest(const Crowd& crowd, Holding& holding) {
 /// that takes a thirtieth of the contact solver's time. Where forces are not unique, they are near the present ones.
 /// The problem's motion becomes what is left. False, and it stays: the sweeps do not end.
 bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const ContactProblem& problem) {
-  std::vector<Four> v(crowd.v.size());
-  for (std::size_t m = 0; m < holding.members.size(); ++m)
+  vector<Four> v(crowd.v.size());
+  for (size_t m = 0; m < holding.members.size(); ++m)
     v[holding.members[m]] = four_of(problem.motion[m], problem.inverse_mass[m]);
 
   // Only the pairs that touch.
   CrowdRows rows = crowd.rows;
-  for (std::size_t g = 0; g < rows.groups(); ++g) {
+  for (size_t g = 0; g < rows.groups(); ++g) {
     std::ranges::fill(rows.hot[g].base, never);
     std::ranges::fill(rows.hot[g].impulse, 0.0);
     std::ranges::fill(rows.change[g].slack, never);
   }
-  for (std::size_t c = 0; c < holding.pairs.size(); ++c) {
+  for (size_t c = 0; c < holding.pairs.size(); ++c) {
     const auto& [g, lane] = holding.rows[c];
     rows.hot[g].base[lane] = 0;
     rows.hot[g].impulse[lane] = holding.pairs[c].force;
@@ -141,11 +141,11 @@ bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const Cont
   if (solver_.hold(rows, v, {1, goal, crowd.load, tol::sweeps_to_rest}).change > goal) return false;
 
   // Bodies would move, or rounding is left.
-  for (std::size_t c = 0; c < holding.pairs.size(); ++c)
+  for (size_t c = 0; c < holding.pairs.size(); ++c)
     holding.pairs[c].force = rows.hot[holding.rows[c].group].impulse[holding.rows[c].lane];
-  const auto moves = [&](std::uint32_t k) { return vector_of(v[k]).norm() > tol::nearly_balanced * crowd.load; };
+  const auto moves = [&](uint32_t k) { return vector_of(v[k]).norm() > tol::nearly_balanced * crowd.load; };
   if (std::ranges::any_of(holding.members, moves))
-    for (std::size_t m = 0; m < holding.members.size(); ++m) problem.motion[m] = vector_of(v[holding.members[m]]);
+    for (size_t m = 0; m < holding.members.size(); ++m) problem.motion[m] = vector_of(v[holding.members[m]]);
   else
     correct_hold(problem);
   return true;
@@ -154,7 +154,7 @@ bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const Cont
 /// Wakes the sleeping bodies that these forces press on: they are in balance together, or not at all. Returns whether
 /// there are some.
 bool CrowdSleep::wake_beneath(const Holding& holding) {
-  for (std::size_t c = 0; c < holding.pairs.size(); ++c) {
+  for (size_t c = 0; c < holding.pairs.size(); ++c) {
     const auto& [i, e] = holding.names[c];
     const ContactConstraint& pair = holding.pairs[c];
     if (!(pair.force > 0) || pair.b != ContactConstraint::fixed || !bodies_.world.is_body(e)) continue;
@@ -170,7 +170,7 @@ bool CrowdSleep::falls_asleep(Crowd& crowd) {
   for (const Entity thing : crowd.things)
     if (bodies_.moving.any() && bodies_.moving.moves(thing, bodies_.now)) return false;
 
-  std::vector<std::uint8_t> rests(crowd.members.size(), 1);
+  vector<uint8_t> rests(crowd.members.size(), 1);
   if (!quality_.rests_by_speed) rests = slow_members(crowd);
   if (quality_.rests_by_speed ? !has_settled(crowd) : std::ranges::none_of(rests, std::identity())) return false;
 
@@ -188,12 +188,12 @@ bool CrowdSleep::falls_asleep(Crowd& crowd) {
 
 /// Lets them sleep. Other members take the step without them.
 void CrowdSleep::put_to_rest(Crowd& crowd, const Holding& holding) {
-  for (std::size_t c = 0; c < holding.pairs.size(); ++c)
+  for (size_t c = 0; c < holding.pairs.size(); ++c)
     if (holding.pairs[c].force > 0)
       group_.pressing.write(holding.names[c].a).push_back({holding.names[c].e, holding.pairs[c].force});
 
   double kinetic = 0;  // J
-  for (const std::uint32_t k : holding.members) {
+  for (const uint32_t k : holding.members) {
     const Entity i = crowd.members[k];
     kinetic += 0.5 * bodies_.world.mass[i] * crowd.velocity(k, crowd.lag[k]).squaredNorm();
     modes_.fall_asleep(i);
@@ -202,8 +202,8 @@ void CrowdSleep::put_to_rest(Crowd& crowd, const Holding& holding) {
   }
   bodies_.log.absorb(kinetic);
 
-  std::vector<Entity> stay;
-  for (const std::uint32_t k : crowd.by_name)
+  vector<Entity> stay;
+  for (const uint32_t k : crowd.by_name)
     if (holding.number[k] == ContactConstraint::fixed) stay.push_back(crowd.members[k]);
   bodies_.islands.of(crowd.members.front()).end = bodies_.now;
   if (!stay.empty()) flights_.note_changed(stay.front());

@@ -1,12 +1,12 @@
 #pragma once
 // Crowds that come to rest, and sleeping bodies that a crowd wakes.
-#include <vector>
 
 #include "physics/contact_quality.h"
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/crowd/crowd.h"
 #include "simulate/crowd/crowd_solver.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -28,16 +28,16 @@ class CrowdSleep {
 
  private:
   struct Holding {
-    std::vector<std::uint32_t> members;  // their numbers in the crowd
-    std::vector<std::uint32_t> number;   // by member of the crowd: its place in `members`
-    std::vector<ContactConstraint> pairs;
-    std::vector<RowPlace> rows;  // of the pairs
-    std::vector<RowName> names;
+    vector<uint32_t> members;  // their numbers in the crowd
+    vector<uint32_t> number;   // by member of the crowd: its place in `members`
+    vector<ContactConstraint> pairs;
+    vector<RowPlace> rows;  // of the pairs
+    vector<RowName> names;
   };
 
-  std::vector<std::uint8_t> slow_members(Crowd& crowd) const;
+  vector<uint8_t> slow_members(Crowd& crowd) const;
   bool has_settled(Crowd& crowd) const;
-  Holding touching(const Crowd& crowd, std::span<const std::uint8_t> rests) const;
+  Holding touching(const Crowd& crowd, span<const uint8_t> rests) const;
   bool solve_rest(const Crowd& crowd, Holding& holding);
   bool hold_by_sweeps(const Crowd& crowd, Holding& holding, const ContactProblem& problem);
   void put_to_rest(Crowd& crowd, const Holding& holding);

@@ -4,11 +4,10 @@
 // Projected Gauss-Seidel sweeps from the last step's forces, with nonsmooth nonlinear conjugate gradients between them
 // (Silcowitz, Niebe & Erleben, Visual Computer 26 (2010) 893). A sweep changes velocities at once. They are therefore
 // always those of the impulses, and momentum is kept to rounding.
-#include <span>
-#include <vector>
 
 #include "simulate/crowd/crowd_kernels.h"
 #include "simulate/crowd/crowd_threads.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,27 +25,27 @@ class CrowdSolver {
 
   /// Changes the velocities `v` of all bodies, which contain the effect of the rows' present impulses, and the
   /// impulses. Returns the last sweep's result.
-  SweepResult hold(CrowdRows& rows, std::vector<Four>& v, const Goal& goal);
+  SweepResult hold(CrowdRows& rows, vector<Four>& v, const Goal& goal);
   /// Sweeps so many times over the marked groups, without directions.
-  void sweep(CrowdRows& rows, std::vector<Four>& v, double length, std::span<const std::uint8_t> marks, int sweeps);
+  void sweep(CrowdRows& rows, vector<Four>& v, double length, span<const uint8_t> marks, int sweeps);
   /// Scales all impulses by one factor, so that they do no work beyond their targets. free: velocities without them.
-  void scale(CrowdRows& rows, std::vector<Four>& v, const std::vector<Four>& free, double length);
+  void scale(CrowdRows& rows, vector<Four>& v, const vector<Four>& free, double length);
 
  private:
   static constexpr double anew = -1;  // in place of a factor of the last direction: there is none
 
-  bool mark(const CrowdRows& rows, const std::vector<Four>& v, double length, double gap);
-  void list_marked(const CrowdRows& rows, std::size_t part);
-  void turn(CrowdRows& rows, std::vector<Four>& v, std::size_t part, double beta);
+  bool mark(const CrowdRows& rows, const vector<Four>& v, double length, double gap);
+  void list_marked(const CrowdRows& rows, size_t part);
+  void turn(CrowdRows& rows, vector<Four>& v, size_t part, double beta);
   template <typename Before>
-  SweepResult sweep(CrowdRows& rows, std::vector<Four>& v, double length, const Before& before);
+  SweepResult sweep(CrowdRows& rows, vector<Four>& v, double length, const Before& before);
 
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   CrowdThreads& threads_;
-  std::vector<std::uint8_t> marks_;                // by group: it takes part
-  std::vector<std::vector<std::uint32_t>> which_;  // these groups, by part
-  std::vector<Four> before_;
-  std::vector<Four> direction_;
+  vector<uint8_t> marks_;           // by group: it takes part
+  vector<vector<uint32_t>> which_;  // these groups, by part
+  vector<Four> before_;
+  vector<Four> direction_;
 };
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "physics/world.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -76,7 +77,7 @@ bool CrowdSteps::may_return(const Crowd& crowd) const {
   if (quality_.overlap > 0 || made <= tol::made_with_returns * (taken + lost)) return true;
 
   const World& world = bodies_.world;
-  const double fall = crowd.sum([&](std::size_t k) {
+  const double fall = crowd.sum([&](size_t k) {
     const Entity i = crowd.members[k];
     return world.mass[i] * crowd.load * world.radius[i];
   });
@@ -88,7 +89,7 @@ bool CrowdSteps::aim(Crowd& crowd) {
   crowd.step.speed = speed_in_contact(crowd);
   crowd.step.shell = crowd.rest.closing ? 0 : quality_.shell * crowd.smallest;
   now_ = crowd.v;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) add(now_[k], crowd.lag[k] * crowd.a[k]);
+  for (size_t k = 0; k < crowd.members.size(); ++k) add(now_[k], crowd.lag[k] * crowd.a[k]);
 
   const double back = return_of_step(crowd);
   StepTarget target;
@@ -104,8 +105,8 @@ bool CrowdSteps::aim(Crowd& crowd) {
   may_strike_.resize(crowd.rows.groups());
 
   CrowdRows& rows = crowd.rows;
-  std::vector<AimResult> found(rows.parts.size());
-  threads_.each(rows, [&](std::size_t p) {
+  vector<AimResult> found(rows.parts.size());
+  threads_.each(rows, [&](size_t p) {
     const auto& [begin, balls, end] = rows.parts[p];
     found[p] = kernels_.aim(rows.hot.data() + begin, rows.change.data() + begin, rows.state.data() + begin, end - begin,
                             now_.data(), target, may_strike_.data() + begin);
@@ -123,13 +124,13 @@ bool CrowdSteps::aim(Crowd& crowd) {
 /// them is a sleeping body's, which must wake first.
 bool CrowdSteps::strike(Crowd& crowd) {
   bool any = aim(crowd);
-  std::vector<Strikes> strikes(crowd.rows.parts.size());
+  vector<Strikes> strikes(crowd.rows.parts.size());
   for (int sweep = 0; any && sweep < quality_.impact_sweeps; ++sweep) {
     const double within = longest(crowd);
-    threads_.in_phases(crowd.rows, [&](std::size_t p) { strike(crowd, p, within, strikes[p]); });
+    threads_.in_phases(crowd.rows, [&](size_t p) { strike(crowd, p, within, strikes[p]); });
 
     any = false;
-    crowd.balance.lost += crowd.rows.sum([&](std::size_t p) { return strikes[p].lost; });
+    crowd.balance.lost += crowd.rows.sum([&](size_t p) { return strikes[p].lost; });
     for (Strikes& of_part : strikes) {
       any = any || !of_part.met.empty();
       book(of_part);
@@ -144,13 +145,13 @@ bool CrowdSteps::strike(Crowd& crowd) {
 }
 
 /// Those of a part in one round, up to one of a sleeping body.
-void CrowdSteps::strike(Crowd& crowd, std::size_t part, double within, Strikes& strikes) {
+void CrowdSteps::strike(Crowd& crowd, size_t part, double within, Strikes& strikes) {
   const auto& [begin, balls, end] = crowd.rows.parts[part];
   unsigned which = 0;
-  for (std::size_t g = begin; (g = kernels_.next_strike(crowd.rows.hot.data(), crowd.rows.state.data(), g, end,
-                                                        now_.data(), within, may_strike_.data(), which)) < end;
+  for (size_t g = begin; (g = kernels_.next_strike(crowd.rows.hot.data(), crowd.rows.state.data(), g, end, now_.data(),
+                                                   within, may_strike_.data(), which)) < end;
        ++g)
-    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+    for (size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
       if ((which >> lane & 1) == 0) continue;
       strike(crowd, g, lane, strikes);
       if (strikes.struck.a != no_entity) return;
@@ -169,8 +170,7 @@ void CrowdSteps::book(const Strikes& strikes) const {
 bool CrowdSteps::presses_on_sleepers(const Crowd& crowd) const {
   if (std::ranges::none_of(crowd.things, [&](Entity e) { return bodies_.world.is_body(e); })) return false;
   bool any = false;
-  crowd.rows.for_each(
-      [&](std::size_t g, std::size_t lane) { any = any || crowd.presses_on_sleeper(g, lane, bodies_.world); });
+  crowd.rows.for_each([&](size_t g, size_t lane) { any = any || crowd.presses_on_sleeper(g, lane, bodies_.world); });
   return any;
 }
 
@@ -179,14 +179,14 @@ bool CrowdSteps::presses_on_sleepers(const Crowd& crowd) const {
 void CrowdSteps::restart_if_short(Crowd& crowd) const {
   if (!(crowd.step.length < tol::restart * crowd.step.last_length)) return;
   std::copy_n(now_.begin(), crowd.members.size(), crowd.v.begin());
-  std::fill(crowd.lag.begin(), crowd.lag.end(), 0);
-  std::fill(crowd.lent.begin(), crowd.lent.end(), 0);
+  std::ranges::fill(crowd.lag, 0);
+  std::ranges::fill(crowd.lent, 0);
 }
 
 /// The impact of one row.
-void CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane, Strikes& strikes) {
+void CrowdSteps::strike(Crowd& crowd, size_t group, size_t lane, Strikes& strikes) {
   const RowGroup& row = crowd.rows.hot[group];
-  const std::uint32_t a = row.a[lane];
+  const uint32_t a = row.a[lane];
   const bool body = row.b[lane] < crowd.movable();
   const Vec3 normal = crowd.rows.normal(group, lane);
   const auto& [i, e] = crowd.rows.names[group][lane];
@@ -207,7 +207,7 @@ void CrowdSteps::strike(Crowd& crowd, std::size_t group, std::size_t lane, Strik
 
 /// Changes the velocities of the instant, and these drifts, by an impulse (N s) of a row. Returns the work of a thing
 /// that moves (J).
-double CrowdSteps::push(Crowd& crowd, std::size_t group, std::size_t lane, double impulse, std::vector<Four>& drifts) {
+double CrowdSteps::push(Crowd& crowd, size_t group, size_t lane, double impulse, vector<Four>& drifts) {
   const RowGroup& row = crowd.rows.hot[group];
   const Vec3 normal = crowd.rows.normal(group, lane);
   for (const auto& [k, sign] : {std::pair{row.a[lane], -1.0}, std::pair{row.b[lane], 1.0}}) {
@@ -223,10 +223,10 @@ double CrowdSteps::push(Crowd& crowd, std::size_t group, std::size_t lane, doubl
 /// The kinetic energy at the step's start (J).
 double CrowdSteps::kinetic_energy(const Crowd& crowd) const {
   return crowd.sum(
-      [&](std::size_t k) { return 0.5 * bodies_.world.mass[crowd.members[k]] * vector_of(now_[k]).squaredNorm(); });
+      [&](size_t k) { return 0.5 * bodies_.world.mass[crowd.members[k]] * vector_of(now_[k]).squaredNorm(); });
 }
 
-double CrowdSteps::lent(const Crowd& crowd, std::size_t k, double age) const {
+double CrowdSteps::lent(const Crowd& crowd, size_t k, double age) const {
   const Entity i = crowd.members[k];
   const double ahead = std::min(age, crowd.lag[k]);
   const Vec3 forces = bodies_.applied[i] - bodies_.fade[i] * crowd.drift(k);
@@ -249,7 +249,7 @@ void CrowdSteps::take(Crowd& crowd, double energy, double lent) const {
 /// Changes drifts by forces, for the time from the middle of the last step to that of this one, and by the forces of
 /// contacts in the last step. Linear drag is implicit, as if bodies were heavier.
 void CrowdSteps::kick(Crowd& crowd) {
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (size_t k = 0; k < crowd.members.size(); ++k) {
     const Entity i = crowd.members[k];
     const double seconds = 0.5 * crowd.step.length + crowd.lag[k];
     const double fade = bodies_.fade[i];
@@ -269,11 +269,11 @@ void CrowdSteps::kick(Crowd& crowd) {
 /// Begins with the forces of contacts in the last step.
 void CrowdSteps::start_warm(Crowd& crowd) {
   CrowdRows& rows = crowd.rows;
-  threads_.in_phases(rows, [&](std::size_t p) {
+  threads_.in_phases(rows, [&](size_t p) {
     const auto& [begin, balls, end] = rows.parts[p];
-    for (std::size_t g = begin; g < end; ++g)
-      for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
-        const std::uint32_t a = rows.hot[g].a[lane];
+    for (size_t g = begin; g < end; ++g)
+      for (size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+        const uint32_t a = rows.hot[g].a[lane];
         const double lag = a < crowd.movable() ? crowd.lag[a] : 0;
         rows.hot[g].impulse[lane] = (0.5 * crowd.step.length + lag) * rows.state[g].force[lane];
       }
@@ -285,22 +285,22 @@ void CrowdSteps::start_warm(Crowd& crowd) {
 /// fly beside one another, and slides along fixed things, would make the forces of a heap coarse.
 double CrowdSteps::speed_in_contact(const Crowd& crowd) {
   const CrowdRows& rows = crowd.rows;
-  std::vector<Agitation> found(rows.parts.size());
-  threads_.each(rows, [&](std::size_t p) {
+  vector<Agitation> found(rows.parts.size());
+  threads_.each(rows, [&](size_t p) {
     const auto& [begin, balls, end] = rows.parts[p];
     found[p] = kernels_.agitation(rows.hot.data() + begin, rows.state.data() + begin, end - begin, crowd.v.data(),
                                   crowd.movable());
   });
 
-  std::size_t pressing = 0;
+  size_t pressing = 0;
   for (const Agitation& of : found) pressing += of.pressing;
-  const double squares = rows.sum([&](std::size_t p) { return found[p].squares; });
+  const double squares = rows.sum([&](size_t p) { return found[p].squares; });
   return pressing > 0 ? std::sqrt(squares / static_cast<double>(pressing)) : 0;
 }
 
 /// What forces may leave, and how often they are improved.
 CrowdSolver::Goal CrowdSteps::goal(const Crowd& crowd) const {
-  const auto bodies = static_cast<double>(std::max(std::ranges::count(crowd.pressed, 1), std::ptrdiff_t{1}));
+  const auto bodies = static_cast<double>(std::max(std::ranges::count(crowd.pressed, 1), ptrdiff_t{1}));
   const double gained = crowd.load * crowd.step.length;
   const double rounding = tol::gap_rounding * std::max(gained, greatest(before_));
   // Slower bodies rest by the contact solver's forces.
@@ -335,7 +335,7 @@ bool CrowdSteps::hold(Crowd& crowd) {
 /// that should give it to them would grow without end. Returns whether there are such pairs.
 bool CrowdSteps::give_up_returns(Crowd& crowd) {
   bool any = false;
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     double& base = crowd.rows.hot[g].base[lane];
     if (!(base < 0)) return;
     base = 0;
@@ -346,11 +346,11 @@ bool CrowdSteps::give_up_returns(Crowd& crowd) {
 
 /// Sweeps over the pairs that would overlap, and those that overlap because of that. Others have slack.
 void CrowdSteps::keep_apart(Crowd& crowd) {
-  std::vector<std::uint8_t> marks(crowd.rows.groups(), 0);
+  vector<uint8_t> marks(crowd.rows.groups(), 0);
   for (int sweep = 0; sweep < tol::more_sweeps; ++sweep) {
     bool any = false;
 
-    crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+    crowd.rows.for_each([&](size_t g, size_t lane) {
       const RowGroup& row = crowd.rows.hot[g];
       const double speed = crowd.rows.normal(g, lane).dot(crowd.drift(row.b[lane]) - crowd.drift(row.a[lane]));
       if (crowd.rows.state[g].gap[lane] + crowd.step.length * speed >= 0) return;
@@ -365,8 +365,8 @@ void CrowdSteps::keep_apart(Crowd& crowd) {
 /// The longest drift (s) after which no two overlap by more than is allowed.
 double CrowdSteps::safe_length(const Crowd& crowd) {
   const double allowed = std::max(tol::gap_rounding, quality_.overlap) * crowd.smallest;
-  std::vector<double> found(crowd.rows.parts.size());
-  threads_.each(crowd.rows, [&](std::size_t p) {
+  vector<double> found(crowd.rows.parts.size());
+  threads_.each(crowd.rows, [&](size_t p) {
     const auto& [begin, balls, end] = crowd.rows.parts[p];
     found[p] = kernels_.safe_drift(crowd.rows.hot.data() + begin, crowd.rows.state.data() + begin, end - begin,
                                    crowd.v.data(), allowed);
@@ -376,15 +376,15 @@ double CrowdSteps::safe_length(const Crowd& crowd) {
 
 /// The same impulses by the contact solver, where sweeps converge too slowly: masses are unequal, or bodies are jammed.
 bool CrowdSteps::solve_exactly(Crowd& crowd) const {
-  std::vector<Vec3> motion;
-  std::vector<double> inverse_mass;
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  vector<Vec3> motion;
+  vector<double> inverse_mass;
+  for (size_t k = 0; k < crowd.members.size(); ++k) {
     motion.push_back(vector_of(free_[k]));
     inverse_mass.push_back(free_[k].at[3]);
   }
 
-  std::vector<ContactConstraint> pairs;
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) {
+  vector<ContactConstraint> pairs;
+  crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
     const bool body = row.b[lane] < crowd.movable();
     ContactConstraint pair{row.a[lane], body ? row.b[lane] : ContactConstraint::fixed, crowd.rows.normal(g, lane),
@@ -396,23 +396,23 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
   if (!carom::solve({inverse_mass, motion, pairs}).solved()) return false;
 
   auto pair = pairs.cbegin();
-  crowd.rows.for_each([&](std::size_t g, std::size_t lane) { crowd.rows.hot[g].impulse[lane] = pair++->force; });
-  for (std::size_t k = 0; k < motion.size(); ++k)
+  crowd.rows.for_each([&](size_t g, size_t lane) { crowd.rows.hot[g].impulse[lane] = pair++->force; });
+  for (size_t k = 0; k < motion.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) crowd.v[k].at[axis] = motion[k][axis];
   return true;
 }
 
 /// The speed of approach of a row at this instant (m/s).
-double CrowdSteps::approach(const Crowd& crowd, std::size_t group, std::size_t lane) const {
+double CrowdSteps::approach(const Crowd& crowd, size_t group, size_t lane) const {
   const RowGroup& row = crowd.rows.hot[group];
   return crowd.rows.normal(group, lane).dot(vector_of(now_[row.a[lane]]) - vector_of(now_[row.b[lane]]));
 }
 
 /// The rows that begin to press, or that impacts have left with an approach, in order.
-std::vector<RowPlace> CrowdSteps::closing_rows(const Crowd& crowd, double rounding) {
-  std::vector<std::vector<RowPlace>> found(crowd.rows.parts.size());
-  threads_.each(crowd.rows, [&](std::size_t p) {
-    crowd.rows.for_each(crowd.rows.parts[p], [&](std::size_t g, std::size_t lane) {
+vector<RowPlace> CrowdSteps::closing_rows(const Crowd& crowd, double rounding) {
+  vector<vector<RowPlace>> found(crowd.rows.parts.size());
+  threads_.each(crowd.rows, [&](size_t p) {
+    crowd.rows.for_each(crowd.rows.parts[p], [&](size_t g, size_t lane) {
       if (!(crowd.rows.hot[g].impulse[lane] > 0)) return;
       const RowState& state = crowd.rows.state[g];
       if (state.force[lane] == 0 || approach(crowd, g, lane) > std::max(state.slow[lane], rounding))
@@ -420,8 +420,8 @@ std::vector<RowPlace> CrowdSteps::closing_rows(const Crowd& crowd, double roundi
     });
   });
 
-  std::vector<RowPlace> all;
-  for (const std::vector<RowPlace>& of_part : found) all.insert(all.end(), of_part.begin(), of_part.end());
+  vector<RowPlace> all;
+  for (const vector<RowPlace>& of_part : found) all.insert(all.end(), of_part.begin(), of_part.end());
   return all;
 }
 
@@ -429,7 +429,7 @@ std::vector<RowPlace> CrowdSteps::closing_rows(const Crowd& crowd, double roundi
 /// without a rebound. What is left of their impulses is force.
 void CrowdSteps::absorb_approaches(Crowd& crowd) {
   const double rounding = tol::drift * greatest(now_);
-  const std::vector<RowPlace> closing = closing_rows(crowd, rounding);
+  const vector<RowPlace> closing = closing_rows(crowd, rounding);
   if (closing.empty()) return;
 
   // One after the other, until nothing is left or all of an impulse is used.
@@ -457,14 +457,14 @@ void CrowdSteps::absorb_approaches(Crowd& crowd) {
 }
 
 /// Finds the forces of a part of the rows in the step, and which members they press.
-void CrowdSteps::find_forces(Crowd& crowd, std::size_t part) const {
+void CrowdSteps::find_forces(Crowd& crowd, size_t part) const {
   const auto& [begin, balls, end] = crowd.rows.parts[part];
-  for (std::size_t g = begin; g < end; ++g) {
+  for (size_t g = begin; g < end; ++g) {
     const RowGroup& row = crowd.rows.hot[g];
     RowState& state = crowd.rows.state[g];
-    for (std::size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
-      const std::uint32_t a = row.a[lane];
-      const std::uint32_t b = row.b[lane];
+    for (size_t lane = 0; lane < CrowdRows::lanes; ++lane) {
+      const uint32_t a = row.a[lane];
+      const uint32_t b = row.b[lane];
       const double lag = a < crowd.movable() ? crowd.lag[a] : 0;
       state.carried[lane] = state.force[lane] * lag;
       state.force[lane] = row.impulse[lane] / (0.5 * crowd.step.length + lag);
@@ -481,13 +481,13 @@ void CrowdSteps::finish(Crowd& crowd) {
   crowd.step.waits = std::max(crowd.step.waits - 1, 0);
   bodies_.log.count_crowd_step(crowd.step.solved);
   absorb_approaches(crowd);
-  std::fill(crowd.pressed.begin(), crowd.pressed.end(), 0);
-  threads_.in_phases(crowd.rows, [&](std::size_t p) { find_forces(crowd, p); });
+  std::ranges::fill(crowd.pressed, 0);
+  threads_.in_phases(crowd.rows, [&](size_t p) { find_forces(crowd, p); });
 
-  for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+  for (size_t k = 0; k < crowd.members.size(); ++k) {
     crowd.v[k].at[3] = 1 / bodies_.world.mass[crowd.members[k]];
     crowd.a[k] = (crowd.drift(k) - vector_of(before_[k])) / (0.5 * crowd.step.length + crowd.lag[k]);
-    crowd.idle[k] = crowd.pressed[k] != 0 ? 0 : static_cast<std::uint8_t>(std::min(crowd.idle[k] + 1, 255));
+    crowd.idle[k] = crowd.pressed[k] != 0 ? 0 : static_cast<uint8_t>(std::min(crowd.idle[k] + 1, 255));
   }
 }
 

@@ -3,12 +3,12 @@
 //
 // Impacts use the velocities of the instant, not those of the drift: with the latter elastic balls lose energy, and
 // resting bodies strike their floor in each step.
-#include <vector>
 
 #include "physics/contact_quality.h"
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/crowd/crowd.h"
 #include "simulate/crowd/crowd_solver.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,7 +27,7 @@ class CrowdSteps {
   /// (J). The velocity of then is ahead by a kick of the present force. In equal steps of h without other forces, where
   /// contacts do no work on drifts, the kinetic energy and m (h a / 2)^2 / 2 together lose m (h / 2)^2 (a' - a)^2 as
   /// the acceleration a becomes a', and never gain. Accelerations that forces give count as none.
-  double lent(const Crowd& crowd, std::size_t k, double age) const;
+  double lent(const Crowd& crowd, size_t k, double age) const;
   /// Books what contacts have taken (J), and what of it is lent. Errors may make the rest negative.
   void take(Crowd& crowd, double energy, double lent) const;
 
@@ -38,19 +38,19 @@ class CrowdSteps {
   bool strike(Crowd& crowd);
   /// Impacts of a part of the rows in one round.
   struct Strikes {
-    std::vector<Collision> met;
+    vector<Collision> met;
     double lost = 0;  // J
     double work = 0;  // J, of things that move
     RowName struck;   // a row with a sleeping body, at which they end
   };
-  void strike(Crowd& crowd, std::size_t part, double within, Strikes& strikes);
+  void strike(Crowd& crowd, size_t part, double within, Strikes& strikes);
   void book(const Strikes& strikes) const;
   bool presses_on_sleepers(const Crowd& crowd) const;
-  void strike(Crowd& crowd, std::size_t group, std::size_t lane, Strikes& strikes);
+  void strike(Crowd& crowd, size_t group, size_t lane, Strikes& strikes);
   void restart_if_short(Crowd& crowd) const;
-  double push(Crowd& crowd, std::size_t group, std::size_t lane, double impulse, std::vector<Four>& drifts);
+  double push(Crowd& crowd, size_t group, size_t lane, double impulse, vector<Four>& drifts);
   double kinetic_energy(const Crowd& crowd) const;
-  double approach(const Crowd& crowd, std::size_t group, std::size_t lane) const;
+  double approach(const Crowd& crowd, size_t group, size_t lane) const;
   void kick(Crowd& crowd);
   double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
@@ -62,19 +62,19 @@ class CrowdSteps {
   void keep_apart(Crowd& crowd);
   double safe_length(const Crowd& crowd);
   bool solve_exactly(Crowd& crowd) const;
-  std::vector<RowPlace> closing_rows(const Crowd& crowd, double rounding);
+  vector<RowPlace> closing_rows(const Crowd& crowd, double rounding);
   void absorb_approaches(Crowd& crowd);
-  void find_forces(Crowd& crowd, std::size_t part) const;
+  void find_forces(Crowd& crowd, size_t part) const;
 
   ExactBodies& bodies_;
   const ContactQuality& quality_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   CrowdThreads& threads_;
   CrowdSolver solver_;
-  std::vector<std::uint8_t> may_strike_;  // by group
-  std::vector<Four> now_;                 // velocities of the instant, by number
-  std::vector<Four> before_;              // those of the drift before the kick
-  std::vector<Four> free_;                // and after it, without contacts
+  vector<uint8_t> may_strike_;  // by group
+  vector<Four> now_;            // velocities of the instant, by number
+  vector<Four> before_;         // those of the drift before the kick
+  vector<Four> free_;           // and after it, without contacts
 };
 
 }  // namespace carom

@@ -6,10 +6,11 @@
 #include "simulate/contact/exact_group.h"
 #include "simulate/contact/flat_contacts.h"
 #include "simulate/contact/flight_changes.h"
+#include "std.h"
 
 namespace carom {
 
-std::vector<Entity> BodyRemoval::remove(Entity i) {
+vector<Entity> BodyRemoval::remove(Entity i) {
   const Instant now = bodies_.now;
   const double mass = bodies_.world.mass[i];
   const Vec3 x = flights_.position_of_method(i, now);
@@ -22,7 +23,7 @@ std::vector<Entity> BodyRemoval::remove(Entity i) {
 
   // What was in contact with it goes on without it.
   flat_.clear(i);
-  std::vector<Entity> left = group_.withdraw(i);
+  vector<Entity> left = group_.withdraw(i);
   modes_.remove(i);
 
   // It takes its energy and momentum out of the world.

@@ -1,8 +1,8 @@
 #pragma once
 // Takes bodies out of the world. What rested on one falls.
-#include <vector>
 
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +19,7 @@ class BodyRemoval {
 
   /// Removes body i at the present instant, and books its energy and momentum. It stays at its position, out of the
   /// world. Returns bodies in lasting contact, one of each island that has lost it: their forces are to be found anew.
-  std::vector<Entity> remove(Entity i);
+  vector<Entity> remove(Entity i);
 
  private:
   ExactBodies& bodies_;

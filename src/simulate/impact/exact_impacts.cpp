@@ -12,6 +12,7 @@
 #include "simulate/contact/flight_changes.h"
 #include "simulate/impact/body_merging.h"
 #include "simulate/impact/stall_guard.h"
+#include "std.h"
 
 namespace carom {
 
@@ -38,7 +39,7 @@ void ExactImpacts::bounce_off(const PairImpact& impact, Entity striker, Entity s
                        {struck, impact.feature});
 }
 
-void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
+void ExactImpacts::collide_pair(Entity a, Entity b, uint8_t feature) {
   const World& world = bodies_.world;
   const PairImpact impact = rules_.find_pair(a, b, feature);
   bodies_.log.note_overlap(-impact.there.gap);
@@ -93,7 +94,7 @@ inline void ExactImpacts::apply_pair(const PairImpact& impact, double impulse, b
   parts_.group.unite(a, b);
 }
 
-void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature) {
+void ExactImpacts::collide_fixed(Entity i, Entity surface, uint8_t feature) {
   const World& world = bodies_.world;
   const FixedImpact impact = rules_.find_fixed(i, surface, feature);
   if (bodies_.moving.any()) rules_.check_room(impact);

@@ -4,6 +4,7 @@
 #include "physics/entity.h"
 #include "simulate/impact/impact_parts.h"
 #include "simulate/impact/impact_rules.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,9 +14,9 @@ class ExactImpacts {
       : bodies_(bodies), parts_(parts), rules_(rules) {}
 
   /// Bodies a < b meet at the present instant, at this feature.
-  void collide_pair(Entity a, Entity b, std::uint8_t feature);
+  void collide_pair(Entity a, Entity b, uint8_t feature);
   /// Body i meets a fixed thing at the present instant.
-  void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
+  void collide_fixed(Entity i, Entity surface, uint8_t feature);
 
  private:
   void bounce_off(const PairImpact& impact, Entity striker, Entity struck);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -12,6 +11,7 @@
 #include "simulate/contact/exact_group.h"
 #include "simulate/contact/flat_contacts.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -25,7 +25,7 @@ bool ImpactRules::too_slow_to_wake(const PairImpact& impact, Entity striker, Ent
   if (!(impact.approach * impact.approach < lifts)) return false;
 
   // At least three forces that are not in one plane.
-  std::vector<Vec3> normals;
+  vector<Vec3> normals;
   const Vec3 x = bodies_.flights[struck].x;
   const auto hold = [&](Entity e) { normals.push_back(touch(world, struck, x, e, bodies_.position_of(e)).normal); };
 
@@ -37,9 +37,9 @@ bool ImpactRules::too_slow_to_wake(const PairImpact& impact, Entity striker, Ent
       for (const PressingContact& p : group_.pressing[e])
         if (p.partner == struck && p.force > 0) hold(e);
 
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      for (std::size_t k = 0; k < j; ++k)
+  for (size_t i = 0; i < normals.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      for (size_t k = 0; k < j; ++k)
         if (std::abs(normals[i].cross(normals[j]).dot(normals[k])) > exact_tolerance::least_volume) return true;
   return false;
 }
@@ -111,11 +111,11 @@ bool ImpactRules::move_as_one(Entity a, Entity b, double approach) const {
 }
 
 bool ImpactRules::is_plastic(const Collision& met, double press, double length) const {
-  const bool pressed = press > 0 || met.kind == CollisionKind::string;
+  const bool pressed = press > 0 || met.kind == CollisionKind::taut;
   return met.restitution == 0 && pressed && met.approach_speed > bodies_.slow_speed(std::max(press, 0.0), length);
 }
 
-FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, std::uint8_t feature) const {
+FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, uint8_t feature) const {
   const World& world = bodies_.world;
   const Flight f = bodies_.flights[i];
   const double t = bodies_.now - f.start;
@@ -151,7 +151,7 @@ bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact)
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
   const double separation = e * approach;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
-  const std::size_t carrying = flat_.of(i).count;
+  const size_t carrying = flat_.of(i).count;
 
   // A surface nearly level with one that carries the body takes over. Hops that rounding hides do not count.
   const double weight = bodies_.applied[i].dot(there.normal);

@@ -8,6 +8,7 @@
 #include "simulate/contact/collapse_detector.h"
 #include "simulate/contact/exact_group.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -20,7 +21,7 @@ class FlatContacts;
 struct PairImpact {
   Entity a;  // the lower number
   Entity b;
-  std::uint8_t feature;
+  uint8_t feature;
   Vec3 xa;          // m
   Vec3 xb;          // m
   Vec3 va;          // m/s
@@ -37,7 +38,7 @@ struct PairImpact {
 struct FixedImpact {
   Entity body;
   Entity surface;
-  std::uint8_t feature;
+  uint8_t feature;
   bool flat;
   bool began_now;   // the flight began at this instant
   Vec3 x;           // m
@@ -67,8 +68,8 @@ class ImpactRules {
       : bodies_(bodies), collapses_(collapses), group_(group), flat_(flat) {}
 
   /// Bodies a < b, which meet at this feature at the present instant.
-  [[gnu::always_inline]] PairImpact find_pair(Entity a, Entity b, std::uint8_t feature) const;
-  FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature) const;
+  [[gnu::always_inline]] PairImpact find_pair(Entity a, Entity b, uint8_t feature) const;
+  FixedImpact find_fixed(Entity i, Entity surface, uint8_t feature) const;
   StringImpact find_string(Entity string) const;
 
   /// Whether an impact ends in contact, so that nothing is left of the approach. It counts towards a collapse, unless
@@ -104,7 +105,7 @@ class ImpactRules {
 };
 
 // Pairs, the common case.
-inline PairImpact ImpactRules::find_pair(Entity a, Entity b, std::uint8_t feature) const {
+inline PairImpact ImpactRules::find_pair(Entity a, Entity b, uint8_t feature) const {
   const Flight& p = bodies_.flights[a];
   const Flight& q = bodies_.flights[b];
   const double ta = bodies_.now - p.start;

@@ -11,6 +11,7 @@
 #include "numerics/compensated.h"
 #include "physics/impact.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -25,14 +26,14 @@ double twice_energy(double mass, const Vec3& dv) {
 
 }  // namespace
 
-std::uint32_t ImpactSet::add_body(double mass, const Vec3& v) {
+uint32_t ImpactSet::add_body(double mass, const Vec3& v) {
   bodies_.push_back({mass, v, v.norm(), v.norm(), {}});
   next_.push_back(v);
   return bodies() - 1;
 }
 
-std::uint32_t ImpactSet::add_row(const Row& row) {
-  const std::uint32_t c = rows();
+uint32_t ImpactSet::add_row(const Row& row) {
+  const uint32_t c = rows();
   rows_.push_back({row});
   rows_.back().holds = row.kind != Kind::touching;
   linked_ = linked_ || rows_.back().holds;
@@ -41,28 +42,28 @@ std::uint32_t ImpactSet::add_row(const Row& row) {
   return c;
 }
 
-void ImpactSet::set_velocity(std::uint32_t body, const Vec3& v) {
+void ImpactSet::set_velocity(uint32_t body, const Vec3& v) {
   Body& of = bodies_[body];
   of.v = next_[body] = v;
   of.top = std::max(of.top, v.norm());
   of.near = std::max(of.near, of.top);
 }
 
-double ImpactSet::approach(std::uint32_t c) const {
+double ImpactSet::approach(uint32_t c) const {
   const Row& r = rows_[c];
   if (r.b == fixed) return r.normal.dot(bodies_[r.a].v) - r.surface;
   return -r.normal.dot(bodies_[r.b].v - bodies_[r.a].v);
 }
 
 /// The speed at which a row opens after this round (m/s).
-double ImpactSet::separation(std::uint32_t c) const {
+double ImpactSet::separation(uint32_t c) const {
   const Row& r = rows_[c];
   if (r.b == fixed) return r.surface - r.normal.dot(next_[r.a]);
   return r.normal.dot(next_[r.b] - next_[r.a]);
 }
 
 /// The sum of the speeds to which the velocities of a row's two things are rounded (m/s).
-double ImpactSet::speeds_near(std::uint32_t c) const {
+double ImpactSet::speeds_near(uint32_t c) const {
   const Row& r = rows_[c];
   return bodies_[r.a].near + (r.b == fixed ? std::abs(r.surface) : bodies_[r.b].near);
 }
@@ -70,16 +71,16 @@ double ImpactSet::speeds_near(std::uint32_t c) const {
 /// A projection is right to rounding of the greatest speed in it. A slow body beside a fast one has no better digits.
 void ImpactSet::share_rounding(const Projection& solved) {
   double greatest = 0;
-  for (const std::uint32_t body : solved.bodies) greatest = std::max(greatest, bodies_[body].near);
-  for (const std::uint32_t body : solved.bodies) bodies_[body].near = greatest;
+  for (const uint32_t body : solved.bodies) greatest = std::max(greatest, bodies_[body].near);
+  for (const uint32_t body : solved.bodies) bodies_[body].near = greatest;
 }
 
-bool ImpactSet::approaches(std::uint32_t c) const {
+bool ImpactSet::approaches(uint32_t c) const {
   return !rows_[c].holds && approach(c) > tol::velocity_rounding * speeds_near(c);
 }
 
 /// The order of rows: by what neither names nor a mirror change, and then by place, which names do not change.
-bool ImpactSet::before(std::uint32_t c, std::uint32_t d) const {
+bool ImpactSet::before(uint32_t c, uint32_t d) const {
   const Row& p = rows_[c];
   const Row& q = rows_[d];
   const double u = approach(c);
@@ -100,19 +101,19 @@ bool ImpactSet::before(std::uint32_t c, std::uint32_t d) const {
 }
 
 void ImpactSet::sort(Rows& rows) const {
-  std::sort(rows.begin(), rows.end(), [this](std::uint32_t c, std::uint32_t d) { return before(c, d); });
+  std::ranges::sort(rows, [this](uint32_t c, uint32_t d) { return before(c, d); });
 }
 
 /// The links that hold and are connected with these rows, directly or through other links.
-ImpactSet::Rows ImpactSet::links_at(std::span<const std::uint32_t> rows) const {
+ImpactSet::Rows ImpactSet::links_at(span<const uint32_t> rows) const {
   Rows links;
   if (!linked_) return links;
 
   Rows todo(rows.begin(), rows.end());
-  for (std::size_t k = 0; k < todo.size(); ++k)
-    for (const std::uint32_t body : {rows_[todo[k]].a, rows_[todo[k]].b}) {
+  for (size_t k = 0; k < todo.size(); ++k)
+    for (const uint32_t body : {rows_[todo[k]].a, rows_[todo[k]].b}) {
       if (body == fixed) continue;
-      for (const std::uint32_t d : bodies_[body].rows) {
+      for (const uint32_t d : bodies_[body].rows) {
         if (!rows_[d].holds || std::ranges::find(links, d) != links.end()) continue;
         links.push_back(d);
         todo.push_back(d);
@@ -121,12 +122,12 @@ ImpactSet::Rows ImpactSet::links_at(std::span<const std::uint32_t> rows) const {
   return links;
 }
 
-std::size_t ImpactSet::Projection::place_of(std::uint32_t body) const {
-  return static_cast<std::size_t>(std::ranges::find(bodies, body) - bodies.begin());
+size_t ImpactSet::Projection::place_of(uint32_t body) const {
+  return static_cast<size_t>(std::ranges::find(bodies, body) - bodies.begin());
 }
 
-std::vector<Vec3> ImpactSet::velocities() const {
-  std::vector<Vec3> v;
+vector<Vec3> ImpactSet::velocities() const {
+  vector<Vec3> v;
   v.reserve(bodies_.size());
   for (const Body& of : bodies_) v.push_back(of.v);
   return v;
@@ -135,25 +136,25 @@ std::vector<Vec3> ImpactSet::velocities() const {
 /// The velocities nearest to v, by kinetic energy, with no row approaching, strings not longer and rods unchanged.
 /// `relative`: v are changes of velocities, to which the motion of fixed things does not matter. target: m/s, at which
 /// rows are to open.
-ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v,
-                                         bool relative, double target) const {
+ImpactSet::Projection ImpactSet::project(Rows rows, span<const uint32_t> links, const vector<Vec3>& v, bool relative,
+                                         double target) const {
   Projection p;
   rows.insert(rows.end(), links.begin(), links.end());
   Rows order = rows;
   sort(order);
 
   // Bodies are numbered as rows come to them, and each row points the same way under any names.
-  std::vector<std::uint32_t> number(bodies_.size(), fixed);
-  const auto place = [&](std::uint32_t body) {
+  vector<uint32_t> number(bodies_.size(), fixed);
+  const auto place = [&](uint32_t body) {
     if (number[body] == fixed) {
-      number[body] = static_cast<std::uint32_t>(p.bodies.size());
+      number[body] = static_cast<uint32_t>(p.bodies.size());
       p.bodies.push_back(body);
     }
     return number[body];
   };
 
-  std::vector<ContactConstraint> constraints;
-  for (const std::uint32_t c : order) {
+  vector<ContactConstraint> constraints;
+  for (const uint32_t c : order) {
     const RowState& r = rows_[c];
     ContactConstraint constraint{0, fixed, r.normal};
     const bool turned = r.b != fixed && std::tie(r.normal.x(), r.normal.y(), r.normal.z()) < std::tuple(0.0, 0.0, 0.0);
@@ -167,35 +168,35 @@ ImpactSet::Projection ImpactSet::project(Rows rows, std::span<const std::uint32_
     constraints.push_back(constraint);
   }
 
-  std::vector<double> inverse_mass;
-  for (const std::uint32_t body : p.bodies) {
+  vector<double> inverse_mass;
+  for (const uint32_t body : p.bodies) {
     inverse_mass.push_back(1 / bodies_[body].mass);
     p.v.push_back(v[body]);
   }
   p.certificate = solve({inverse_mass, p.v, constraints, true});
 
   // In the order of the rows that were given.
-  std::vector<double> impulse(rows_.size(), 0.0);
-  for (std::size_t k = 0; k < order.size(); ++k) impulse[order[k]] = constraints[k].force;
-  for (const std::uint32_t c : rows) p.impulse.push_back(impulse[c]);
+  vector<double> impulse(rows_.size(), 0.0);
+  for (size_t k = 0; k < order.size(); ++k) impulse[order[k]] = constraints[k].force;
+  for (const uint32_t c : rows) p.impulse.push_back(impulse[c]);
   return p;
 }
 
 /// The change of velocities by a unit impulse of row c against its approach, with its links as rods.
-ImpactSet::Projection ImpactSet::response(std::uint32_t c, std::span<const std::uint32_t> links) const {
+ImpactSet::Projection ImpactSet::response(uint32_t c, span<const uint32_t> links) const {
   const Row& r = rows_[c];
   Projection p;
-  const auto place = [&](std::uint32_t body) {
+  const auto place = [&](uint32_t body) {
     const auto it = std::ranges::find(p.bodies, body);
-    if (it != p.bodies.end()) return static_cast<std::uint32_t>(it - p.bodies.begin());
+    if (it != p.bodies.end()) return static_cast<uint32_t>(it - p.bodies.begin());
     p.bodies.push_back(body);
-    return static_cast<std::uint32_t>(p.bodies.size() - 1);
+    return static_cast<uint32_t>(p.bodies.size() - 1);
   };
 
-  std::vector<ContactConstraint> constraints;
+  vector<ContactConstraint> constraints;
   place(r.a);
   if (r.b != fixed) place(r.b);
-  for (const std::uint32_t link : links) {
+  for (const uint32_t link : links) {
     ContactConstraint constraint{place(rows_[link].a), fixed, rows_[link].normal};
     if (rows_[link].b != fixed) constraint.b = place(rows_[link].b);
     constraint.bilateral = true;
@@ -203,8 +204,8 @@ ImpactSet::Projection ImpactSet::response(std::uint32_t c, std::span<const std::
     constraints.push_back(constraint);
   }
 
-  std::vector<double> inverse_mass;
-  for (const std::uint32_t body : p.bodies) inverse_mass.push_back(1 / bodies_[body].mass);
+  vector<double> inverse_mass;
+  for (const uint32_t body : p.bodies) inverse_mass.push_back(1 / bodies_[body].mass);
   p.v.assign(p.bodies.size(), Vec3::Zero());
   p.v[0] = -inverse_mass[0] * r.normal;
   if (r.b != fixed) p.v[1] = inverse_mass[1] * r.normal;
@@ -214,14 +215,14 @@ ImpactSet::Projection ImpactSet::response(std::uint32_t c, std::span<const std::
 
 /// The cosine of the angle between the pushes of two rows: below zero, an impulse of one makes the other approach.
 /// `response`: to c, where links connect bodies.
-double ImpactSet::cosine(std::uint32_t c, std::uint32_t d, const Projection* response) const {
+double ImpactSet::cosine(uint32_t c, uint32_t d, const Projection* response) const {
   const Row& p = rows_[c];
   const Row& q = rows_[d];
 
   // A shared body is pushed against the normal of which it is the first.
   if (response == nullptr) {
     double cosine = 1;
-    for (const std::uint32_t body : {p.a, p.b}) {
+    for (const uint32_t body : {p.a, p.b}) {
       if (body == fixed || (body != q.a && body != q.b)) continue;
       const double along = p.normal.dot(q.normal);
       cosine = std::min(cosine, (p.a == body) == (q.a == body) ? along : -along);
@@ -229,10 +230,10 @@ double ImpactSet::cosine(std::uint32_t c, std::uint32_t d, const Projection* res
     return cosine;
   }
 
-  const auto change = [&](std::uint32_t body) {
+  const auto change = [&](uint32_t body) {
     const auto it = std::ranges::find(response->bodies, body);
     return it == response->bodies.end() ? Vec3(Vec3::Zero())
-                                        : response->v[static_cast<std::size_t>(it - response->bodies.begin())];
+                                        : response->v[static_cast<size_t>(it - response->bodies.begin())];
   };
   const auto opens = [&](const Row& r) {
     return r.normal.dot((r.b == fixed ? Vec3(Vec3::Zero()) : change(r.b)) - change(r.a));
@@ -242,8 +243,8 @@ double ImpactSet::cosine(std::uint32_t c, std::uint32_t d, const Projection* res
 }
 
 /// Whether row c waits for a faster one that pushes a body of it from the other side.
-bool ImpactSet::waits(std::uint32_t c, const std::vector<std::uint8_t>& approaching) {
-  const Rows links = links_at(std::span(&c, 1));
+bool ImpactSet::waits(uint32_t c, const vector<uint8_t>& approaching) {
+  const Rows links = links_at(span(&c, 1));
   Rows near{c};
   near.insert(near.end(), links.begin(), links.end());
   Projection through;
@@ -251,10 +252,10 @@ bool ImpactSet::waits(std::uint32_t c, const std::vector<std::uint8_t>& approach
 
   const double u = approach(c);
   const double e = rows_[c].restitution;
-  for (const std::uint32_t at : near)
-    for (const std::uint32_t body : {rows_[at].a, rows_[at].b}) {
+  for (const uint32_t at : near)
+    for (const uint32_t body : {rows_[at].a, rows_[at].b}) {
       if (body == fixed) continue;
-      for (const std::uint32_t d : bodies_[body].rows) {
+      for (const uint32_t d : bodies_[body].rows) {
         if (d == c || !approaching[d]) continue;
         const double along = cosine(c, d, links.empty() ? nullptr : &through);
         if (!(std::abs(along) > tol::right_angle)) continue;
@@ -275,39 +276,39 @@ bool ImpactSet::waits(std::uint32_t c, const std::vector<std::uint8_t>& approach
 }
 
 /// The rows that act in this round.
-ImpactSet::Rows ImpactSet::select(std::span<const std::uint32_t> approaching) {
-  std::vector<std::uint8_t> flag(rows_.size(), 0);
-  for (const std::uint32_t c : approaching) flag[c] = 1;
+ImpactSet::Rows ImpactSet::select(span<const uint32_t> approaching) {
+  vector<uint8_t> flag(rows_.size(), 0);
+  for (const uint32_t c : approaching) flag[c] = 1;
   Rows acting;
-  for (const std::uint32_t c : approaching)
+  for (const uint32_t c : approaching)
     if (!waits(c, flag)) acting.push_back(c);
   sort(acting);
   return acting;
 }
 
 /// The sets of these rows that share bodies, directly or through links, or also through open rows.
-std::vector<ImpactSet::Together> ImpactSet::connect(std::span<const std::uint32_t> acting, bool through_open) const {
-  constexpr std::uint8_t acts = 1;
-  constexpr std::uint8_t taken = 2;
-  std::vector<std::uint8_t> flag(rows_.size(), 0);
-  for (const std::uint32_t c : acting) flag[c] = acts;
+vector<ImpactSet::Together> ImpactSet::connect(span<const uint32_t> acting, bool through_open) const {
+  constexpr uint8_t acts = 1;
+  constexpr uint8_t taken = 2;
+  vector<uint8_t> flag(rows_.size(), 0);
+  for (const uint32_t c : acting) flag[c] = acts;
 
-  std::vector<Together> sets;
-  for (const std::uint32_t first : acting) {
+  vector<Together> sets;
+  for (const uint32_t first : acting) {
     if (flag[first] & taken) continue;
     Together& set = sets.emplace_back();
     Rows todo{first};
     flag[first] |= taken;
 
     // Breadth first over bodies. Each row is of one of three kinds.
-    for (std::size_t k = 0; k < todo.size(); ++k) {
-      const std::uint32_t c = todo[k];
+    for (size_t k = 0; k < todo.size(); ++k) {
+      const uint32_t c = todo[k];
       Rows& kind = rows_[c].holds ? set.links : flag[c] & acts ? set.rows : set.open;
       kind.push_back(c);
 
-      for (const std::uint32_t body : {rows_[c].a, rows_[c].b}) {
+      for (const uint32_t body : {rows_[c].a, rows_[c].b}) {
         if (body == fixed) continue;
-        for (const std::uint32_t d : bodies_[body].rows) {
+        for (const uint32_t d : bodies_[body].rows) {
           if (flag[d] & taken || !(flag[d] & acts || rows_[d].holds || (through_open && rows_[d].open > 0))) continue;
           flag[d] |= taken;
           todo.push_back(d);
@@ -319,11 +320,11 @@ std::vector<ImpactSet::Together> ImpactSet::connect(std::span<const std::uint32_
   return sets;
 }
 
-const std::vector<ImpactSet::Impact>& ImpactSet::strike(std::span<const std::uint32_t> approaching) {
+const vector<ImpactSet::Impact>& ImpactSet::strike(span<const uint32_t> approaching) {
   impacts_.clear();
   changed_.clear();
   const Rows acting = select(approaching);
-  const auto inelastic = [&](std::uint32_t c) { return rows_[c].restitution == 0; };
+  const auto inelastic = [&](uint32_t c) { return rows_[c].restitution == 0; };
 
   for (const Together& set : connect(acting, true)) {
     if (std::ranges::all_of(set.rows, inelastic)) {
@@ -332,7 +333,7 @@ const std::vector<ImpactSet::Impact>& ImpactSet::strike(std::span<const std::uin
     }
     // Rows that stayed closed stay so no longer: an impact with e > 0 goes through them.
     for (const Rows* const list : {&set.rows, &set.open, &set.links})
-      for (const std::uint32_t c : *list) rows_[c].open = 0;
+      for (const uint32_t c : *list) rows_[c].open = 0;
     if (set.open.empty()) {
       strike_together(set);
       continue;
@@ -340,7 +341,7 @@ const std::vector<ImpactSet::Impact>& ImpactSet::strike(std::span<const std::uin
     for (const Together& part : connect(set.rows, false)) strike_together(part);
   }
 
-  for (const std::uint32_t body : changed_) set_velocity(body, next_[body]);
+  for (const uint32_t body : changed_) set_velocity(body, next_[body]);
   count();
   close_parted();
   ++rounds_;
@@ -349,12 +350,12 @@ const std::vector<ImpactSet::Impact>& ImpactSet::strike(std::span<const std::uin
 
 void ImpactSet::strike_together(const Together& set) {
   if (set.rows.size() == 1 && set.open.empty() && set.links.empty()) return strike_one(set.rows.front());
-  const bool inelastic = std::ranges::all_of(set.rows, [&](std::uint32_t c) { return rows_[c].restitution == 0; });
+  const bool inelastic = std::ranges::all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == 0; });
   inelastic ? strike_inelastic(set) : strike_elastic(set);
 }
 
 /// The law of two bodies.
-void ImpactSet::strike_one(std::uint32_t c) {
+void ImpactSet::strike_one(uint32_t c) {
   RowState& r = rows_[c];
   const double u = approach(c);
   const double separation = r.restitution * u;
@@ -383,8 +384,8 @@ void ImpactSet::strike_inelastic(const Together& set) {
   Rows all = rows;
   all.insert(all.end(), set.links.begin(), set.links.end());
 
-  std::vector<Vec3> start = velocities();
-  for (const std::uint32_t c : all) {
+  vector<Vec3> start = velocities();
+  for (const uint32_t c : all) {
     const RowState& r = rows_[c];
     if (r.open == 0) continue;
     start[r.a] += (r.open / bodies_[r.a].mass) * r.normal;
@@ -394,10 +395,10 @@ void ImpactSet::strike_inelastic(const Together& set) {
   const Projection p = project(rows, set.links, start);
   certificate_.merge(p.certificate);
   share_rounding(p);
-  for (std::size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
+  for (size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
 
-  const std::size_t first = impacts_.size();
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  const size_t first = impacts_.size();
+  for (size_t k = 0; k < all.size(); ++k) {
     RowState& r = rows_[all[k]];
     const double more = p.impulse[k] - r.open;
     r.open = p.impulse[k];
@@ -407,17 +408,17 @@ void ImpactSet::strike_inelastic(const Together& set) {
 }
 
 /// By body of the compression: the sum of its impulses of expansion over its mass (m/s).
-std::vector<ImpactSet::Sum3> ImpactSet::expansion(const Rows& rows, const Projection& compressed) const {
-  std::vector<Sum3> gained(compressed.bodies.size());
+vector<ImpactSet::Sum3> ImpactSet::expansion(const Rows& rows, const Projection& compressed) const {
+  vector<Sum3> gained(compressed.bodies.size());
   for (Sum3& of : gained) of.fill({0, 0});
 
-  for (std::size_t k = 0; k < rows.size(); ++k) {
+  for (size_t k = 0; k < rows.size(); ++k) {
     const Row& r = rows_[rows[k]];
     const DoubleDouble impulse = two_product(r.restitution, compressed.impulse[k]);
-    const auto push = [&](std::uint32_t body, double sign) {
+    const auto push = [&](uint32_t body, double sign) {
       const DoubleDouble speed = impulse / DoubleDouble{sign * bodies_[body].mass, 0};
       Sum3& sum = gained[compressed.place_of(body)];
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (size_t axis = 0; axis < 3; ++axis)
         sum[axis] = sum[axis] + speed * DoubleDouble{r.normal[static_cast<int>(axis)], 0};
     };
     push(r.a, -1);
@@ -428,10 +429,10 @@ std::vector<ImpactSet::Sum3> ImpactSet::expansion(const Rows& rows, const Projec
 
 /// Strings that compression slackens hold no longer.
 void ImpactSet::slacken(const Rows& links, const Projection& compressed) {
-  const auto of = [&](std::uint32_t body) {
+  const auto of = [&](uint32_t body) {
     return body == fixed ? Vec3(Vec3::Zero()) : compressed.v[compressed.place_of(body)];
   };
-  for (const std::uint32_t link : links) {
+  for (const uint32_t link : links) {
     RowState& r = rows_[link];
     const double parts = r.normal.dot(of(r.b) - of(r.a)) + r.surface;
     const double speeds = speeds_near(link) + of(r.a).norm() + of(r.b).norm();
@@ -440,10 +441,10 @@ void ImpactSet::slacken(const Rows& links, const Projection& compressed) {
 }
 
 /// The share of an expansion that gives back no more energy than compression has taken.
-double ImpactSet::allowed_share(const Projection& compressed, const std::vector<Vec3>& dv) const {
+double ImpactSet::allowed_share(const Projection& compressed, const vector<Vec3>& dv) const {
   double took = 0;
   double back = 0;
-  for (std::size_t k = 0; k < dv.size(); ++k) {
+  for (size_t k = 0; k < dv.size(); ++k) {
     const Body& of = bodies_[compressed.bodies[k]];
     took += twice_energy(of.mass, of.v - compressed.v[k]);
     back += twice_energy(of.mass, dv[k]);
@@ -453,9 +454,9 @@ double ImpactSet::allowed_share(const Projection& compressed, const std::vector<
 
 /// One e for all: the velocities after an expansion that repeats e times what compression has changed. The shares of
 /// rows and links do not matter. Each velocity is rounded once.
-std::vector<Vec3> ImpactSet::expand_alike(const Projection& compressed, double e) const {
-  std::vector<Vec3> after = compressed.v;
-  for (std::size_t k = 0; k < after.size(); ++k)
+vector<Vec3> ImpactSet::expand_alike(const Projection& compressed, double e) const {
+  vector<Vec3> after = compressed.v;
+  for (size_t k = 0; k < after.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       const double middle = compressed.v[k][axis];
       const DoubleDouble changed = two_sum(middle, -bodies_[compressed.bodies[k]].v[axis]);
@@ -465,34 +466,34 @@ std::vector<Vec3> ImpactSet::expand_alike(const Projection& compressed, double e
 }
 
 /// The velocities after an expansion of each row by its own e, and the share of it that energy allows.
-std::vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compressed, double& share) {
-  const std::vector<Sum3> gained = expansion(set.rows, compressed);
-  std::vector<Vec3> dv;
+vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compressed, double& share) {
+  const vector<Sum3> gained = expansion(set.rows, compressed);
+  vector<Vec3> dv;
   for (const Sum3& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
 
   // Links that are still tight answer to it.
   if (!set.links.empty()) {
     Rows tight;
-    std::ranges::copy_if(set.links, std::back_inserter(tight), [&](std::uint32_t c) { return rows_[c].holds; });
-    std::vector<Vec3> all(bodies_.size(), Vec3::Zero());
-    for (std::size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
+    std::ranges::copy_if(set.links, std::back_inserter(tight), [&](uint32_t c) { return rows_[c].holds; });
+    vector<Vec3> all(bodies_.size(), Vec3::Zero());
+    for (size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
 
     const Projection answer = project({}, tight, all, true);
     certificate_.merge(answer.certificate);
-    for (std::size_t k = 0; k < answer.bodies.size(); ++k) dv[compressed.place_of(answer.bodies[k])] = answer.v[k];
+    for (size_t k = 0; k < answer.bodies.size(); ++k) dv[compressed.place_of(answer.bodies[k])] = answer.v[k];
   }
 
   // With e above 1 energy may be made.
-  const bool limited = std::ranges::all_of(set.rows, [&](std::uint32_t c) { return rows_[c].restitution <= 1; });
+  const bool limited = std::ranges::all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution <= 1; });
   share = limited ? allowed_share(compressed, dv) : 1;
 
   // The velocities are rounded once where links and limits have not changed the sums.
-  std::vector<Vec3> after = compressed.v;
-  for (std::size_t k = 0; k < dv.size(); ++k) {
+  vector<Vec3> after = compressed.v;
+  for (size_t k = 0; k < dv.size(); ++k) {
     after[k] += share * dv[k];
     if (!set.links.empty() || share < 1) continue;
     for (int axis = 0; axis < 3; ++axis)
-      after[k][axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][static_cast<std::size_t>(axis)]).value();
+      after[k][axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][static_cast<size_t>(axis)]).value();
   }
   return after;
 }
@@ -505,15 +506,15 @@ void ImpactSet::strike_elastic(const Together& set) {
   slacken(set.links, compressed);
 
   const double first_e = rows_[set.rows.front()].restitution;
-  const bool one = std::ranges::all_of(set.rows, [&](std::uint32_t c) { return rows_[c].restitution == first_e; });
+  const bool one = std::ranges::all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == first_e; });
   double share = 1;
-  const std::vector<Vec3> after = one ? expand_alike(compressed, first_e) : expand_each(set, compressed, share);
-  for (std::size_t k = 0; k < after.size(); ++k) change(compressed.bodies[k], after[k]);
+  const vector<Vec3> after = one ? expand_alike(compressed, first_e) : expand_each(set, compressed, share);
+  for (size_t k = 0; k < after.size(); ++k) change(compressed.bodies[k], after[k]);
 
   // With one e for all, each row separates by it.
-  const std::size_t first = impacts_.size();
-  for (std::size_t k = 0; k < set.rows.size(); ++k) {
-    const std::uint32_t c = set.rows[k];
+  const size_t first = impacts_.size();
+  for (size_t k = 0; k < set.rows.size(); ++k) {
+    const uint32_t c = set.rows[k];
     const double e = rows_[c].restitution;
     note(c, (1 + share * e) * compressed.impulse[k], approach(c), one ? e * approach(c) : separation(c));
   }
@@ -524,24 +525,24 @@ void ImpactSet::strike_elastic(const Together& set) {
 /// Shares the energy that these bodies lose in this round among its impacts from number `first` on, by the work of each
 /// against its approach. What links take or give is that of impacts: a string that compression has pulled, and that
 /// slackens in the expansion, gives energy back.
-void ImpactSet::share_losses(const Rows& bodies, std::size_t first) {
+void ImpactSet::share_losses(const Rows& bodies, size_t first) {
   Sum lost;        // J
   double all = 0;  // J
-  for (const std::uint32_t body : bodies) {
+  for (const uint32_t body : bodies) {
     const Body& of = bodies_[body];
     lost.add(0.5 * of.mass * (of.v - next_[body]).dot(of.v + next_[body]));
   }
   const auto work = [](const Impact& impact) { return std::max(impact.impulse * impact.approach, 0.0); };
-  for (std::size_t k = first; k < impacts_.size(); ++k) {
+  for (size_t k = first; k < impacts_.size(); ++k) {
     lost.add(-impacts_[k].impulse * rows_[impacts_[k].row].surface);
     all += work(impacts_[k]);
   }
 
   if (!(all > 0)) return;
-  for (std::size_t k = first; k < impacts_.size(); ++k) impacts_[k].lost = lost.value() * (work(impacts_[k]) / all);
+  for (size_t k = first; k < impacts_.size(); ++k) impacts_[k].lost = lost.value() * (work(impacts_[k]) / all);
 }
 
-void ImpactSet::change(std::uint32_t body, const Vec3& v) {
+void ImpactSet::change(uint32_t body, const Vec3& v) {
   Vec3 kept = v;
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(kept[axis]) <= tol::nothing_left * bodies_[body].top) kept[axis] = 0;
@@ -550,7 +551,7 @@ void ImpactSet::change(std::uint32_t body, const Vec3& v) {
   changed_.push_back(body);
 }
 
-void ImpactSet::note(std::uint32_t c, double impulse, double approach, double separation) {
+void ImpactSet::note(uint32_t c, double impulse, double approach, double separation) {
   if (impulse == 0) return;
   impacts_.push_back({c, approach, separation, impulse, 0.5 * impulse * (approach - separation)});
 }
@@ -563,7 +564,7 @@ void ImpactSet::count() {
     r.struck = true;
     const double lost = std::max(1 - r.restitution, 0.0);
     endless_.sum += lost;
-    for (const std::uint32_t body : {r.a, r.b}) {
+    for (const uint32_t body : {r.a, r.b}) {
       if (body == fixed) continue;
       bodies_[body].lost += lost;
       endless_.most_struck = std::max(endless_.most_struck, ++bodies_[body].struck);
@@ -573,7 +574,7 @@ void ImpactSet::count() {
 
 /// Rows that part are open no longer, in the sense of revision, and strings that part do not hold.
 void ImpactSet::close_parted() {
-  for (std::uint32_t c = 0; c < rows(); ++c) {
+  for (uint32_t c = 0; c < rows(); ++c) {
     RowState& r = rows_[c];
     if (r.kind == Kind::rod || (r.open == 0 && !r.holds)) continue;
     const double parts = -approach(c);
@@ -585,7 +586,7 @@ void ImpactSet::close_parted() {
 /// The rows that can be struck, and the links that hold.
 std::pair<ImpactSet::Rows, ImpactSet::Rows> ImpactSet::touching_and_links() const {
   std::pair<Rows, Rows> rows;
-  for (std::uint32_t c = 0; c < rows_.size(); ++c) (rows_[c].holds ? rows.second : rows.first).push_back(c);
+  for (uint32_t c = 0; c < rows_.size(); ++c) (rows_[c].holds ? rows.second : rows.first).push_back(c);
   return rows;
 }
 
@@ -596,7 +597,7 @@ bool ImpactSet::has_room() const {
 
 /// The same of some rows.
 bool ImpactSet::has_room(const Rows& rows, const Rows& links) const {
-  return project(rows, links, std::vector<Vec3>(bodies_.size(), Vec3::Zero()), true, 1).certificate.solved();
+  return project(rows, links, vector<Vec3>(bodies_.size(), Vec3::Zero()), true, 1).certificate.solved();
 }
 
 /// The limit of endless rounds: the projection of the present velocities on all rows.
@@ -608,7 +609,7 @@ ImpactSet::Limit ImpactSet::find_limit() {
 
   const Projection& p = limit.reached;
   limit.v = velocities();
-  for (std::size_t k = 0; k < p.bodies.size(); ++k) limit.v[p.bodies[k]] = p.v[k];
+  for (size_t k = 0; k < p.bodies.size(); ++k) limit.v[p.bodies[k]] = p.v[k];
   limit.away = distance(velocities(), limit.v);
 
   Sum greatest;
@@ -619,13 +620,13 @@ ImpactSet::Limit ImpactSet::find_limit() {
 
 /// Twice the kinetic energy of a change of all velocities (J). It is summed with compensation, so that no number of a
 /// body matters.
-double ImpactSet::distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const {
+double ImpactSet::distance(const vector<Vec3>& from, const vector<Vec3>& to) const {
   Sum sum;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) sum.add(twice_energy(bodies_[i].mass, to[i] - from[i]));
+  for (size_t i = 0; i < bodies_.size(); ++i) sum.add(twice_energy(bodies_[i].mass, to[i] - from[i]));
   return sum.value();
 }
 
-const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std::uint32_t> approaching) {
+const vector<ImpactSet::Impact>& ImpactSet::end_endless(span<const uint32_t> approaching) {
   impacts_.clear();
   changed_.clear();
   endless_.next_check *= 2;
@@ -636,8 +637,8 @@ const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std
       static_cast<double>(std::ranges::count_if(limit.reached.impulse, [](double j) { return j > 0; }));
   const bool known = endless_.limit.size() == limit.v.size();
   const bool same = known && distance(endless_.limit, limit.v) <= tol::same_limit * tol::same_limit * limit.greatest;
-  const bool elastic = std::ranges::any_of(approaching, [&](std::uint32_t c) { return rows_[c].restitution == 1; });
-  const bool worn = std::ranges::any_of(approaching, [&](std::uint32_t c) {
+  const bool elastic = std::ranges::any_of(approaching, [&](uint32_t c) { return rows_[c].restitution == 1; });
+  const bool worn = std::ranges::any_of(approaching, [&](uint32_t c) {
     const Row& r = rows_[c];
     return bodies_[r.a].lost > tol::worn_out || (r.b != fixed && bodies_[r.b].lost > tol::worn_out);
   });
@@ -647,7 +648,7 @@ const std::vector<ImpactSet::Impact>& ImpactSet::end_endless(std::span<const std
   // Only rows that strike again and again need room. All of them have struck since the last look.
   if (!over && elastic) {
     Rows again;
-    std::ranges::copy_if(limit.touching, std::back_inserter(again), [&](std::uint32_t c) { return rows_[c].struck; });
+    std::ranges::copy_if(limit.touching, std::back_inserter(again), [&](uint32_t c) { return rows_[c].struck; });
     over = endless_.without_room = !has_room(again, limit.links);
   }
   for (RowState& r : rows_) r.struck = false;
@@ -665,16 +666,16 @@ void ImpactSet::end_by(const Limit& limit) {
   endless_.ended = true;
   ++rounds_;
   const Projection& p = limit.reached;
-  for (std::size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
-  for (std::size_t k = 0; k < limit.touching.size(); ++k) {
-    const std::uint32_t c = limit.touching[k];
+  for (size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
+  for (size_t k = 0; k < limit.touching.size(); ++k) {
+    const uint32_t c = limit.touching[k];
     note(c, p.impulse[k], approach(c), separation(c));
   }
   share_losses(p.bodies, 0);
-  for (const std::uint32_t body : changed_) set_velocity(body, next_[body]);
+  for (const uint32_t body : changed_) set_velocity(body, next_[body]);
 }
 
-const std::vector<ImpactSet::Impact>& ImpactSet::finish() {
+const vector<ImpactSet::Impact>& ImpactSet::finish() {
   impacts_.clear();
   changed_.clear();
   if (endless_.ended || endless_.most_struck <= tol::many_strikes) return impacts_;

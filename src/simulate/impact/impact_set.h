@@ -18,41 +18,37 @@
 // Tamstorf & Grinspun, "All's well that ends well", ACM Trans. Graph. 36, 2017); else the same projection ends them.
 //
 // Rows are taken in an order of places, so that no number of a body or a row has an effect.
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
 class ImpactSet {
  public:
-  static constexpr std::uint32_t fixed = ContactConstraint::fixed;
+  static constexpr uint32_t fixed = ContactConstraint::fixed;
 
-  enum class Kind : std::uint8_t {
+  enum class Kind : uint8_t {
     touching,  // it can be struck
     taut,      // a string that holds: a link until it slackens
     rod        // a link
   };
   struct Row {
-    std::uint32_t a = 0;      // a body of the set
-    std::uint32_t b = fixed;  // another one, or a fixed thing
-    Vec3 normal;              // unit, from a to b; the two approach along it
-    Vec3 place;               // m, rows are taken in the order of their places
-    double surface = 0;       // m/s, of a fixed thing that moves, along the normal
-    double restitution = 0;   // of the next round
+    uint32_t a = 0;          // a body of the set
+    uint32_t b = fixed;      // another one, or a fixed thing
+    Vec3 normal;             // unit, from a to b; the two approach along it
+    Vec3 place;              // m, rows are taken in the order of their places
+    double surface = 0;      // m/s, of a fixed thing that moves, along the normal
+    double restitution = 0;  // of the next round
     Kind kind = Kind::touching;
   };
   /// What a round does to a row.
   struct Impact {
-    std::uint32_t row;
+    uint32_t row;
     double approach;    // m/s, before the round
     double separation;  // m/s, after it
     double impulse;     // N s, against the approach; of a row with e = 0 a later round may take some of it back
@@ -63,27 +59,27 @@ class ImpactSet {
   explicit ImpactSet(bool one_by_one = false) : one_by_one_(one_by_one) {}
 
   /// Adds a body and returns its number. mass: kg; v: m/s.
-  std::uint32_t add_body(double mass, const Vec3& v);
+  uint32_t add_body(double mass, const Vec3& v);
   /// Adds a row and returns its number.
-  std::uint32_t add_row(const Row& row);
-  std::uint32_t bodies() const { return static_cast<std::uint32_t>(bodies_.size()); }
-  std::uint32_t rows() const { return static_cast<std::uint32_t>(rows_.size()); }
-  const Row& row(std::uint32_t c) const { return rows_[c]; }
-  std::span<const std::uint32_t> rows_of(std::uint32_t body) const { return bodies_[body].rows; }
-  void set_restitution(std::uint32_t c, double e) { rows_[c].restitution = e; }
+  uint32_t add_row(const Row& row);
+  uint32_t bodies() const { return static_cast<uint32_t>(bodies_.size()); }
+  uint32_t rows() const { return static_cast<uint32_t>(rows_.size()); }
+  const Row& row(uint32_t c) const { return rows_[c]; }
+  span<const uint32_t> rows_of(uint32_t body) const { return bodies_[body].rows; }
+  void set_restitution(uint32_t c, double e) { rows_[c].restitution = e; }
 
   /// m/s.
-  const Vec3& velocity(std::uint32_t body) const { return bodies_[body].v; }
-  void set_velocity(std::uint32_t body, const Vec3& v);
+  const Vec3& velocity(uint32_t body) const { return bodies_[body].v; }
+  void set_velocity(uint32_t body, const Vec3& v);
   /// The speed at which a row closes (m/s).
-  double approach(std::uint32_t c) const;
+  double approach(uint32_t c) const;
   /// Whether that is more than rounding of speeds, and the row is no link that holds.
-  bool approaches(std::uint32_t c) const;
+  bool approaches(uint32_t c) const;
 
   /// One round of these rows, which approach. Returns the impacts of this round, by place.
-  const std::vector<Impact>& strike(std::span<const std::uint32_t> approaching);
+  const vector<Impact>& strike(span<const uint32_t> approaching);
   /// The bodies with velocities that the last round has changed; some of them more than once.
-  const std::vector<std::uint32_t>& changed() const { return changed_; }
+  const vector<uint32_t>& changed() const { return changed_; }
 
   /// Whether some motion opens all rows at once. It keeps the lengths of rods, and lengthens no taut string.
   bool has_room() const;
@@ -91,38 +87,38 @@ class ImpactSet {
   bool may_be_endless() const { return endless_.most_struck >= endless_.next_check; }
   /// Ends the rounds, of which these rows would be the next, by their limit, if that is known. Returns the rows with an
   /// impulse; none: the rounds go on.
-  const std::vector<Impact>& end_endless(std::span<const std::uint32_t> approaching);
+  const vector<Impact>& end_endless(span<const uint32_t> approaching);
   /// After the last round of many: removes what rounding has left of approaches.
-  const std::vector<Impact>& finish();
+  const vector<Impact>& finish();
 
-  std::uint32_t rounds() const { return rounds_; }
+  uint32_t rounds() const { return rounds_; }
   /// Whether rods, or strings that have been taut in this instant, take part.
   bool linked() const { return linked_; }
   /// Whether the rounds have been ended because some row cannot open.
   bool without_room() const { return endless_.without_room; }
   /// A body that two impacts of a round share, not both with e = 0. Rigid bodies alone leave the outcome open.
   struct OpenOutcome {
-    std::uint32_t body;
-    std::uint32_t row;
-    std::uint32_t other;  // the second row
+    uint32_t body;
+    uint32_t row;
+    uint32_t other;  // the second row
   };
   /// The first such body; none: the outcome is not open.
-  const std::optional<OpenOutcome>& open_outcome() const { return open_outcome_; }
+  const optional<OpenOutcome>& open_outcome() const { return open_outcome_; }
   /// Whether two of them pushed it from opposite sides at equal speeds.
   bool tied() const { return tied_; }
   /// That of all projections (contact_problem.h).
   const Certificate& certificate() const { return certificate_; }
 
  private:
-  using Rows = std::vector<std::uint32_t>;
+  using Rows = vector<uint32_t>;
   struct Body {
     double mass;  // kg
     Vec3 v;       // m/s
     double top;   // m/s, its greatest speed in this instant
     double near;  // m/s, the greatest of what was solved together with it in this instant: the scale of its rounding
     Rows rows;
-    std::uint32_t struck = 0;  // strikes in this instant
-    double lost = 0;           // the sum of 1 - e of these
+    uint32_t struck = 0;  // strikes in this instant
+    double lost = 0;      // the sum of 1 - e of these
   };
   struct RowState : Row {
     bool holds = false;   // a link that does
@@ -138,19 +134,19 @@ class ImpactSet {
   /// The nearest velocities (m/s), by body of the problem, and the impulses (N s), by row of it.
   struct Projection {
     Rows bodies;
-    std::vector<Vec3> v;
-    std::vector<double> impulse;
+    vector<Vec3> v;
+    vector<double> impulse;
     Certificate certificate;
-    std::size_t place_of(std::uint32_t body) const;
+    size_t place_of(uint32_t body) const;
   };
   /// A sum of velocities in twice as many digits, by axis.
-  using Sum3 = std::array<DoubleDouble, 3>;
+  using Sum3 = array<DoubleDouble, 3>;
   struct Endless {
     double sum = 0;           // of 1 - e over all impacts
     double sum_at_limit = 0;  // when the limit was first found
-    std::vector<Vec3> limit;  // m/s, the last one
-    std::uint32_t most_struck = 0;
-    std::uint32_t next_check = exact_tolerance::many_strikes;
+    vector<Vec3> limit;       // m/s, the last one
+    uint32_t most_struck = 0;
+    uint32_t next_check = exact_tolerance::many_strikes;
     bool ended = false;
     bool without_room = false;
   };
@@ -160,55 +156,55 @@ class ImpactSet {
     Rows touching;
     Rows links;
     Projection reached;   // on these
-    std::vector<Vec3> v;  // m/s, by body
+    vector<Vec3> v;       // m/s, by body
     double away = 0;      // J, twice the energy of the change to it
     double greatest = 0;  // J, twice the energy of the greatest speeds of this instant
   };
 
-  bool before(std::uint32_t c, std::uint32_t d) const;
+  bool before(uint32_t c, uint32_t d) const;
   void sort(Rows& rows) const;
-  double separation(std::uint32_t c) const;
-  double speeds_near(std::uint32_t c) const;
+  double separation(uint32_t c) const;
+  double speeds_near(uint32_t c) const;
   void share_rounding(const Projection& solved);
-  Rows links_at(std::span<const std::uint32_t> rows) const;
-  Projection project(Rows rows, std::span<const std::uint32_t> links, const std::vector<Vec3>& v, bool relative = false,
+  Rows links_at(span<const uint32_t> rows) const;
+  Projection project(Rows rows, span<const uint32_t> links, const vector<Vec3>& v, bool relative = false,
                      double target = 0) const;
-  std::vector<Vec3> velocities() const;
-  double cosine(std::uint32_t c, std::uint32_t d, const Projection* response) const;
-  Projection response(std::uint32_t c, std::span<const std::uint32_t> links) const;
-  Rows select(std::span<const std::uint32_t> approaching);
-  bool waits(std::uint32_t c, const std::vector<std::uint8_t>& approaches);
-  std::vector<Together> connect(std::span<const std::uint32_t> acting, bool through_open) const;
+  vector<Vec3> velocities() const;
+  double cosine(uint32_t c, uint32_t d, const Projection* response) const;
+  Projection response(uint32_t c, span<const uint32_t> links) const;
+  Rows select(span<const uint32_t> approaching);
+  bool waits(uint32_t c, const vector<uint8_t>& approaches);
+  vector<Together> connect(span<const uint32_t> acting, bool through_open) const;
   void strike_together(const Together& set);
-  void strike_one(std::uint32_t c);
+  void strike_one(uint32_t c);
   void strike_inelastic(const Together& set);
-  std::vector<Sum3> expansion(const Rows& rows, const Projection& compressed) const;
+  vector<Sum3> expansion(const Rows& rows, const Projection& compressed) const;
   void slacken(const Rows& links, const Projection& compressed);
-  double allowed_share(const Projection& compressed, const std::vector<Vec3>& dv) const;
-  std::vector<Vec3> expand_alike(const Projection& compressed, double e) const;
-  std::vector<Vec3> expand_each(const Together& set, const Projection& compressed, double& share);
+  double allowed_share(const Projection& compressed, const vector<Vec3>& dv) const;
+  vector<Vec3> expand_alike(const Projection& compressed, double e) const;
+  vector<Vec3> expand_each(const Together& set, const Projection& compressed, double& share);
   void strike_elastic(const Together& set);
-  void change(std::uint32_t body, const Vec3& v);
-  void note(std::uint32_t c, double impulse, double approach, double separation);
-  void share_losses(const Rows& bodies, std::size_t first);
+  void change(uint32_t body, const Vec3& v);
+  void note(uint32_t c, double impulse, double approach, double separation);
+  void share_losses(const Rows& bodies, size_t first);
   void count();
   std::pair<Rows, Rows> touching_and_links() const;
   bool has_room(const Rows& rows, const Rows& links) const;
-  double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
+  double distance(const vector<Vec3>& from, const vector<Vec3>& to) const;
   Limit find_limit();
   void end_by(const Limit& limit);
   void close_parted();
 
-  std::vector<Body> bodies_;
-  std::vector<RowState> rows_;
-  std::vector<Impact> impacts_;  // of the last round
-  Rows changed_;                 // in the last round
-  std::vector<Vec3> next_;       // m/s, by body, after this round
+  vector<Body> bodies_;
+  vector<RowState> rows_;
+  vector<Impact> impacts_;  // of the last round
+  Rows changed_;            // in the last round
+  vector<Vec3> next_;       // m/s, by body, after this round
   Endless endless_;
-  std::uint32_t rounds_ = 0;
+  uint32_t rounds_ = 0;
   bool linked_ = false;  // it has links
   const bool one_by_one_;
-  std::optional<OpenOutcome> open_outcome_;
+  optional<OpenOutcome> open_outcome_;
   bool tied_ = false;
   Certificate certificate_;
 };

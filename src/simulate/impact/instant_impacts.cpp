@@ -15,6 +15,7 @@
 #include "simulate/impact/impact_rules.h"
 #include "simulate/impact/stall_guard.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -62,7 +63,7 @@ bool InstantImpacts::strike(const Due& due) {
     }
 
     end_steps(now, approaching);
-    for (const std::uint32_t c : approaching) decide(now, c);
+    for (const uint32_t c : approaching) decide(now, c);
     const auto& impacts = now.set.strike(approaching);
     if (now.set.certificate().verdict == Certificate::Verdict::infeasible) check_room(now);
     if (impacts.empty()) break;  // what approaches is rounding beside the speeds of what links connect
@@ -78,7 +79,7 @@ bool InstantImpacts::strike(const Due& due) {
 }
 
 /// The number of body i in the set, to which it is added.
-std::uint32_t InstantImpacts::take_in(Moment& now, Entity i) const {
+uint32_t InstantImpacts::take_in(Moment& now, Entity i) const {
   if (now.members.add(i)) {
     now.set.add_body(bodies_.world.mass[i], bodies_.velocity(i));
     now.gathered.push_back(0);
@@ -102,8 +103,8 @@ void InstantImpacts::add_row(Moment& now, Entity a, Entity thing, const Touch& t
 
 /// Whether the two things have a row.
 bool InstantImpacts::is_known(const Moment& now, Entity a, Entity thing) {
-  const std::uint32_t number = now.members.number(a);
-  return number != Numbering::none && std::ranges::any_of(now.set.rows_of(number), [&](std::uint32_t c) {
+  const uint32_t number = now.members.number(a);
+  return number != Numbering::none && std::ranges::any_of(now.set.rows_of(number), [&](uint32_t c) {
            return now.touching[c].a == a && now.touching[c].thing == thing;
          });
 }
@@ -140,7 +141,7 @@ double InstantImpacts::near_gap(Entity i, Entity thing) const {
 /// Adds all that touches body i, and the strings and rods that hold it.
 void InstantImpacts::gather(Moment& now, Entity i) const {
   const World& world = bodies_.world;
-  const std::uint32_t number = take_in(now, i);
+  const uint32_t number = take_in(now, i);
   if (now.gathered[number]) return;
   now.gathered[number] = 1;
   if (bodies_.ties.any()) gather_strings(now, i);
@@ -185,11 +186,11 @@ void InstantImpacts::gather_strings(Moment& now, Entity i) const {
 
 /// Adds all that touches, directly or through others.
 void InstantImpacts::gather_all(Moment& now) const {
-  for (std::size_t k = 0; k < now.members.size(); ++k) gather(now, now.members[k]);
+  for (size_t k = 0; k < now.members.size(); ++k) gather(now, now.members[k]);
 }
 
 /// Whether a row that approaches can be struck, in the present modes of its bodies.
-bool InstantImpacts::may_strike(const Moment& now, std::uint32_t c) const {
+bool InstantImpacts::may_strike(const Moment& now, uint32_t c) const {
   const Touching& row = now.touching[c];
   const Entity i = row.a;
   const double approach = now.set.approach(c);
@@ -234,7 +235,7 @@ bool InstantImpacts::presses(const Touching& row) const {
 /// The rows that approach, and can be struck. Bodies that take part bring all that touches them.
 InstantImpacts::Rows InstantImpacts::find_approaching(Moment& now) const {
   Rows approaching;
-  for (std::uint32_t c = 0; c < now.set.rows(); ++c) {
+  for (uint32_t c = 0; c < now.set.rows(); ++c) {
     if (!now.set.approaches(c) || !may_strike(now, c)) continue;
     approaching.push_back(c);
     const Entity second = bodies_.world.second_body(now.touching[c].thing);
@@ -248,7 +249,7 @@ InstantImpacts::Rows InstantImpacts::find_approaching(Moment& now) const {
 void InstantImpacts::end_steps(Moment& now, const Rows& approaching) {
   const bool ties = bodies_.ties.any();
   if (!bodies_.in_steps && !ties) return;
-  for (const std::uint32_t c : approaching) {
+  for (const uint32_t c : approaching) {
     const Entity second = bodies_.world.second_body(now.touching[c].thing);
     for (const Entity i : {now.touching[c].a, second}) {
       if (i == no_entity || now.struck[now.members.number(i)]) continue;
@@ -263,9 +264,9 @@ void InstantImpacts::end_steps(Moment& now, const Rows& approaching) {
 /// Throws SimulationError where things that move leave a body no room, or strings hold it against one.
 void InstantImpacts::check_room(const Moment& now) const {
   ContactList rows;
-  std::vector<Vec3> velocities;
-  for (std::uint32_t k = 0; k < now.set.bodies(); ++k) velocities.push_back(now.set.velocity(k));
-  for (std::uint32_t c = 0; c < now.set.rows(); ++c) {
+  vector<Vec3> velocities;
+  for (uint32_t k = 0; k < now.set.bodies(); ++k) velocities.push_back(now.set.velocity(k));
+  for (uint32_t c = 0; c < now.set.rows(); ++c) {
     const ImpactSet::Row& row = now.set.row(c);
     ContactConstraint pair{row.a, row.b, row.normal};
     pair.surface = row.surface;
@@ -276,7 +277,7 @@ void InstantImpacts::check_room(const Moment& now) const {
 }
 
 /// Decides how the next impact of a row ends.
-void InstantImpacts::decide(Moment& now, std::uint32_t c) {
+void InstantImpacts::decide(Moment& now, uint32_t c) {
   Touching& row = now.touching[c];
   if (bodies_.world.is_string(row.thing))
     decide_string(row);
@@ -322,7 +323,7 @@ void InstantImpacts::decide_fixed(Touching& row) {
 }
 
 /// Applies what a round has changed. `last`: the end of endless rounds, in contact.
-void InstantImpacts::apply(Moment& now, std::span<const ImpactSet::Impact> impacts, bool last) {
+void InstantImpacts::apply(Moment& now, span<const ImpactSet::Impact> impacts, bool last) {
   if (impacts.empty()) return;
   for (const ImpactSet::Impact& impact : impacts) {
     Touching& row = now.touching[impact.row];
@@ -338,10 +339,10 @@ void InstantImpacts::apply(Moment& now, std::span<const ImpactSet::Impact> impac
 }
 
 /// Begins the flights of the bodies that a round has struck.
-void InstantImpacts::begin_flights(Moment& now, std::span<const ImpactSet::Impact> impacts) {
+void InstantImpacts::begin_flights(Moment& now, span<const ImpactSet::Impact> impacts) {
   const World& world = bodies_.world;
-  std::vector<FlightOrigin> origin(now.members.size());
-  std::vector<Vec3> down(now.members.size(), Vec3::Zero());  // m
+  vector<FlightOrigin> origin(now.members.size());
+  vector<Vec3> down(now.members.size(), Vec3::Zero());  // m
 
   for (const ImpactSet::Impact& impact : impacts) {
     const Touching& row = now.touching[impact.row];
@@ -362,22 +363,21 @@ void InstantImpacts::begin_flights(Moment& now, std::span<const ImpactSet::Impac
     down[now.members.number(row.a)] += row.there.gap * row.there.normal;
   }
 
-  std::vector<std::uint32_t> changed = now.set.changed();
-  std::sort(changed.begin(), changed.end(),
-            [&](std::uint32_t k, std::uint32_t l) { return now.members[k] < now.members[l]; });
+  vector<uint32_t> changed = now.set.changed();
+  std::ranges::sort(changed, [&](uint32_t k, uint32_t l) { return now.members[k] < now.members[l]; });
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  for (const std::uint32_t k : changed) {
+  for (const uint32_t k : changed) {
     const Entity i = now.members[k];
     if (bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
     bodies_.note_speed(i, bodies_.velocity(i));
     parts_.flights.begin(i, bodies_.position(i) + down[k], parts_.flat.keep_at(i, now.set.velocity(k)), origin[k]);
     now.set.set_velocity(k, bodies_.velocity(i));
   }
-  for (const std::uint32_t k : changed) gather(now, now.members[k]);
+  for (const uint32_t k : changed) gather(now, now.members[k]);
 }
 
 /// Unites the bodies whose impacts have ended in contact.
-void InstantImpacts::hold(Moment& now, std::span<const ImpactSet::Impact> impacts) {
+void InstantImpacts::hold(Moment& now, span<const ImpactSet::Impact> impacts) {
   for (const ImpactSet::Impact& impact : impacts) {
     const Touching& row = now.touching[impact.row];
     if (!row.ends) continue;
@@ -468,7 +468,7 @@ void InstantImpacts::share_gains(Moment& now) {
 
 /// Counts an outcome that rigid bodies leave open, and impacts without room.
 void InstantImpacts::note_open(const Moment& now) {
-  const std::optional<ImpactSet::OpenOutcome>& open = now.set.open_outcome();
+  const optional<ImpactSet::OpenOutcome>& open = now.set.open_outcome();
   if (!open && !now.set.without_room()) return;
   SharedImpacts all;
   all.without_room = now.set.without_room();
@@ -479,7 +479,7 @@ void InstantImpacts::note_open(const Moment& now) {
     all.ties = now.set.tied();
     all.first = bodies_.now.hi;
     all.body = now.members[open->body];
-    const auto met = [&](std::uint32_t c) {
+    const auto met = [&](uint32_t c) {
       return now.touching[c].a == all.body ? now.touching[c].thing : now.touching[c].a;
     };
     all.one = met(open->row);
@@ -503,7 +503,7 @@ void InstantImpacts::book(Moment& now) {
     if (fixed && bodies_.moving.any())
       bodies_.log.add_work(-of.impulse * row.there.normal.dot(bodies_.fixed_velocity(row.thing)));
 
-    const CollisionKind kind = string  ? CollisionKind::string
+    const CollisionKind kind = string  ? CollisionKind::taut
                                : fixed ? CollisionKind::body_fixed
                                        : CollisionKind::body_body;
     Collision met = make_collision(world, kind, bodies_.now.hi, row.a, row.thing, row.there.point, row.there.normal,

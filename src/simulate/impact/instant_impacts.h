@@ -7,8 +7,6 @@
 // begin, sleepers wake, bodies come to rest. Members of crowds are not taken in. Their impacts are those
 // of two (exact_impacts.h).
 #include <algorithm>
-#include <span>
-#include <vector>
 
 #include "physics/restitution.h"
 #include "simulate/contact/flat_contacts.h"
@@ -17,6 +15,7 @@
 #include "simulate/impact/impact_set.h"
 #include "simulate/path/exact_event.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -40,7 +39,7 @@ class InstantImpacts {
   struct Due {
     Entity body;
     Entity thing;  // a body, a fixed thing or a string
-    std::uint8_t feature;
+    uint8_t feature;
   };
   /// Resolves it, and with it all that it causes at this instant and that happens to what touches, also through others.
   /// Returns false, and changes nothing, where it is an impact of two: nothing else approaches what touches them, and
@@ -52,7 +51,7 @@ class InstantImpacts {
   struct Touching {
     Entity a;
     Entity thing;
-    std::uint8_t feature;
+    uint8_t feature;
     Touch there;
     bool counted = false;  // towards a collapse, at this instant
     // Decided for the next round.
@@ -63,11 +62,11 @@ class InstantImpacts {
     double e = 0;       // the pair's
     double press = 0;   // m/s^2
     double length = 0;  // m
-    std::size_t record = none;
+    size_t record = none;
   };
   /// What is to be recorded of a row: all its impulses with e = 0, or those of one round.
   struct Record {
-    std::uint32_t row;
+    uint32_t row;
     bool ends;  // in contact, so that it leaves nothing
     double e;
     double approach;    // m/s
@@ -75,8 +74,8 @@ class InstantImpacts {
     double impulse;     // N s
     double lost;        // J
   };
-  static constexpr std::size_t none = ~std::size_t{0};
-  using Rows = std::vector<std::uint32_t>;
+  static constexpr size_t none = ~size_t{0};
+  using Rows = vector<uint32_t>;
 
   /// The set of one instant.
   struct Moment {
@@ -84,14 +83,14 @@ class InstantImpacts {
 
     Numbering members;
     ImpactSet set;
-    std::vector<Touching> touching;      // by row
-    std::vector<std::uint8_t> gathered;  // by member: its rows are in the set
-    std::vector<std::uint8_t> struck;    // by member
-    std::vector<Record> records;
+    vector<Touching> touching;  // by row
+    vector<uint8_t> gathered;   // by member: its rows are in the set
+    vector<uint8_t> struck;     // by member
+    vector<Record> records;
     double absorbed = 0;  // J, for want of room
   };
 
-  std::uint32_t take_in(Moment& now, Entity i) const;
+  uint32_t take_in(Moment& now, Entity i) const;
   void gather(Moment& now, Entity i) const;
   void gather_strings(Moment& now, Entity i) const;
   void add_row(Moment& now, Entity a, Entity thing, const Touch& there, ImpactSet::Kind kind) const;
@@ -99,20 +98,20 @@ class InstantImpacts {
   void add_due(Moment& now, const Due& due) const;
   double near_gap(Entity i, Entity thing) const;
   void gather_all(Moment& now) const;
-  bool may_strike(const Moment& now, std::uint32_t c) const;
+  bool may_strike(const Moment& now, uint32_t c) const;
   bool meets_by_volume(const Touching& row, const Vec3& velocity) const;
   bool presses(const Touching& row) const;
   bool leaves_asleep(const Touching& row) const;
   Rows find_approaching(Moment& now) const;
   void end_steps(Moment& now, const Rows& approaching);
   void check_room(const Moment& now) const;
-  void decide(Moment& now, std::uint32_t c);
+  void decide(Moment& now, uint32_t c);
   void decide_string(Touching& row);
   void decide_pair(Touching& row);
   void decide_fixed(Touching& row);
-  void apply(Moment& now, std::span<const ImpactSet::Impact> impacts, bool last);
-  void begin_flights(Moment& now, std::span<const ImpactSet::Impact> impacts);
-  void hold(Moment& now, std::span<const ImpactSet::Impact> impacts);
+  void apply(Moment& now, span<const ImpactSet::Impact> impacts, bool last);
+  void begin_flights(Moment& now, span<const ImpactSet::Impact> impacts);
+  void hold(Moment& now, span<const ImpactSet::Impact> impacts);
   void hold_string(Moment& now);
   void note(Moment& now, const ImpactSet::Impact& impact, bool last) const;
   void share_gains(Moment& now);

@@ -3,18 +3,18 @@
 // Elastic impacts cannot collapse, and unequal masses have millions of them in an instant (Galperin's billiard).
 // For these, and for events without physics, the limit is a thousand times as high, or progress by no more than the
 // clock's rounding.
-#include <cstdint>
 
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
 class StallGuard {
  public:
   /// duration: of the run (s).
-  StallGuard(std::uint64_t bodies, double duration) : many_(1'000'000 + 1000 * bodies), duration_(duration) {}
+  StallGuard(uint64_t bodies, double duration) : many_(1'000'000 + 1000 * bodies), duration_(duration) {}
 
-  enum class Happened : std::uint8_t { region_left, impact, other };
+  enum class Happened : uint8_t { region_left, impact, other };
 
   /// Registers the restitution of an impact, and whether a moving thing took part. Elastic impacts between things that
   /// close in on a body have no end.
@@ -37,13 +37,13 @@ class StallGuard {
  private:
   /// The progress of the clock over many events.
   struct Watch {
-    std::uint64_t events = 0;
+    uint64_t events = 0;
     double since = 0;     // s, the clock when it was last found to advance
     double checked = -1;  // s, the clock at the last check
   };
 
-  const std::uint64_t many_;  // events
-  const double duration_;     // s
+  const uint64_t many_;    // events
+  const double duration_;  // s
   // For elastic impacts and exits from regions, and for all other events.
   Watch elastic_, lossy_;
   double restitution_ = 0;  // of the last impact
@@ -51,7 +51,7 @@ class StallGuard {
   // The present instant (s), its length (s) and its events.
   double instant_ = 0;
   double close_ = 0;
-  std::uint32_t at_instant_ = 0;
+  uint32_t at_instant_ = 0;
   // Of recent impacts: the greatest restitution and the least one, and whether moving things took part.
   double highest_ = 0, lowest_ = 1;
   bool moved_ = false;

@@ -12,6 +12,7 @@
 #include "simulate/contact/flight_changes.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -53,13 +54,13 @@ bool ConstrainedMotion::advance(Entity i) {
   if (!undisturbed) take_in_touching(i);
 
   Island& island = bodies_.islands.of(i);
-  std::sort(island.members.begin(), island.members.end());
-  std::vector<std::uint32_t> part;
+  std::ranges::sort(island.members);
+  vector<uint32_t> part;
   {
     IslandStep step = begin_step(island.members, undisturbed);
     if (may_be_busy && !count_change(island, step.load, step.smallest)) return false;
-    part = connected_parts(step.members.size(), step.contacts.pairs, [](std::size_t) { return true; });
-    if (std::ranges::all_of(part, [](std::uint32_t first) { return first == 0; })) {
+    part = connected_parts(step.members.size(), step.contacts.pairs, [](size_t) { return true; });
+    if (std::ranges::all_of(part, [](uint32_t first) { return first == 0; })) {
       apply(step);
       return true;
     }
@@ -76,7 +77,7 @@ bool ConstrainedMotion::advance(Entity i) {
 /// Impacts that end in contact would otherwise be resolved one after the other, down to what rounding leaves of them.
 void ConstrainedMotion::take_in_touching(Entity i) {
   const World& world = bodies_.world;
-  std::vector<Entity> todo = bodies_.islands.of(i).members;
+  vector<Entity> todo = bodies_.islands.of(i).members;
   while (!todo.empty()) {
     const Entity k = todo.back();
     todo.pop_back();
@@ -114,7 +115,7 @@ std::pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
 }
 
 /// The members of a step, and their contacts.
-IslandStep ConstrainedMotion::begin_step(const std::vector<Entity>& members, bool undisturbed) {
+IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool undisturbed) {
   IslandStep step(Numbering(group_.numbers, members));
   step.at = bodies_.now;
   step.undisturbed = undisturbed;
@@ -165,7 +166,7 @@ void ConstrainedMotion::note_contacts(const IslandStep& step) {
     group_.member.write(i).floors.clear();
   }
 
-  for (std::size_t c = 0; c < step.contacts.names.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.names.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
     const ContactConstraint& p = step.contacts.pairs[c];
     modes_.add_partner(i, e);
@@ -186,8 +187,8 @@ void ConstrainedMotion::begin_flights(const IslandStep& step) {
   island.end = island.planned = bodies_.now + step.length;
   for (const Entity i : step.members) modes_.hold(i);
 
-  std::vector<Entity> stay;
-  for (std::uint32_t k = 0; k < step.members.size(); ++k)
+  vector<Entity> stay;
+  for (uint32_t k = 0; k < step.members.size(); ++k)
     if (begin_flight(step, k))
       stay.push_back(step.members[k]);
     else if (step.motion.forces)
@@ -199,7 +200,7 @@ void ConstrainedMotion::begin_flights(const IslandStep& step) {
 }
 
 /// Member k of the step leaves its island, falls asleep or continues. Returns whether it stays.
-bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
+bool ConstrainedMotion::begin_flight(const IslandStep& step, uint32_t k) {
   const Entity i = step.members[k];
   const Vec3& x = step.x[k];
   const Vec3& v = step.v[k];
@@ -214,7 +215,7 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
   // A member that nothing has needed for long enough leaves the island.
   if (fate.leaves() && bodies_.now - group_.member[i].needed >= step.grace) {
     modes_.leave(i);
-    for (std::size_t c = 0; c < fate.flats.count; ++c) flat_.add(i, fate.flats.at[c]);
+    for (size_t c = 0; c < fate.flats.count; ++c) flat_.add(i, fate.flats.at[c]);
     flights_.begin(i, x + fate.down, flat_.keep_at(i, v), {});
     return false;
   }
@@ -239,7 +240,7 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, std::uint32_t k) {
   return true;
 }
 
-void ConstrainedMotion::report(const Island& island, double time, std::vector<ContactForce>& forces) const {
+void ConstrainedMotion::report(const Island& island, double time, vector<ContactForce>& forces) const {
   const World& world = bodies_.world;
   IslandStep step(Numbering(group_.numbers, island.members));
   step.at = {time, 0};
@@ -252,13 +253,13 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
   }
 
   // Each contact once, from its first body.
-  std::vector<ContactConstraint> pairs;
-  std::vector<std::pair<Entity, Entity>> names;
-  for (std::uint32_t k = 0; k < step.members.size(); ++k) {
+  vector<ContactConstraint> pairs;
+  vector<std::pair<Entity, Entity>> names;
+  for (uint32_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
     for (const Entity e : modes_.partners(i)) {
       const Entity second = world.second_body(e);
-      const std::uint32_t other = step.members.number(second);
+      const uint32_t other = step.members.number(second);
       const bool of_another = world.is_string(e) ? world.string(e).body != i : world.is_body(e) && e < i;
       if (of_another || (second != no_entity && other == Numbering::none)) continue;
 
@@ -272,7 +273,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
   }
 
   solve({step.inverse_mass, step.a, pairs, true});
-  for (std::size_t c = 0; c < pairs.size(); ++c)
+  for (size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});
 }
 

@@ -7,13 +7,12 @@
 // cost one step.
 //
 // A step is found as a value (constrained_steps.h), and applied here.
-#include <memory>
-#include <vector>
 
 #include "numerics/lazy_array.h"
 #include "physics/contact_force.h"
 #include "simulate/island/constrained_steps.h"
 #include "simulate/island/contact_search.h"
+#include "std.h"
 
 namespace carom {
 
@@ -30,10 +29,10 @@ class ConstrainedMotion {
   bool advance(Entity i);
 
   /// The number of steps so far along paths that are not exact, but for rounding.
-  std::uint64_t inexact_steps() const { return inexact_steps_; }
+  uint64_t inexact_steps() const { return inexact_steps_; }
 
   /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
-  void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
+  void report(const Island& island, double time, vector<ContactForce>& forces) const;
 
   void keep(auto& archive) {
     archive(following_, inexact_steps_);
@@ -44,22 +43,22 @@ class ConstrainedMotion {
   /// The path that a body follows, if it is still on this flight.
   struct Following {
     std::shared_ptr<const IslandPath> path;
-    std::uint32_t place = 0;    // number in the path
-    std::uint16_t version = 0;  // of the flight
-    bool bound = false;         // things other than flat surfaces press on the body
+    uint32_t place = 0;    // number in the path
+    uint16_t version = 0;  // of the flight
+    bool bound = false;    // things other than flat surfaces press on the body
 
     void keep(auto& archive) { archive(path, place, version, bound); }
   };
 
   void take_in_touching(Entity i);
   bool count_change(Island& island, double load, double smallest) const;
-  IslandStep begin_step(const std::vector<Entity>& members, bool undisturbed);
+  IslandStep begin_step(const vector<Entity>& members, bool undisturbed);
   std::pair<Vec3, Vec3> place_of(Entity i) const;
   void apply(IslandStep& step);
   void book(const IslandStep& step);
   void note_contacts(const IslandStep& step);
   void begin_flights(const IslandStep& step);
-  bool begin_flight(const IslandStep& step, std::uint32_t k);
+  bool begin_flight(const IslandStep& step, uint32_t k);
 
   ExactBodies& bodies_;
   ModeChanges& modes_;
@@ -70,7 +69,7 @@ class ConstrainedMotion {
   const ContactSearch search_;
   const ConstrainedSteps steps_;
   LazyArray<Following> following_;  // by body
-  std::uint64_t inexact_steps_ = 0;
+  uint64_t inexact_steps_ = 0;
 };
 
 }  // namespace carom

@@ -15,6 +15,7 @@
 #include "simulate/contact/exact_group.h"
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -28,7 +29,7 @@ double at_least_tiny(double fastest) {
 }
 
 /// The speed of approach (m/s). A rod may push, which is a pull along the other direction.
-double speed_of(const std::vector<Vec3>& v, const ContactConstraint& p) {
+double speed_of(const vector<Vec3>& v, const ContactConstraint& p) {
   return p.bilateral ? std::abs(approach(v, p)) : approach(v, p);
 }
 
@@ -52,23 +53,23 @@ double ConstrainedSteps::share_of_errors() const {
 
 void ConstrainedSteps::close_overlaps(IslandStep& step) const {
   bool overlap = false;
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const double closes = p.bilateral ? std::abs(p.target) : p.target;
     overlap = overlap || closes > tol::least_overlap * bodies_.world.radius[step.contacts.names[c].i];
   }
   if (!overlap) return;
 
-  std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
+  vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
   step.bookings.solutions.push_back(solve({step.inverse_mass, displacement, step.contacts.pairs}));
-  for (std::size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
+  for (size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
 /// Contact takes away the approach of pairs. A struck body that others behind it hold up has an impact in turn with the
 /// strike, as with e = 0.
 void ConstrainedSteps::take_approaches(IslandStep& step) const {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     ContactConstraint& p = step.contacts.pairs[c];
     const Entity e = step.contacts.names[c].e;
     p.target = 0;
@@ -77,16 +78,16 @@ void ConstrainedSteps::take_approaches(IslandStep& step) const {
     p.surface = bodies_.world.moves(e) ? p.normal.dot(bodies_.fixed_velocity(e)) : 0;
   }
 
-  const std::vector<Vec3> met = step.v;
+  const vector<Vec3> met = step.v;
   const Certificate certificate = solve({step.inverse_mass, step.v, step.contacts.pairs});
   if (certificate.verdict == Certificate::Verdict::infeasible) step.contacts.check_room(bodies_, step.v);
   step.bookings.solutions.push_back(certificate);
 
-  std::vector<AbsorbedImpact> impacts = absorbed_impacts(step, met);
+  vector<AbsorbedImpact> impacts = absorbed_impacts(step, met);
   record_fast(step, impacts);
   step.bookings.absorbed = {met, step.v, step.contacts.pairs, std::move(impacts)};
 
-  for (std::size_t k = 0; k < step.v.size(); ++k) {
+  for (size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
     const Vec3 before = bodies_.velocity(i);
     const bool changed = (step.v[k] - before).norm() > tol::velocity_change * before.norm();
@@ -96,15 +97,14 @@ void ConstrainedSteps::take_approaches(IslandStep& step) const {
 
 /// By pair: the impacts at velocities `met` (m/s) that contact has just absorbed. A pair that a struck body closes has
 /// its impact after that body's, and each takes energy from the velocities that it meets.
-std::vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep& step,
-                                                               const std::vector<Vec3>& met) const {
-  const std::vector<ContactConstraint>& pairs = step.contacts.pairs;
+vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep& step, const vector<Vec3>& met) const {
+  const vector<ContactConstraint>& pairs = step.contacts.pairs;
   const double errors = tol::drift * step.fastest;  // m/s
-  std::vector<AbsorbedImpact> impacts(pairs.size());
+  vector<AbsorbedImpact> impacts(pairs.size());
   double all = 0;  // J, lost by all of them
   bool closed_later = false;
 
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
+  for (size_t c = 0; c < pairs.size(); ++c) {
     impacts[c].approach = speed_of(met, pairs[c]);
     impacts[c].lost = 0.5 * pairs[c].force * approach(met, pairs[c]);
     all += impacts[c].lost;
@@ -117,12 +117,12 @@ std::vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep&
   // One round after the other, of the pairs that approach by then and of those before.
   for (AbsorbedImpact& impact : impacts) impact = {};
   double in_rounds = 0;  // J
-  std::vector<Vec3> v = met;
-  std::vector<std::size_t> which;
-  std::vector<std::uint8_t> taken(pairs.size(), 0);
+  vector<Vec3> v = met;
+  vector<size_t> which;
+  vector<uint8_t> taken(pairs.size(), 0);
   for (;;) {
-    const std::size_t before = which.size();
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const size_t before = which.size();
+    for (size_t c = 0; c < pairs.size(); ++c) {
       if (taken[c] || !(speed_of(v, pairs[c]) > errors)) continue;
       taken[c] = 1;
       which.push_back(c);
@@ -130,11 +130,11 @@ std::vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep&
     }
     if (which.size() == before) break;
 
-    std::vector<ContactConstraint> rows;
-    for (const std::size_t c : which) rows.push_back(pairs[c]);
-    const std::vector<Vec3> first = v;
+    vector<ContactConstraint> rows;
+    for (const size_t c : which) rows.push_back(pairs[c]);
+    const vector<Vec3> first = v;
     solve({step.inverse_mass, v, rows});
-    for (std::size_t k = 0; k < which.size(); ++k) {
+    for (size_t k = 0; k < which.size(); ++k) {
       const double lost = std::max(0.5 * rows[k].force * (approach(first, rows[k]) + approach(v, rows[k])), 0.0);
       impacts[which[k]].lost += lost;
       in_rounds += lost;
@@ -147,9 +147,9 @@ std::vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep&
 }
 
 /// Records the absorbed impacts that were not slow: those that struck bodies passed on at once.
-void ConstrainedSteps::record_fast(IslandStep& step, std::vector<AbsorbedImpact>& impacts) const {
+void ConstrainedSteps::record_fast(IslandStep& step, vector<AbsorbedImpact>& impacts) const {
   const World& world = bodies_.world;
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const auto& [i, e, feature] = step.contacts.names[c];
     const bool presses = p.force > 0 || (p.bilateral && p.force < 0);
@@ -157,7 +157,7 @@ void ConstrainedSteps::record_fast(IslandStep& step, std::vector<AbsorbedImpact>
     if (!(presses && impacts[c].approach > std::max(slow, step.contacts.slow[c]))) continue;
 
     const double sign = p.force < 0 ? -1 : 1;
-    const CollisionKind kind = world.is_string(e) ? CollisionKind::string
+    const CollisionKind kind = world.is_string(e) ? CollisionKind::taut
                                : world.is_body(e) ? CollisionKind::body_body
                                                   : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, step.position_of(bodies_, e), feature);
@@ -184,7 +184,7 @@ double ConstrainedSteps::parting_speed(const IslandStep& step) const {
 void ConstrainedSteps::drop_parting(IslandStep& step) const {
   const double parting = parting_speed(step);
   const double rounding = tol::velocity_rounding * step.fastest;
-  step.contacts.drop_if(0, [&](std::size_t c) {
+  step.contacts.drop_if(0, [&](size_t c) {
     const auto& [i, e, feature] = step.contacts.names[c];
     const double least = group_.has_parted(i, e) ? rounding : parting;
     return !step.contacts.pairs[c].bilateral && step.parting_speed(bodies_, c) > least;
@@ -193,12 +193,12 @@ void ConstrainedSteps::drop_parting(IslandStep& step) const {
 
 /// The equations of motion of a step's members and contacts.
 ConstrainedSystem ConstrainedSteps::make_system(const IslandStep& step) const {
-  std::vector<ConstrainedSystem::Applied> applied;
+  vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
   ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members.bodies(), std::move(applied),
                            share_of_errors() * tol::step_error);
 
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
     if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
     system.add(step.contacts.names[c], step.contacts.pairs[c], group_.pressing_force(i, e));
@@ -209,7 +209,7 @@ ConstrainedSystem ConstrainedSteps::make_system(const IslandStep& step) const {
 /// Computes accelerations and forces.
 void ConstrainedSteps::accelerate(IslandStep& step, ConstrainedSystem& system) {
   step.a = system.accelerate(step.x, step.v, true);
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
 }
 
 /// Computes the accelerations and forces at the step's start. Contacts that separate and carry no force open.
@@ -221,8 +221,8 @@ ConstrainedSystem ConstrainedSteps::find_forces(IslandStep& step) const {
 
   const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
   check_digits(step, scales.acceleration);
-  std::vector<std::uint8_t> opens(step.contacts.pairs.size(), 0);
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  vector<uint8_t> opens(step.contacts.pairs.size(), 0);
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     if (p.force > 0 || p.bilateral) continue;
     opens[c] = step.parting_speed(bodies_, c) > tol::drift * scales.speed ||
@@ -238,11 +238,11 @@ ConstrainedSystem ConstrainedSteps::find_forces(IslandStep& step) const {
 /// more energy than path errors may have made. Where contacts almost lock a motion, it would stop it: the separation
 /// then remains. Returns whether any was removed.
 bool ConstrainedSteps::stop_parting(IslandStep& step) const {
-  std::vector<ContactConstraint> kept;
+  vector<ContactConstraint> kept;
   bool parts = false;
   const double rounding = share_of_errors() * tol::velocity_rounding * step.fastest;  // m/s
 
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     parts = parts || (p.force > 0 && step.parting_speed(bodies_, c) > rounding);
     kept.push_back({p.a, p.b, p.normal});
@@ -252,12 +252,12 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   }
   if (!parts) return false;
 
-  std::vector<Vec3> stopped = step.v;  // m/s
+  vector<Vec3> stopped = step.v;  // m/s
   const Certificate certificate = solve({step.inverse_mass, stopped, kept});
   const double errors = parting_speed(step) * (step.fastest + std::sqrt(step.load * step.smallest));  // m^2/s^2
   double taken = 0;                                                                                   // J, twice
   double made = 0;
-  for (std::size_t k = 0; k < step.v.size(); ++k) {
+  for (size_t k = 0; k < step.v.size(); ++k) {
     taken += (stopped[k] - step.v[k]).squaredNorm() / step.inverse_mass[k];
     made += errors / step.inverse_mass[k];
   }
@@ -273,7 +273,7 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
 /// a noticeable part of the accelerations (m/s^2). Those would then be arbitrary: the bodies are jammed. Rounding is
 /// that of the force, and that of positions, which turns the string's direction.
 void ConstrainedSteps::check_digits(const IslandStep& step, double acceleration) const {
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
     if (!bodies_.world.is_string(e)) continue;
     const ContactConstraint& p = step.contacts.pairs[c];
@@ -293,7 +293,7 @@ void ConstrainedSteps::check_digits(const IslandStep& step, double acceleration)
 }
 
 /// The angle (radians) by which the rounding of positions turns the pair's string.
-double ConstrainedSteps::turn_by_rounding(const IslandStep& step, std::size_t pair) const {
+double ConstrainedSteps::turn_by_rounding(const IslandStep& step, size_t pair) const {
   const Entity e = step.contacts.names[pair].e;
   const double places =
       step.x[step.contacts.pairs[pair].a].cwiseAbs().sum() + step.position_of(bodies_, e).cwiseAbs().sum();
@@ -302,7 +302,7 @@ double ConstrainedSteps::turn_by_rounding(const IslandStep& step, std::size_t pa
 
 /// Throws SimulationError where a string's direction decides whether bodies can move, and rounding decides on that.
 void ConstrainedSteps::check_directions(const IslandStep& step) const {
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
     if (bodies_.world.is_string(e) && turn_by_rounding(step, c) * leverage(step, c) > tol::arbitrary)
       fail_jammed(i, std::abs(step.contacts.pairs[c].force));
@@ -311,9 +311,9 @@ void ConstrainedSteps::check_directions(const IslandStep& step) const {
 
 /// How far the pair's closing by a unit moves bodies while all others that bear stay closed. Infinity: they keep it
 /// from closing.
-double ConstrainedSteps::leverage(const IslandStep& step, std::size_t pair) const {
-  std::vector<ContactConstraint> bearing;
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+double ConstrainedSteps::leverage(const IslandStep& step, size_t pair) const {
+  vector<ContactConstraint> bearing;
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     ContactConstraint p = step.contacts.pairs[c];
     if (p.force == 0 && c != pair) continue;
     p.bilateral = true;
@@ -322,7 +322,7 @@ double ConstrainedSteps::leverage(const IslandStep& step, std::size_t pair) cons
     bearing.push_back(p);
   }
 
-  std::vector<Vec3> moved(step.x.size(), Vec3::Zero());
+  vector<Vec3> moved(step.x.size(), Vec3::Zero());
   solve({step.inverse_mass, moved, bearing});
   for (const ContactConstraint& p : bearing)
     if (std::abs(approach(moved, p) + p.target) > 0.25) return never;
@@ -343,18 +343,18 @@ void ConstrainedSteps::fail_jammed(Entity i, double force) const {
 
 /// Parts in which no body moves or accelerates are at rest.
 void ConstrainedSteps::find_resting(IslandStep& step) const {
-  const std::size_t n = step.x.size();
-  const std::vector<ContactConstraint>& pairs = step.contacts.pairs;
-  const std::vector<std::uint32_t> part = connected_parts(n, pairs, [](std::size_t) { return true; });
-  std::vector<std::uint8_t> moves(n, 1);  // by part
+  const size_t n = step.x.size();
+  const vector<ContactConstraint>& pairs = step.contacts.pairs;
+  const vector<uint32_t> part = connected_parts(n, pairs, [](size_t) { return true; });
+  vector<uint8_t> moves(n, 1);  // by part
   for (const ContactConstraint& p : pairs) moves[part[p.a]] = 0;
 
   // The rim of a thing that moves may come along.
-  for (std::size_t c = 0; c < pairs.size(); ++c)
+  for (size_t c = 0; c < pairs.size(); ++c)
     if (bodies_.moving.moves(step.contacts.names[c].e, bodies_.now)) moves[part[pairs[c].a]] = 1;
 
   step.fastest = 0;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
     step.fastest = std::max(step.fastest, speed);
     // What drag alone balances goes on.
@@ -366,14 +366,14 @@ void ConstrainedSteps::find_resting(IslandStep& step) const {
   }
 
   step.fates.resize(n);
-  for (std::size_t k = 0; k < n; ++k) step.fates[k].rests = !moves[part[k]];
+  for (size_t k = 0; k < n; ++k) step.fates[k].rests = !moves[part[k]];
   note_unbalanced(step);
 }
 
 /// Notes accelerations of members at rest that are more than the rounding of forces and of their directions.
 void ConstrainedSteps::note_unbalanced(IslandStep& step) const {
-  std::vector<double> rounding(step.x.size(), tol::velocity_rounding * step.load);  // m/s^2
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  vector<double> rounding(step.x.size(), tol::velocity_rounding * step.load);  // m/s^2
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     const Vec3 xe = step.position_of(bodies_, step.contacts.names[c].e);
     const double places = step.x[p.a].cwiseAbs().sum() + xe.cwiseAbs().sum();
@@ -382,12 +382,12 @@ void ConstrainedSteps::note_unbalanced(IslandStep& step) const {
 
     // A rod's force has an allowed error.
     const double of_rod = p.bilateral ? tol::step_error * step.load : 0;
-    for (const std::uint32_t k : {p.a, p.b})
+    for (const uint32_t k : {p.a, p.b})
       if (k != ContactConstraint::fixed) rounding[k] += of_force * step.inverse_mass[k] + of_rod;
   }
 
   const double left = Instant{bodies_.options.duration, 0} - bodies_.now;
-  for (std::size_t k = 0; k < step.x.size(); ++k) {
+  for (size_t k = 0; k < step.x.size(); ++k) {
     const double a = step.a[k].norm();
     if (step.fates[k].rests && a > rounding[k])
       step.bookings.unbalanced.push_back({a, 0.5 * a * left * left, step.members[k]});
@@ -397,7 +397,7 @@ void ConstrainedSteps::note_unbalanced(IslandStep& step) const {
 /// Finds what presses on each member: flat surfaces alone, on which it can rest by itself, or other things.
 void ConstrainedSteps::find_pressed(IslandStep& step) const {
   const World& world = bodies_.world;
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     if (!(p.force > 0 || p.bilateral)) continue;
 
@@ -431,7 +431,7 @@ double ConstrainedSteps::longest(IslandStep& step) const {
   step.grace = loaded ? 2 * bodies_.slow_speed(step.load, step.smallest) / step.load
                       : tol::free_time * step.smallest / at_least_tiny(step.fastest);
 
-  for (std::size_t k = 0; k < step.x.size(); ++k)
+  for (size_t k = 0; k < step.x.size(); ++k)
     if (step.fates[k].leaves()) {
       const double since = bodies_.now - group_.member[step.members[k]].needed;
       h = std::min(h, std::max(step.grace - since, 0.25 * step.grace));
@@ -457,7 +457,7 @@ void ConstrainedSteps::choose_motion(IslandStep& step, ConstrainedSystem& system
   step.motion.inexact = straight < never && !all_rest;
   step.length = std::min(step.length, straight);
   step.fade = all_rest ? 0 : std::max(system.common_fade(), 0.0);
-  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+  for (size_t c = 0; c < step.contacts.pairs.size(); ++c)
     if (!step.fates[step.contacts.pairs[c].a].rests)
       step.length = std::min({step.length, rim_time(step, c, step.length), away_time(step, c)});
 }
@@ -477,10 +477,10 @@ void ConstrainedSteps::follow(IslandStep& step, ConstrainedSystem& system, doubl
 
 /// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not
 /// cross it.
-double ConstrainedSteps::rim_time(const IslandStep& step, std::size_t pair, double length) const {
+double ConstrainedSteps::rim_time(const IslandStep& step, size_t pair, double length) const {
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.contacts.names[pair];
-  const std::uint32_t k = step.contacts.pairs[pair].a;
+  const uint32_t k = step.contacts.pairs[pair].a;
   const Vec3 ve = step.velocity_of(bodies_, e);
   const Vec3 w = ve - step.v[k];
   const Vec3 a = step.pull_of(bodies_, e) - step.a[k];
@@ -501,7 +501,7 @@ double ConstrainedSteps::rim_time(const IslandStep& step, std::size_t pair, doub
 }
 
 /// The time (s) at which a separating pair, or one about to separate, is so far apart that it may meet again.
-double ConstrainedSteps::away_time(const IslandStep& step, std::size_t pair) const {
+double ConstrainedSteps::away_time(const IslandStep& step, size_t pair) const {
   const ContactConstraint& p = step.contacts.pairs[pair];
   if (p.force > 0 || p.bilateral) return never;
   const auto& [i, e, feature] = step.contacts.names[pair];

@@ -2,6 +2,7 @@
 // The next step of an island by constrained motion: what contact does at its start, the forces, the motion and its
 // length, and what becomes of each member. Nothing outside of the step changes.
 #include "simulate/island/island_step.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,8 +20,8 @@ class ConstrainedSteps {
   double share_of_errors() const;
   void close_overlaps(IslandStep& step) const;
   void take_approaches(IslandStep& step) const;
-  std::vector<AbsorbedImpact> absorbed_impacts(const IslandStep& step, const std::vector<Vec3>& met) const;
-  void record_fast(IslandStep& step, std::vector<AbsorbedImpact>& impacts) const;
+  vector<AbsorbedImpact> absorbed_impacts(const IslandStep& step, const vector<Vec3>& met) const;
+  void record_fast(IslandStep& step, vector<AbsorbedImpact>& impacts) const;
   double parting_speed(const IslandStep& step) const;
   void drop_parting(IslandStep& step) const;
   ConstrainedSystem make_system(const IslandStep& step) const;
@@ -28,9 +29,9 @@ class ConstrainedSteps {
   ConstrainedSystem find_forces(IslandStep& step) const;
   bool stop_parting(IslandStep& step) const;
   void check_digits(const IslandStep& step, double acceleration) const;
-  double turn_by_rounding(const IslandStep& step, std::size_t pair) const;
+  double turn_by_rounding(const IslandStep& step, size_t pair) const;
   void check_directions(const IslandStep& step) const;
-  double leverage(const IslandStep& step, std::size_t pair) const;
+  double leverage(const IslandStep& step, size_t pair) const;
   [[noreturn]] void fail_jammed(Entity i, double force) const;
   void find_resting(IslandStep& step) const;
   void note_unbalanced(IslandStep& step) const;
@@ -38,8 +39,8 @@ class ConstrainedSteps {
   double longest(IslandStep& step) const;
   void choose_motion(IslandStep& step, ConstrainedSystem& system, double next_length) const;
   void follow(IslandStep& step, ConstrainedSystem& system, double next_length) const;
-  double rim_time(const IslandStep& step, std::size_t pair, double length) const;
-  double away_time(const IslandStep& step, std::size_t pair) const;
+  double rim_time(const IslandStep& step, size_t pair, double length) const;
+  double away_time(const IslandStep& step, size_t pair) const;
 
   const ExactBodies& bodies_;
   const ExactGroup& group_;

@@ -14,6 +14,7 @@
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -64,7 +65,7 @@ bool is_rod(const World& world, Entity e) {
   return world.is_string(e) && world.string(e).rod;
 }
 
-Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
+Vec3 relative(const vector<Vec3>& v, const ContactConstraint& p) {
   return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
 }
 
@@ -72,7 +73,7 @@ Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
 /// `to`.
 template <typename Happens>
 double first_time(const DenseMotion& motion, double from, double to, Happens happens) {
-  std::vector<Vec3> x, v;
+  vector<Vec3> x, v;
   while (to - from > tol::time_precision * motion.length()) {
     const double t = 0.5 * (from + to);
     motion.at(t, x, v);
@@ -81,7 +82,7 @@ double first_time(const DenseMotion& motion, double from, double to, Happens hap
   return to;
 }
 
-double greatest_norm(const std::vector<Vec3>& v) {
+double greatest_norm(const vector<Vec3>& v) {
   double greatest = 0;
   for (const Vec3& of : v) greatest = std::max(greatest, of.norm());
   return greatest;
@@ -89,8 +90,8 @@ double greatest_norm(const std::vector<Vec3>& v) {
 
 }  // namespace
 
-ConstrainedSystem::ConstrainedSystem(const World& world, double time, std::vector<Entity> members,
-                                     std::vector<Applied> applied, double step_error)
+ConstrainedSystem::ConstrainedSystem(const World& world, double time, vector<Entity> members, vector<Applied> applied,
+                                     double step_error)
     : world_(world),
       time_(time),
       step_error_(step_error),
@@ -112,7 +113,7 @@ const ConstrainedSystem::Carrier* ConstrainedSystem::carrier_of(Entity e) const 
 }
 
 /// Positions or velocities of the members, and of the moving things after them.
-std::vector<Vec3> ConstrainedSystem::with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const {
+vector<Vec3> ConstrainedSystem::with_carriers(vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const {
   for (const Carrier& carrier : carriers_) of_members.push_back(carrier.*of_carrier);
   return of_members;
 }
@@ -124,9 +125,9 @@ void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pai
   rows_.back().force = guess;
 }
 
-void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
-  std::size_t kept = 0;
-  for (std::size_t c = 0; c < closed_.size(); ++c) {
+void ConstrainedSystem::open(const vector<uint8_t>& which) {
+  size_t kept = 0;
+  for (size_t c = 0; c < closed_.size(); ++c) {
     if (which[c]) {
       opened_.push_back(closed_[c]);
       opened_rows_.push_back(rows_[c]);
@@ -140,11 +141,11 @@ void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
 }
 
 /// The accelerations by forces without contact (m/s^2), by member.
-std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
-  std::vector<Vec3> a;
+vector<Vec3> ConstrainedSystem::forces_at(const vector<Vec3>& x, const vector<Vec3>& v) const {
+  vector<Vec3> a;
   a.reserve(v.size());
 
-  for (std::size_t k = 0; k < v.size(); ++k) {
+  for (size_t k = 0; k < v.size(); ++k) {
     if (k >= applied_.size()) {
       a.push_back(Vec3::Zero());
       continue;
@@ -160,30 +161,30 @@ std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const
 }
 
 bool ConstrainedSystem::any_bent() const {
-  return std::any_of(applied_.begin(), applied_.end(), [](const Applied& of) { return of.bent; });
+  return std::ranges::any_of(applied_, [](const Applied& of) { return of.bent; });
 }
 
 double ConstrainedSystem::common_fade() const {
   const double fade = applied_.front().fade;
-  const bool same = std::all_of(applied_.begin(), applied_.end(), [&](const Applied& of) { return of.fade == fade; });
+  const bool same = std::ranges::all_of(applied_, [&](const Applied& of) { return of.fade == fade; });
   return same ? fade : -1;
 }
 
 /// The position of a contact's second thing (m). x: of the members at the start, or of all points later.
-Vec3 ConstrainedSystem::place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const {
+Vec3 ConstrainedSystem::place_of(const vector<Vec3>& x, uint32_t b, Entity e) const {
   if (b != ContactConstraint::fixed) return x[b];
   const Carrier* const carrier = carrier_of(e);
   if (carrier == nullptr) return world_.fixed_position(e);
   return x.size() > members_.size() ? x[place_of_carrier(*carrier)] : carrier->x;
 }
 
-Vec3 ConstrainedSystem::relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const {
+Vec3 ConstrainedSystem::relative_velocity(const vector<Vec3>& v, const ContactConstraint& row, Entity e) const {
   const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
   return carrier == nullptr ? relative(v, row) : Vec3(carrier->v - v[row.a]);
 }
 
 /// The displacement of a contact's second thing relative to the first since the start (m).
-Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row,
+Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const vector<Vec3>& x, const ContactConstraint& row,
                               Entity e) const {
   const Vec3 of_a = x[row.a] - motion.start(row.a);
   if (row.b != ContactConstraint::fixed) return (x[row.b] - motion.start(row.b)) - of_a;
@@ -192,19 +193,19 @@ Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const std::vector<Vec3>
 }
 
 /// Allows rods path errors of the accelerations, where other rods hold their ends already.
-void ConstrainedSystem::allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const {
+void ConstrainedSystem::allow_contradictions(const vector<Vec3>& a, vector<ContactConstraint>& rows) const {
   double greatest = greatest_norm(a);
   for (const ContactConstraint& row : rows) greatest = std::max(greatest, std::abs(row.target));
-  for (std::size_t c = 0; c < rows.size(); ++c)
+  for (size_t c = 0; c < rows.size(); ++c)
     if (is_rod(world_, closed_[c].e)) rows[c].slack = tol::step_error * greatest;
 }
 
-std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                std::vector<ContactConstraint>& rows, Certificate& certificate,
-                                                bool least) const {
-  std::vector<Vec3> a = forces_at(x, v);
+vector<Vec3> ConstrainedSystem::solve_rows(const vector<Vec3>& x, const vector<Vec3>& v,
+                                           vector<ContactConstraint>& rows, Certificate& certificate,
+                                           bool least) const {
+  vector<Vec3> a = forces_at(x, v);
   bool rods = false;
-  for (std::size_t c = 0; c < rows.size(); ++c) {
+  for (size_t c = 0; c < rows.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
 
@@ -222,30 +223,30 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
   return a;
 }
 
-std::vector<Vec3> ConstrainedSystem::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, bool least) {
+vector<Vec3> ConstrainedSystem::accelerate(const vector<Vec3>& x, const vector<Vec3>& v, bool least) {
   return solve_rows(x, v, rows_, certificate_, least);
 }
 
-double ConstrainedSystem::gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const {
+double ConstrainedSystem::gap_acceleration(size_t c, const vector<Vec3>& a) const {
   return rows_[c].normal.dot(relative(a, rows_[c])) - rows_[c].target;
 }
 
 /// The greatest speed of members relative to what they touch, and where forces vary in space (m/s). What moves all of
 /// them alike does not count.
-double ConstrainedSystem::relative_speed(const std::vector<Vec3>& v) const {
+double ConstrainedSystem::relative_speed(const vector<Vec3>& v) const {
   double fastest = 0;
-  const auto take = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
-    for (std::size_t c = 0; c < contacts.size(); ++c)
+  const auto take = [&](const vector<Contact>& contacts, const vector<ContactConstraint>& rows) {
+    for (size_t c = 0; c < contacts.size(); ++c)
       fastest = std::max(fastest, relative_velocity(v, rows[c], contacts[c].e).norm());
   };
   take(closed_, rows_);
   take(opened_, opened_rows_);
-  for (std::size_t k = 0; k < members_.size(); ++k)
+  for (size_t k = 0; k < members_.size(); ++k)
     if (applied_[k].bent || applied_[k].fade > 0) fastest = std::max(fastest, v[k].norm());
   return fastest;
 }
 
-ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
+ConstrainedSystem::Scales ConstrainedSystem::scales(const vector<Vec3>& x, const vector<Vec3>& v) const {
   Scales s;
   double farthest = 0;
   for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
@@ -257,7 +258,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
 
   // The greatest term of the forces' sum.
   double strongest = s.acceleration;
-  for (std::size_t k = 0; k < v.size(); ++k)
+  for (size_t k = 0; k < v.size(); ++k)
     if (applied_[k].fade > 0)
       strongest = std::max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
   s.opening = strongest * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
@@ -265,10 +266,10 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
 }
 
 /// By member: the rounding of its position (m). A coordinate that does not change is not rounded.
-std::vector<double> ConstrainedSystem::place_roundings(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                       const std::vector<Vec3>& a) const {
-  std::vector<double> roundings;
-  for (std::size_t k = 0; k < members_.size(); ++k) {
+vector<double> ConstrainedSystem::place_roundings(const vector<Vec3>& x, const vector<Vec3>& v,
+                                                  const vector<Vec3>& a) const {
+  vector<double> roundings;
+  for (size_t k = 0; k < members_.size(); ++k) {
     double sum = 0;  // m
     for (int axis = 0; axis < 3; ++axis)
       if (v[k][axis] != 0 || a[k][axis] != 0) sum += std::abs(x[k][axis]);
@@ -278,7 +279,7 @@ std::vector<double> ConstrainedSystem::place_roundings(const std::vector<Vec3>& 
 }
 
 /// The same for the distance of a contact's two things.
-double ConstrainedSystem::distance_rounding(const std::vector<double>& of_places, const ContactConstraint& row,
+double ConstrainedSystem::distance_rounding(const vector<double>& of_places, const ContactConstraint& row,
                                             Entity e) const {
   if (row.b != ContactConstraint::fixed) return of_places[row.a] + of_places[row.b];
   const Carrier* const carrier = carrier_of(e);
@@ -310,14 +311,13 @@ double ConstrainedSystem::turning_time(double load, double bend, double w, doubl
 ///
 /// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. For this time they move the body off
 /// the parabola by less than the method's error. The forces keep their direction meanwhile.
-double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                        const std::vector<Vec3>& a) const {
+double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const {
   double h = never;
   const double fade = std::max(common_fade(), 0.0);
-  const std::vector<double> roundings = place_roundings(x, v, a);
+  const vector<double> roundings = place_roundings(x, v, a);
 
-  const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
+  const auto keep = [&](const vector<Contact>& contacts, const vector<ContactConstraint>& rows) {
+    for (size_t c = 0; c < contacts.size(); ++c) {
       const auto& [i, e, feature] = contacts[c];
       if (is_flat(world_, i, e, feature)) continue;
 
@@ -349,9 +349,9 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& x, const std::v
 
 /// The errors that a step may have: shares of the motion itself, as far as rounding allows. Near an equilibrium speeds
 /// and accelerations are small, and errors grow with the motion.
-ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                             const std::vector<Vec3>& a) const {
-  const std::vector<double> roundings = place_roundings(x, v, a);
+ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>& x, const vector<Vec3>& v,
+                                                             const vector<Vec3>& a) const {
+  const vector<double> roundings = place_roundings(x, v, a);
   double rate = 0;     // 1/s, at which accelerations change
   double fastest = 0;  // m/s, along what bends paths
   double rounded = 0;  // m/s, by the rounding of what turns forces
@@ -362,7 +362,7 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<V
     rounded = std::max(rounded, of_rate * rounding);
   };
 
-  for (std::size_t c = 0; c < closed_.size(); ++c) {
+  for (size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
     const double bend = bend_radius(world_, i, e);
@@ -373,7 +373,7 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<V
   // Forces that vary refer to places and velocities in space.
   double width = scales_.length;  // m, in which forces change
   double left = 1;                // of speeds
-  for (std::size_t k = 0; k < members_.size(); ++k) {
+  for (size_t k = 0; k < members_.size(); ++k) {
     const Entity i = members_[k];
     if (applied_[k].bent || applied_[k].fade > 0) take(0, v[k].norm(), 0);
     if (!applied_[k].bent) continue;
@@ -390,17 +390,16 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const std::vector<V
   if (rate > 0) gained = std::min(gained, pull / rate);
   if (const double fade = greatest_fade(); fade > 0) gained = std::min(gained, pull / fade);
 
-  const double place = *std::max_element(roundings.begin(), roundings.end());
+  const double place = *std::ranges::max_element(roundings);
   const double speed = step_error_ * left * std::max(fastest, gained);
   return {std::max(step_error_ * left * width, place),
           std::max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
 }
 
 /// The longest step (s) in which no member comes to more than half of its way to an attractor.
-double ConstrainedSystem::within_reach(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                       const std::vector<Vec3>& a) const {
+double ConstrainedSystem::within_reach(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const {
   double longest = never;
-  for (std::size_t k = 0; k < members_.size(); ++k) {
+  for (size_t k = 0; k < members_.size(); ++k) {
     if (!applied_[k].bent) continue;
     const double time = step_within(force_reach(world_, members_[k], x[k]), v[k].norm(), a[k].norm());
     if (time > 0) longest = std::min(longest, time);
@@ -408,8 +407,8 @@ double ConstrainedSystem::within_reach(const std::vector<Vec3>& x, const std::ve
   return longest;
 }
 
-ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                      const std::vector<Vec3>& a, double first, double longest) {
+ConstrainedSystem::Followed ConstrainedSystem::follow(const vector<Vec3>& x, const vector<Vec3>& v,
+                                                      const vector<Vec3>& a, double first, double longest) {
   scales_ = scales(x, v);
   // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
   // opening too.
@@ -425,25 +424,25 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
 
 /// Whether a step moves any body by more than its position's rounding.
 bool ConstrainedSystem::moves(const DenseMotion& motion) {
-  for (std::size_t k = 0; k < motion.size(); ++k)
+  for (size_t k = 0; k < motion.size(); ++k)
     if (motion.displacement(k, motion.length()).norm() > 0x1p-53 * motion.start(k).norm()) return true;
   return false;
 }
 
 /// Follows the motion by the method of order 8, with a first step of h (s).
-ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                             const std::vector<Vec3>& a, double h) {
-  std::vector<ContactConstraint> rows = held_;
-  const auto smooth = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
+ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const vector<Vec3>& x, const vector<Vec3>& v,
+                                                             const vector<Vec3>& a, double h) {
+  vector<ContactConstraint> rows = held_;
+  const auto smooth = [&](const vector<Vec3>& at, const vector<Vec3>& speed) {
     Certificate of_stage;
     return solve_rows(at, speed, rows, of_stage);
   };
 
   Followed followed;
-  std::vector<Vec3> start = a;
+  vector<Vec3> start = a;
   start.resize(a.size() + carriers_.size(), Vec3::Zero());
   auto motion =
-      std::make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
+      make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
 
   const double rounded = rounding_ * greatest_norm(v);  // m/s
   const auto step = [&](double length) {
@@ -475,17 +474,16 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
 }
 
 /// Follows the motion by collocation. No motion: drag does not decay within its steps.
-ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                                            double h) {
-  std::vector<RadauCollocation::Forces> forces;
+ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const vector<Vec3>& x, const vector<Vec3>& v, double h) {
+  vector<RadauCollocation::Forces> forces;
   for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
   forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
 
-  std::vector<ContactConstraint> rows = held_;
-  std::vector<double> inverse_mass(members_.size());
-  const auto hold = [&](const std::vector<Vec3>& at, double s, std::vector<Vec3>& u) {
-    for (std::size_t k = 0; k < members_.size(); ++k) inverse_mass[k] = inverse_mass_[k] / (1 + s * applied_[k].fade);
-    for (std::size_t c = 0; c < rows.size(); ++c) {
+  vector<ContactConstraint> rows = held_;
+  vector<double> inverse_mass(members_.size());
+  const auto hold = [&](const vector<Vec3>& at, double s, vector<Vec3>& u) {
+    for (size_t k = 0; k < members_.size(); ++k) inverse_mass[k] = inverse_mass_[k] / (1 + s * applied_[k].fade);
+    for (size_t c = 0; c < rows.size(); ++c) {
       const auto& [i, e, feature] = closed_[c];
       rows[c].target = 0;
       if (!is_flat(world_, i, e, feature))
@@ -496,7 +494,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
   };
 
   Followed followed;
-  auto motion = std::make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
+  auto motion = make_unique<RadauCollocation>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v));
   const auto step = [&](double length) { return motion->step(length, forces, hold, allowed_.place, allowed_.speed); };
 
   // Shorter steps follow until the error is allowed.
@@ -517,10 +515,10 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Ve
 
 /// The integral of force times velocity by Gauss's rule, with the forces that hold the motion on the surfaces.
 double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
-  std::vector<ContactConstraint> rows = held_;
+  vector<ContactConstraint> rows = held_;
   double work = 0;
-  std::vector<Vec3> x;
-  std::vector<Vec3> v;
+  vector<Vec3> x;
+  vector<Vec3> v;
   for (const WorkPoint& point : work_points) {
     motion.at(point.at * length, x, v);
     Certificate certificate;
@@ -528,7 +526,7 @@ double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
 
     // The power of moving things on members that are not left out.
     double power = 0;
-    for (std::size_t c = 0; c < rows.size(); ++c)
+    for (size_t c = 0; c < rows.size(); ++c)
       if (const Carrier* carrier = carrier_of(closed_[c].e); carrier != nullptr && !left_[rows[c].a])
         power -= rows[c].force * rows[c].normal.dot(carrier->v);
     work += point.weight * length * power;
@@ -557,10 +555,10 @@ double ConstrainedSystem::first_change(const DenseMotion& motion) {
   }
 
   // Rims and opened contacts are examined at samples.
-  const auto rim = [&](const std::vector<Vec3>& at) { return over_rim(motion, at); };
-  const auto back = [&](const std::vector<Vec3>& at) { return classify_opened(motion, at) == Opened::back; };
-  std::vector<Vec3> x;
-  std::vector<Vec3> v;
+  const auto rim = [&](const vector<Vec3>& at) { return over_rim(motion, at); };
+  const auto back = [&](const vector<Vec3>& at) { return classify_opened(motion, at) == Opened::back; };
+  vector<Vec3> x;
+  vector<Vec3> v;
   for (int k = 1; k <= samples; ++k) {
     const double from = h * (k - 1) / samples;
     const double to = k == samples ? h : h * k / samples;
@@ -578,11 +576,11 @@ double ConstrainedSystem::first_change(const DenseMotion& motion) {
 /// The greatest acceleration of a gap at t (s), as a multiple of its rounding.
 double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   if (scales_.opening == 0) return 0;
-  std::vector<Vec3> x, v;
+  vector<Vec3> x, v;
   motion.at(t, x, v);
-  const std::vector<Vec3> a = accelerate(x, v);
+  const vector<Vec3> a = accelerate(x, v);
   double greatest = 0;
-  for (std::size_t c = 0; c < rows_.size(); ++c)
+  for (size_t c = 0; c < rows_.size(); ++c)
     if (!rows_[c].bilateral) greatest = std::max(greatest, gap_acceleration(c, a));
   return greatest / scales_.opening;
 }
@@ -615,8 +613,8 @@ double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, d
 }
 
 /// Whether a closed contact has crossed its feature's rim by more than rounding.
-bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const {
-  for (std::size_t c = 0; c < closed_.size(); ++c) {
+bool ConstrainedSystem::over_rim(const DenseMotion& motion, const vector<Vec3>& x) const {
+  for (size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     const ContactConstraint& row = rows_[c];
     const Vec3 xe = place_of(x, row.b, e);
@@ -629,10 +627,9 @@ bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Ve
 }
 
 /// The state of the opened contacts: the first that returns counts, then those far enough away to meet again.
-ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& motion,
-                                                             const std::vector<Vec3>& x) const {
+ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& motion, const vector<Vec3>& x) const {
   Opened all = Opened::near;
-  for (std::size_t c = 0; c < opened_.size(); ++c) {
+  for (size_t c = 0; c < opened_.size(); ++c) {
     const auto& [i, e, feature] = opened_[c];
     const ContactConstraint& row = opened_rows_[c];
     const double least = smaller_radius(world_, opened_[c]);

@@ -6,13 +6,12 @@
 // dense output, and a step ends there. (Event-driven integration: Acary & Brogliato, Numerical Methods for Nonsmooth
 // Dynamical Systems, 2008, ch. 8.) Openings are visible without the forces, which need not be unique: some gap grows
 // under the accelerations that contacts allow.
-#include <memory>
-#include <vector>
 
 #include "geometry/touch.h"
 #include "numerics/dense_motion.h"
 #include "simulate/contact/contact_list.h"
 #include "solver/contact_problem.h"
+#include "std.h"
 
 namespace carom {
 
@@ -28,7 +27,7 @@ class ConstrainedSystem {
   };
   /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object. step_error:
   /// of a step, and of parabolas on curved surfaces, as a share of the least radius and of speeds.
-  ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied,
+  ConstrainedSystem(const World& world, double time, vector<Entity> members, vector<Applied> applied,
                     double step_error);
 
   /// To be restored: then it has what work() needs.
@@ -44,18 +43,18 @@ class ConstrainedSystem {
   /// Whether such things do work on the members.
   bool works() const { return !carriers_.empty(); }
   /// Leaves member number k out of that work, because it does not take part in the motion.
-  void leave_out(std::size_t k) { left_[k] = 1; }
+  void leave_out(size_t k) { left_[k] = 1; }
   /// Their work (J) in the first `length` (s) of a motion that was followed. Forces change as they did then.
   double work(const DenseMotion& motion, double length) const;
   /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
-  void open(const std::vector<std::uint8_t>& which);
+  void open(const vector<uint8_t>& which);
 
   /// Accelerations (m/s^2) by member at x (m) and v (m/s): the nearest to the applied ones for which closed contacts do
   /// not approach, n . (a_b - a_a) >= -bending. Afterwards the rows hold the forces, the normals and the bending.
   /// `least`: where the motion leaves forces open, they are the least ones.
-  std::vector<Vec3> accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, bool least = false);
+  vector<Vec3> accelerate(const vector<Vec3>& x, const vector<Vec3>& v, bool least = false);
   /// The second derivative of closed contact c's gap (m/s^2), for accelerations a.
-  double gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const;
+  double gap_acceleration(size_t c, const vector<Vec3>& a) const;
 
   /// The scales of the motion.
   struct Scales {
@@ -65,28 +64,27 @@ class ConstrainedSystem {
     double opening = 0;       // m/s^2, a greater acceleration of a gap is more than rounding
     double time() const { return speed > 0 ? length / speed : never; }  // s
   };
-  Scales scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
+  Scales scales(const vector<Vec3>& x, const vector<Vec3>& v) const;
 
   /// The decay rate by linear drag (1/s), if it is the same for all members; otherwise -1.
   double common_fade() const;
   /// The time (s) for which all members move along parabolas, or along paths that a common drag bends.
   /// They start at x (m) with velocities v (m/s) and accelerations a (m/s^2). The forces are those of the last
   /// accelerate().
-  double straight_time(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
+  double straight_time(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
 
   /// The motion from there on until a change, or for `longest` (s).
   struct Followed {
-    std::unique_ptr<DenseMotion> motion;
+    unique_ptr<DenseMotion> motion;
     double next = 0;       // s, a good length for the next step
     bool changes = false;  // it ends where a contact opens, closes or reaches a rim
     // Bodies have a speed, but longer steps than those that move them by less than their rounding were rejected.
     bool stuck = false;
   };
   /// The forces are those of the last accelerate(). first: a guess of the step (s), or 0.
-  Followed follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double first,
-                  double longest);
+  Followed follow(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a, double first, double longest);
 
-  const std::vector<ContactConstraint>& rows() const { return rows_; }  // of closed contacts
+  const vector<ContactConstraint>& rows() const { return rows_; }  // of closed contacts
   const Certificate& certificate() const { return certificate_; }
 
   void keep(auto& archive) { archive(time_, members_, applied_, inverse_mass_, carriers_, left_, closed_, held_); }
@@ -108,37 +106,35 @@ class ConstrainedSystem {
   };
 
   const Carrier* carrier_of(Entity e) const;
-  std::size_t place_of_carrier(const Carrier& carrier) const {
-    return members_.size() + static_cast<std::size_t>(&carrier - carriers_.data());
+  size_t place_of_carrier(const Carrier& carrier) const {
+    return members_.size() + static_cast<size_t>(&carrier - carriers_.data());
   }
-  std::vector<Vec3> with_carriers(std::vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
-  Vec3 relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& row, Entity e) const;
-  Vec3 moved(const DenseMotion& motion, const std::vector<Vec3>& x, const ContactConstraint& row, Entity e) const;
-  double relative_speed(const std::vector<Vec3>& v) const;
-  std::vector<double> place_roundings(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                                      const std::vector<Vec3>& a) const;
-  double distance_rounding(const std::vector<double>& of_places, const ContactConstraint& row, Entity e) const;
+  vector<Vec3> with_carriers(vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
+  Vec3 relative_velocity(const vector<Vec3>& v, const ContactConstraint& row, Entity e) const;
+  Vec3 moved(const DenseMotion& motion, const vector<Vec3>& x, const ContactConstraint& row, Entity e) const;
+  double relative_speed(const vector<Vec3>& v) const;
+  vector<double> place_roundings(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
+  double distance_rounding(const vector<double>& of_places, const ContactConstraint& row, Entity e) const;
   double reaction(const ContactConstraint& row) const;
   double turning_time(double load, double bend, double w, double a, double rounding) const;
-  Allowed allowed_errors(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
-  double within_reach(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
-  std::vector<Vec3> forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
+  Allowed allowed_errors(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
+  double within_reach(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
+  vector<Vec3> forces_at(const vector<Vec3>& x, const vector<Vec3>& v) const;
   bool any_bent() const;
-  Vec3 place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const;
-  Followed follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double h);
-  Followed follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
+  Vec3 place_of(const vector<Vec3>& x, uint32_t b, Entity e) const;
+  Followed follow_smooth(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a, double h);
+  Followed follow_stiff(const vector<Vec3>& x, const vector<Vec3>& v, double h);
   double greatest_fade() const;
-  void allow_contradictions(const std::vector<Vec3>& a, std::vector<ContactConstraint>& rows) const;
-  std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                               std::vector<ContactConstraint>& rows, Certificate& certificate,
-                               bool least = false) const;
+  void allow_contradictions(const vector<Vec3>& a, vector<ContactConstraint>& rows) const;
+  vector<Vec3> solve_rows(const vector<Vec3>& x, const vector<Vec3>& v, vector<ContactConstraint>& rows,
+                          Certificate& certificate, bool least = false) const;
   static bool moves(const DenseMotion& motion);
   double opens(const DenseMotion& motion, double t);
   double find_opening(const DenseMotion& motion, double from, double to, double at_end);
   double first_change(const DenseMotion& motion);
-  bool over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const;
+  bool over_rim(const DenseMotion& motion, const vector<Vec3>& x) const;
   enum class Opened { near, away, back };
-  Opened classify_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
+  Opened classify_opened(const DenseMotion& motion, const vector<Vec3>& x) const;
 
   const World& world_;
   double time_;              // s
@@ -146,18 +142,18 @@ class ConstrainedSystem {
   // A share of coordinates and speeds: an error that counts as rounding. It is as much smaller in a run with smaller
   // errors of steps, because what it does would else be the same in both.
   const double rounding_;
-  std::vector<Entity> members_;
-  std::vector<Applied> applied_;
-  std::vector<double> inverse_mass_;  // 1/kg
-  std::vector<Carrier> carriers_;
-  std::vector<std::uint8_t> left_;  // by member: whether it is left out of their work
-  std::vector<Contact> closed_;
-  std::vector<Contact> opened_;
-  std::vector<ContactConstraint> rows_;
-  std::vector<ContactConstraint> opened_rows_;
-  std::vector<ContactConstraint> held_;  // rows_ in the motion that is followed
-  Scales scales_;                        // of the step that is followed
-  Allowed allowed_;                      // the same
+  vector<Entity> members_;
+  vector<Applied> applied_;
+  vector<double> inverse_mass_;  // 1/kg
+  vector<Carrier> carriers_;
+  vector<uint8_t> left_;  // by member: whether it is left out of their work
+  vector<Contact> closed_;
+  vector<Contact> opened_;
+  vector<ContactConstraint> rows_;
+  vector<ContactConstraint> opened_rows_;
+  vector<ContactConstraint> held_;  // rows_ in the motion that is followed
+  Scales scales_;                   // of the step that is followed
+  Allowed allowed_;                 // the same
   Certificate certificate_;
 };
 

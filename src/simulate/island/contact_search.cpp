@@ -9,6 +9,7 @@
 #include "physics/world.h"
 #include "simulate/contact/exact_group.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,9 +25,9 @@ void ContactSearch::find(IslandStep& step) const {
 /// The pairs that touch.
 void ContactSearch::find_touching(IslandStep& step) const {
   const World& world = bodies_.world;
-  for (std::uint32_t k = 0; k < step.members.size(); ++k) {
+  for (uint32_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
-    const std::size_t first = step.contacts.pairs.size();
+    const size_t first = step.contacts.pairs.size();
     for (const Entity e : bodies_.neighbours_of(i)) {
       const bool body = world.is_body(e);
       if (body && (e < i || step.members.number(e) == Numbering::none)) continue;
@@ -37,7 +38,7 @@ void ContactSearch::find_touching(IslandStep& step) const {
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
       if (there.gap > bodies_.contact_gap(i, step.x[k], xe)) continue;
 
-      const std::uint32_t other = step.members.number(world.second_body(e));
+      const uint32_t other = step.members.number(world.second_body(e));
       step.contacts.add({k, other, there.normal, -there.gap, 0, 0}, {i, e, there.feature}, there.gap);
     }
     step.contacts.drop_hidden(bodies_, step.x[k], first);
@@ -46,11 +47,11 @@ void ContactSearch::find_touching(IslandStep& step) const {
 }
 
 /// The same for the strings of member k. Each belongs to one of its two bodies. A rod is always in contact.
-void ContactSearch::find_strings(IslandStep& step, std::uint32_t k) const {
+void ContactSearch::find_strings(IslandStep& step, uint32_t k) const {
   const Entity i = step.members[k];
   for (const Entity e : bodies_.ties.of(i)) {
     const String& s = bodies_.world.string(e);
-    const std::uint32_t other = step.members.number(s.other);
+    const uint32_t other = step.members.number(s.other);
     if (s.body != i || (s.other != no_entity && other == Numbering::none)) continue;
 
     const Vec3 xe = step.position_of(bodies_, e);
@@ -69,17 +70,17 @@ void ContactSearch::find_strings(IslandStep& step, std::uint32_t k) const {
 double ContactSearch::load_of(const IslandStep& step) const {
   const bool held = std::ranges::any_of(step.contacts.pairs,
                                         [](const ContactConstraint& p) { return p.b == ContactConstraint::fixed; });
-  const auto pull = [&](std::size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
+  const auto pull = [&](size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
   const Vec3 common = held ? Vec3(Vec3::Zero()) : pull(0);
   double greatest = 0;
-  for (std::size_t k = 0; k < step.members.size(); ++k) greatest = std::max(greatest, (pull(k) - common).norm());
+  for (size_t k = 0; k < step.members.size(); ++k) greatest = std::max(greatest, (pull(k) - common).norm());
   return greatest;
 }
 
 /// The speeds below which approaches are no impacts of their own, by the forces that pressed pairs together last.
 void ContactSearch::find_slow_speeds(IslandStep& step) const {
   ContactList& contacts = step.contacts;
-  for (std::size_t c = 0; c < contacts.pairs.size(); ++c) {
+  for (size_t c = 0; c < contacts.pairs.size(); ++c) {
     const ContactConstraint& p = contacts.pairs[c];
     const auto& [i, e, feature] = contacts.names[c];
     const double press =
@@ -96,7 +97,7 @@ void ContactSearch::find_slow_speeds(IslandStep& step) const {
 /// Drops the pairs that are about to strike: they approach faster than that.
 void ContactSearch::drop_striking(IslandStep& step) const {
   ContactList& contacts = step.contacts;
-  contacts.drop_if(0, [&](std::size_t c) {
+  contacts.drop_if(0, [&](size_t c) {
     const ContactConstraint& p = contacts.pairs[c];
     const auto& [i, e, feature] = contacts.names[c];
     const double approach = p.normal.dot(step.v[p.a] - step.velocity_of(bodies_, e));

@@ -1,6 +1,7 @@
 #pragma once
 // The contacts of an island at the start of a step of constrained motion.
 #include "simulate/island/island_step.h"
+#include "std.h"
 
 namespace carom {
 
@@ -15,7 +16,7 @@ class ContactSearch {
 
  private:
   void find_touching(IslandStep& step) const;
-  void find_strings(IslandStep& step, std::uint32_t k) const;
+  void find_strings(IslandStep& step, uint32_t k) const;
   double load_of(const IslandStep& step) const;
   void find_slow_speeds(IslandStep& step) const;
   void drop_striking(IslandStep& step) const;

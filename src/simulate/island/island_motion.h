@@ -2,6 +2,7 @@
 // The steps of islands, by the one of two ways in which each of them moves now.
 #include "simulate/crowd/crowd_motion.h"
 #include "simulate/island/constrained_motion.h"
+#include "std.h"
 
 namespace carom {
 
@@ -24,9 +25,9 @@ class IslandMotion {
   void book_last(double time) const;
 
   /// The number of steps so far along paths that are not exact, but for rounding.
-  std::uint64_t inexact_steps() const { return constrained_.inexact_steps(); }
+  uint64_t inexact_steps() const { return constrained_.inexact_steps(); }
   /// Appends the forces in an island that has taken a step, at `time` (s).
-  void report(const Island& island, double time, std::vector<ContactForce>& forces) const {
+  void report(const Island& island, double time, vector<ContactForce>& forces) const {
     if (bodies_.mode(island.members.front()) == Mode::stepped)
       crowds_.report(island, forces);
     else

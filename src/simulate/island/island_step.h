@@ -1,9 +1,7 @@
 #pragma once
 // A step of an island by constrained motion, as a value: what is found for it, and what its end will change.
 #include <algorithm>
-#include <memory>
 #include <utility>
-#include <vector>
 
 #include "numerics/dormand_prince.h"
 #include "numerics/radau_collocation.h"
@@ -16,13 +14,14 @@
 #include "simulate/event_log.h"
 #include "simulate/island/constrained_system.h"
 #include "simulate/path/instant.h"
+#include "std.h"
 
 namespace carom {
 
 /// The path of an island's bodies in a step.
 struct IslandPath {
   Instant start;
-  std::unique_ptr<DenseMotion> motion;
+  unique_ptr<DenseMotion> motion;
 
   void keep(auto& archive) {
     bool stiff = dynamic_cast<const RadauCollocation*>(motion.get()) != nullptr;
@@ -33,7 +32,7 @@ struct IslandPath {
  private:
   template <typename Method>
   void keep_by(auto& archive) {
-    if (!motion) motion = std::make_unique<Method>();
+    if (!motion) motion = make_unique<Method>();
     archive(static_cast<Method&>(*motion));
   }
 };
@@ -70,10 +69,10 @@ struct MemberFate {
 
 /// Approaches that contact has taken away at once.
 struct AbsorbedApproaches {
-  std::vector<Vec3> before;              // m/s, by member
-  std::vector<Vec3> after;               // m/s
-  std::vector<ContactConstraint> pairs;  // with the impulses (N s)
-  std::vector<AbsorbedImpact> impacts;   // by pair
+  vector<Vec3> before;              // m/s, by member
+  vector<Vec3> after;               // m/s
+  vector<ContactConstraint> pairs;  // with the impulses (N s)
+  vector<AbsorbedImpact> impacts;   // by pair
 };
 
 struct IslandStep {
@@ -84,15 +83,15 @@ struct IslandStep {
   bool undisturbed = false;  // the step before has reached its end
 
   // By member, at the step's start: m, m/s, m/s^2, 1/kg.
-  std::vector<Vec3> x;
-  std::vector<Vec3> v;
-  std::vector<Vec3> a;
-  std::vector<double> inverse_mass;
+  vector<Vec3> x;
+  vector<Vec3> v;
+  vector<Vec3> a;
+  vector<double> inverse_mass;
   double load = 0;          // m/s^2, the greatest acceleration with which members may press on anything
   double smallest = never;  // m, the least radius
   double fastest = 0;       // m/s
   ContactList contacts;     // force: N, at the step's start
-  std::vector<MemberFate> fates;
+  vector<MemberFate> fates;
 
   // s. A body that nothing binds stays for the time `grace`, to fall back.
   double length = 0;
@@ -111,12 +110,12 @@ struct IslandStep {
 
   /// What is to be booked.
   struct Bookings {
-    std::vector<Certificate> solutions;
+    vector<Certificate> solutions;
     AbsorbedApproaches absorbed;
-    std::vector<Collision> collisions;
-    std::vector<Entity> struck;  // bodies with an impact in turn with a strike
-    double work = 0;             // J, of moving things when separations end
-    std::vector<Unbalanced> unbalanced;
+    vector<Collision> collisions;
+    vector<Entity> struck;  // bodies with an impact in turn with a strike
+    double work = 0;        // J, of moving things when separations end
+    vector<Unbalanced> unbalanced;
   } bookings;
 
   /// The position (m), velocity (m/s) and acceleration (m/s^2) of a thing: a member, a string to a member or to its
@@ -134,7 +133,7 @@ struct IslandStep {
     return body != no_entity ? a[members.number(body)] : Vec3(Vec3::Zero());
   }
   /// The speed at which pair c separates (m/s).
-  double parting_speed(const ExactBodies& bodies, std::size_t c) const {
+  double parting_speed(const ExactBodies& bodies, size_t c) const {
     const ContactConstraint& p = contacts.pairs[c];
     return p.normal.dot(velocity_of(bodies, contacts.names[c].e) - v[p.a]);
   }

@@ -14,6 +14,7 @@
 #include "simulate/contact/mode_changes.h"
 #include "simulate/contact/region_exit.h"
 #include "simulate/loop/event_queue.h"
+#include "std.h"
 
 namespace carom {
 
@@ -53,13 +54,13 @@ void EventPredictor::predict_crowd(Entity i) {
 void EventPredictor::be_watched(Entity i) {
   for (const Entity e : bodies_.neighbours.bodies(i))
     if (bodies_.mode(e) == Mode::stepped) {
-      std::vector<Entity>& watched = bodies_.islands.of(e).watched;
+      vector<Entity>& watched = bodies_.islands.of(e).watched;
       if (watched.empty() || watched.back() != i) watched.push_back(i);
     }
 }
 
 void EventPredictor::predict_all() {
-  std::vector<Entity> others;
+  vector<Entity> others;
 
   // Never on curves, which may part later: their fade equals nothing.
   const auto together = [&](Entity i, Entity j) {
@@ -82,7 +83,7 @@ void EventPredictor::predict_all() {
 }
 
 /// Predicts the first event of body i with these bodies, with surfaces and by itself.
-void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
+void EventPredictor::predict_among(Entity i, span<const Entity> bodies) {
   ExactEvent best;
   meet_each(i, bodies_.neighbours.surfaces(i), best);
   meet_bodies(i, bodies, best);
@@ -118,14 +119,14 @@ void EventPredictor::offer_strings(Entity i, ExactEvent& best) {
     if (bodies_.world.string(string).rod || (constrained && modes_.are_partners(i, string))) continue;
     ++surface_tests_;
     const Entity other = bodies_.ties.other(string, i);
-    const std::uint16_t version = other == no_entity ? std::uint16_t{0} : bodies_.body[other].version;
+    const uint16_t version = other == no_entity ? uint16_t{0} : bodies_.body[other].version;
     offer(i, best, ExactEvent{times_.of_string(string), string, version, 0, ExactEvent::Kind::string});
   }
 }
 
 /// Offers the end of bounces on flat surfaces, and the instant at which body i slides off them.
 void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
-  for (std::size_t k = 0; k < flat_.of(i).count; ++k) {
+  for (size_t k = 0; k < flat_.of(i).count; ++k) {
     const FlatContact& contact = flat_.of(i).at[k];
     if (contact.settling)
       offer(i, best, ExactEvent{contact.rest_time, contact.surface, 0, contact.feature, ExactEvent::Kind::rest});
@@ -141,7 +142,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
 }
 
 /// Offers the collisions of body i with each of the others.
-void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
+void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& best) {
   const bool constrained = bodies_.mode(i) == Mode::held;
   const bool carried = lies_on_flat(bodies_.mode(i));
 
@@ -149,7 +150,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
     // They cannot meet.
     if (constrained && modes_.are_partners(i, e)) continue;
 
-    std::uint8_t feature = no_feature;
+    uint8_t feature = no_feature;
     if (bodies_.world.is_body(e)) {
       feature = 0;
       ++pair_tests_;
@@ -164,7 +165,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 }
 
 /// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.
-void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
+void EventPredictor::meet_bodies(Entity i, span<const Entity> others, ExactEvent& best) {
   if (!bodies_.world.volume.empty() || is_member(bodies_.mode(i)) || bodies_.flights.fade(i) != 0)
     return meet_each(i, others, best);
 
@@ -186,26 +187,26 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
 }
 
 /// The same for balls with equal accelerations.
-void EventPredictor::meet_alike(Entity i, std::span<const Entity> others, ExactEvent& best) {
+void EventPredictor::meet_alike(Entity i, span<const Entity> others, ExactEvent& best) {
   if (meets_.size() < others.size()) meets_.resize(2 * others.size());
   const bool latest = bodies_.flights.cores()[i].start == bodies_.now;
   pair_tests_ += others.size();
   const double* const radius = bodies_.same_radius ? nullptr : bodies_.world.radius.data();
-  std::size_t count = straight_times({bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others,
-                                      bodies_.flights.acceleration(i), latest, bodies_.options.duration},
-                                     meets_.data());
+  size_t count = straight_times({bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others,
+                                 bodies_.flights.acceleration(i), latest, bodies_.options.duration},
+                                meets_.data());
 
   // Pairs that touch or graze need a test of their own.
-  for (Meet& meet : std::span(meets_.data(), count)) {
-    std::uint8_t feature = 0;
+  for (Meet& meet : span(meets_.data(), count)) {
+    uint8_t feature = 0;
     if (meet.time.hi == unsure) meet.time = times_.of_pair(i, meet.with, feature);
   }
 
   // The earliest collision for which the other body is free. If that body has an event before, it then predicts its
   // collision with body i anew.
   while (count > 0) {
-    std::size_t first = 0;
-    for (std::size_t k = 1; k < count; ++k)
+    size_t first = 0;
+    for (size_t k = 1; k < count; ++k)
       if (meets_[k].time < meets_[first].time) first = k;
     const Meet& meet = meets_[first];
     if (best.time.hi < meet.time.hi) {
@@ -265,7 +266,7 @@ inline void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candida
 }
 
 void EventPredictor::renew_region(Entity i) {
-  const std::span<const Entity> came = carom::renew_region(bodies_, i, bodies_.body[i].event.time.hi);
+  const span<const Entity> came = carom::renew_region(bodies_, i, bodies_.body[i].event.time.hi);
   ExactEvent best = bodies_.body[i].event;
   meet_each(i, bodies_.neighbours.surfaces(i), best);
   meet_bodies(i, came, best);

@@ -6,11 +6,10 @@
 // - a rim that it slides over
 // - a force that starts or ends
 // - the next step of its island
-#include <span>
-#include <vector>
 
 #include "simulate/loop/exact_collision_times.h"
 #include "simulate/loop/straight_times.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,24 +35,24 @@ class EventPredictor {
   /// more.
   void renew_region(Entity i);
 
-  std::uint64_t pair_tests() const { return pair_tests_; }
-  std::uint64_t surface_tests() const { return surface_tests_; }
+  uint64_t pair_tests() const { return pair_tests_; }
+  uint64_t surface_tests() const { return surface_tests_; }
 
   void keep(auto& archive) { archive(pair_tests_, surface_tests_); }
 
  private:
   [[gnu::noinline]] void predict_crowd(Entity i);
   [[gnu::noinline]] void be_watched(Entity i);
-  void predict_among(Entity i, std::span<const Entity> bodies);
+  void predict_among(Entity i, span<const Entity> bodies);
   [[gnu::always_inline]] void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
   [[gnu::always_inline]] bool is_tie(const ExactEvent& first, const Instant& later) const;
   [[gnu::always_inline]] double latest_tie(const ExactEvent& first) const;
   [[gnu::noinline]] void offer_beside_contacts(Entity i, ExactEvent& best);
   void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
-  void meet_each(Entity i, std::span<const Entity> others, ExactEvent& best);
-  void meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best);
-  void meet_alike(Entity i, std::span<const Entity> others, ExactEvent& best);
+  void meet_each(Entity i, span<const Entity> others, ExactEvent& best);
+  void meet_bodies(Entity i, span<const Entity> others, ExactEvent& best);
+  void meet_alike(Entity i, span<const Entity> others, ExactEvent& best);
 
   ExactBodies& bodies_;
   EventQueue& queue_;
@@ -61,12 +60,12 @@ class EventPredictor {
   const FlatContacts& flat_;
   const ExactGroup& group_;
   ExactCollisionTimes times_;
-  const bool plain_;            // there are neither strings nor forces, and nothing moves
-  std::vector<Entity> alike_;   // scratch
-  std::vector<Entity> unlike_;  // scratch
-  std::vector<Meet> meets_;     // scratch
-  std::uint64_t pair_tests_ = 0;
-  std::uint64_t surface_tests_ = 0;
+  const bool plain_;       // there are neither strings nor forces, and nothing moves
+  vector<Entity> alike_;   // scratch
+  vector<Entity> unlike_;  // scratch
+  vector<Meet> meets_;     // scratch
+  uint64_t pair_tests_ = 0;
+  uint64_t surface_tests_ = 0;
 };
 
 }  // namespace carom

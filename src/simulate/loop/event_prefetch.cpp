@@ -7,13 +7,14 @@
 
 #include "numerics/prefetch.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t far_ahead = 32;      // events
-constexpr std::size_t events_of_step = 2;  // from one step to the next
+constexpr size_t far_ahead = 32;      // events
+constexpr size_t events_of_step = 2;  // from one step to the next
 
 }  // namespace
 
@@ -39,11 +40,11 @@ void EventPrefetch::find_due(double now) {
     due_.resize(4 * far_ahead);
   }
 
-  std::sort(due_.begin(), due_.end(), earlier);
+  std::ranges::sort(due_, earlier);
 }
 
-Entity EventPrefetch::due_in(std::size_t steps) const {
-  const std::size_t k = next_ + steps * events_of_step;
+Entity EventPrefetch::due_in(size_t steps) const {
+  const size_t k = next_ + steps * events_of_step;
   return k < due_.size() ? due_[k].entry : no_entity;
 }
 

@@ -4,24 +4,24 @@
 // At one instant, bodies that leave their regions come first, because that is not a physical event. Time alone would
 // leave ties to chance, and a run's bits would depend on the queue's structure.
 #include <algorithm>
-#include <vector>
 
 #include "numerics/tournament.h"
 #include "simulate/contact/exact_bodies.h"
+#include "std.h"
 
 namespace carom {
 
 class EventQueue {
   struct Before {
     const EventQueue* queue;
-    bool operator()(std::uint32_t i, std::uint32_t j) const { return queue->before(i, j); }
+    bool operator()(uint32_t i, uint32_t j) const { return queue->before(i, j); }
   };
 
  public:
   using Due = Tournament<Before>::Due;
 
   explicit EventQueue(const ExactBodies& bodies)
-      : bodies_(bodies), queue_(static_cast<std::uint32_t>(bodies.body.size()), Before{this}) {}
+      : bodies_(bodies), queue_(static_cast<uint32_t>(bodies.body.size()), Before{this}) {}
 
   Entity first() const { return queue_.first(); }
   double first_time() const { return queue_.first_time(); }  // s; infinite: there is none
@@ -40,7 +40,7 @@ class EventQueue {
   void remove(Entity i) { queue_.update(i, never); }
 
   /// Appends bodies with events up to `until` (s), in no order and not all of them (tournament.h).
-  void due_until(double until, std::vector<Due>& due) const { queue_.due_until(until, due); }
+  void due_until(double until, vector<Due>& due) const { queue_.due_until(until, due); }
   void prefetch(Entity i) const { queue_.prefetch(i); }
 
   void keep(auto& archive) { archive(queue_); }

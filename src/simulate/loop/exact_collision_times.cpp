@@ -10,6 +10,7 @@
 #include "geometry/path_time_of_impact.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -31,7 +32,7 @@ bool stay_apart(const RelativeMotion& m, double sizes, double bending, double ti
 
 }  // namespace
 
-Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature, double until) const {
+Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, double until) const {
   const World& world = bodies_.world;
   const Entity a = std::min(i, j);
   const Entity b = std::max(i, j);
@@ -97,14 +98,14 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature, 
 
 /// Collision of two bodies of which at least one is on a curve.
 Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
-                                       std::uint8_t& feature) const {
+                                       uint8_t& feature) const {
   const Instant base = std::max(p.start, q.start);
   const double horizon = std::min(end_of(a), end_of(b)) - base;
   const double tp = base - p.start;
   const double tq = base - q.start;
 
   const double speeds = m.speeds + noise_in_contact(a) + noise_in_contact(b);
-  std::uint8_t left = m.just_separated ? bodies_.body[a].origin_feature : no_feature;
+  uint8_t left = m.just_separated ? bodies_.body[a].origin_feature : no_feature;
 
   // Searches piece by piece. One polynomial is accurate in each.
   for (double t = 0; t < horizon;) {
@@ -125,7 +126,7 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
 /// Collision in a piece of `length` (s), tp and tq (s) after the starts of the two flights. Polynomials give the paths
 /// in it (time in s from its start).
 FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq,
-                                          double length, double speeds, std::uint8_t left) const {
+                                          double length, double speeds, uint8_t left) const {
   const PolynomialPath::Terms displacement = relative_displacement(p, tp, q, tq, length);
   double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
   for (const Vec3& term : displacement) reach += term.norm();
@@ -142,7 +143,7 @@ PolynomialPath::Terms ExactCollisionTimes::relative_displacement(const Flight& p
   // The remainder of an acceleration that both have in common is rounding, and counts as zero.
   const double noise =
       exact_tolerance::curve_rounding * length * length * (p.greatest_acceleration() + q.greatest_acceleration());  // m
-  for (std::size_t k = 0; k < displacement.size(); ++k) {
+  for (size_t k = 0; k < displacement.size(); ++k) {
     displacement[k] -= of_p[k];
     if (k > 0 && displacement[k].norm() <= noise) displacement[k].setZero();
   }
@@ -196,7 +197,7 @@ double ExactCollisionTimes::noise_in_contact(Entity i) const {
 
 /// The same for a fixed thing that moves, on its present leg. Times count from the leg's start, if that is later than
 /// the flight's.
-Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& feature) const {
+Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& feature) const {
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
   const Instant base = std::max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
@@ -212,7 +213,7 @@ Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& f
 
   const double speeds = sum_of_speeds(v) + sum_of_speeds(u) + noise_in_contact(i);
   const bool just_left = since == 0 && bodies_.body[i].origin_partner == surface;
-  const std::uint8_t left = just_left ? bodies_.body[i].origin_feature : no_feature;
+  const uint8_t left = just_left ? bodies_.body[i].origin_feature : no_feature;
 
   // Each kind of flight has a search of its own.
   FeatureTime first{never, 0};
@@ -240,7 +241,7 @@ Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, std::uint8_t& f
   return first.time == never ? Instant{never, 0} : base + first.time;
 }
 
-Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& feature) const {
+Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, uint8_t& feature) const {
   const World& world = bodies_.world;
   if (world.moves(surface)) [[unlikely]]
     return of_moving(i, surface, feature);

@@ -1,6 +1,7 @@
 #pragma once
 // Times of collision of bodies on their flights.
 #include "simulate/contact/exact_bodies.h"
+#include "std.h"
 
 namespace carom {
 
@@ -11,20 +12,20 @@ class ExactCollisionTimes {
   /// The time at which bodies i and j collide, and the feature. Infinite: not before their flights end.
   /// It is computed from the later of their flights' starts, lower number first. (i, j) and (j, i) give the same bits.
   /// Where the two certainly stay apart up to `until` (s), it may be infinite too.
-  Instant of_pair(Entity i, Entity j, std::uint8_t& feature, double until = never) const;
+  Instant of_pair(Entity i, Entity j, uint8_t& feature, double until = never) const;
   /// The time at which body i strikes a fixed thing, computed from its flight's start.
-  Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
+  Instant of_surface(Entity i, Entity surface, uint8_t& feature) const;
   /// The time at which a string goes taut, computed as that of a pair.
   [[gnu::noinline]] Instant of_string(Entity string) const;
 
  private:
-  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, std::uint8_t& feature) const;
+  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, uint8_t& feature) const;
   Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
-                    std::uint8_t& feature) const;
+                    uint8_t& feature) const;
   static PolynomialPath::Terms relative_displacement(const Flight& p, double tp, const Flight& q, double tq,
                                                      double length);
   FeatureTime of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq, double length,
-                       double speeds, std::uint8_t left) const;
+                       double speeds, uint8_t left) const;
   /// The latest end of body i's flight.
   [[gnu::always_inline]] Instant end_of(Entity i) const {
     return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});

@@ -11,23 +11,24 @@
 #include "physics/archive.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 // Collisions that one event causes, as a rule at most.
-constexpr std::size_t collisions_of_event = 8;
-constexpr std::uint32_t events_at_a_time = 65536;
+constexpr size_t collisions_of_event = 8;
+constexpr uint32_t events_at_a_time = 65536;
 // A step of an island takes as long as so many impacts for each of its bodies.
-constexpr std::uint32_t events_of_a_step = 64;
+constexpr uint32_t events_of_a_step = 64;
 // Number of bodies with data that fit into a processor's cache.
 constexpr Entity cached_bodies = 24576;
 
 }  // namespace
 
-std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options) {
-  return std::make_unique<ExactSimulator>(world, initial, options);
+unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options) {
+  return make_unique<ExactSimulator>(world, initial, options);
 }
 
 ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
@@ -53,10 +54,10 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
 
 /// Predicts the next events of the bodies that have changed. Those that are out of the world have none.
 inline void ExactSimulator::predict_changed() {
-  std::span<Entity> changed = flights_.take_changed();
+  span<Entity> changed = flights_.take_changed();
   if (changed.size() > 2) [[unlikely]] {
-    std::sort(changed.begin(), changed.end());
-    changed = changed.first(static_cast<std::size_t>(std::unique(changed.begin(), changed.end()) - changed.begin()));
+    std::ranges::sort(changed);
+    changed = changed.first(static_cast<size_t>(std::unique(changed.begin(), changed.end()) - changed.begin()));
   }
 
   for (const Entity i : changed) {
@@ -116,7 +117,7 @@ void ExactSimulator::start(const State& initial) {
 /// Takes the first step of body i's island. With strings it may be an impact, as by an impulse along a rod. It is then
 /// the first event.
 void ExactSimulator::begin_island(Entity i) {
-  const std::vector<Entity>& members = bodies_.islands.of(i).members;
+  const vector<Entity>& members = bodies_.islands.of(i).members;
   if (!bodies_.ties.any() || !bodies_.any_meets(members)) return islands_.advance(i);
   bodies_.islands.of(i).end = bodies_.now;
   for (const Entity k : members) flights_.note_changed(k);
@@ -130,7 +131,7 @@ void ExactSimulator::advance_to(double time) {
 
   const Instant until{std::min(time, bodies_.options.duration), 0};
   const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
-  std::uint32_t events = 0;
+  uint32_t events = 0;
 
   do {
     while (queue_.first_time() <= until.hi) {
@@ -170,7 +171,7 @@ void ExactSimulator::advance_to(double time) {
 }
 
 /// Takes body i's next event, or its exit from its region. Returns how many events take as long.
-std::uint32_t ExactSimulator::take_event(Entity i) {
+uint32_t ExactSimulator::take_event(Entity i) {
   ++effort_.events;
   if (!queue_.leaves_first(i)) return process(i);
   if (bodies_.now.hi < queue_.first_time()) bodies_.now = {queue_.first_time(), 0};
@@ -181,10 +182,10 @@ std::uint32_t ExactSimulator::take_event(Entity i) {
   return 1;
 }
 
-std::uint32_t ExactSimulator::process(Entity i) {
+uint32_t ExactSimulator::process(Entity i) {
   using Kind = ExactEvent::Kind;
   const ExactEvent event = bodies_.body[i].event;
-  std::uint32_t weight = 1;
+  uint32_t weight = 1;
 
   bodies_.neighbours.prefetch_list(i);
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
@@ -226,7 +227,7 @@ std::uint32_t ExactSimulator::process(Entity i) {
 
     case Kind::step:
       if (is_member(bodies_.mode(i)) && event.time == bodies_.islands.of(i).end) {
-        weight = events_of_a_step * static_cast<std::uint32_t>(bodies_.islands.of(i).members.size());
+        weight = events_of_a_step * static_cast<uint32_t>(bodies_.islands.of(i).members.size());
         islands_.advance(i);
       } else {
         end_flight(i);
@@ -304,7 +305,7 @@ void ExactSimulator::switch_forces(Entity i) {
 
 /// Body i slides over the rim of the face that carries it: onto a level face, or off. In the second case the rim's edge
 /// is what it touched last.
-void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
+void ExactSimulator::release(Entity i, Entity surface, uint8_t edge) {
   const FlightOrigin next = flat_.hand_over(i, surface);
   flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
                  next.partner == no_entity ? FlightOrigin{surface, edge} : next);
@@ -345,7 +346,7 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
 
   // The run has ended. What else crosses at that instant happens too.
   const double end = tally().end->time;
-  while (const std::optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
+  while (const optional<Crossings::Taken> taken = crossings_.take_until(end)) take_crossing(*taken);
   return true;
 }
 
@@ -356,7 +357,7 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   if (!crossing.enters || !(region.removes || region.stops)) return;
 
   if (region.removes) {
-    while (const std::optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
+    while (const optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
       const WorldRegion& met = bodies_.world.regions[other->crossing.region];
       if (other->crossing.enters && met.stops) end_by(*other);
     }
@@ -383,7 +384,7 @@ void ExactSimulator::end_by(const Crossings::Taken& taken) {
 }
 
 /// Ends the run at `time` (s), the present instant or just before it.
-void ExactSimulator::end_run(double time, EndReason reason, std::uint32_t region) {
+void ExactSimulator::end_run(double time, EndReason reason, uint32_t region) {
   time = std::max({time, time_, paths_.latest()});
   bodies_.log.end({time, reason, region});
   paths_.end(time);
@@ -415,8 +416,7 @@ bool ExactSimulator::rests(Entity i) const {
   const Flight f = bodies_.flights[i];
   if (!f.v.isZero(0) || is_kicked(bodies_.mode(i))) return false;
   if (f.curve == nullptr) return f.a.isZero(0);
-  return std::all_of(f.curve->displacement.begin(), f.curve->displacement.end(),
-                     [](const Vec3& term) { return term.isZero(0); });
+  return std::ranges::all_of(f.curve->displacement, [](const Vec3& term) { return term.isZero(0); });
 }
 
 /// Whether all bodies rest. The search begins at a body that moved before, so that it seldom goes far.
@@ -441,13 +441,13 @@ void ExactSimulator::keep(Archive& archive) {
   archive(islands_, guard_, effort_, time_);
 }
 
-std::string ExactSimulator::save() {
+string ExactSimulator::save() {
   StateWriter archive;
   keep(archive);
   return archive.take();
 }
 
-void ExactSimulator::restore(std::string_view bytes) {
+void ExactSimulator::restore(string_view bytes) {
   StateReader archive(bytes, bodies_.world);
   keep(archive);
   archive.finish();
@@ -489,7 +489,7 @@ const State& ExactSimulator::state() {
   return answers_.state;
 }
 
-std::span<const ContactForce> ExactSimulator::contacts() {
+span<const ContactForce> ExactSimulator::contacts() {
   answers_.contact_forces.clear();
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
     if (lies_on_flat(bodies_.mode(i))) flat_.report(i, answers_.contact_forces);
@@ -498,8 +498,9 @@ std::span<const ContactForce> ExactSimulator::contacts() {
   bodies_.islands.for_each([&](const Island& island) {
     if (bodies_.mode(island.members.front()) != Mode::fresh) islands_.report(island, time_, answers_.contact_forces);
   });
-  std::sort(answers_.contact_forces.begin(), answers_.contact_forces.end(),
-            [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  std::ranges::sort(answers_.contact_forces, [](const ContactForce& p, const ContactForce& q) {
+    return std::pair(p.a, p.b) < std::pair(q.a, q.b);
+  });
   return answers_.contact_forces;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 // The exact simulator: a list of parts, and the loop that takes one event after the other (exact.h).
-#include <vector>
 
 #include "simulate/contact/collapse_detector.h"
 #include "simulate/contact/exact_bodies.h"
@@ -17,6 +16,7 @@
 #include "simulate/loop/event_queue.h"
 #include "simulate/path/crossings.h"
 #include "simulate/path/path_log.h"
+#include "std.h"
 
 namespace carom {
 
@@ -27,17 +27,17 @@ class ExactSimulator final : public Simulator {
   void advance_to(double time) override;
   double time() const override { return time_; }
   const State& state() override;
-  std::span<const Collision> collisions() const override { return bodies_.log.collisions(); }
-  std::span<const PathPiece> paths() const override { return paths_.pieces(); }
-  std::span<const RegionCrossing> crossings() const override { return crossings_.recorded(); }
+  span<const Collision> collisions() const override { return bodies_.log.collisions(); }
+  span<const PathPiece> paths() const override { return paths_.pieces(); }
+  span<const RegionCrossing> crossings() const override { return crossings_.recorded(); }
   const Tally& tally() const override { return bodies_.log.tally(); }
-  std::vector<Extremes> extremes() const override {
+  vector<Extremes> extremes() const override {
     return paths_.extremes().up_to(tally().end ? std::min(time_, tally().end->time) : time_);
   }
   Effort effort() const override;
-  std::span<const ContactForce> contacts() override;
-  std::string save() override;
-  void restore(std::string_view bytes) override;
+  span<const ContactForce> contacts() override;
+  string save() override;
+  void restore(string_view bytes) override;
   const ModeChanges& modes() const { return modes_; }
 
  private:
@@ -45,7 +45,7 @@ class ExactSimulator final : public Simulator {
   struct Answers {
     State state;
     bool state_fresh = false;
-    std::vector<ContactForce> contact_forces;
+    vector<ContactForce> contact_forces;
     Entity awake = 0;  // a body that moved when it was last looked for
   };
 
@@ -54,8 +54,8 @@ class ExactSimulator final : public Simulator {
   void keep(Archive& archive);
   void start(const State& initial);
   void begin_island(Entity i);
-  std::uint32_t take_event(Entity i);
-  std::uint32_t process(Entity i);
+  uint32_t take_event(Entity i);
+  uint32_t process(Entity i);
   [[gnu::always_inline]] void predict_changed();
   void go_taut(Entity i, const ExactEvent& event);
   [[gnu::noinline]] void interrupt(Entity thing);
@@ -63,14 +63,14 @@ class ExactSimulator final : public Simulator {
   [[gnu::noinline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);
-  void release(Entity i, Entity surface, std::uint8_t edge);
+  void release(Entity i, Entity surface, uint8_t edge);
   void end_flight(Entity i);
   bool watches() const;
   bool happens_before(const Instant& next, bool at_it);
   void take_crossing(const Crossings::Taken& taken);
   void end_by(const Crossings::Taken& taken);
   void book_last(double time);
-  void end_run(double time, EndReason reason, std::uint32_t region);
+  void end_run(double time, EndReason reason, uint32_t region);
   bool is_over() const { return tally().end.has_value(); }
   bool rests(Entity i) const;
   bool all_rest();

@@ -32,6 +32,7 @@ CAROM_BEGIN_AVX512
 namespace eights {
 #define LANES 8
 #include "simulate/loop/straight_times_kernel.inc"
+#include "std.h"
 #undef LANES
 }  // namespace eights
 CAROM_END_TARGET
@@ -39,8 +40,8 @@ CAROM_END_TARGET
 
 }  // namespace
 
-std::vector<StraightKernel> straight_kernels() {
-  std::vector<StraightKernel> kernels{pairs::find};
+vector<StraightKernel> straight_kernels() {
+  vector<StraightKernel> kernels{pairs::find};
 #ifdef __x86_64__
   if (has_avx2()) kernels.push_back(fours::find);
   if (has_avx512()) kernels.push_back(eights::find);
@@ -48,7 +49,7 @@ std::vector<StraightKernel> straight_kernels() {
   return kernels;
 }
 
-std::size_t straight_times(const StraightTask& task, Meet* found) {
+size_t straight_times(const StraightTask& task, Meet* found) {
   static const StraightKernel widest = straight_kernels().back();
   return widest(task, found);
 }

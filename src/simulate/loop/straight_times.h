@@ -3,12 +3,10 @@
 // Two, four or eight pairs are computed at a time, as the processor allows.
 // The arithmetic is that of sphere_contact_time (contact_time.h) in the same order, so that the bits are the same.
 // Pairs that need more than a quadratic are left to that function.
-#include <cstddef>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "simulate/path/flight.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,7 +24,7 @@ struct StraightTask {
   const double* radius;  // m, by body; null: all have own_radius
   double own_radius;     // m, of body i
   Entity i;
-  std::span<const Entity> others;
+  span<const Entity> others;
   Vec3 a;       // m/s^2
   bool latest;  // no other flight began after that of body i
   double end;   // s, later impacts are left out
@@ -34,10 +32,10 @@ struct StraightTask {
 
 /// Writes the impacts, independently of each other, in the others' order. Returns their number. `found` needs room for
 /// as many as there are others.
-std::size_t straight_times(const StraightTask& task, Meet* found);
+size_t straight_times(const StraightTask& task, Meet* found);
 
 /// The kernels that straight_times can choose from on this processor.
-using StraightKernel = std::size_t (*)(const StraightTask& task, Meet* found);
-std::vector<StraightKernel> straight_kernels();
+using StraightKernel = size_t (*)(const StraightTask& task, Meet* found);
+vector<StraightKernel> straight_kernels();
 
 }  // namespace carom

@@ -13,19 +13,20 @@
 #include "geometry/region_crossing.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
-Crossings::Crossings(const BodyPaths& bodies, std::function<Instant(Entity)> flight_end)
+Crossings::Crossings(const BodyPaths& bodies, function<Instant(Entity)> flight_end)
     : bodies_(bodies), flight_end_(std::move(flight_end)), next_(bodies.body.size()) {
   if (!any()) return;
-  const std::size_t n = bodies.body.size();
-  queue_.emplace(static_cast<std::uint32_t>(n), Before{this});
-  const std::vector<WorldRegion>& regions = bodies.world.regions;
+  const size_t n = bodies.body.size();
+  queue_.emplace(static_cast<uint32_t>(n), Before{this});
+  const vector<WorldRegion>& regions = bodies.world.regions;
   standing_.assign(regions.size() * n, outside);
-  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+  for (uint32_t r = 0; r < regions.size(); ++r) {
     if (regions[r].on.empty()) continue;
-    std::fill_n(standing_.begin() + static_cast<std::ptrdiff_t>(r * n), n, apart);
+    std::fill_n(standing_.begin() + static_cast<ptrdiff_t>(r * n), n, apart);
     for (const Entity i : regions[r].on) standing(r, i) = outside;
   }
 }
@@ -49,19 +50,19 @@ bool Crossings::before(Entity i, Entity j) const {
 void Crossings::follow(Entity i, const Instant& from) {
   if (!is_in_world(bodies_.mode(i))) return forget(i);
   if (!next_[i].empty()) next_.write(i).clear();
-  for (std::uint32_t r = 0; r < bodies_.world.regions.size(); ++r)
+  for (uint32_t r = 0; r < bodies_.world.regions.size(); ++r)
     if (standing(r, i) != apart) find(i, r, from);
   schedule(i);
 }
 
 void Crossings::forget(Entity i) {
   if (!next_[i].empty()) next_.write(i).clear();
-  for (std::uint32_t r = 0; r < bodies_.world.regions.size(); ++r) standing(r, i) = apart;
+  for (uint32_t r = 0; r < bodies_.world.regions.size(); ++r) standing(r, i) = apart;
   schedule(i);
 }
 
 /// Finds body i's next crossing of a region from an instant of its flight on.
-void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
+void Crossings::find(Entity i, uint32_t region, const Instant& from) {
   namespace tol = exact_tolerance;
   const WorldRegion& where = bodies_.world.regions[region];
   const Flight f = bodies_.flights[i];
@@ -73,7 +74,7 @@ void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
   // Follows the flight in spans for which one polynomial is accurate, or at once to its end.
   double t = std::max(from - f.start, 0.0);
   while (t < horizon) {
-    std::optional<CrossingTime> found;
+    optional<CrossingTime> found;
     double start = 0;
     double length = horizon;
     if (f.is_straight()) {
@@ -100,9 +101,9 @@ void Crossings::find(Entity i, std::uint32_t region, const Instant& from) {
 /// Sorts body i's crossings, and enters the first into the queue.
 void Crossings::schedule(Entity i) {
   if (next_[i].empty()) return queue_->update(i, never);
-  std::vector<Next>& next = next_.write(i);
-  std::sort(next.begin(), next.end(),
-            [](const Next& p, const Next& q) { return q.sure < p.sure || (p.sure == q.sure && q.region < p.region); });
+  vector<Next>& next = next_.write(i);
+  std::ranges::sort(
+      next, [](const Next& p, const Next& q) { return q.sure < p.sure || (p.sure == q.sure && q.region < p.region); });
   queue_->update(i, next.back().sure.hi);
 }
 
@@ -118,23 +119,23 @@ Crossings::Taken Crossings::take(Entity i) {
   return {crossing, next.at, next.sure};
 }
 
-std::optional<Crossings::Taken> Crossings::take_until(double time) {
+optional<Crossings::Taken> Crossings::take_until(double time) {
   for (Entity i = 0; i < bodies_.body.size(); ++i)
-    if (std::optional<Taken> taken = take_of(i, {time, never})) return taken;
-  return std::nullopt;
+    if (optional<Taken> taken = take_of(i, {time, never})) return taken;
+  return nullopt;
 }
 
-std::optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
-  const std::vector<Next>& next = next_[i];
-  const auto due = std::find_if(next.begin(), next.end(), [&](const Next& one) { return one.at <= last; });
-  if (due == next.end()) return std::nullopt;
-  std::vector<Next>& all = next_.write(i);
+optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
+  const vector<Next>& next = next_[i];
+  const auto due = std::ranges::find_if(next, [&](const Next& one) { return one.at <= last; });
+  if (due == next.end()) return nullopt;
+  vector<Next>& all = next_.write(i);
   std::rotate(all.begin() + (due - next.begin()), all.begin() + (due - next.begin()) + 1, all.end());
   return take(i);
 }
 
 void Crossings::sort() {
-  std::sort(recorded_.begin(), recorded_.end(), [](const RegionCrossing& p, const RegionCrossing& q) {
+  std::ranges::sort(recorded_, [](const RegionCrossing& p, const RegionCrossing& q) {
     return std::tie(p.time, p.region, p.body) < std::tie(q.time, q.region, q.body);
   });
 }

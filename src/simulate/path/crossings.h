@@ -3,26 +3,22 @@
 // counts when the body is sure to be across: beyond the boundary by more than rounding. Another change of the path
 // before that withdraws it. A body thus enters and leaves by turns, and a body on the boundary does neither.
 // Finding crossings changes nothing else.
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "numerics/tournament.h"
 #include "simulate/path/paths.h"
+#include "std.h"
 
 namespace carom {
 
 class Crossings {
   struct Before {
     const Crossings* crossings;
-    bool operator()(std::uint32_t i, std::uint32_t j) const { return crossings->before(i, j); }
+    bool operator()(uint32_t i, uint32_t j) const { return crossings->before(i, j); }
   };
 
  public:
   /// `flight_end`: the latest end of a body's flight.
-  Crossings(const BodyPaths& bodies, std::function<Instant(Entity)> flight_end);
+  Crossings(const BodyPaths& bodies, function<Instant(Entity)> flight_end);
 
   bool any() const { return !bodies_.world.regions.empty(); }
   void begin_advance();
@@ -41,12 +37,12 @@ class Crossings {
   /// Records the next crossing.
   Taken take() { return take(queue_->first()); }
   /// The same for one that is at `time` (s) at the latest, sure or not. None: there is no such crossing.
-  std::optional<Taken> take_until(double time);
+  optional<Taken> take_until(double time);
   /// The same for one of body i that is at the instant `last` at the latest.
-  std::optional<Taken> take_of(Entity i, const Instant& last);
+  optional<Taken> take_of(Entity i, const Instant& last);
 
   /// Since the last begin_advance. Sorted by time, region and body after sort().
-  std::span<const RegionCrossing> recorded() const { return recorded_; }
+  span<const RegionCrossing> recorded() const { return recorded_; }
   void sort();
   bool full() const { return recorded_.size() >= capacity; }
 
@@ -57,28 +53,28 @@ class Crossings {
   }
 
  private:
-  static constexpr std::size_t capacity = 4096;
+  static constexpr size_t capacity = 4096;
   /// A body's standing towards a region.
-  enum Standing : std::uint8_t { outside, inside, apart };
+  enum Standing : uint8_t { outside, inside, apart };
   struct Next {
-    std::uint32_t region;
+    uint32_t region;
     Instant at, sure;
 
     void keep(auto& archive) { archive(region, at, sure); }
   };
 
   bool before(Entity i, Entity j) const;
-  Standing& standing(std::uint32_t region, Entity i) { return standing_[region * bodies_.body.size() + i]; }
-  void find(Entity i, std::uint32_t region, const Instant& from);
+  Standing& standing(uint32_t region, Entity i) { return standing_[region * bodies_.body.size() + i]; }
+  void find(Entity i, uint32_t region, const Instant& from);
   void schedule(Entity i);
   Taken take(Entity i);
 
   const BodyPaths& bodies_;
-  const std::function<Instant(Entity)> flight_end_;
-  std::vector<Standing> standing_;           // by region, then body
-  LazyArray<std::vector<Next>> next_;        // by body: the next crossing of each region, the first of them last
-  std::optional<Tournament<Before>> queue_;  // none: there are no regions
-  std::vector<RegionCrossing> recorded_;
+  const function<Instant(Entity)> flight_end_;
+  vector<Standing> standing_;           // by region, then body
+  LazyArray<vector<Next>> next_;        // by body: the next crossing of each region, the first of them last
+  optional<Tournament<Before>> queue_;  // none: there are no regions
+  vector<RegionCrossing> recorded_;
   double latest_ = 0;  // s, of all before these
 };
 

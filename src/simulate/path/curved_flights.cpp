@@ -18,6 +18,7 @@
 #include "physics/world.h"
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -39,7 +40,7 @@ constexpr GaussPoint gauss[] = {
     {0.93253168334449226, 0.074725674575290297},  {0.98695326425858586, 0.033335672154344069}};
 
 /// A value in place of a number of steps: the last step was implicit.
-constexpr std::uint8_t implicit_method = 255;
+constexpr uint8_t implicit_method = 255;
 
 PolynomialPath::Point point(const ClosedMotion::Point& of) {
   return {of.velocity, of.acceleration, of.jerk};
@@ -57,8 +58,8 @@ double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const
 }
 
 PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec3& v) {
-  const std::optional<ClosedForces> closed =
-      bodies_.options.closed_forms ? closed_forces(bodies_.world, i, bodies_.now.hi) : std::nullopt;
+  const optional<ClosedForces> closed =
+      bodies_.options.closed_forms ? closed_forces(bodies_.world, i, bodies_.now.hi) : nullopt;
   return closed ? closed_step(i, *closed, x, v) : numerical_step(i, x, v);
 }
 
@@ -146,9 +147,9 @@ bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
 }
 
 void CurvedFlights::note_method(Entity i, bool implicit) {
-  const std::uint8_t before = method_[i];
+  const uint8_t before = method_[i];
   const int explicit_steps = before == implicit_method ? 0 : std::min(before + 1, int{tol::many_explicit_steps});
-  method_.write(i) = implicit ? implicit_method : static_cast<std::uint8_t>(explicit_steps);
+  method_.write(i) = implicit ? implicit_method : static_cast<uint8_t>(explicit_steps);
 }
 
 namespace {
@@ -174,8 +175,8 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
     const Vec3 there = free_acceleration(world, i, now, at, speed);
     return springs.any() ? springs.without_turn(at, there) : there;
   };
-  const auto accelerations = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
-    return std::vector<Vec3>{acceleration(at[0], speed[0])};
+  const auto accelerations = [&](const vector<Vec3>& at, const vector<Vec3>& speed) {
+    return vector<Vec3>{acceleration(at[0], speed[0])};
   };
   const auto jacobian = [&](const Vec3& at, const Vec3& speed) { return force_jacobian(world, i, now, at, speed); };
 
@@ -295,7 +296,7 @@ double CurvedFlights::squared_speed(const Flight& flight, double length) {
 double CurvedFlights::book_work(Entity i, const Flight& flight, double length) {
   const World& world = bodies_.world;
   double all = 0;
-  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+  for (size_t k = 0; k < world.forces.size(); ++k) {
     const Force& force = world.forces[k];
     if (!acts(force, i, flight.start.hi)) continue;
 

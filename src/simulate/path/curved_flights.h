@@ -3,11 +3,11 @@
 // there is a closed form (closed_motion.h), each step's polynomial is made from it anew, so that no error adds up.
 // Otherwise a method of order 8 takes steps by its error estimate (dormand_prince.h), or an implicit one where forces
 // are stiff (implicit_step.h). A scene may also choose the method and the step (integrator.h).
-#include <vector>
 
 #include "physics/closed_motion.h"
 #include "physics/force_jacobian.h"
 #include "simulate/path/paths.h"
+#include "std.h"
 
 namespace carom {
 
@@ -77,8 +77,8 @@ class CurvedFlights {
   BodyPaths& bodies_;
   LazyArray<double> next_;  // s, by body: a good length for the next step; 0: unknown
   // By body: number of steps of dop853 since the last implicit step, counted up to many.
-  LazyArray<std::uint8_t> method_;
-  std::vector<Closed> closed_;  // by body; empty: no motion has a closed form
+  LazyArray<uint8_t> method_;
+  vector<Closed> closed_;  // by body; empty: no motion has a closed form
 };
 
 }  // namespace carom

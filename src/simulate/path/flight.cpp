@@ -2,6 +2,8 @@
 // The polynomial of a path under drag is its Taylor series. Its terms fall fast within span_of_fade().
 #include "simulate/path/flight.h"
 
+#include "std.h"
+
 namespace carom {
 
 Vec3 Flight::bent_position(double t) const {
@@ -20,8 +22,7 @@ PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
   terms[1] = (0.5 * length * length) * acceleration(t);
   // In the second case the acceleration has decayed.
   if (is_straight() || !(fade * length < 1)) return terms;
-  for (std::size_t k = 2; k < terms.size(); ++k)
-    terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
+  for (size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
   return terms;
 }
 

@@ -1,11 +1,7 @@
 #pragma once
 // A body's path since its last change: x + v t + a t^2/2 from its start on, or the same under linear drag.
 // Under other varying forces it is a step of a method, as a polynomial.
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "numerics/large_pages.h"
 #include "numerics/lazy_array.h"
@@ -15,6 +11,7 @@
 #include "physics/fading_path.h"
 #include "simulate/path/instant.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -70,7 +67,7 @@ struct Flight {
 
 /// The velocity that a body has by its method, less that of its flight, by powers of the time since the flight's start.
 struct VelocityBeyond {
-  std::array<Vec3, 3> terms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // m/s, m/s^2, m/s^3
+  array<Vec3, 3> terms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // m/s, m/s^2, m/s^3
 
   bool is_zero() const { return terms[0].isZero(0) && terms[1].isZero(0) && terms[2].isZero(0); }
   // t: s since the flight's start.
@@ -143,7 +140,7 @@ class Flights {
   /// The curves of a body: the present one, and the one before.
   struct Curves {
     PolynomialPath of[2];
-    std::uint8_t present = 0;
+    uint8_t present = 0;
 
     void keep(auto& archive) {
       archive(present);

@@ -8,11 +8,12 @@
 #include "numerics/cube_root.h"
 #include "physics/force.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
 MergedBodies::MergedBodies(const World& world, bool merge)
-    : given_(world), joint_(merge ? std::make_unique<World>(world) : nullptr) {}
+    : given_(world), joint_(merge ? make_unique<World>(world) : nullptr) {}
 
 void MergedBodies::begin() {
   const Entity n = given_.body_count();

@@ -1,11 +1,9 @@
 #pragma once
 // Bodies that have merged: the parts of each joint body, and the World with the joint masses and volumes. Forces act on
 // the parts. Bodies that have left the world are marked too.
-#include <memory>
-#include <span>
-#include <vector>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,13 +21,13 @@ class MergedBodies {
   const World& given() const { return given_; }                     // before any merge
   const World& world() const { return joint_ ? *joint_ : given_; }  // the same object throughout
   bool any() const { return !whole_of_.empty(); }
-  const std::vector<Entity>& whole_of() const {
+  const vector<Entity>& whole_of() const {
     return whole_of_;
   }  // by body: the body that it is part of; no_entity: it has left the world; empty: none has merged or left
 
   /// The parts of body i; none: only itself.
-  std::span<const Entity> parts_of(Entity i) const {
-    return parts_.empty() ? std::span<const Entity>() : std::span<const Entity>(parts_[i]);
+  span<const Entity> parts_of(Entity i) const {
+    return parts_.empty() ? span<const Entity>() : span<const Entity>(parts_[i]);
   }
   /// The accelerations of body i by the forces at `time` (s).
   AppliedAcceleration applied(Entity i, double time) const;
@@ -52,10 +50,10 @@ class MergedBodies {
   void begin();
 
   const World& given_;
-  std::unique_ptr<World> joint_;            // none: bodies do not merge
-  std::vector<Entity> whole_of_;            // empty: nothing has merged
-  std::vector<std::vector<Entity>> parts_;  // by joint body: itself and its parts
-  std::vector<double> share_;               // by body: its own mass over that of its joint body
+  unique_ptr<World> joint_;       // none: bodies do not merge
+  vector<Entity> whole_of_;       // empty: nothing has merged
+  vector<vector<Entity>> parts_;  // by joint body: itself and its parts
+  vector<double> share_;          // by body: its own mass over that of its joint body
 };
 
 }  // namespace carom

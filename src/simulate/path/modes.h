@@ -42,14 +42,14 @@
 //
 // A ball that falls on a pile is flying, fresh, held or stepped (perhaps by turns), and asleep in the end. A ball that
 // falls on a flat floor is flying, settling and carried. It lies there as `carried`, and never sleeps.
-#include <cstddef>
-#include <cstdint>
+
+#include "std.h"
 
 namespace carom {
 
 /// What moves a body now, as in the table above.
-enum class Mode : std::uint8_t { flying, settling, carried, fresh, held, stepped, asleep, part, gone };
-inline constexpr std::size_t number_of_modes = 9;
+enum class Mode : uint8_t { flying, settling, carried, fresh, held, stepped, asleep, part, gone };
+inline constexpr size_t number_of_modes = 9;
 
 /// Whether the body moves by itself or on flat surfaces.
 constexpr bool is_free(Mode mode) {

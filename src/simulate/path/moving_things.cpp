@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "numerics/polynomial.h"
+#include "std.h"
 
 namespace carom {
 
@@ -16,12 +17,11 @@ DoubleDouble time_of(const Instant& at) {
 }  // namespace
 
 MovingThings::MovingThings(const World& world)
-    : world_(world),
-      any_(std::any_of(world.motions.begin(), world.motions.end(), [](const auto& legs) { return !legs.empty(); })) {
-  for (const std::vector<MotionLeg>& legs : world.motions)
+    : world_(world), any_(std::ranges::any_of(world.motions, [](const auto& legs) { return !legs.empty(); })) {
+  for (const vector<MotionLeg>& legs : world.motions)
     for (const MotionLeg& leg : legs)
       if (leg.from > 0) switches_.push_back(leg.from);
-  std::sort(switches_.begin(), switches_.end());
+  std::ranges::sort(switches_);
   switches_.erase(std::unique(switches_.begin(), switches_.end()), switches_.end());
 }
 

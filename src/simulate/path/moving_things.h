@@ -1,10 +1,10 @@
 #pragma once
 // Fixed things that move (surface_motion.h), as the parts of the simulator see them: positions and velocities at an
 // instant, and the instants at which a velocity changes.
-#include <vector>
 
 #include "physics/world.h"
 #include "simulate/path/instant.h"
+#include "std.h"
 
 namespace carom {
 
@@ -30,7 +30,7 @@ class MovingThings {
  private:
   const World& world_;
   const bool any_;
-  std::vector<double> switches_;  // s, ascending
+  vector<double> switches_;  // s, ascending
 };
 
 }  // namespace carom

@@ -8,27 +8,27 @@
 #include "simulate/path/path_extremes.h"
 
 #include <algorithm>
-#include <array>
 
 #include "numerics/bernstein.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 /// A polynomial in s, from the constant term on.
-using Coefficients = std::vector<double>;
+using Coefficients = vector<double>;
 
 Coefficients slope_of(const Coefficients& of) {
   Coefficients slope;
-  for (std::size_t k = 1; k < of.size(); ++k) slope.push_back(static_cast<double>(k) * of[k]);
+  for (size_t k = 1; k < of.size(); ++k) slope.push_back(static_cast<double>(k) * of[k]);
   return slope;
 }
 
 void add_product(const Coefficients& p, const Coefficients& q, Coefficients& sum) {
   sum.resize(std::max(sum.size(), p.size() + q.size() - 1));
-  for (std::size_t i = 0; i < p.size(); ++i)
-    for (std::size_t j = 0; j < q.size(); ++j) sum[i + j] += p[i] * q[j];
+  for (size_t i = 0; i < p.size(); ++i)
+    for (size_t j = 0; j < q.size(); ++j) sum[i + j] += p[i] * q[j];
 }
 
 /// A part of a flight, with t in s from its start on.
@@ -42,13 +42,13 @@ struct Part {
   }
 
   /// The velocity from t on as polynomials in s = (time - t) / length, by axis (m/s).
-  std::array<Coefficients, 3> velocities(double t, double length) const {
+  array<Coefficients, 3> velocities(double t, double length) const {
     const PolynomialPath::Terms terms = flight.displacement_from(t, length);
-    const std::array<Vec3, 3> beyond = {more.at(t), length * more.slope(t), length * length * more.terms[2]};
-    std::array<Coefficients, 3> v;
+    const array<Vec3, 3> beyond = {more.at(t), length * more.slope(t), length * length * more.terms[2]};
+    array<Coefficients, 3> v;
     for (int axis = 0; axis < 3; ++axis) {
-      auto& of = v[static_cast<std::size_t>(axis)];
-      for (std::size_t k = 0; k < terms.size(); ++k)
+      auto& of = v[static_cast<size_t>(axis)];
+      for (size_t k = 0; k < terms.size(); ++k)
         of.push_back(static_cast<double>(k + 1) * terms[k][axis] / length + (k < 3 ? beyond[k][axis] : 0));
     }
     return v;
@@ -56,10 +56,10 @@ struct Part {
 };
 
 /// The polynomial in s that is zero where the quantity turns.
-Coefficients turning(Quantity quantity, const std::array<Coefficients, 3>& v) {
-  const auto axis = static_cast<std::size_t>(quantity);
+Coefficients turning(Quantity quantity, const array<Coefficients, 3>& v) {
+  const auto axis = static_cast<size_t>(quantity);
   if (is_place(quantity)) return v[axis];
-  if (quantity <= Quantity::vz) return slope_of(v[axis - static_cast<std::size_t>(Quantity::vx)]);
+  if (quantity <= Quantity::vz) return slope_of(v[axis - static_cast<size_t>(Quantity::vx)]);
   Coefficients power;
   for (const Coefficients& of : v) add_product(of, slope_of(of), power);
   return power;
@@ -108,18 +108,18 @@ void PathExtremes::note(Entity i) {
   seen_[i] = take(i, bodies_.now, found_);
 }
 
-std::vector<Extremes> PathExtremes::up_to(double time) const {
-  std::vector<Extremes> found = found_;
+vector<Extremes> PathExtremes::up_to(double time) const {
+  vector<Extremes> found = found_;
   for (Entity i = 0; i < seen_.size(); ++i) {
     const Seen seen = take(i, {time, 0}, found);
-    for (std::size_t k = 0; k < found.size() && seen.any; ++k)
+    for (size_t k = 0; k < found.size() && seen.any; ++k)
       if (bodies_.options.watch[k].has(i)) offer(k, i, seen.end, seen.until.hi, seen, found[k]);
   }
   return found;
 }
 
 /// Offers the value at a point of body i's path, at `time` (s), with the errors so far.
-void PathExtremes::offer(std::size_t k, Entity i, const PathPoint& at, double time, const Seen& errors,
+void PathExtremes::offer(size_t k, Entity i, const PathPoint& at, double time, const Seen& errors,
                          Extremes& found) const {
   const Quantity quantity = bodies_.options.watch[k].quantity;
   const double mass = bodies_.world.mass[i];
@@ -147,7 +147,7 @@ void PathExtremes::add_errors(Entity i, const Flight& f, const PathPoint& from, 
 
 /// Takes the values of body i from the last instant taken to `until`, on its present flight. The value at its end
 /// counts only where the next flight does not continue it. Returns what has been taken then.
-PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vector<Extremes>& found) const {
+PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Extremes>& found) const {
   const Seen before = seen_[i];
   if (before.any && until < before.until) return before;
   const Flight f = bodies_.flights[i];
@@ -170,7 +170,7 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, std::vecto
   Seen seen{true, until, part.point(to), before.place, before.speed};
   add_errors(i, f, start, seen.end, seen);
 
-  for (std::size_t k = 0; k < found.size(); ++k) {
+  for (size_t k = 0; k < found.size(); ++k) {
     const WatchedQuantity& watched = bodies_.options.watch[k];
     if (!watched.has(i)) continue;
     const Quantity quantity = watched.quantity;

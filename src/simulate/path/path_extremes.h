@@ -1,11 +1,10 @@
 #pragma once
 // The extremes of quantities along the bodies' paths. They are taken from each flight when it ends: where its
 // polynomial turns, and where the next flight does not continue it. Outputs and samples have no effect on them.
-#include <span>
-#include <vector>
 
 #include "physics/extremes.h"
 #include "simulate/path/paths.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,7 +25,7 @@ class PathExtremes {
   /// Call this before body i gets another flight at the present instant.
   void note(Entity i);
   /// The extremes from time 0 to `time` (s), by options.watch. Flights that last are taken up to there.
-  std::vector<Extremes> up_to(double time) const;
+  vector<Extremes> up_to(double time) const;
 
   void keep(auto& archive) { archive.sized(found_, seen_); }
 
@@ -41,14 +40,14 @@ class PathExtremes {
     void keep(auto& archive) { archive(any, until, end, place, speed); }
   };
 
-  Seen take(Entity i, const Instant& until, std::vector<Extremes>& found) const;
-  void offer(std::size_t k, Entity i, const PathPoint& at, double time, const Seen& errors, Extremes& found) const;
+  Seen take(Entity i, const Instant& until, vector<Extremes>& found) const;
+  void offer(size_t k, Entity i, const PathPoint& at, double time, const Seen& errors, Extremes& found) const;
   static double rounding_of(Quantity quantity, const PathPoint& at, double mass, const Seen& errors);
   void add_errors(Entity i, const Flight& f, const PathPoint& from, const PathPoint& to, Seen& seen) const;
 
   const BodyPaths& bodies_;
-  std::vector<Extremes> found_;  // by options.watch
-  std::vector<Seen> seen_;       // by body
+  vector<Extremes> found_;  // by options.watch
+  vector<Seen> seen_;       // by body
 };
 
 }  // namespace carom

@@ -8,12 +8,13 @@
 
 #include "physics/world.h"
 #include "simulate/path/crossings.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t path_buffer = 4096;
+constexpr size_t path_buffer = 4096;
 
 /// The first double that is not before an instant.
 double first_double(const Instant& at) {
@@ -45,7 +46,7 @@ void PathLog::note(Entity i) {
 }
 
 void PathLog::record_changes() {
-  std::sort(changed_.begin(), changed_.end());
+  std::ranges::sort(changed_);
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   if (changed_.empty()) return;
   latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);

@@ -1,13 +1,12 @@
 #pragma once
 // The record of paths. A path is final when everything at an instant has happened.
 // It is therefore read before the first change at a later instant, or at the end of an advance.
-#include <span>
-#include <vector>
 
 #include "physics/path_piece.h"
 #include "simulate/path/curved_flights.h"
 #include "simulate/path/path_extremes.h"
 #include "simulate/path/paths.h"
+#include "std.h"
 
 namespace carom {
 
@@ -37,7 +36,7 @@ class PathLog {
   /// The first double at which all recorded paths hold (s).
   double latest() const { return latest_; }
   bool full() const { return full_; }
-  std::span<const PathPiece> pieces() const { return pieces_; }  // in order
+  span<const PathPiece> pieces() const { return pieces_; }  // in order
   const PathExtremes& extremes() const { return extremes_; }
 
   void keep(auto& archive) {
@@ -56,13 +55,13 @@ class PathLog {
   Crossings& crossings_;
   // A change of a path concerns the record, the crossings or the end of the run; or these or the extremes.
   const bool followed_, wanted_;  // to be recorded, followed, or for the run's end
-  std::vector<PathPiece> pieces_;
+  vector<PathPiece> pieces_;
   // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
-  std::vector<Entity> changed_;
+  vector<Entity> changed_;
   Instant changed_at_, delayed_;
   double end_ = never, latest_ = 0;  // s: the run's end, and the last piece's start
   bool full_ = false;
-  LazyArray<std::uint8_t> closed_;  // by body: whether its last piece is a motion in closed form
+  LazyArray<uint8_t> closed_;  // by body: whether its last piece is a motion in closed form
 };
 
 }  // namespace carom

@@ -3,7 +3,6 @@
 //
 // Each body keeps its Flight and is not moved when others collide. A path is known between two events. Neither outputs
 // nor the search for neighbours can change it.
-#include <cstdint>
 
 #include "numerics/large_pages.h"
 #include "numerics/lazy_array.h"
@@ -16,6 +15,7 @@
 #include "simulate/path/modes.h"
 #include "simulate/path/moving_things.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -39,7 +39,7 @@ struct BodyPaths {
   // 1/s, by body: linear drag takes this rate times the velocity from the acceleration.
   LazyArray<double> fade;
   // By body: whether forces that bend paths act on it. All three are values of the last evaluation.
-  LazyArray<std::uint8_t> bent;
+  LazyArray<uint8_t> bent;
   Flights flights;
   LazyArray<Kick> kick;  // by body, of its drift while it is stepped
   LargeVector<ExactBody> body;

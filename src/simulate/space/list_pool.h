@@ -3,17 +3,13 @@
 // of four.
 #include <algorithm>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
 
 #ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
 #include "numerics/large_pages.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,16 +17,16 @@ class ListPool {
  public:
   /// The place of a list. A zeroed one is an empty list.
   struct List {
-    std::uint32_t at = 0;       // in granules
-    std::uint32_t count = 0;    // entries
-    std::uint8_t capacity = 0;  // kind of the block
+    uint32_t at = 0;       // in granules
+    uint32_t count = 0;    // entries
+    uint8_t capacity = 0;  // kind of the block
   };
 
   /// Null where the list has never had an entry.
-  std::uint32_t* data(const List& list) {
+  uint32_t* data(const List& list) {
     return list.capacity == 0 ? nullptr : page_[list.at >> page_bits] + entries_in(list.at & page_mask);
   }
-  const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
+  const uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
 
   /// Whether more memory is in free blocks than a pool that was just filled may leave.
   /// The rest of a page is less than the list that did not fit into it.
@@ -45,15 +41,15 @@ class ListPool {
   }
 
   /// Makes room for `count` entries. The list's contents are lost.
-  void reserve(List& list, std::size_t count) {
+  void reserve(List& list, size_t count) {
     if (count <= room(list.capacity)) return;
     give_back(list);
     take(list, count);
   }
 
   /// The position of an entry that the list holds.
-  std::uint32_t* find(const List& list, std::uint32_t entry) {
-    std::uint32_t* at = data(list);
+  uint32_t* find(const List& list, uint32_t entry) {
+    uint32_t* at = data(list);
 #ifdef __SSE2__
     // A block may end beyond the list. An entry there is found only if it is not in the list.
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(entry));
@@ -67,7 +63,7 @@ class ListPool {
 #endif
   }
 
-  void push_back(List& list, std::uint32_t entry) {
+  void push_back(List& list, uint32_t entry) {
     if (list.count == room(list.capacity)) {
       const List old = list;
       take(list, list.count + 1);
@@ -78,25 +74,25 @@ class ListPool {
   }
 
  private:
-  static constexpr std::size_t granule = 4;  // entries
-  static constexpr std::uint32_t page_bits = 16;
-  static constexpr std::uint32_t page_mask = (1u << page_bits) - 1;
-  static constexpr std::size_t page_granules = std::size_t{1} << page_bits;
+  static constexpr size_t granule = 4;  // entries
+  static constexpr uint32_t page_bits = 16;
+  static constexpr uint32_t page_mask = (1u << page_bits) - 1;
+  static constexpr size_t page_granules = size_t{1} << page_bits;
   // Kinds 1 to 16 have as many granules. Each later kind has twice as many as the one before.
-  static constexpr std::uint8_t in_steps = 16;
+  static constexpr uint8_t in_steps = 16;
 
-  static std::size_t entries_in(std::size_t granules) {
+  static size_t entries_in(size_t granules) {
     return granules * granule;
   }
-  static std::size_t granules_of(std::uint8_t capacity) {
-    return capacity <= in_steps ? capacity : std::size_t{in_steps} << (capacity - in_steps);
+  static size_t granules_of(uint8_t capacity) {
+    return capacity <= in_steps ? capacity : size_t{in_steps} << (capacity - in_steps);
   }
-  static std::size_t room(std::uint8_t capacity) {
+  static size_t room(uint8_t capacity) {
     return entries_in(granules_of(capacity));
   }
 
-  void take(List& list, std::size_t count) {
-    std::uint8_t kind = 1;
+  void take(List& list, size_t count) {
+    uint8_t kind = 1;
     while (room(kind) < count) ++kind;
     list.capacity = kind;
     used_ += granules_of(kind);
@@ -110,19 +106,19 @@ class ListPool {
     }
 
     // A block from the present page, or from new ones.
-    const std::size_t granules = granules_of(kind);
-    const std::size_t page = page_granules;
+    const size_t granules = granules_of(kind);
+    const size_t page = page_granules;
     if (left_ < granules) {
       // The rest of the page.
       for (; left_ > 0; ++next_, --left_) put_away(1, next_);
-      next_ = static_cast<std::uint32_t>(page_.size() << page_bits);
-      left_ = std::max((granules + page - 1) / page, std::min<std::size_t>(page_.size(), 16)) * page;
-      memory_.emplace_back(LargePages<std::uint32_t>().allocate(entries_in(left_)));
-      for (std::size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
+      next_ = static_cast<uint32_t>(page_.size() << page_bits);
+      left_ = std::max((granules + page - 1) / page, std::min<size_t>(page_.size(), 16)) * page;
+      memory_.emplace_back(LargePages<uint32_t>().allocate(entries_in(left_)));
+      for (size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
     }
 
     list.at = next_;
-    next_ += static_cast<std::uint32_t>(granules);
+    next_ += static_cast<uint32_t>(granules);
     left_ -= granules;
   }
 
@@ -131,22 +127,22 @@ class ListPool {
     used_ -= granules_of(list.capacity);
     put_away(list.capacity, list.at);
   }
-  void put_away(std::uint8_t kind, std::uint32_t at) {
-    if (free_.size() <= kind) free_.resize(kind + std::size_t{1});
+  void put_away(uint8_t kind, uint32_t at) {
+    if (free_.size() <= kind) free_.resize(kind + size_t{1});
     free_[kind].push_back(at);
     unused_ += granules_of(kind);
   }
 
   struct Free {
-    void operator()(std::uint32_t* memory) const { LargePages<std::uint32_t>().deallocate(memory, 0); }
+    void operator()(uint32_t* memory) const { LargePages<uint32_t>().deallocate(memory, 0); }
   };
-  std::vector<std::unique_ptr<std::uint32_t[], Free>> memory_;
-  std::vector<std::uint32_t*> page_;
-  std::vector<std::vector<std::uint32_t>> free_;  // by kind
-  std::size_t used_ = 0;                          // granules, in the blocks of lists
-  std::size_t unused_ = 0;                        // granules, in free blocks
-  std::uint32_t next_ = 0;
-  std::size_t left_ = 0;  // granules from next_ on
+  vector<unique_ptr<uint32_t[], Free>> memory_;
+  vector<uint32_t*> page_;
+  vector<vector<uint32_t>> free_;  // by kind
+  size_t used_ = 0;                // granules, in the blocks of lists
+  size_t unused_ = 0;              // granules, in free blocks
+  uint32_t next_ = 0;
+  size_t left_ = 0;  // granules from next_ on
 };
 
 }  // namespace carom

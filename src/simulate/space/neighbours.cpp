@@ -9,17 +9,18 @@
 
 #include "physics/body_now.h"
 #include "simulate/space/touching.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 // The number of neighbours for which a region is sized. With fewer it grows, and is left less often.
-constexpr std::size_t few_neighbours = 7;
+constexpr size_t few_neighbours = 7;
 // With more it shrinks, and needs fewer pair tests.
-constexpr std::size_t many_neighbours = 40;
+constexpr size_t many_neighbours = 40;
 // A body that leaves several regions in a row without an event may have more than a few.
-constexpr std::size_t many_on_the_way = 16;
+constexpr size_t many_on_the_way = 16;
 constexpr int wider = 2;  // levels, of a quarter octave
 // The first room of a region, as a share of the radius.
 constexpr double first_room = 1;
@@ -33,7 +34,7 @@ constexpr double farthest = 0x1p+60;
 Neighbours::Neighbours(const World& world)
     : world_(world), region_(world.body_count()), lists_(world.body_count()), surfaces_(world) {}
 
-void Neighbours::start(const std::vector<Vec3>& x) {
+void Neighbours::start(const vector<Vec3>& x) {
   const Entity n = world_.body_count();
   if (n == 0) return;
   Vec3 low = x[0];
@@ -48,12 +49,12 @@ void Neighbours::start(const std::vector<Vec3>& x) {
   origin_ = 0.5 * low + 0.5 * high;
   grid_.start(around(low, 0), around(high, 0));
 
-  std::vector<std::pair<int, std::size_t>> expected;  // regions, by level
+  vector<std::pair<int, size_t>> expected;  // regions, by level
   for (Entity i = 0; i < n; ++i) {
     const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
-    lists_[i].level = static_cast<std::int16_t>(level);
-    const auto known = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == level; });
+    lists_[i].level = static_cast<int16_t>(level);
+    const auto known = std::ranges::find_if(expected, [&](const auto& e) { return e.first == level; });
     known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
   }
 
@@ -89,9 +90,9 @@ int Neighbours::level_for(Entity i, const Vec3& x, double room) const {
 
 /// Stores in found_ the bodies that may touch body i in this region.
 void Neighbours::find(Entity i, const Region& region) {
-  const std::size_t candidates = grid_.near(region, found_);
+  const size_t candidates = grid_.near(region, found_);
   found_count_ = select_touching(region, region_.data(), found_.data(), candidates, true, found_.data());
-  const auto end = found_.begin() + static_cast<std::ptrdiff_t>(found_count_), own = std::find(found_.begin(), end, i);
+  const auto end = found_.begin() + static_cast<ptrdiff_t>(found_count_), own = std::find(found_.begin(), end, i);
   if (own != end) *own = found_[--found_count_];
 }
 
@@ -107,18 +108,18 @@ void Neighbours::write(Entity i) {
   NeighbourList& list = lists_[i];
   surfaces_.find(center(i), unit_ * static_cast<double>(region_[i].half), found_surfaces_);
   pool_.reserve(list, found_count_ + found_surfaces_.size());
-  std::uint32_t* const to = pool_.data(list);
+  uint32_t* const to = pool_.data(list);
   std::copy_n(found_surfaces_.begin(), found_surfaces_.size(), std::copy_n(found_.begin(), found_count_, to));
-  list.surfaces = static_cast<std::uint32_t>(found_surfaces_.size()) & 0xFFFFFF;
-  list.count = static_cast<std::uint32_t>(found_count_ + found_surfaces_.size());
+  list.surfaces = static_cast<uint32_t>(found_surfaces_.size()) & 0xFFFFFF;
+  list.count = static_cast<uint32_t>(found_count_ + found_surfaces_.size());
 }
 
 /// Adds i to body j's list.
 void Neighbours::add(Entity j, Entity i) {
   NeighbourList& list = lists_[j];
   pool_.push_back(list, i);
-  if (const std::uint32_t surfaces = list.surfaces; surfaces > 0) {
-    std::uint32_t* const of = pool_.data(list);
+  if (const uint32_t surfaces = list.surfaces; surfaces > 0) {
+    uint32_t* const of = pool_.data(list);
     std::swap(of[list.count - 1 - surfaces], of[list.count - 1]);
   }
 }
@@ -126,8 +127,8 @@ void Neighbours::add(Entity j, Entity i) {
 /// Removes i from body j's list.
 void Neighbours::drop(Entity j, Entity i) {
   NeighbourList& list = lists_[j];
-  std::uint32_t* const of = pool_.data(list);
-  const std::uint32_t last = --list.count - list.surfaces;
+  uint32_t* const of = pool_.data(list);
+  const uint32_t last = --list.count - list.surfaces;
   *pool_.find(list, i) = of[last];
   of[last] = of[list.count];
 }
@@ -136,23 +137,23 @@ void Neighbours::drop(Entity j, Entity i) {
 /// neighbourhood.
 void Neighbours::settle(Entity i, const Region& region, int level) {
   const Region old = region_[i];
-  const std::span<const Entity> known = bodies(i);
+  const span<const Entity> known = bodies(i);
 
   // Bodies that are no longer near lose body i from their lists.
   gone_.resize(std::max(gone_.size(), known.size() + select_slack));
-  const std::size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
-  for (std::size_t k = 0; k < gone; ++k) prefetch(pool_.data(lists_[gone_[k]]));
-  for (std::size_t k = 0; k < gone; ++k) drop(gone_[k], i);
+  const size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
+  for (size_t k = 0; k < gone; ++k) prefetch(pool_.data(lists_[gone_[k]]));
+  for (size_t k = 0; k < gone; ++k) drop(gone_[k], i);
 
   // Bodies that were not near before receive it.
   came_.resize(std::max(came_.size(), found_count_ + select_slack));
   came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
-  for (std::size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(lists_[came_[k]]) + lists_[came_[k]].count);
-  for (std::size_t k = 0; k < came_count_; ++k) add(came_[k], i);
+  for (size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(lists_[came_[k]]) + lists_[came_[k]].count);
+  for (size_t k = 0; k < came_count_; ++k) add(came_[k], i);
 
   region_[i] = region;
   grid_.move(i, old, lists_[i].level, region_, level);
-  lists_[i].level = static_cast<std::int16_t>(level);
+  lists_[i].level = static_cast<int16_t>(level);
   write(i);
 }
 
@@ -177,11 +178,11 @@ void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int lev
   }
 }
 
-std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& ahead) {
-  constexpr std::uint32_t several = 4;
+span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& ahead) {
+  constexpr uint32_t several = 4;
   const bool often = lists_[i].left == several;
   if (!often) lists_[i].left = (lists_[i].left + 1) & 0xFF;
-  const std::size_t known = bodies(i).size();
+  const size_t known = bodies(i).size();
   int level = lists_[i].level;
   if (known < few_neighbours || (often && known < many_on_the_way)) level += wider;
   if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;

@@ -5,9 +5,6 @@
 // with few neighbours grows, so that a ball that flies off costs little, however far it goes. Results must not depend
 // on extra neighbours, nor on the order of lists.
 #include <algorithm>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "numerics/large_pages.h"
 #include "numerics/prefetch.h"
@@ -16,6 +13,7 @@
 #include "simulate/space/region.h"
 #include "simulate/space/region_grid.h"
 #include "simulate/space/surfaces_near.h"
+#include "std.h"
 
 namespace carom {
 
@@ -25,13 +23,13 @@ class Neighbours {
   explicit Neighbours(const World& world);
 
   /// Places all bodies at once, at their positions at the start (m).
-  void start(const std::vector<Vec3>& x);
+  void start(const vector<Vec3>& x);
 
   /// Bodies that body i may meet within its region, and surfaces.
-  std::span<const Entity> bodies(Entity i) const { return near(i).first(lists_[i].count - lists_[i].surfaces); }
-  std::span<const Entity> surfaces(Entity i) const { return near(i).last(lists_[i].surfaces); }
+  span<const Entity> bodies(Entity i) const { return near(i).first(lists_[i].count - lists_[i].surfaces); }
+  span<const Entity> surfaces(Entity i) const { return near(i).last(lists_[i].surfaces); }
   /// Bodies and surfaces.
-  std::span<const Entity> near(Entity i) const { return {pool_.data(lists_[i]), lists_[i].count}; }
+  span<const Entity> near(Entity i) const { return {pool_.data(lists_[i]), lists_[i].count}; }
 
   /// The centre of body i's region (m), and how far the body's centre may go from there (m).
   Vec3 center(Entity i) const {
@@ -43,8 +41,8 @@ class Neighbours {
   /// Prefetches the data of body i's neighbours.
   void prefetch_header(Entity i) const { prefetch(&lists_[i]); }
   void prefetch_list(Entity i) const {
-    const std::uint32_t* const list = pool_.data(lists_[i]);
-    for (std::uint32_t k = 0; k < lists_[i].count; k += 16) prefetch(list + k);
+    const uint32_t* const list = pool_.data(lists_[i]);
+    for (uint32_t k = 0; k < lists_[i].count; k += 16) prefetch(list + k);
   }
   void prefetch_region(Entity i) const { prefetch(&region_[i]); }
 
@@ -52,7 +50,7 @@ class Neighbours {
   /// `ahead`: the path on which its middle may be (m). A body that has left several regions on one path gets a wider
   /// one.
   /// Returns the bodies that are new in the list, valid until regions change.
-  std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
+  span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
   /// Registers that body i has a new path.
   void turned(Entity i) { lists_[i].left = 0; }
 
@@ -79,13 +77,13 @@ class Neighbours {
     // Lists, not their places in the pool.
     for (Entity i = 0; i < lists_.size(); ++i) {
       NeighbourList& list = lists_[i];
-      std::vector<Entity> all(near(i).begin(), near(i).end());
-      std::uint32_t surfaces = list.surfaces, left = list.left;
+      vector<Entity> all(near(i).begin(), near(i).end());
+      uint32_t surfaces = list.surfaces, left = list.left;
       archive(list.level, all, surfaces, left);
       if constexpr (Archive::reads) {
         pool_.reserve(list, all.size());
-        std::copy(all.begin(), all.end(), pool_.data(list));
-        list.count = static_cast<std::uint32_t>(all.size());
+        std::ranges::copy(all, pool_.data(list));
+        list.count = static_cast<uint32_t>(all.size());
         list.surfaces = surfaces & 0xFFFFFF;
         list.left = left & 0xFF;
       }
@@ -95,9 +93,9 @@ class Neighbours {
  private:
   /// The neighbours of a body: bodies, then surfaces.
   struct NeighbourList : ListPool::List {
-    std::int16_t level = 0;           // of its region's half width
-    std::uint32_t surfaces : 24 = 0;  // at the list's end
-    std::uint32_t left : 8 = 0;       // regions on its path, up to many
+    int16_t level = 0;           // of its region's half width
+    uint32_t surfaces : 24 = 0;  // at the list's end
+    uint32_t left : 8 = 0;       // regions on its path, up to many
   };
   static_assert(sizeof(NeighbourList) == 16);
 
@@ -120,8 +118,8 @@ class Neighbours {
   RegionGrid grid_;
   SurfacesNear surfaces_;
   // Scratch. The first three are longer than their contents.
-  std::vector<Entity> found_, came_, gone_, found_surfaces_;
-  std::size_t found_count_ = 0, came_count_ = 0;
+  vector<Entity> found_, came_, gone_, found_surfaces_;
+  size_t found_count_ = 0, came_count_ = 0;
 };
 
 }  // namespace carom

@@ -3,10 +3,10 @@
 // steps of a quarter octave.
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -33,7 +33,7 @@ inline float half_of_level(int level) {
   constexpr float step[] = {1, 1.1892071F, 1.4142136F, 1.6817929F};
   const int octave = level >> 2;
   if (octave > 127) return std::numeric_limits<float>::infinity();
-  return step[level & 3] * std::bit_cast<float>(static_cast<std::uint32_t>(octave + 127) << 23);
+  return step[level & 3] * std::bit_cast<float>(static_cast<uint32_t>(octave + 127) << 23);
 }
 
 /// The narrowest level with a sure half width of at least this.

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
 
 // The number of regions in a cell for which a grid is made.
-constexpr std::size_t regions_a_cell = 3;
+constexpr size_t regions_a_cell = 3;
 
 }  // namespace
 
@@ -24,9 +26,9 @@ RegionGrid::Cell RegionGrid::cell_of(float x, double per_width) {
   return whole - (static_cast<double>(whole) > c);
 }
 
-std::int64_t RegionGrid::wrap(Cell c, Cell low, std::int64_t cells) {
+int64_t RegionGrid::wrap(Cell c, Cell low, int64_t cells) {
   const Cell at = c - low;
-  if (static_cast<std::uint64_t>(at) < static_cast<std::uint64_t>(cells)) return at;
+  if (static_cast<uint64_t>(at) < static_cast<uint64_t>(cells)) return at;
   const Cell rest = at % cells;
   return rest < 0 ? rest + cells : rest;
 }
@@ -47,7 +49,7 @@ RegionGrid::Octave& RegionGrid::octave_of(int level) {
 }
 
 /// Gives a grid as many cells as the space in use has, but no more than these regions need.
-void RegionGrid::shape(Octave& grid, std::size_t regions) {
+void RegionGrid::shape(Octave& grid, size_t regions) {
   const float low[3] = {low_.x, low_.y, low_.z};
   const float high[3] = {high_.x, high_.y, high_.z};
   int axis[3] = {0, 1, 2};
@@ -66,19 +68,19 @@ void RegionGrid::shape(Octave& grid, std::size_t regions) {
     const double most = k == 0 ? std::cbrt(left) : k == 1 ? std::sqrt(left) : left;
     const double cells = std::min(extent[axis[k]], std::max(1.0, std::floor(most)));
     all = all && cells == extent[axis[k]];
-    grid.cells[axis[k]] = static_cast<std::int64_t>(cells);
+    grid.cells[axis[k]] = static_cast<int64_t>(cells);
     left /= cells;
   }
 
-  grid.buckets.assign(static_cast<std::size_t>(grid.cells[0] * grid.cells[1] * grid.cells[2]), {});
-  grid.most = all ? ~std::size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
+  grid.buckets.assign(static_cast<size_t>(grid.cells[0] * grid.cells[1] * grid.cells[2]), {});
+  grid.most = all ? ~size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
 }
 
 inline RegionGrid::Bucket& RegionGrid::bucket_of(Octave& grid, const Region& region) {
-  const std::int64_t x = wrap(cell_of(region.x, grid.per_width), grid.low[0], grid.cells[0]);
-  const std::int64_t y = wrap(cell_of(region.y, grid.per_width), grid.low[1], grid.cells[1]);
-  const std::int64_t z = wrap(cell_of(region.z, grid.per_width), grid.low[2], grid.cells[2]);
-  return grid.buckets[static_cast<std::size_t>((z * grid.cells[1] + y) * grid.cells[0] + x)];
+  const int64_t x = wrap(cell_of(region.x, grid.per_width), grid.low[0], grid.cells[0]);
+  const int64_t y = wrap(cell_of(region.y, grid.per_width), grid.low[1], grid.cells[1]);
+  const int64_t z = wrap(cell_of(region.z, grid.per_width), grid.low[2], grid.cells[2]);
+  return grid.buckets[static_cast<size_t>((z * grid.cells[1] + y) * grid.cells[0] + x)];
 }
 
 void RegionGrid::link(Bucket& first, Entity i) {
@@ -86,13 +88,13 @@ void RegionGrid::link(Bucket& first, Entity i) {
   while (bucket->count == Bucket::room) {
     if (bucket->next == 0) {
       const bool in_overflow = bucket != &first;
-      const std::size_t own = in_overflow ? static_cast<std::size_t>(bucket - overflow_.data()) : 0;
+      const size_t own = in_overflow ? static_cast<size_t>(bucket - overflow_.data()) : 0;
 
       // A new overflow bucket, or one that is free again.
-      std::uint32_t number;
+      uint32_t number;
       if (free_.empty()) {
         overflow_.emplace_back();
-        number = static_cast<std::uint32_t>(overflow_.size());
+        number = static_cast<uint32_t>(overflow_.size());
       } else {
         number = free_.back();
         free_.pop_back();
@@ -132,8 +134,8 @@ void RegionGrid::unlink(Bucket& first, Entity i) {
   }
 }
 
-void RegionGrid::grow(Octave& grid, std::span<const Region> regions) {
-  std::vector<Entity> all;
+void RegionGrid::grow(Octave& grid, span<const Region> regions) {
+  vector<Entity> all;
   all.reserve(grid.regions);
 
   for (Bucket& first : grid.buckets) {
@@ -144,18 +146,18 @@ void RegionGrid::grow(Octave& grid, std::span<const Region> regions) {
     }
   }
 
-  for (const std::uint32_t number : free_) overflow_[number - 1] = {};
+  for (const uint32_t number : free_) overflow_[number - 1] = {};
   LargeVector<Bucket>().swap(grid.buckets);
   shape(grid, 2 * grid.regions);
   for (const Entity i : all) link(bucket_of(grid, regions[i]), i);
 }
 
-void RegionGrid::expect(int level, std::size_t regions) {
+void RegionGrid::expect(int level, size_t regions) {
   Octave& grid = octave_of(level);
   if (grid.regions == 0) shape(grid, regions);
 }
 
-void RegionGrid::put(Entity i, std::span<const Region> regions, int level) {
+void RegionGrid::put(Entity i, span<const Region> regions, int level) {
   Octave& grid = octave_of(level);
   link(bucket_of(grid, regions[i]), i);
   if (++grid.regions > grid.most) grow(grid, regions);
@@ -167,7 +169,7 @@ void RegionGrid::remove(Entity i, const Region& region, int level) {
   --grid.regions;
 }
 
-void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<const Region> regions, int to_level) {
+void RegionGrid::move(Entity i, const Region& from, int from_level, span<const Region> regions, int to_level) {
   if (Octave& grid = octave_of(to_level); &grid == &octave_of(from_level)) {
     Bucket &old = bucket_of(grid, from), &now = bucket_of(grid, regions[i]);
     if (&old == &now) return;
@@ -181,8 +183,7 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
 
 /// Appends the bodies in these cells to the `count` found. Keeps room for `most` more after each overflow, and for
 /// `slack`.
-void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t most, std::size_t& count,
-                      std::vector<Entity>& found) const {
+void RegionGrid::take(const Bucket* from, const Bucket* end, size_t most, size_t& count, vector<Entity>& found) const {
   Entity* to = found.data() + count;
 
   for (; from != end; ++from) {
@@ -192,29 +193,29 @@ void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t most, s
       continue;
 
     // The rest of a crowded cell is in overflow buckets.
-    count = static_cast<std::size_t>(to - found.data());
+    count = static_cast<size_t>(to - found.data());
     for (const Bucket* bucket = from; bucket->next != 0;) {
       bucket = &overflow_[bucket->next - 1];
-      const std::size_t room = count + bucket->count + most + slack;
+      const size_t room = count + bucket->count + most + slack;
       if (found.size() < room) found.resize(2 * room);
       std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
       count += bucket->count;
     }
     to = found.data() + count;
   }
-  count = static_cast<std::size_t>(to - found.data());
+  count = static_cast<size_t>(to - found.data());
 }
 
-std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) const {
-  std::size_t count = 0;
+size_t RegionGrid::near(const Region& region, vector<Entity>& found) const {
+  size_t count = 0;
   const float middle[3] = {region.x, region.y, region.z};
   for (const Octave& grid : octaves_) {
     if (grid.regions == 0) continue;
     const float reach = (region.half + grid.half) * (1 + 0x1p-20F);
 
     // The cells within reach, by axis.
-    std::int64_t from[3];
-    std::int64_t cells[3];
+    int64_t from[3];
+    int64_t cells[3];
     for (int k = 0; k < 3; ++k) {
       const Cell low = cell_of(middle[k] - reach, grid.per_width);
       const Cell high = cell_of(middle[k] + reach, grid.per_width);
@@ -223,19 +224,19 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
       cells[k] = all ? grid.cells[k] : high - low + 1;
     }
 
-    const auto most = static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
-    const std::size_t room = count + most + slack;
+    const auto most = static_cast<size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
+    const size_t room = count + most + slack;
     if (found.size() < room) found.resize(2 * room);
 
     // The cells of a row are contiguous, except for those beyond the grid's last one.
-    const std::int64_t first = std::min(cells[0], grid.cells[0] - from[0]);
-    const std::int64_t rest = cells[0] - first;
-    const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
+    const int64_t first = std::min(cells[0], grid.cells[0] - from[0]);
+    const int64_t rest = cells[0] - first;
+    const auto next = [&](int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
 
-    std::int64_t z = from[2];
-    for (std::int64_t dz = 0; dz < cells[2]; ++dz, z = next(z, 2)) {
-      std::int64_t y = from[1];
-      for (std::int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
+    int64_t z = from[2];
+    for (int64_t dz = 0; dz < cells[2]; ++dz, z = next(z, 2)) {
+      int64_t y = from[1];
+      for (int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
         const Bucket* const row = grid.buckets.data() + (z * grid.cells[1] + y) * grid.cells[0];
         take(row + from[0], row + from[0] + first, most, count, found);
         if (rest > 0) take(row, row + rest, most, count, found);

@@ -9,15 +9,16 @@
 #include "geometry/contact_time.h"
 #include "numerics/whole.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 // For so many surfaces a loop over all is as fast.
-constexpr std::size_t few = 12;
+constexpr size_t few = 12;
 // Number of cells in the cache.
-constexpr std::size_t most_cells = 65536;
+constexpr size_t most_cells = 65536;
 
 /// Half the edges of the box around a wall (m).
 Vec3 half_of(const Wall& wall) {
@@ -26,10 +27,10 @@ Vec3 half_of(const Wall& wall) {
 
 }  // namespace
 
-std::size_t SurfacesNear::Hash::operator()(const Cell& cell) const {
-  auto hash = static_cast<std::uint64_t>(cell.size);
-  for (const std::int64_t c : {cell.x, cell.y, cell.z}) {
-    hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15;
+size_t SurfacesNear::Hash::operator()(const Cell& cell) const {
+  auto hash = static_cast<uint64_t>(cell.size);
+  for (const int64_t c : {cell.x, cell.y, cell.z}) {
+    hash = (hash ^ static_cast<uint64_t>(c)) * 0x9E3779B97F4A7C15;
     hash ^= hash >> 29;
   }
   return hash;
@@ -59,7 +60,7 @@ void SurfacesNear::sweep(Entity e) {
     plane.rounding = std::max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
   };
 
-  const std::vector<MotionLeg>& legs = world_.legs(e);
+  const vector<MotionLeg>& legs = world_.legs(e);
   for (const MotionLeg& leg : legs) include(place_on(start, leg, {leg.from, 0}));
 
   // The last leg has no end.
@@ -96,15 +97,15 @@ bool SurfacesNear::comes_near(Entity e, const Vec3& center, double reach) const 
 }
 
 /// Adds those that are ever near.
-void SurfacesNear::take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
-                                  std::vector<Entity>& found) const {
+void SurfacesNear::take_ever_near(const vector<Entity>& from, const Vec3& center, double reach,
+                                  vector<Entity>& found) const {
   for (const Entity e : from)
     if (comes_near(e, center, reach)) found.push_back(e);
 }
 
-void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
+void SurfacesNear::find(const Vec3& center, double reach, vector<Entity>& found) {
   found.clear();
-  const std::vector<Entity>* candidates = &all_;
+  const vector<Entity>* candidates = &all_;
 
   // Cells are two to four times as wide as the reach, so that one serves many searches.
   int size;
@@ -120,7 +121,7 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
       if (cells_.size() >= most_cells) cells_.clear();
       const Vec3 middle = width * Vec3(static_cast<double>(cell.x) + 0.5, static_cast<double>(cell.y) + 0.5,
                                        static_cast<double>(cell.z) + 0.5);
-      std::vector<Entity> in_reach;
+      vector<Entity> in_reach;
       // Half of the cell's diagonal.
       take_ever_near(all_, middle, (0.5 + 0.8661) * width, in_reach);
       known = cells_.emplace(cell, std::move(in_reach)).first;

@@ -1,12 +1,11 @@
 #pragma once
 // The fixed surfaces near a position. One that moves is near if it ever comes there. Where there are many, the few near
 // a cell of space are collected once, at the first search in that cell.
-#include <cstdint>
 #include <unordered_map>
-#include <vector>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +18,7 @@ class SurfacesNear {
 
   /// Finds surfaces within `reach` (m) of `center` (m), ascending. Some that are slightly farther away may be among
   /// them.
-  void find(const Vec3& center, double reach, std::vector<Entity>& found);
+  void find(const Vec3& center, double reach, vector<Entity>& found);
 
  private:
   /// x . normal - offset is the distance from a plane.
@@ -32,25 +31,25 @@ class SurfacesNear {
     Vec3 low, high;  // m
   };
   struct Cell {
-    std::int64_t x, y, z;
+    int64_t x, y, z;
     int size;  // 2^size m wide
     friend bool operator==(const Cell&, const Cell&) = default;
   };
   struct Hash {
-    std::size_t operator()(const Cell& cell) const;
+    size_t operator()(const Cell& cell) const;
   };
 
   void sweep(Entity e);
   [[gnu::always_inline]] bool is_near(Entity e, const Vec3& center, double reach) const;
   bool comes_near(Entity e, const Vec3& center, double reach) const;
-  [[gnu::noinline]] void take_ever_near(const std::vector<Entity>& from, const Vec3& center, double reach,
-                                        std::vector<Entity>& found) const;
+  [[gnu::noinline]] void take_ever_near(const vector<Entity>& from, const Vec3& center, double reach,
+                                        vector<Entity>& found) const;
 
   const World& world_;
-  std::vector<HalfSpace> planes_;  // of a plane that moves: the farthest out along its normal
-  std::vector<Places> places_;     // by fixed thing; empty: nothing moves
-  std::vector<Entity> all_;
-  std::unordered_map<Cell, std::vector<Entity>, Hash> cells_;
+  vector<HalfSpace> planes_;  // of a plane that moves: the farthest out along its normal
+  vector<Places> places_;     // by fixed thing; empty: nothing moves
+  vector<Entity> all_;
+  std::unordered_map<Cell, vector<Entity>, Hash> cells_;
 };
 
 }  // namespace carom

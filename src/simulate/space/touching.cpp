@@ -39,6 +39,7 @@ CAROM_BEGIN_AVX512
 namespace sixteens {
 #define LANES 16
 #include "simulate/space/touching_kernel.inc"
+#include "std.h"
 #undef LANES
 }  // namespace sixteens
 CAROM_END_TARGET
@@ -47,10 +48,10 @@ CAROM_END_TARGET
 
 #endif
 
-std::size_t select_one_by_one(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
-                              bool touching, Entity* to) {
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < count; ++k) {
+size_t select_one_by_one(const Region& region, const Region* regions, const Entity* bodies, size_t count, bool touching,
+                         Entity* to) {
+  size_t kept = 0;
+  for (size_t k = 0; k < count; ++k) {
     const Entity body = bodies[k];
     if (may_touch(region, regions[body]) == touching) to[kept++] = body;
   }
@@ -59,8 +60,8 @@ std::size_t select_one_by_one(const Region& region, const Region* regions, const
 
 }  // namespace
 
-std::vector<SelectKernel> select_kernels() {
-  std::vector<SelectKernel> kernels{select_one_by_one};
+vector<SelectKernel> select_kernels() {
+  vector<SelectKernel> kernels{select_one_by_one};
 #ifdef __x86_64__
   kernels.push_back(fours::select);
   if (has_avx2()) kernels.push_back(eights::select);
@@ -69,8 +70,8 @@ std::vector<SelectKernel> select_kernels() {
   return kernels;
 }
 
-std::size_t select_touching(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
-                            bool touching, Entity* to) {
+size_t select_touching(const Region& region, const Region* regions, const Entity* bodies, size_t count, bool touching,
+                       Entity* to) {
   static const SelectKernel widest = select_kernels().back();
   return widest(region, regions, bodies, count, touching, to);
 }

@@ -12,17 +12,16 @@
 #include <time.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "solver/contact_cases.h"
 #include "solver/contact_problem.h"
 #include "solver/contact_reference.h"
+#include "std.h"
 
 namespace carom::contact_cases {
 namespace {
 
-constexpr std::size_t most_for_reference = 330;  // contacts that press: its cost grows as their cube
+constexpr size_t most_for_reference = 330;  // contacts that press: its cost grows as their cube
 
 double cpu_seconds() {
   timespec t{};
@@ -41,15 +40,15 @@ double seconds_of(ContactSolver& solver, Case& c, Certificate& certificate) {
   return cpu_seconds() - begin;
 }
 
-void measure(const std::string& family, const Case& given, Totals& totals) {
+void measure(const string& family, const Case& given, Totals& totals) {
   constexpr const char* verdicts[] = {"solved", "infeasible", "doubtful"};
   ContactSolver solver;
   Certificate certificate, warm_certificate;
   Case c = given;
   const double cold = seconds_of(solver, c, certificate);
   const auto presses = [](const ContactConstraint& contact) { return contact.force > 0; };
-  std::string error;
-  if (static_cast<std::size_t>(std::ranges::count_if(c.contacts, presses)) <= most_for_reference) {
+  string error;
+  if (static_cast<size_t>(std::ranges::count_if(c.contacts, presses)) <= most_for_reference) {
     const Reference exact = reference(given.inverse_mass, given.motion, c.contacts);
     if (exact.holds) {
       const double off = exact.error(given.motion, c.motion);
@@ -58,8 +57,8 @@ void measure(const std::string& family, const Case& given, Totals& totals) {
       ++totals.compared;
     }
   }
-  std::string warm;
-  const auto middle = static_cast<std::ptrdiff_t>(c.contacts.size() / 2);
+  string warm;
+  const auto middle = static_cast<ptrdiff_t>(c.contacts.size() / 2);
   const auto away = std::find_if(c.contacts.begin() + middle, c.contacts.end(), presses);
   if (away != c.contacts.end()) {
     Case without = given, again = given;
@@ -111,7 +110,7 @@ void medium(Totals& totals) {
 }
 
 void hard(Totals& totals) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+  for (uint64_t seed = 1; seed <= 10; ++seed)
     for (const Load load : loads)
       for (const double decades : {6.0, 9.0, 12.0}) {
         measure("hard", loaded("lattice of 32", lattice(2), load, decades, seed), totals);
@@ -130,7 +129,7 @@ void large(Totals& totals) {
   }
 }
 
-int run(const std::string& family) {
+int run(const string& family) {
   fmt::print("family,case,bodies,contacts,verdict,change,error,cold_s,warm_s\n");
   Totals totals;
   if (family.empty() || family == "small") small(totals);

@@ -15,36 +15,35 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "bench/state_hash.h"
 #include "physics/world.h"
 #include "simulate/exact.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
 struct Gas {
-  std::string name;
-  int cells;                           // 4 cells^3 balls, unless
-  std::size_t most = ~std::size_t{0};  // of them are fewer
-  std::size_t still = 0;               // and so many stand still, far from the room
-  double density = 0.5;                // balls per cubed diameter
-  double gravity = 0;                  // m/s^2; balls weigh 1 kg, are 1 m wide and about 1 m/s fast along each axis
-  bool shuffled = false;               // numbered in no order of places
-  bool large = false;                  // one of radius 15 m among them
-  double collisions = 10;              // a ball
+  string name;
+  int cells;                 // 4 cells^3 balls, unless
+  size_t most = ~size_t{0};  // of them are fewer
+  size_t still = 0;          // and so many stand still, far from the room
+  double density = 0.5;      // balls per cubed diameter
+  double gravity = 0;        // m/s^2; balls weigh 1 kg, are 1 m wide and about 1 m/s fast along each axis
+  bool shuffled = false;     // numbered in no order of places
+  bool large = false;        // one of radius 15 m among them
+  double collisions = 10;    // a ball
 };
 
 struct Result {
-  std::uint64_t collisions, all, hash;  // those measured, and with those before
-  double seconds;                       // of CPU
-  double bytes;                         // a ball, with the scene
+  uint64_t collisions, all, hash;  // those measured, and with those before
+  double seconds;                  // of CPU
+  double bytes;                    // a ball, with the scene
 };
 
-std::size_t moving(const Gas& gas) {
-  const auto cells = static_cast<std::size_t>(gas.cells);
+size_t moving(const Gas& gas) {
+  const auto cells = static_cast<size_t>(gas.cells);
   return std::min(gas.most, 4 * cells * cells * cells);
 }
 
@@ -81,7 +80,7 @@ Result run(const Gas& gas) {
     start.position.push_back(x);
     start.velocity.push_back(v);
   };
-  const std::size_t balls = moving(gas);
+  const size_t balls = moving(gas);
   for (auto* values : {&world.mass, &world.radius, &world.restitution}) values->reserve(balls + 1);
   for (auto* values : {&start.position, &start.velocity}) values->reserve(balls + 1);
   if (gas.large) put(middle, Vec3::Zero(), large);
@@ -95,9 +94,9 @@ Result run(const Gas& gas) {
           put(at, Vec3(vx, vy, vz), 0.5);
         }
   if (gas.shuffled)
-    for (std::size_t i = start.position.size() - 1; i > 0; --i)
+    for (size_t i = start.position.size() - 1; i > 0; --i)
       std::swap(start.position[i], start.position[bits() % (i + 1)]);
-  for (std::size_t i = 0; i < gas.still; ++i) put(Vec3(-1000 - 2 * static_cast<double>(i), 0, 0), Vec3::Zero(), 0.5);
+  for (size_t i = 0; i < gas.still; ++i) put(Vec3(-1000 - 2 * static_cast<double>(i), 0, 0), Vec3::Zero(), 0.5);
   world.gravity = Vec3(0, -gas.gravity, 0);
   for (int k = 0; k < 3; ++k) {
     world.planes.push_back({Vec3::Zero(), Vec3::Unit(k), 1.0});
@@ -108,8 +107,8 @@ Result run(const Gas& gas) {
   options.record_collisions = false;
   const auto simulator = make_exact_simulator(world, start, options);
   const auto go_on = [&](double a_ball) {
-    const std::uint64_t until =
-        simulator->tally().collisions() + static_cast<std::uint64_t>(a_ball * 0.5 * static_cast<double>(balls));
+    const uint64_t until =
+        simulator->tally().collisions() + static_cast<uint64_t>(a_ball * 0.5 * static_cast<double>(balls));
     // By Enskog's rate of collisions, until there are enough of them.
     const double packed = gas.density * 3.14159265358979 / 6;
     const double rate = 0.5 * gas.density * 3.14159265358979 * 1.6 * 1.414 * (1 - packed / 2) / std::pow(1 - packed, 3);
@@ -119,7 +118,7 @@ Result run(const Gas& gas) {
     }
   };
   go_on(std::min(4.0, gas.collisions));
-  const std::uint64_t first = simulator->tally().collisions();
+  const uint64_t first = simulator->tally().collisions();
   const double from = cpu_seconds();
   go_on(gas.collisions);
   Result result{};
@@ -149,9 +148,9 @@ Result run_apart(const Gas& gas) {
 }
 
 void measure(const Gas& gas) {
-  std::vector<Result> results;
+  vector<Result> results;
   for (int k = 0; k < 3; ++k) results.push_back(run_apart(gas));
-  std::sort(results.begin(), results.end(), [](const Result& p, const Result& q) { return p.seconds < q.seconds; });
+  std::ranges::sort(results, [](const Result& p, const Result& q) { return p.seconds < q.seconds; });
   const Result& median = results[1];
   fmt::print("{},{},{},{},{:.3f},{:.0f},{:016x}\n", gas.name, moving(gas) + gas.still, gas.density, median.collisions,
              1e6 * median.seconds / static_cast<double>(median.collisions), median.bytes, median.hash);

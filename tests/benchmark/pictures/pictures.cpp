@@ -14,8 +14,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "export/png.h"
 #include "physics/world.h"
@@ -23,6 +21,7 @@
 #include "render/lighting.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -35,7 +34,7 @@ double processor_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-double noise(std::uint64_t& seed) {
+double noise(uint64_t& seed) {
   seed = seed * 6364136223846793005U + 1442695040888963407U;
   return static_cast<double>(seed >> 11U) * 0x1p-53;
 }
@@ -44,7 +43,7 @@ Scene cloud(int balls) {
   Scene scene;
   // N (4/3) pi r^3 = 0.1 of a cube of 2 m.
   const double radius = std::cbrt(0.8 * 3 / (4 * M_PI * balls)) * (balls == 1 ? 0.7 : 1);
-  std::uint64_t seed = 7;
+  uint64_t seed = 7;
   const Color palette[] = {{0.90, 0.30, 0.26}, {0.20, 0.55, 0.85}, {0.95, 0.75, 0.25}, {0.35, 0.70, 0.45}};
   const auto cells = static_cast<int>(std::ceil(std::cbrt(balls)));
   for (int i = 0; i < balls; ++i) {
@@ -80,7 +79,7 @@ Cost cost_of(int balls) {
   Renderer renderer(scene, picture, 4);
   State state = scene.initial;
   PngEncoder png;
-  std::vector<double> draws, writes;
+  vector<double> draws, writes;
   renderer.draw(state);
   for (int i = 0; i < 15; ++i) {
     move(state, i);
@@ -92,7 +91,7 @@ Cost cost_of(int balls) {
     draws.push_back(drawn - start);
     writes.push_back(processor_ms() - drawn);
   }
-  const auto median = [](std::vector<double>& times) {
+  const auto median = [](vector<double>& times) {
     std::nth_element(times.begin(), times.begin() + 7, times.end());
     return times[7];
   };
@@ -105,7 +104,7 @@ void print_row(int balls) {
   std::fflush(stdout);
 }
 
-std::string json_of(const Scene& scene) {
+string json_of(const Scene& scene) {
   const auto triple = [](const auto& v) { return nlohmann::json{v[0], v[1], v[2]}; };
   const auto color = [&](const Color& c) { return triple(linear(c)); };
   const Camera camera = camera_of(scene);
@@ -117,7 +116,7 @@ std::string json_of(const Scene& scene) {
                          {"towards_light", triple(light.towards)},
                          {"light", triple(light.radiance)},
                          {"floor", color(scene.roster.fixed[0].color)}};
-  for (std::size_t i = 0; i < scene.world.radius.size(); ++i)
+  for (size_t i = 0; i < scene.world.radius.size(); ++i)
     json["balls"].push_back(
         {triple(scene.initial.position[i]), scene.world.radius[i], color(scene.roster.bodies[i].color)});
   return json.dump();
@@ -126,7 +125,7 @@ std::string json_of(const Scene& scene) {
 /// Since this program's start. getrusage() would count what the parent process had before it.
 long peak_kb() {
   std::ifstream status("/proc/self/status");
-  std::string word;
+  string word;
   while (status >> word && word != "VmHWM:") {
   }
   long peak = 0;
@@ -158,7 +157,7 @@ int run(int argc, char** argv) {
   }
   if (argc != 3 && argc != 5) return 2;
   const Scene scene = cloud(std::max(1, std::atoi(argv[1])));
-  const std::string what = argv[2];
+  const string what = argv[2];
   if (what.ends_with(".json")) {
     std::ofstream(what) << json_of(scene);
   } else if (what.ends_with(".png")) {

@@ -4,18 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "benchmark/tolerances/varied.h"
 #include "physics/world.h"
 #include "simulate/exact.h"
 #include "simulate/pile.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -101,7 +99,7 @@ Problem row_that_slides_to_a_wall() {
   return p;
 }
 
-std::vector<Problem> problems() {
+vector<Problem> problems() {
   return {bouncing_ball(),  ball_on_a_ball(), balls_in_a_groove(), balls_in_a_slot(),          struck_row(),
           ball_off_a_box(), column(20),       pushed_row(),        row_that_slides_to_a_wall()};
 }
@@ -115,7 +113,7 @@ ExactOptions steps(const Problem& p, double step) {
   return options;
 }
 
-std::unique_ptr<Simulator> simulator_of(const Problem& p, bool exact, double step) {
+unique_ptr<Simulator> simulator_of(const Problem& p, bool exact, double step) {
   if (exact) return make_exact_simulator(p.world, p.initial, p.options);
   return make_exact_simulator(p.world, p.initial, steps(p, step));
 }
@@ -123,7 +121,7 @@ std::unique_ptr<Simulator> simulator_of(const Problem& p, bool exact, double ste
 /// Prints positions of bodies at three times (m), and whether piles rest, one a line.
 void run_all(bool exact) {
   for (const Problem& p : problems()) {
-    const std::unique_ptr<Simulator> simulator = simulator_of(p, exact, 0.01);
+    const unique_ptr<Simulator> simulator = simulator_of(p, exact, 0.01);
     for (int k = 1; k <= 3; ++k) {
       go_to(*simulator, p.options.duration * k / 3);
       for (const Vec3& x : simulator->state().position) fmt::print("x {} {} {}\n", x.x(), x.y(), x.z());
@@ -133,30 +131,30 @@ void run_all(bool exact) {
   Problem pile = loose_pile(3, layers, exact ? 15 : 25);
   for (int other = 0; other < 3; ++other) {
     pile.initial.position[0].x() += 1e-3;
-    const std::unique_ptr<Simulator> simulator = simulator_of(pile, exact, 0.005);
+    const unique_ptr<Simulator> simulator = simulator_of(pile, exact, 0.005);
     go_to(*simulator, pile.options.duration);
     fmt::print("rest {}\n", simulator->tally().resting == pile.world.body_count() ? 1 : 0);
   }
 }
 
 /// Output of run_all in its own process; empty if it fails or takes longer than a minute.
-std::vector<std::string> lines_of(const std::string& program, const std::string& engine, const std::string& varied) {
-  const std::string command = fmt::format("CAROM_VARIED={} timeout 60 '{}' {} 2>/dev/null", varied, program, engine);
-  std::vector<std::string> lines;
+vector<string> lines_of(const string& program, const string& engine, const string& varied) {
+  const string command = fmt::format("CAROM_VARIED={} timeout 60 '{}' {} 2>/dev/null", varied, program, engine);
+  vector<string> lines;
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return lines;
-  std::array<char, 256> line;
+  array<char, 256> line;
   while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) lines.emplace_back(line.data());
   if (::pclose(pipe) != 0) lines.clear();
   return lines;
 }
 
-std::string difference(const std::vector<std::string>& usual, const std::vector<std::string>& other) {
+string difference(const vector<string>& usual, const vector<string>& other) {
   constexpr double radius = 0.5;  // m
   if (usual.size() != other.size()) return "*";
   double farthest = 0;
   bool rests = true;
-  for (std::size_t k = 0; k < usual.size(); ++k) {
+  for (size_t k = 0; k < usual.size(); ++k) {
     Vec3 p, q;
     if (std::sscanf(usual[k].c_str(), "x %lf %lf %lf", &p.x(), &p.y(), &p.z()) == 3 &&
         std::sscanf(other[k].c_str(), "x %lf %lf %lf", &q.x(), &q.y(), &q.z()) == 3)
@@ -167,17 +165,17 @@ std::string difference(const std::vector<std::string>& usual, const std::vector<
   return (farthest == 0 ? "-" : fmt::format("{:.0e}", farthest)) + (rests ? "" : "*");
 }
 
-int compare_all(const std::string& program) {
+int compare_all(const string& program) {
   fmt::print("constant,4 times,a quarter\n");
-  std::string engine;
-  std::vector<std::string> usual;
-  for (const std::string& name : varied_names()) {
-    const std::string its = name.substr(0, name.find('.'));
+  string engine;
+  vector<string> usual;
+  for (const string& name : varied_names()) {
+    const string its = name.substr(0, name.find('.'));
     if (its != engine) usual = lines_of(program, engine = its, "none");
     const auto effect = [&](const char* factor) {
       return difference(usual, lines_of(program, engine, name + "=" + factor));
     };
-    const std::string larger = effect("4"), smaller = effect("0.25");
+    const string larger = effect("4"), smaller = effect("0.25");
     fmt::print("{},{},{}\n", name, larger, smaller);
     std::fflush(stdout);
   }
@@ -189,6 +187,6 @@ int compare_all(const std::string& program) {
 
 int main(int count, char** arguments) {
   if (count == 1) return carom::compare_all(arguments[0]);
-  carom::run_all(std::string(arguments[1]) == "exact");
+  carom::run_all(string(arguments[1]) == "exact");
   return 0;
 }

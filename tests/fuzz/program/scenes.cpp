@@ -10,14 +10,13 @@
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <span>
-#include <string>
 
 #include "fuzz/any_scene.h"
 #include "fuzz/memory_file.h"
 #include "fuzz/simulation.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom::fuzz {
 namespace {
@@ -31,13 +30,13 @@ struct Line {
   bool accepted = false, stopped = false, violated = false;
 };
 
-Line try_scene(std::uint64_t seed) {
+Line try_scene(uint64_t seed) {
   const AnyScene made = make_any_scene(seed);
   Line line;
-  std::unique_ptr<Scene> scene;
+  unique_ptr<Scene> scene;
   const MemoryFile file(made.yaml());
   try {
-    scene = std::make_unique<Scene>(load_scene(file.path()));
+    scene = make_unique<Scene>(load_scene(file.path()));
   } catch (const SceneError&) {
     return line;
   }
@@ -47,21 +46,21 @@ Line try_scene(std::uint64_t seed) {
   line.violated = !outcome.violations.empty();
   std::snprintf(line.engine, sizeof line.engine, "%s", outcome.engine.c_str());
   if (line.violated) {
-    std::string text = "\nseed " + std::to_string(seed) + " (" + made.scene.family + ", " + outcome.engine + "):\n";
-    for (const std::string& violation : outcome.violations) text += "  " + violation + "\n";
+    string text = "\nseed " + std::to_string(seed) + " (" + made.scene.family + ", " + outcome.engine + "):\n";
+    for (const string& violation : outcome.violations) text += "  " + violation + "\n";
     std::printf("%s---8<---\n%s--->8---\n", text.c_str(), made.yaml().c_str());
     std::fflush(stdout);
   }
   return line;
 }
 
-int write(const std::string& folder, std::uint64_t scenes) {
-  for (std::uint64_t seed = 0; seed < scenes; ++seed)
+int write(const string& folder, uint64_t scenes) {
+  for (uint64_t seed = 0; seed < scenes; ++seed)
     std::ofstream(folder + "/" + std::to_string(seed) + ".yaml") << make_any_scene(seed).yaml();
   return 0;
 }
 
-int hash(std::span<char*> files) {
+int hash(span<char*> files) {
   for (const char* file : files) try {
       const Outcome outcome = simulate(load_scene(file), patience);
       std::printf("%s %s %016llx %s\n", file, outcome.engine.c_str(), static_cast<unsigned long long>(outcome.hash),
@@ -73,20 +72,20 @@ int hash(std::span<char*> files) {
 }
 
 struct Counts {
-  std::uint64_t run = 0, stopped = 0, violated = 0;
+  uint64_t run = 0, stopped = 0, violated = 0;
 };
 
-int run(std::uint64_t scenes, std::uint64_t first) {
-  std::map<std::string, Counts> by_engine;
-  std::uint64_t refused = 0, crashed = 0, violated = 0;
-  const std::uint64_t end = first + scenes;
-  for (std::uint64_t seed = first; seed < end;) {
+int run(uint64_t scenes, uint64_t first) {
+  std::map<string, Counts> by_engine;
+  uint64_t refused = 0, crashed = 0, violated = 0;
+  const uint64_t end = first + scenes;
+  for (uint64_t seed = first; seed < end;) {
     int ends[2];
     if (pipe(ends) != 0) return 1;
     std::fflush(stdout);
     const pid_t child = fork();
     if (child == 0) {
-      for (std::uint64_t k = seed; k < end && k < seed + 1000; ++k) {
+      for (uint64_t k = seed; k < end && k < seed + 1000; ++k) {
         alarm(hang);
         const Line line = try_scene(k);
         if (::write(ends[1], &line, sizeof line) != sizeof line) _exit(1);
@@ -131,10 +130,10 @@ int run(std::uint64_t scenes, std::uint64_t first) {
 }  // namespace carom::fuzz
 
 int main(int count, char** arguments) {
-  const std::string word = count > 1 ? arguments[1] : "";
+  const string word = count > 1 ? arguments[1] : "";
   if (word == "write" && count == 4) return carom::fuzz::write(arguments[2], std::strtoull(arguments[3], nullptr, 10));
-  if (word == "hash") return carom::fuzz::hash(std::span(arguments, static_cast<std::size_t>(count)).subspan(2));
-  const auto number = [&](int k, std::uint64_t otherwise) {
+  if (word == "hash") return carom::fuzz::hash(span(arguments, static_cast<size_t>(count)).subspan(2));
+  const auto number = [&](int k, uint64_t otherwise) {
     return count > k ? std::strtoull(arguments[k], nullptr, 10) : otherwise;
   };
   return carom::fuzz::run(number(1, 100'000), number(2, 0));

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -14,46 +13,46 @@
 #include <cstring>
 #include <ctime>
 #include <new>
-#include <string>
 
+#include "std.h"
 #include "stress/check.h"
 
 namespace carom::stress {
 namespace {
 
 constexpr int workers = 2;
-constexpr std::size_t most_families = 32;
+constexpr size_t most_families = 32;
 constexpr unsigned hang = 60;  // s of CPU time that a scene, with all of its runs, may take
 
 struct Counts {
-  std::atomic<std::uint64_t> scenes, violated, collisions, stopped, crowds;
+  std::atomic<uint64_t> scenes, violated, collisions, stopped, crowds;
 };
 struct Shared {
-  std::atomic<std::uint64_t> next;  // seed
-  std::array<std::atomic<std::uint64_t>, workers> current;
-  std::array<Counts, most_families> family;
+  std::atomic<uint64_t> next;  // seed
+  array<std::atomic<uint64_t>, workers> current;
+  array<Counts, most_families> family;
 };
 
-void report(const RandomScene& scene, const std::vector<std::string>& violations) {
-  std::string text = "\nseed " + std::to_string(scene.seed) + " (" + scene.family + ") is violated:\n";
-  for (const std::string& v : violations) text += "  " + v + "\n";
+void report(const RandomScene& scene, const vector<string>& violations) {
+  string text = "\nseed " + std::to_string(scene.seed) + " (" + scene.family + ") is violated:\n";
+  for (const string& v : violations) text += "  " + v + "\n";
   text += "---8<---\n" + as_yaml(scene) + "--->8---\n";
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
 }
 
-Counts& counts_of(Shared& shared, std::uint64_t seed) {
+Counts& counts_of(Shared& shared, uint64_t seed) {
   return shared.family[seed % family_names().size()];
 }
 
-[[noreturn]] void work(Shared& shared, std::size_t worker, std::uint64_t end) {
-  for (std::uint64_t seed; (seed = shared.next++) < end;) {
+[[noreturn]] void work(Shared& shared, size_t worker, uint64_t end) {
+  for (uint64_t seed; (seed = shared.next++) < end;) {
     shared.current[worker] = seed;
     itimerval limit{{0, 0}, {hang, 0}};
     setitimer(ITIMER_VIRTUAL, &limit, nullptr);
     const RandomScene scene = make_scene(seed);
     Verdict verdict = check(scene);
-    for (std::string& violation : check_stepped(scene).violations) verdict.violations.push_back(std::move(violation));
+    for (string& violation : check_stepped(scene).violations) verdict.violations.push_back(std::move(violation));
     Counts& counts = counts_of(shared, seed);
     ++counts.scenes;
     counts.collisions += verdict.collisions;
@@ -66,28 +65,28 @@ Counts& counts_of(Shared& shared, std::uint64_t seed) {
   _exit(0);
 }
 
-pid_t start(Shared& shared, std::size_t worker, std::uint64_t end) {
+pid_t start(Shared& shared, size_t worker, uint64_t end) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) work(shared, worker, end);
   return child;
 }
 
-int run(std::uint64_t scenes, std::uint64_t first) {
+int run(uint64_t scenes, uint64_t first) {
   void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) return 1;
   Shared& shared = *new (memory) Shared{};
   shared.next = first;
-  const std::uint64_t end = first + scenes;
-  std::array<pid_t, workers> children;
-  for (std::size_t k = 0; k < workers; ++k) children[k] = start(shared, k, end);
+  const uint64_t end = first + scenes;
+  array<pid_t, workers> children;
+  for (size_t k = 0; k < workers; ++k) children[k] = start(shared, k, end);
   const auto done = [&] {
-    std::uint64_t sum = 0;
+    uint64_t sum = 0;
     for (const Counts& c : shared.family) sum += c.scenes;
     return sum;
   };
   const auto failed = [&] {
-    std::uint64_t sum = 0;
+    uint64_t sum = 0;
     for (const Counts& c : shared.family) sum += c.violated;
     return sum;
   };
@@ -95,17 +94,17 @@ int run(std::uint64_t scenes, std::uint64_t first) {
   for (int running = workers; running > 0;) {
     int status;
     const pid_t child = waitpid(-1, &status, WNOHANG);
-    for (std::size_t k = 0; child > 0 && k < workers; ++k) {
+    for (size_t k = 0; child > 0 && k < workers; ++k) {
       if (children[k] != child) continue;
       if (!WIFSIGNALED(status)) {
         --running;
         continue;
       }
-      const std::uint64_t seed = shared.current[k];
+      const uint64_t seed = shared.current[k];
       ++counts_of(shared, seed).scenes;
       ++counts_of(shared, seed).violated;
       report(make_scene(seed),
-             {WTERMSIG(status) == SIGVTALRM ? "it hangs" : std::string("it crashes: ") + strsignal(WTERMSIG(status))});
+             {WTERMSIG(status) == SIGVTALRM ? "it hangs" : string("it crashes: ") + strsignal(WTERMSIG(status))});
       children[k] = start(shared, k, end);
     }
     if (child > 0) continue;
@@ -117,7 +116,7 @@ int run(std::uint64_t scenes, std::uint64_t first) {
                  static_cast<unsigned long long>(scenes), static_cast<unsigned long long>(failed()));
   }
   std::printf("\n%-10s %9s %9s %9s %9s %12s\n", "family", "scenes", "violated", "stopped", "crowds", "collisions");
-  for (std::size_t k = 0; k < family_names().size(); ++k) {
+  for (size_t k = 0; k < family_names().size(); ++k) {
     const Counts& c = shared.family[k];
     std::printf("%-10s %9llu %9llu %9llu %9llu %12llu\n", family_names()[k], static_cast<unsigned long long>(c.scenes),
                 static_cast<unsigned long long>(c.violated), static_cast<unsigned long long>(c.stopped),
@@ -132,7 +131,7 @@ int run(std::uint64_t scenes, std::uint64_t first) {
 }  // namespace carom::stress
 
 int main(int count, char** arguments) {
-  const auto number = [&](int k, std::uint64_t otherwise) {
+  const auto number = [&](int k, uint64_t otherwise) {
     return count > k ? std::strtoull(arguments[k], nullptr, 10) : otherwise;
   };
   return carom::stress::run(number(1, 100'000), number(2, 0));
