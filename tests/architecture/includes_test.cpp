@@ -52,6 +52,7 @@ const vector<string> free_libraries = {"fmt/",   "nlohmann/", "sys/",     "diren
 
 vector<string> split(const string& text, char at) {
   vector<string> parts(1);
+
   for (char c : text) {
     if (c == at) {
       parts.emplace_back();
@@ -59,6 +60,7 @@ vector<string> split(const string& text, char at) {
       parts.back() += c;
     }
   }
+
   for (string& part : parts) {
     part = std::regex_replace(part, std::regex("^ +| +$"), "");
   }
@@ -69,6 +71,7 @@ vector<string> split(const string& text, char at) {
 /// Throws at an unknown word, so that no cell is ignored.
 Rule read_rule(const string& may_include, const string& only_place) {
   Rule rule;
+
   for (const string& word : split(may_include, ',')) {
     if (word == "all") {
       rule.all = true;
@@ -83,6 +86,7 @@ Rule read_rule(const string& may_include, const string& only_place) {
       throw std::runtime_error("the table says \"" + word + "\", which is no folder");
     }
   }
+
   for (const string& word : split(only_place, ',')) {
     if (!library_words.contains(word)) {
       throw std::runtime_error("the table says \"" + word + "\", a library that this test does not know");
@@ -96,6 +100,7 @@ Rule read_rule(const string& may_include, const string& only_place) {
 std::map<string, Rule> read_table() {
   std::map<string, Rule> table;
   bool inside = false;
+
   for (const string& line : read_source("src/README.md").lines()) {
     if (line.starts_with("| folder | may include | the only place that includes |")) {
       inside = true;
@@ -113,6 +118,7 @@ std::map<string, Rule> read_table() {
       }
     }
   }
+
   return table;
 }
 
@@ -203,6 +209,7 @@ TEST(Includes, LibrariesOnlyAtTheirOnlyPlace) {
       if (include.own || standard || starts_with_any(include.path, free_libraries)) {
         continue;
       }
+
       bool placed = false;
       for (const auto& [folder, rule] : table) {
         for (const string& library : rule.libraries) {
@@ -211,6 +218,7 @@ TEST(Includes, LibrariesOnlyAtTheirOnlyPlace) {
           }
         }
       }
+
       EXPECT_TRUE(placed) << file.path << " includes <" << include.path << ">, which the table does not place there";
     }
   }
@@ -229,11 +237,13 @@ TEST(Includes, SimulatorsExportsAndLoaderNeverReachOneAnother) {
                                                   {"export", {"simulate/", "scene/load.h"}},
                                                   {"files", {"simulate/", "export/", "scene/load.h"}},
                                                   {"scene", {"simulate/", "export/", "files/"}}};
+
   for (const SourceFile& file : program_files()) {
     const auto banned = never.find(top_of(folder_of(file)));
     if (banned == never.end()) {
       continue;
     }
+
     std::set<string> reach;
     add_reach(file, reach);
     for (const string& header : reach) {

@@ -38,6 +38,7 @@ vector<string> git_paths() {
   if (!git) {
     return paths;
   }
+
   for (int c; (c = std::getc(git)) != EOF;) {
     if (c != '\0') {
       text += static_cast<char>(c);
@@ -48,6 +49,7 @@ vector<string> git_paths() {
     }
     text.clear();
   }
+
   pclose(git);
   return paths;
 }

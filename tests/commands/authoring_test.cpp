@@ -24,11 +24,14 @@ TEST(New, WritesASceneThatRunsAsItIsAndTheSchemaBesideIt) {
   EXPECT_EQ(here.files().size(), 2u);
   EXPECT_EQ(here.read("scene.schema.json"), here.carom({"schema"}).out);
   EXPECT_TRUE(here.read("first.yaml").starts_with("# yaml-language-server: $schema=scene.schema.json\n"));
+
   const Finished check = here.carom({"check", "first.yaml", "--json"});
   EXPECT_EQ(check.code, 0) << check.err;
+
   const Json scene = Json::parse(check.out)["scenes"][0];
   EXPECT_EQ(scene["camera"]["out_of_view"], 0);
   EXPECT_GT(scene["pictures"], 0);
+
   const Finished run = here.carom({"run", "first.yaml"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(here.has("output/first/frames/frame_00000.png"));
@@ -51,6 +54,7 @@ TEST(New, EveryLineThatIsCommentedOutMayBeTakenIn) {
   const string scene(starting_scene());
   string all;
   bool inside = false;  // from the scene's first key on
+
   for (size_t i = 0; i < scene.size();) {
     const size_t end = scene.find('\n', i);
     string line = scene.substr(i, end - i);
@@ -62,8 +66,10 @@ TEST(New, EveryLineThatIsCommentedOutMayBeTakenIn) {
     if (inside && (opens || (key && !line.ends_with(".") && !line.ends_with(":")))) line.erase(mark, 2);
     all += line + "\n";
   }
+
   EXPECT_NE(all.find("\ngroups:\n  marbles:"), string::npos);
   EXPECT_NE(all.find("\n  video:"), string::npos);
+
   here.write("all.yaml", all);
   const Finished check = here.carom({"check", "all.yaml", "--set", "gravity=[0,-1,0]"});
   EXPECT_EQ(check.code, 0) << check.err << all;
@@ -127,10 +133,12 @@ TEST(New, RefusesWhatIsNoName) {
     EXPECT_EQ(made.code, 2) << name;
     EXPECT_NE(made.err.find("is not a name for a scene"), string::npos) << name << ": " << made.err;
   }
+
   EXPECT_EQ(here.carom({"new", "--", "-dash"}).code, 2);
   EXPECT_EQ(here.carom({"new", string(151, 'a')}).code, 2);
   EXPECT_EQ(here.carom({"new"}).code, 2);
   EXPECT_EQ(here.carom({"new", "a", "b"}).code, 2);
+
   here.write("file", "");
   const Finished under = here.carom({"new", "file/first"});
   EXPECT_EQ(under.code, 1);
@@ -209,6 +217,7 @@ TEST(Explain, NamesWhatReplacesAnAbsentWord) {
             "  instead     A body on a string is a pendulum; with `rod: true` it may stand above its pivot, too.\n"
             "  see         carom explain strings, carom explain string.rod\n");
   EXPECT_EQ(here.carom({"explain", "slow", "motion"}).out, here.carom({"explain", "Slow-Motion"}).out);
+
   for (const char* word :
        {"friction",    "rotation",    "spin",         "joint",      "rope",        "hinge",   "timestep",
         "speed",       "slow motion", "bounce",       "elasticity", "camera path", "loop",    "variable",
@@ -240,15 +249,18 @@ TEST(Explain, WhatAnAbsentWordProposesIsOfTheFormat) {
     const vector<string_view> all = choices(field);
     return field.type != Type::choice || std::ranges::find(all, value) != all.end();
   };
+
   for (const AbsentWord& row : absent_words()) {
     const string text(row.meaning);
     for (size_t open = text.find('`'); open != string::npos;) {
       const size_t close = text.find('`', open + 1);
       ASSERT_NE(close, string::npos) << text;
+
       const string term = text.substr(open + 1, close - open - 1);
       open = text.find('`', close + 1);
       const size_t colon = std::min(term.find(": "), term.size());
       const string key = term.substr(0, colon), value = colon < term.size() ? term.substr(colon + 2) : "";
+
       if (term.starts_with("carom ")) {
         EXPECT_EQ(Workplace().carom({term.substr(6), "--help"}).code, 0) << term;
       } else if (term.starts_with("--set ") || term == "#" || term == "1080p") {

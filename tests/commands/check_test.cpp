@@ -22,6 +22,7 @@ TEST(Check, ReportsWhatARunWouldDo) {
   const Finished check = here.carom({"check", "balls.yaml"});
   EXPECT_EQ(check.code, 0);
   EXPECT_EQ(check.err, "");
+
   EXPECT_EQ(check.out.substr(0, check.out.find(", about ")),
             "balls: Two balls\n"
             "  bodies      2 bodies: red and blue\n"
@@ -153,6 +154,7 @@ TEST(Check, BytesAreThoseThatARunWrites) {
     EXPECT_GT(expected / written, 0.5) << scene << " " << output;
     EXPECT_LT(expected / written, 2) << scene << " " << output;
   };
+
   // Measured: 1.16, 0.92, 0.78, 0.92, 0.88.
   holds("two_bowling_balls", "{frames: {fps: 5, size: [720, 720]}, video: true}");
   holds("two_bowling_balls", "{video: {fps: 25, size: [640, 360], file: x.gif}}");
@@ -222,6 +224,7 @@ TEST(Check, NamesAtMostTenBodiesOutOfView) {
       "scene: 1\ngroups: {gas: {count: 30, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 10], max: [2, 2, 12]}, "
       "arrange: lattice}}\n"
       "simulate: {duration: 1}\ncamera: {eye: [0, 0, 5], target: [0, 0, 0]}\n");
+
   const string out = here.carom({"check", "behind.yaml"}).out;
   EXPECT_NE(out.find("  bodies      30 bodies: gas (30)\n"), string::npos) << out;
   EXPECT_NE(
@@ -239,11 +242,14 @@ TEST(Check, NamesSizesAndMassesThatMakeARunSlow) {
       "strings:\n  s: {from: [0, 0, 0], to: joint}\n  t: {from: joint, to: bob}\nsimulate: {duration: 1e-6}\n";
   here.write("chain.yaml", scene);
   const Finished check = here.carom({"check", "chain.yaml"});
+
   EXPECT_NE(check.out.find("  slow        the radius of bob is 2e-09 of the length of its string"), string::npos)
       << check.out;
   EXPECT_NE(check.out.find("the mass of joint is 1e-12 of the heaviest"), string::npos) << check.out;
+
   const Json json = Json::parse(here.carom({"check", "chain.yaml", "--json"}).out);
   EXPECT_TRUE(json.at("scenes").at(0).contains("slow"));
+
   const Finished fine =
       here.carom({"check", "chain.yaml", "--set", "balls.bob.radius=1e-6", "--set", "balls.joint.mass=1e-8"});
   EXPECT_EQ(fine.out.find("  slow "), string::npos) << fine.out;
@@ -278,14 +284,17 @@ TEST(Check, FirstCollisionIsTheOneThatTheRunWrites) {
       "groups: {gas: {count: 50, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, speed: 1}}\n"
       "room: {min: [0, 0, 0], max: [2, 2, 2]}\n"
       "simulate: {duration: 5}\noutput: {collisions: true}\n");
+
   const Json check = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0);
   const Json run = Json::parse(here.carom({"run", "gas.yaml", "--json"}).out).at("scenes").at(0);
   EXPECT_EQ(check.at("first_collision").at("time_s"), run.at("summary").at("first_collision_s"));
+
   const string table = here.read("output/gas/collisions.csv");
   const string names = "," + check.at("first_collision").at("kind").get<string>() + "," +
                        check.at("first_collision").at("a").get<string>() + "," +
                        check.at("first_collision").at("b").get<string>() + ",";
   const size_t row = table.find('\n') + 1;
+
   EXPECT_NE(table.substr(row, table.find('\n', row) - row).find(names), string::npos) << names;
 }
 
@@ -312,6 +321,7 @@ TEST(Check, ReportsTheStateOfTheFolder) {
     const size_t at = out.find("  folder ");
     return at == string::npos ? out : out.substr(at);
   };
+
   EXPECT_EQ(folder({}), "  folder      output/balls: new\n");
   here.carom({"run", "balls.yaml"});
   EXPECT_EQ(folder({}), "  folder      output/balls: up to date\n");
@@ -369,6 +379,7 @@ TEST(Check, ReportsVolumesObstaclesAndForces) {
              "obstacles: {post: {radius: 0.5, position: [-9, 1, 0]}}\n"
              "forces: [{uniform: [1, 0, 0], until: 1}]\n"
              "simulate: {duration: 0}\n");
+
   const Finished check = here.carom({"check", "things.yaml"});
   EXPECT_EQ(check.err, "");
   EXPECT_NE(check.out.find(
@@ -379,6 +390,7 @@ TEST(Check, ReportsVolumesObstaclesAndForces) {
                 "  forces      1 force in addition to gravity\n"),
             string::npos)
       << check.out;
+
   const string json = here.carom({"check", "things.yaml", "--json"}).out;
   EXPECT_NE(json.find("\"obstacles\": 1"), string::npos) << json;
   EXPECT_NE(json.find("\"crate\": {\n          \"box\": [\n            1.0,"), string::npos) << json;

@@ -87,6 +87,7 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "18446744073709551616"}),
             "carom run: --seed takes a whole number from 0 to 18446744073709551615, not `18446744073709551616`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "1", "--seed", "2"}), "carom run: --seed is given 2 times" + end);
+
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
             "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, "
             "xyz, gltf, "
@@ -100,6 +101,7 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),
             "carom run: --color takes auto, always, never, not `sometimes`" + end);
+
   EXPECT_EQ(complaint({"run", "a.yaml", "--progress", "bars"}),
             "carom run: --progress takes auto, bar, lines, none, not `bars`; did you mean `bar`?" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--force=yes"}), "carom run: --force takes no value" + end);
@@ -166,6 +168,7 @@ TEST(CommandLine, EveryOptionIsRead) {
                                                "energy,sheet,energy", "--seed", "18446744073709551615", "--force",
                                                "--json", "-q", "--progress=lines", "--color", "never"})
                               .options;
+
   EXPECT_EQ(options.operands, (vector<string>{"a.yaml", "b.yaml"}));
   EXPECT_EQ(options.set, (vector<string>{"x=1", "y=2=3"}));
   EXPECT_EQ(options.output, "out");

@@ -35,8 +35,10 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
             "  varied      balls.red.restitution\n"
             "  measures    balls.red.speed_m_per_s\n"
             "  wrote       output/comparison: comparison.xlsx, manifest.json and summary.csv\n");
+
   const auto files = here.files("output/comparison");
   ASSERT_EQ(files.size(), 3u);
+
   const string& table = files.at("summary.csv");
   EXPECT_NE(table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,"
                        "balls.red.restitution,balls.red.speed_m_"
@@ -45,6 +47,7 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
       << table;
   EXPECT_NE(table.find("\nc,"), string::npos);
   EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));
+
   const Json manifest = Json::parse(files.at("manifest.json"));
   EXPECT_EQ(manifest["files"].size(), 2u);
 }
@@ -61,6 +64,7 @@ planes: {ramp: {point: [0, 0, 0], normal: ['= sin(tilt)', '= cos(tilt)', 0]}}
 simulate: {duration: 0.1}
 output: {collisions: true}
 )");
+
   const auto run = [&](const string& name, const string& set) {
     ASSERT_EQ(here.carom({"run", "ramp.yaml", "-o", "runs/" + name, "--set", set, "-q"}).code, 0);
   };
@@ -70,6 +74,7 @@ output: {collisions: true}
   run("d", "let.n=5");
   run("e", "balls.row.position.z=1");
   run("f", "balls.red.radius=0.06");
+
   const auto varied = [&](const vector<string>& runs) {
     vector<string> words = {"compare", "--force"};
     for (const string& name : runs) words.push_back("runs/" + name);
@@ -77,6 +82,7 @@ output: {collisions: true}
     const size_t at = out.find("varied      ");
     return at == string::npos ? out : out.substr(at + 12, out.find('\n', at) - at - 12);
   };
+
   EXPECT_EQ(varied({"a", "b"}), "let.tilt");
   EXPECT_EQ(varied({"a", "b", "c", "d"}), "let.tilt, let.r and let.n");
   // A value that no expression made is listed, also beside an expression of the defaults.
@@ -90,11 +96,14 @@ TEST(CompareCommand, IsUpToDateUntilARunOrTheRequestChanges) {
   const vector<string> words = {"compare", "runs/a", "runs/b"};
   ASSERT_EQ(here.carom(words).code, 0);
   const auto before = here.files("output");
+
   EXPECT_EQ(here.carom(words).out, "output/comparison: up to date\n");
   EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "--force"}).code, 0);
   EXPECT_EQ(here.files("output"), before) << "the same bytes";
+
   ASSERT_EQ(here.carom({"compare", "runs/a", "runs/b", "--measures", "collisions"}).code, 0);
   EXPECT_NE(here.files("output"), before);
+
   ASSERT_EQ(here.carom(words).code, 0);
   here.shell("rm output/comparison/summary.csv");
   EXPECT_NE(here.carom(words).out.find("wrote"), string::npos);
@@ -170,6 +179,7 @@ TEST(CompareCommand, ReportsErrorsOfFoldersAndWords) {
   const Workplace here;
   make_runs(here);
   here.write("no/run.txt", "");
+
   const auto error = [&](const vector<string>& words) {
     vector<string> line = {"compare", "runs/a"};
     line.insert(line.end(), words.begin(), words.end());
@@ -179,6 +189,7 @@ TEST(CompareCommand, ReportsErrorsOfFoldersAndWords) {
     EXPECT_FALSE(here.has("output"));
     return run.err;
   };
+
   EXPECT_EQ(error({"no", "nowhere"}),
             "carom: no: it holds no whole run: run its scene again\n"
             "  nowhere: there is no such folder\n");
@@ -192,6 +203,7 @@ TEST(CompareCommand, ReportsErrorsOfFoldersAndWords) {
   EXPECT_NE(error({"--charts", "collisions"}).find("--charts takes x:y or x:y:by"), string::npos);
   EXPECT_EQ(error({"runs/b", "--video"}),
             "carom: runs/a has no film: run its scene again with the output `video` (--only video)\n");
+
   EXPECT_EQ(here.carom({"compare"}).code, 2);
   here.write("runs/b/collisions.csv", "cut");
   EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv has changed since the run: run its scene again\n");
@@ -221,6 +233,7 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
             0);
   const vector<string> words = {"compare", "runs/first", "runs/longer", "runs/other", "--video"};
   const Finished run = here.carom(words);
+
   ASSERT_EQ(run.code, 0) << run.err;
   const Finished probe = here.shell(
       "ffprobe -v error -count_packets -show_entries stream=width,height,r_frame_rate,nb_read_packets -of csv=p=0 "
@@ -228,9 +241,11 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
   EXPECT_EQ(probe.out, "128,156,20/1,32\n")
       << "1.5 s and the frame of 0, twice as often; three tiles of 64 x 48 in a square, two lines of 8 "
          "pixels and their margins above each";
+
   const string film = here.read("output/comparison/comparison.mp4");
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer", "runs/other", "--video", "--force"}).code, 0);
   EXPECT_EQ(here.read("output/comparison/comparison.mp4"), film);
+
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer"}).code, 0);
   EXPECT_FALSE(here.has("output/comparison/comparison.mp4"));
 }
@@ -242,14 +257,17 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
                                      "output: {video: {fps: 10, size: [320, 240], crf: 1}}\n"));
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/first"}).code, 0);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/second"}).code, 0);
+
   // A font in a folder with characters that have a meaning in ffmpeg's filter graphs.
   ASSERT_EQ(here.shell("mkdir -p \"a [b], 'c;/fonts\" && cp \"$(find /usr/share/fonts /usr/local/share/fonts -name "
                        "DejaVuSans.ttf 2>/dev/null | head -n 1)\" \"a [b], 'c;/fonts\"")
                 .code,
             0);
+
   const Finished run = here.shell(
       "XDG_DATA_HOME= HOME= XDG_DATA_DIRS=\"$PWD/a [b], 'c;\" $CAROM compare runs/first runs/second --video");
   ASSERT_EQ(run.code, 0) << run.err;
+
   // One line of 10 pixels, two margins of 5 above and below.
   constexpr int strip = 24;
   const auto grey = [&](const string& film, const string& cut) {
@@ -257,14 +275,17 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
         .shell("ffmpeg -v error -i " + film + " -vf crop=" + cut + " -frames:v 1 -f rawvideo -pix_fmt gray pipe:1")
         .out;
   };
+
   const string compared = grey("output/comparison/comparison.mp4", "320:240:0:" + std::to_string(strip));
   const string own = grey("runs/first/animation.mp4", "320:240:0:0");
   ASSERT_EQ(compared.size(), 320u * 240);
   ASSERT_EQ(own.size(), compared.size());
+
   int most = 0;
   for (size_t i = 0; i < own.size(); ++i)
     most = std::max(most, std::abs(static_cast<unsigned char>(compared[i]) - static_cast<unsigned char>(own[i])));
   EXPECT_LT(most, 60) << "the film below its label is unchanged, but for the second encoding";
+
   const string label = grey("output/comparison/comparison.mp4", "320:" + std::to_string(strip) + ":0:0");
   const auto letters = std::ranges::count_if(label, [](char c) { return (c & 0x80) != 0; });
   EXPECT_GT(letters, 20) << "the run's name in white";
@@ -301,6 +322,7 @@ TEST(CompareCommand, FilmMixesGifsAndNamesTheRemedyForOthers) {
   make("runs/webp", "output.video.file=film.webp");
   make("runs/slow", "output.video.speed=0.5");
   const Finished run = here.carom({"compare", "runs/first", "runs/gif", "--video"});
+
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(here.shell("ffprobe -v error -count_packets -show_entries stream=width,nb_read_packets -of csv=p=0 "
                        "output/comparison/comparison.mp4")
@@ -321,9 +343,11 @@ TEST(CompareCommand, RemedyForTheFilmsOfASweepWorksAndLeavesTheSweepAsItIs) {
                                      "output: {video: {file: film.webp, fps: 4, size: [64, 48]}}\n"));
   here.write("pair.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.restitution: [0.5, 1]}\n");
   ASSERT_EQ(here.carom({"sweep", "pair.yaml", "-o", "pair", "-q"}).code, 0);
+
   EXPECT_EQ(here.carom({"compare", "pair", "--video"}).err,
             "carom: pair/runs/r0001 has a film that ffmpeg cannot read, film.webp: draw it as .mp4 (carom render "
             "pair/runs/* -o OTHER --set output.video.file=animation.mp4, then carom compare OTHER/* --video)\n");
+
   const Finished remedy = here.shell(
       "$CAROM render pair/runs/* -o OTHER -q --set output.video.file=animation.mp4 && $CAROM compare OTHER/* --video");
   EXPECT_EQ(remedy.code, 0) << remedy.err;
@@ -347,6 +371,7 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/aside", "--set", "balls.red.position.x=-1.5"}).code, 0);
   const Finished outcome = here.carom({"diff", "runs/a", "runs/b"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
+
   EXPECT_EQ(outcome.out,
             "a and b\n"
             "  scenes      1 value differs\n"
@@ -356,20 +381,24 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
             "  outcome     collision 1, red and blue at 0.44499999999999995 s (body-body), differs: they leave at\n"
             "              2.8 m/s in a, 3.3 m/s in b\n"
             "  end         at most 0.13875000000000004 m apart: red\n");
+
   // The same speeds with another impulse.
   ASSERT_EQ(here.shell("$CAROM run balls.yaml -q -o runs/heavy --set balls.red.restitution=0.5 --set balls.red.mass=20 "
                        "--set balls.blue.mass=20")
                 .code,
             0);
+
   const Finished heavy = here.carom({"diff", "runs/a", "runs/heavy"});
   EXPECT_NE(heavy.out.find("differs: impulse_N_s"), string::npos) << heavy.out;
   EXPECT_EQ(heavy.out.find("they leave at"), string::npos) << heavy.out;
+
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);
   EXPECT_EQ(part["collisions"]["part"]["number"], 1);
   EXPECT_EQ(part["collisions"]["part"]["a"]["time_s"], 0.44499999999999995);
   EXPECT_NEAR(part["collisions"]["part"]["b"]["time_s"].get<double>(), (2.5 - 0.22) / 4, 1e-15);
   EXPECT_EQ(part["values"].size(), 2u);
+
   const Finished same = here.carom({"diff", "runs/a", "runs/a"});
   EXPECT_EQ(same.code, 0);
   EXPECT_NE(same.out.find("\n  equal       scenes, collisions and final positions\n"), string::npos);
@@ -389,6 +418,7 @@ TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
   string row = here.read("run/summary.csv");
   row.erase(0, row.find('\n') + 1);
   for (int k = 0; k < 6; ++k) row.erase(0, row.find(',') + 1);
+
   const string count = row.substr(0, row.find(','));
   ASSERT_NE(here.read("run/collisions.csv").find(",rest,"), string::npos);
   const Json same = Json::parse(here.carom({"diff", "run", "same", "--json"}).out);
@@ -408,6 +438,7 @@ TEST(DiffCommand, ReportsWhatIsMissing) {
   EXPECT_EQ(here.carom({"diff", "runs/a"}).code, 2);
   EXPECT_EQ(here.carom({"diff", "runs/a", "runs/b", "runs/c"}).code, 2);
   EXPECT_EQ(here.carom({"diff", "runs/a", "nowhere"}).code, 2);
+
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "x", "--only", "collisions"}).code, 0);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "y", "--only", "collisions,trajectory"}).code, 0);
   const Finished no_end = here.carom({"diff", "x", "y"});

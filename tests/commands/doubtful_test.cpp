@@ -31,17 +31,21 @@ TEST(Doubtful, RunsAreMarkedInTheReportTheManifestJsonAndSummary) {
       string::npos)
       << run.out;
   EXPECT_NE(here.read("output/damped/summary.csv").find(",stepped,doubtful,2,"), string::npos);
+
   const Json manifest = Json::parse(here.read("output/damped/manifest.json"));
   EXPECT_EQ(manifest.at("status"), "doubtful");
   ASSERT_EQ(manifest.at("warnings").size(), 2u);
   EXPECT_EQ(manifest.at("warnings")[0].at("code"), "energy");
   EXPECT_EQ(manifest.at("warnings")[1].at("code"), "step");
+
   const Json again = Json::parse(here.carom({"run", "damped.yaml", "--json"}).out).at("scenes").at(0);
   EXPECT_EQ(again.at("status"), "up to date");
   EXPECT_EQ(again.at("warnings"), manifest.at("warnings"));
+
   const Json fresh = Json::parse(here.carom({"run", "damped.yaml", "--json", "--force"}).out).at("scenes").at(0);
   EXPECT_EQ(fresh.at("summary").at("status"), "doubtful");
   EXPECT_EQ(fresh.at("warnings"), manifest.at("warnings"));
+
   const Finished quiet = here.carom({"run", "damped.yaml", "-q", "--force"});
   EXPECT_EQ(quiet.out, "");
   EXPECT_NE(quiet.err.find("carom: damped.yaml: doubtful: the method lost "), string::npos) << quiet.err;
@@ -118,6 +122,7 @@ balls:
   low: {mass: 1, radius: 0.5, position: [0, -0.5, 0]}
 simulate: {duration: 1}
 )");
+
   const Finished run = here.carom({"run", "three.yaml"});
   EXPECT_NE(run.out.find("at once     rigid bodies leave 1 instant open with several impacts on a body"), string::npos)
       << run.out;
@@ -126,6 +131,7 @@ simulate: {duration: 1}
   // Together each ball leaves at 4 sqrt(3) m/s. One by one the second one has 2.5 sqrt(3) m/s.
   const Finished check = here.carom({"check", "three.yaml", "--accuracy"});
   EXPECT_NE(check.out.find("until the end, under carom's law for impacts"), string::npos) << check.out;
+
   const Json json = Json::parse(here.carom({"check", "three.yaml", "--accuracy", "--json"}).out);
   const double order = json.at("scenes").at(0).at("accuracy").at("order_m");
   EXPECT_NEAR(order, 1.5 * std::sqrt(3.0) * (0.7 + 0.05 * std::sqrt(3.0)), 1e-12);
@@ -138,6 +144,7 @@ balls:
   c: {mass: 1, radius: 0.5, position: [1, 0, 0]}
 simulate: {duration: 1}
 )");
+
   const Finished row = here.carom({"check", "row.yaml", "--accuracy"});
   EXPECT_NE(row.out.find("rigid bodies leave no impacts of one instant open"), string::npos) << row.out;
 }
@@ -150,9 +157,11 @@ balls: {b: {mass: 1, radius: 0.05, position: ['= sin(10)', '= -cos(10)', 0]}}
 strings: {s: {from: [0, 0, 0], to: b}}
 simulate: {duration: 5}
 )";
+
   here.write("swing.yaml", swing);
   const Finished check = here.carom({"check", "swing.yaml", "--accuracy"});
   EXPECT_NE(check.out.find("m at most, between runs with two step errors"), string::npos) << check.out;
+
   here.write("slack.yaml", string(swing)
                                .replace(swing.find("duration: 5"), 11, "duration: 0.3")
                                .replace(swing.find("to: b"), 5, "to: b, length: 2"));

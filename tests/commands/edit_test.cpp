@@ -59,12 +59,14 @@ TEST(EditedScene, LeavesTouchedAndForeignFilesAlone) {
     here.write("balls.yaml", balls_with_frames(4));
     const auto before = here.files("output");
     const Finished run = here.carom({"run", "balls.yaml", "-q"});
+
     EXPECT_EQ(run.code, 2);
     EXPECT_EQ(run.err, "balls.yaml: the folder output/balls holds " + why +
                            "\n  write elsewhere with -o, or overwrite it with --force\n"
                            "carom: 1 error; nothing was run\n");
     EXPECT_EQ(here.files("output"), before);
   };
+
   refused("echo mine > output/balls/notes.txt", "notes.txt, which the run there did not write");
   refused("echo mine > output/balls/frames/a.png", "frames/a.png, which the run there did not write");
   refused("mkdir output/balls/older", "older, which the run there did not write");
@@ -84,6 +86,7 @@ TEST(UneditedScene, LeavesTouchedFilesAlone) {
     here.shell(change);
     const auto before = here.files("output");
     const Finished run = here.carom({"run", "balls.yaml", "-q"});
+
     EXPECT_EQ(run.code, 2) << change;
     EXPECT_EQ(run.err, "balls.yaml: the folder output/balls holds " + why +
                            "\n  write elsewhere with -o, or overwrite it with --force\n"
@@ -95,6 +98,7 @@ TEST(UneditedScene, LeavesTouchedFilesAlone) {
     EXPECT_EQ(here.carom({"run", "balls.yaml", "-q", "--force"}).code, 0) << change;
     EXPECT_EQ(here.carom({"run", "balls.yaml"}).out, "balls: Two balls\n  up to date  output/balls\n");
   };
+
   refused("echo '# mine' >> output/balls/energy.csv", "a run of this scene with a changed file, energy.csv");
   refused("echo >> output/balls/frames/frame_00001.png; rm output/balls/summary.csv",
           "a run of this scene with a changed file, frames/frame_00001.png");
@@ -121,6 +125,7 @@ TEST(UneditedScene, PicturesThatWereChangedAreDrawnAgainOnlyByForce) {
   here.carom({"run", "balls.yaml", "-o", "run", "-q"});
   const string picture = here.read("run/frames/frame_00001.png");
   here.shell("echo mine >> run/frames/frame_00001.png");
+
   for (const vector<string>& words : {vector<string>{"render", "run", "-q"},
                                       vector<string>{"render", "run", "-q", "--set", "output.frames.samples=1"}}) {
     const Finished again = here.carom(words);
@@ -129,8 +134,10 @@ TEST(UneditedScene, PicturesThatWereChangedAreDrawnAgainOnlyByForce) {
         << again.err;
     EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture + "mine\n");
   }
+
   EXPECT_EQ(here.carom({"render", "run", "-q", "--force"}).code, 0);
   EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture);
+
   here.shell("rm run/frames/frame_00001.png");
   EXPECT_EQ(here.carom({"render", "run", "-q"}).code, 0);
   EXPECT_EQ(here.read("run/frames/frame_00001.png"), picture);
@@ -143,12 +150,14 @@ TEST(UneditedSweep, LeavesTouchedFilesAlone) {
   vector<string> forced = words;
   forced.emplace_back("--force");
   ASSERT_EQ(here.carom(words).code, 0);
+
   const std::pair<string, string> all[] = {
       {"sweep/summary.csv", "carom: balls.yaml: the folder sweep holds a comparison with a changed file, summary.csv"},
       {"sweep/comparison.xlsx",
        "carom: balls.yaml: the folder sweep holds a comparison with a changed file, comparison.xlsx"},
       {"sweep/runs/r0002/energy.csv",
        "carom: balls.yaml: the folder sweep/runs/r0002 holds a run of this scene with a changed file, energy.csv"}};
+
   for (const auto& [file, error] : all) {
     here.shell("echo mine >> " + file);
     const auto before = here.files("sweep");
@@ -161,6 +170,7 @@ TEST(UneditedSweep, LeavesTouchedFilesAlone) {
     EXPECT_EQ(here.carom(words).code, 0) << "what is missing is done: " << file;
     EXPECT_TRUE(here.has(file));
   }
+
   here.shell("echo mine >> sweep/summary.csv");
   const Finished gathered = here.carom({"gather", "sweep", "-q"});
   EXPECT_EQ(gathered.code, 2);
@@ -178,8 +188,10 @@ TEST(UneditedSweep, IsLeftAloneInACopyToo) {
   const auto before = here.files("copy");
   const string held = "copy/runs/r0002 holds a run of this scene with a changed file, energy.csv";
   const Finished again = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "copy", "-q"});
+
   EXPECT_EQ(again.code, 2);
   EXPECT_NE(again.err.find(held), string::npos) << again.err;
+
   const Finished gathered = here.carom({"gather", "copy", "sweep", "-q"});
   EXPECT_EQ(gathered.code, 2);
   EXPECT_EQ(gathered.err, "carom: the folder " + held + ": remove it or rename it; nothing was gathered\n");
@@ -207,11 +219,13 @@ TEST(UneditedComparison, LeavesTouchedFilesAlone) {
   const string table = here.read("both/summary.csv");
   here.shell("echo mine >> both/summary.csv");
   const Finished again = here.carom(words);
+
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
             "carom: the folder both holds a comparison with a changed file, summary.csv\n"
             "  write elsewhere with -o, or overwrite it with --force\n");
   EXPECT_EQ(here.read("both/summary.csv"), table + "mine\n");
+
   here.shell("rm both/summary.csv");
   EXPECT_EQ(here.carom(words).code, 0);
   EXPECT_EQ(here.read("both/summary.csv"), table);
@@ -237,11 +251,13 @@ TEST(Watch, RunsAtEachSaveHoweverItIsDone) {
   const Workplace here;
   here.write("a.yaml", two_balls());
   here.write("b.yaml", two_balls());
+
   const Finished run = watched(
       here,
       "await err waiting\n"
       "sed 's/duration: 1/duration: 0.25/' a.yaml > .tmp; mv .tmp a.yaml; await output/a/summary.csv exact,done,0.25,\n"
       "sed 's/duration: 0.25/duration: 0.5/' a.yaml > .tmp; cat .tmp > a.yaml; await output/a/summary.csv done,0.5,");
+
   EXPECT_EQ(run.code, 143) << run.err;
   EXPECT_NE(run.err.find("carom: waiting for changes of a.yaml and b.yaml; Ctrl-C ends\n"), string::npos);
   EXPECT_TRUE(run.err.ends_with("carom: interrupted\n")) << run.err;
@@ -271,6 +287,7 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
              "scene: 1\nbodies: {pin: {mass: 1, mesh: m/pin.obj, fit: sphere, position: [0, 0, 0]}}\n"
              "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
   here.write("b.yaml", two_balls());
+
   // The files of a run are absent for a moment while it is replaced, and cmp then gives 2.
   const Finished run =
       watched(here,
@@ -281,6 +298,7 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
               "differs output/a/manifest.json before/manifest.json; cp -r output/a green\n"
               "sed -i 's/v 1 0 0/v 2 0 0/' m/pin.obj\n"
               "differs output/a/manifest.json green/manifest.json");
+
   EXPECT_EQ(run.code, 143) << run.err << run.out;
   const string frame = "/frames/frame_00000.png";
   EXPECT_FALSE(here.read("green" + frame).empty());
@@ -300,6 +318,7 @@ TEST(Watch, OfARunThatIsDoneShowsATextureThatGoesMissing) {
   const Finished run = watched(here,
                                "await err waiting; cp -r output/a before\n"
                                "echo 'newmtl a\nmap_Kd none.png' > new; mv new pin.mtl; await err '1 error; not run'");
+
   EXPECT_EQ(run.code, 143) << run.err << run.out;
   EXPECT_NE(run.err.find("a.yaml:2:31: error: cannot read the mesh pin.obj: its texture none.png is not there\n"),
             string::npos)

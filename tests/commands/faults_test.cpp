@@ -55,6 +55,7 @@ TEST_P(HangingProgram, FfmpegIsLeftAtTheFirstSignal) {
         here.interrupted({"run", "balls.yaml", "-o", "out", "--progress", "none"}, "started", GetParam());
     setenv("PATH", path.c_str(), 1);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
     EXPECT_EQ(run.code, 128 + GetParam());
     EXPECT_EQ(run.err, "carom: balls.yaml: interrupted; the same command runs what is missing\n");
     EXPECT_LT(seconds, 60);  // a film's time limit is ten minutes
@@ -73,6 +74,7 @@ TEST(HangingMesh, IsLeftAtTheFirstSignal) {
     mesh += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
     face += " " + std::to_string(k + 1);
   }
+
   here.write("star.obj", mesh + face + "\n");
   here.write("star.yaml",
              "scene: 1\nbodies: {a: {mass: 1, mesh: star.obj, fit: sphere, position: [0, 0, 0]}}\n"
@@ -80,6 +82,7 @@ TEST(HangingMesh, IsLeftAtTheFirstSignal) {
   const auto start = std::chrono::steady_clock::now();
   const Finished check = here.shell("timeout --foreground --preserve-status -s INT 1 \"$CAROM\" check star.yaml");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
   EXPECT_EQ(check.code, 130) << check.out << check.err;
   EXPECT_EQ(check.err, "carom: interrupted\n");
   EXPECT_LT(seconds, 5);
@@ -93,6 +96,7 @@ TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
   ASSERT_EQ(here.carom({"compare", "a", "b", "-o", "whole"}).code, 0);
   // Blocks of 512 bytes: too few for a part of the workbook, and for the parts together.
   const size_t blocks = (here.read("whole/comparison.xlsx").size() - 1) / 512;
+
   for (const size_t limit : {size_t{4}, blocks}) {
     const Finished compare =
         here.shell("ulimit -f " + std::to_string(limit) + "; exec \"$CAROM\" compare a b -o out --progress none");
@@ -101,6 +105,7 @@ TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
         << compare.err;
     EXPECT_FALSE(here.has("out"));
   }
+
   EXPECT_EQ(here.carom({"compare", "a", "b", "-o", "out"}).code, 0);
 }
 
@@ -147,6 +152,7 @@ TEST(FullDisk, EndsASweepAtItsFirstErrorWithOneRemedy) {
       const OwnPrograms programs(here);
       return here.carom({"sweep", "sweep.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
     }();
+
     EXPECT_EQ(run.code, 1);
     EXPECT_TRUE(run.err.starts_with("carom: cannot make the film out/runs/r00")) << run.err;
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy +
@@ -170,10 +176,12 @@ TEST(FullDisk, CountsTheRunsOfASweepThatAreMadeAndNotRun) {
   setenv("LOG", here.path("log").c_str(), 1);
   const OwnPrograms programs(here);
   const Finished run = here.carom({"sweep", "sweep.yaml", "-o", "out", "-j", "1", "--json", "--progress", "none"});
+
   EXPECT_TRUE(run.err.starts_with("carom: cannot make the film out/runs/r0004/animation.mp4: ")) << run.err;
   EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy +
                                 "carom: sweep.yaml: 1 run made, 2 not run\n"))
       << run.err;
+
   const auto document = nlohmann::json::parse(run.out);
   EXPECT_EQ(document.at("status"), "failed");
   EXPECT_EQ(document.at("made"), 1);
@@ -189,6 +197,7 @@ TEST(FullDisk, EndsARunOfSeveralScenesWithOneError) {
     const OwnPrograms programs(here);
     const Finished run =
         here.carom({"run", "a.yaml", "b.yaml", "c.yaml", "d.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
+
     EXPECT_EQ(run.code, 1);
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy)) << run.err;
     EXPECT_EQ(std::ranges::count(run.err, '\n'), 2) << run.err;
@@ -203,6 +212,7 @@ TEST(Film, WhatItsProgramLeavesBehindIsRemoved) {
   } programs[] = {{"ffmpeg", "mkdir -p animation.mp4/inner; touch animation.mp4/inner/x; exit 1"},
                   {"ffmpeg", "mkdir sub; touch sub/x; ln -s /etc sub/link; cat > /dev/null"},
                   {"ffprobe", "mkdir -p a/b/c; exit 1"}};
+
   for (const auto& [name, script] : programs) {
     const Workplace here;
     here.write("balls.yaml", two_balls(film));

@@ -31,6 +31,7 @@ TEST(JsonErrors, OfASceneHavePlaceMessageRemedyAndTheNearName) {
                          {"message", "unknown key `camra` in the scene"},
                          {"remedy", "did you mean `camera`?"},
                          {"near", "camera"}};
+
   for (const string command : {"run", "check", "bench"}) EXPECT_EQ(error_of(here, {command, "a.yaml"}), expected);
   here.write("s.yaml", "sweep: 1\nbase: a.yaml\ngrid: {balls.red.mass: [1, 2]}\n");
   for (const string command : {"sweep", "submit"})
@@ -60,12 +61,14 @@ TEST(JsonErrors, OfFoldersAndOptionsHaveTheSameMembers) {
   EXPECT_EQ(folder.at("remedy"), "write elsewhere with -o, or overwrite it with --force");
   EXPECT_EQ(error_of(here, {"run", "a.yaml", "--engin", "exact"}).at("near"), nullptr);
   EXPECT_EQ(error_of(here, {"run", "a.yaml", "--onl", "energy"}).at("near"), "--only");
+
   for (const string command : {"diff", "compare", "gather", "render", "plot"}) {
     const Json error =
         error_of(here, command == "diff" ? vector<string>{command, "no", "none"} : vector<string>{command, "no"});
     for (const char* member : {"file", "line", "column", "message", "remedy", "near"})
       EXPECT_TRUE(error.contains(member)) << command;
   }
+
   EXPECT_EQ(error_of(here, {"new", "a"}).at("file"), nullptr);
 }
 
@@ -77,11 +80,13 @@ TEST(JsonErrors, OfTheCommandLineHaveTheirRemedyApart) {
     EXPECT_EQ(error.at("message"), message);
     EXPECT_EQ(error.at("remedy"), remedy);
   };
+
   expect({"run", "a.yaml", "a.yaml"}, "a.yaml and a.yaml would both be written to output/a",
          "run one of them with another -o");
   expect({"run", "a.yaml", "--watch"}, "--watch has no end that a JSON document could wait for", "leave out --json");
   expect({"sweep", "a.yaml", "--grid", "seed=1:3"}, "--grid seed=1:3 has no count",
          "add one, such as seed=1:3:6, or draw from it with --latin 50");
+
   // In the terminal they stand in one line.
   EXPECT_EQ(here.carom({"sweep", "a.yaml", "--grid", "seed=1:3"}).err,
             "carom sweep: --grid seed=1:3 has no count: add one, such as seed=1:3:6, or draw from it with --latin 50\n"

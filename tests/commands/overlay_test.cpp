@@ -32,8 +32,10 @@ TEST(Overlay, RenderedFromFlightsHasTheBytesOfTheRun) {
   render.insert(render.end(), shown.begin(), shown.end());
   run.insert(run.end(), shown.begin(), shown.end());
   const Finished rendered = here.carom(render);
+
   EXPECT_EQ(rendered.code, 0);
   EXPECT_EQ(rendered.err, "");
+
   ASSERT_EQ(here.carom(run).code, 0);
   EXPECT_EQ(frames_of(here, "b/run").size(), 5u);
   EXPECT_EQ(frames_of(here, "b/run"), frames_of(here, "c/run"));
@@ -64,8 +66,10 @@ TEST(Overlay, ThatShowsCollisionsIsInTheRecordOfItsRun) {
                                    "-o",     "b/run", "--force", "--progress",
                                    "none"};
     const Finished rendered = here.carom(render);
+
     EXPECT_EQ(rendered.code, 0);
     EXPECT_EQ(rendered.err, "");
+
     ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "camera={eye: [1, 1, 4], target: [1, 0, 0]}", "-o", "c/run",
                           "--force"})
                   .code,
@@ -136,26 +140,32 @@ TEST(Overlay, OfATransparentSceneWithAnMp4IsRefusedOnlyIfTheFilmIsMade) {
   const Workplace here;
   here.write("balls.yaml", two_balls("background: none\noutput: {frames: {fps: 2, size: [64, 36]}, video: true}\n"));
   const string wrong = "an MP4 has no transparency, and `background` is `none`";
+
   for (const char* command : {"run", "check"}) {
     const Finished whole = here.carom({command, "balls.yaml"});
     EXPECT_EQ(whole.code, 2);
     EXPECT_NE(whole.err.find(wrong), string::npos) << whole.err;
   }
+
   const Finished film = here.carom({"run", "balls.yaml", "--only", "frames,video"});
   EXPECT_EQ(film.code, 2);
   EXPECT_NE(film.err.find(wrong), string::npos) << film.err;
+
   const Finished frames = here.carom({"run", "balls.yaml", "--only", "frames", "-o", "out"});
   EXPECT_EQ(frames.code, 0) << frames.err;
   EXPECT_TRUE(here.has("out/frames/frame_00000.png"));
+
   const Finished again =
       here.carom({"render", "out", "--only", "frames", "--set", "camera={fit: motion}", "-o", "other"});
   EXPECT_EQ(again.code, 0) << again.err;
+
   const Words sweep = {"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "s", "--quiet", "--only"};
   const auto with = [&](const char* outputs) {
     Words words = sweep;
     words.emplace_back(outputs);
     return here.carom(words);
   };
+
   EXPECT_EQ(with("frames").code, 0);
   EXPECT_EQ(with("frames,video").code, 2);
 }

@@ -77,9 +77,11 @@ TEST(PlotRuns, KeepsTheOtherFilesAndLeavesTheRunUpToDate) {
   ASSERT_EQ(here.carom({"plot", "run"}).code, 0);
   const Files after = here.files("run");
   for (const auto& [name, bytes] : before) EXPECT_TRUE(name == "manifest.json" || after.at(name) == bytes) << name;
+
   EXPECT_EQ(after.size(), before.size() + 8);
   EXPECT_NE(here.carom({"run", "balls.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), string::npos);
+
   const auto manifest = nlohmann::json::parse(here.read("run/manifest.json"));
   EXPECT_EQ(manifest["outputs"]["plots"], true);
   EXPECT_EQ(manifest["files"].size(), after.size() - 1);
@@ -93,14 +95,17 @@ TEST(PlotRuns, DrawsAgainWhatIsMissingOrForced) {
   const Files whole = here.files("run");
   here.write("run/plots/energy.svg", "something else");
   const Finished refused = here.carom({"plot", "run"});
+
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("holds a run of this scene with a changed file, plots/energy.svg"), string::npos)
       << refused.err;
+
   here.shell("rm run/plots/energy.svg");
   EXPECT_NE(here.carom({"plot", "run"}).out.find("wrote"), string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
   EXPECT_NE(here.carom({"plot", "run", "--force"}).out.find("wrote"), string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
+
   here.write("run/energy.csv", "time_s\n");
   const Finished changed = here.carom({"plot", "run", "--force"});
   EXPECT_EQ(changed.code, 2);
@@ -121,6 +126,7 @@ TEST(PlotRuns, NamesTheKeyOfAChartThatTheRunHasNoDataFor) {
             "  wrote       run/plots: energy, each as SVG and PNG\n");
   EXPECT_EQ(charts_in(here, "run").size(), 2u);
   EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), string::npos);
+
   EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "energy", "-o", "run"}).out.find("up to date"), string::npos);
   // A run has all data, so its charts are not up to date.
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy,plots", "-o", "run", "-q"}).code, 0);

@@ -71,6 +71,7 @@ int Workplace::start(const vector<string>& words) const {
   vector<char*> argv;
   vector<string> copy = words;
   for (string& word : copy) argv.push_back(word.data());
+
   argv.push_back(nullptr);
   if (placed) execv(argv[0], argv.data());
   _exit(127);

@@ -43,11 +43,13 @@ TEST_P(Rendered, WithAnotherRateIsWhatARunWithThatRateWrites) {
       here.carom({"render", "run", "--set", "output.frames.fps=7", "--only", "frames", "-o", "render", "--quiet"});
   ASSERT_EQ(render.code, 0) << render.err;
   EXPECT_EQ(render.err, "");
+
   const Words run = {"run", "run/scene.yaml", "--set", "output.frames.fps=7", "--only", "frames,flights", "-o"};
   Words to = run;
   to.push_back("fresh");
   ASSERT_EQ(here.carom(to).code, 0);
   EXPECT_EQ(without_manifest(here.files("render")), without_manifest(here.files("fresh")));
+
   to.back() = "render";
   EXPECT_NE(here.carom(to).out.find("up to date"), string::npos);
 }
@@ -77,12 +79,14 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   Words render = {"render", "run"};
   render.insert(render.end(), set.begin(), set.end());
   const Finished done = here.carom(render);
+
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("run: From above\n"), string::npos);
   EXPECT_NE(done.out.find("  wrote       run: animation.glb, manifest.json, scene.yaml, summary.csv, surfaces.vtp,\n"
                           "              trajectory.pvd, 4 pictures in frames/ and 31 instants in vtk/\n"),
             string::npos)
       << done.out << "not collisions.csv, energy.csv and flights.bin, which stay";
+
   Words fresh = {"run", "balls.yaml", "-o", "fresh"};
   fresh.insert(fresh.end(), set.begin(), set.end());
   here.carom(fresh);
@@ -90,6 +94,7 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   EXPECT_FALSE(here.has("run/frames/frame_00004.png"));
   EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   EXPECT_NE(here.carom({"render", "run"}).out.find("up to date"), string::npos);
+
   // All except measurements and the order of the files.
   const auto facts = [&](const string& folder) {
     auto json = nlohmann::json::parse(here.read(folder + "/manifest.json"));
@@ -99,6 +104,7 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
               [](const auto& a, const auto& b) { return a["name"] < b["name"]; });
     return json.dump();
   };
+
   EXPECT_EQ(facts("run"), facts("fresh"));
 }
 
@@ -147,6 +153,7 @@ TEST(Render, ASettingThatChangesNothingIsSaid) {
   here.write("balls.yaml", two_balls(near_camera + "output: {frames: {fps: 2, size: [64, 36]}, video: true}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const vector<string> words = {"render", "run", "--only", "video", "-o", "other", "--set"};
+
   const auto errors = [&](const string& setting) {
     vector<string> line = words;
     line.push_back(setting);
@@ -155,6 +162,7 @@ TEST(Render, ASettingThatChangesNothingIsSaid) {
     EXPECT_EQ(render.code, 0) << render.err;
     return render.err;
   };
+
   EXPECT_EQ(errors("output.frames.from=0.5"),
             "carom: run: --set output.frames.from=0.5 changes nothing: the output `frames` is not written\n");
   EXPECT_EQ(errors("output.frames.fps=4"),
@@ -210,29 +218,36 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
+
   const auto refusal = [&](const string& folder) {
     const Finished render = here.carom({"render", folder, "--set", "camera.eye.y=2"});
     EXPECT_EQ(render.code, 2);
     return render.err.substr(0, render.err.find('\n'));
   };
+
   EXPECT_EQ(refusal("nowhere"), "nowhere: there is no such folder");
   EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is not a folder");
   EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
+
   const string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
   const string changed = "run: flights.bin is missing or has changed";
   here.write("run/flights.bin", flights.substr(0, flights.size() - 1));
   EXPECT_EQ(refusal("run"), changed);
+
   string damaged = flights;
   damaged[100] = static_cast<char>(damaged[100] ^ 1);
   here.write("run/flights.bin", damaged);
   EXPECT_EQ(refusal("run"), changed);
+
   here.write("run/flights.bin", flights);
   here.write("run/manifest.json", manifest.substr(0, 99));
   EXPECT_EQ(refusal("run"), "run: its manifest.json is damaged, or not written by carom");
+
   here.write("run/manifest.json", manifest);
   const string scene = here.read("run/scene.yaml");
   here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
   EXPECT_EQ(refusal("run"), "run: its scene.yaml is not the one that was run");
+
   here.write("run/scene.yaml", scene);
   here.shell("rm -r run/frames");  // pictures may be missing
   EXPECT_EQ(here.carom({"render", "run"}).code, 0);
@@ -247,10 +262,12 @@ TEST(Render, SimulatesAgainWhereNoFlightsAreStored) {
                           "output.flights=false"})
                   .code,
               0);
+
     EXPECT_FALSE(here.has(engine + "/flights.bin"));
     const Finished render = here.carom({"render", engine, "--set", "output.frames.fps=3", "-o", "again " + engine});
     EXPECT_EQ(render.code, 0) << render.err;
     EXPECT_EQ(render.err, engine + ": no flights are stored: simulating again\n");
+
     ASSERT_EQ(here.carom({"run", engine + "/scene.yaml", "-o", "fresh " + engine, "--only", "frames", "--set",
                           "output.frames.fps=3"})
                   .code,
@@ -282,6 +299,7 @@ TEST(Render, OfACameraThatFramesTheMotionHasTheBytesOfARun) {
       here.carom({"render", "run", "--only", "frames", "--set", "camera={fit: motion, fov: 20}", "-o", "render"}).code,
       0);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "camera={fit: motion, fov: 20}", "-o", "fresh"}).code, 0);
+
   for (int i = 0; i <= 4; ++i) {
     const string frame = "/frames/frame_0000" + std::to_string(i) + ".png";
     EXPECT_EQ(here.read("render" + frame), here.read("fresh" + frame));
@@ -323,9 +341,11 @@ TEST(Still, TakesCameraSizeAndFolder) {
   const Words still = {
       "render", "run",      "--at", "0.3", "--set", "camera={follow: red}", "--set", "output.frames.size=[40, 20]",
       "-o",     "a/new one"};
+
   EXPECT_EQ(here.carom(still).out, "a/new one/still_0.3s.png\n");
   EXPECT_EQ(here.files("run"), before);
   EXPECT_EQ(pixels_of(here.read("a/new one/still_0.3s.png")).size(), 3u * 40 * 20);
+
   Words json = still;
   json.push_back("--json");
   const auto entry = nlohmann::json::parse(here.carom(json).out).at("scenes").at(0);
@@ -354,9 +374,11 @@ TEST(Still, OutsideTheRunOrBesideOtherOutputsIsRefused) {
   EXPECT_EQ(after.code, 2);
   EXPECT_EQ(after.err,
             "run: --at 1.5 is after its end\n  name a time from 0 to 1 s\ncarom: 1 error; nothing was run\n");
+
   for (const char* time : {"-1", "x", "inf", ""})
     EXPECT_EQ(here.carom({"render", "run", "--at", time}).code, 2) << time;
   EXPECT_EQ(here.carom({"render", "run", "--at", "0.5", "--only", "frames"}).code, 2);
+
   const Finished motion = here.carom({"render", "run", "--at", "0.5", "--set", "balls.red.mass=3"});
   EXPECT_EQ(motion.code, 2);
   EXPECT_NE(motion.err.find("changes the motion"), string::npos);
@@ -379,6 +401,7 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
   here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const Files before = here.files("run");
+
   for (const int signal : {SIGTERM, SIGKILL}) {
     const Finished render = here.interrupted({"render", "run", "--set", "output.frames.fps=90000", "--quiet"},
                                              "run/.frames.part/frame_00003.png", signal);
@@ -388,6 +411,7 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
     EXPECT_EQ(after, before);
     EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   }
+
   EXPECT_EQ(here.carom({"render", "run", "--set", "output.frames.fps=3"}).code, 0);
   EXPECT_FALSE(here.has("run/.frames.part"));
 }
@@ -399,15 +423,18 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
     const Finished run = here.carom({"run", SCENES_DIR "/" + scene + ".yaml", "-o", scene, "--only",
                                      "trajectory,flights", "--set", "output.trajectory.every=0.37"});
     ASSERT_EQ(run.code, 0) << run.err;
+
     std::istringstream table(here.read(scene + "/trajectory.csv"));
     std::map<string, size_t> number;  // of each body, all of which are there at time 0
     vector<double> message;           // six numbers a body
     string line, time;
     std::getline(table, line);
+
     while (std::getline(table, line)) {
       vector<string> cells;
       std::istringstream split(line);
       for (string cell; std::getline(split, cell, ',');) cells.push_back(cell);
+
       if (cells[0] != time) {
         time = cells[0];
         std::istringstream out(
@@ -416,8 +443,10 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
         message.clear();
         for (string word; out >> word;) message.push_back(std::stod(word));
       }
+
       const size_t body = number.emplace(cells[1], number.size()).first->second;
       ASSERT_LE(6 * body + 6, message.size()) << scene << ", " << line;
+
       for (size_t k = 0; k < 6; ++k) EXPECT_EQ(message[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
     }
   }

@@ -61,6 +61,7 @@ TEST(Report, ReportsTheImpactsThatContactHasReplaced) {
 TEST(Report, ReportsWhatRigidBodiesLeaveOpen) {
   RunResult result = result_with(0, 0);
   EXPECT_EQ(lines_of(result).find("at once"), string::npos);
+
   result.summary.contact.shared = {2, 1, 0, 0, 0.3, 0, 1, 2};
   result.summary.contact.first_shared = "`cue` with `up` and `low` at 0.3 s";
   EXPECT_NE(lines_of(result).find(

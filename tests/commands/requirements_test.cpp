@@ -150,11 +150,13 @@ TEST(Requirements, OfNewPicturesOfARunLeaveItAsItIs) {
   put_crate(here, "output: {trajectory: {every: 0.05}}\n");
   ASSERT_EQ(here.carom({"run", "crate.yaml", "-o", "run", "-q"}).code, 0);
   const auto before = here.files("run");
+
   for (const char* words : {"render run --only frames", "render run --at 0.05", "render run --only gltf -o other"}) {
     const Finished render = here.shell(string("exec \"$CAROM\" ") + words);
     EXPECT_EQ(render.code, 2) << words;
     EXPECT_NE(render.err.find(": its texture wood.png is not there\n"), string::npos) << render.err;
   }
+
   const Finished film = alone(here, "render run --only video --set bodies.crate.color=red");
   EXPECT_EQ(film.err,
             "run/scene.yaml: error: a video needs ffmpeg, which is not on the PATH\n"

@@ -28,12 +28,14 @@ TEST(ResumedRun, KilledAtTwentyRandomInstantsHasTheBytesOfOneThatWasNot) {
   const vector<string> command = {"run", "pile.yaml", "-o", "killed", "--checkpoint", "0.05"};
   std::mt19937_64 random(7);
   int went_on = 0;
+
   for (int kill = 0; kill < 20; ++kill) {
     const std::chrono::milliseconds time(80 + random() % 80);
     const Finished run = here.interrupted_after(command, time, SIGKILL);
     if (run.err.find("goes on") != string::npos) ++went_on;
     if (run.code == 0) break;
   }
+
   EXPECT_GT(went_on, 0);
   const Finished last = here.carom(command);
   EXPECT_EQ(last.code, 0) << last.err;
@@ -89,16 +91,19 @@ TEST(ResumedRun, IsTakenUpByASweep) {
   const Workplace here;
   here.write("pile.yaml", pile);
   const vector<string> sweep = {"sweep", "pile.yaml", "--grid", "restitution=0.1,0.3", "--only", "energy"};
+
   const auto into = [&](const string& folder) {
     vector<string> words = sweep;
     words.insert(words.end(), {"-j", "1", "-o", folder, "--checkpoint", "0.1"});
     return words;
   };
+
   ASSERT_EQ(here.carom(into("whole")).code, 0);
   const Finished stopped = here.interrupted(into("stopped"), "stopped/runs/r0001/.checkpoint.part", SIGTERM);
   EXPECT_EQ(stopped.code, 143) << stopped.err;
   EXPECT_TRUE(here.has("stopped/runs/r0001/.checkpoint.part"));
   EXPECT_EQ(here.carom(into("stopped")).code, 0);
+
   for (const string run : {"r0001", "r0002"})
     EXPECT_EQ(here.read("stopped/runs/" + run + "/energy.csv"), here.read("whole/runs/" + run + "/energy.csv"));
 }

@@ -47,11 +47,14 @@ TEST(RunPace, ItsShareNeverFallsAndEndsWithOne) {
     EXPECT_GE(pace.share(), last);
     last = pace.share();
   };
+
   note(1, {Phase::simulating, 5});
   note(9, {Phase::simulating, 10});
   EXPECT_NEAR(last, 0.9, 1e-12);
+
   note(9, {Phase::drawing, 10, 0, 1});
   EXPECT_LT(last, 1);
+
   note(30, {Phase::drawing, 10, 0, 2});
   note(31, {Phase::writing, 10, 0, 10});
   EXPECT_EQ(last, 1);

@@ -20,8 +20,10 @@ TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
   const Finished run = here.carom({"run", "balls.yaml"});
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "");
+
   const size_t residual = run.out.find(", residual "), next = run.out.find("\n  overlap");  // rounding, not quoted
   ASSERT_LT(residual, next) << run.out;
+
   const string until_time = run.out.substr(0, residual) + run.out.substr(next, run.out.find("  time ") - next);
   // They touch when their centres are 0.22 m apart: after 1.78 m at 4 m/s. Of 40 J, 1 - 0.9^2 is lost.
   EXPECT_EQ(until_time,
@@ -33,6 +35,7 @@ TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
             "  overlap     none\n"
             "  wrote       output/balls: collisions.csv, energy.csv, manifest.json, scene.yaml, summary.csv and\n"
             "              trajectory.csv\n");
+
   for (const string name :
        {"summary.csv", "trajectory.csv", "collisions.csv", "energy.csv", "manifest.json", "scene.yaml"}) {
     EXPECT_TRUE(here.has("output/balls/" + name)) << name;
@@ -74,6 +77,7 @@ TEST(Run, FolderOfAnotherRunIsRefusedWithoutForce) {
   here.carom({"run", "balls.yaml"});
   const auto before = here.files("output");
   const Finished other = here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11"});
+
   EXPECT_EQ(other.code, 2);
   EXPECT_EQ(other.out, "");
   EXPECT_EQ(other.err,
@@ -152,6 +156,7 @@ TEST(Run, MoreOutputTimesDoNotChangeACollision) {
       "1}\n"
       "room: {min: [0, 0, 0], max: [2, 2, 2]}\n"
       "simulate: {duration: 5}\n";
+
   here.write("few.yaml", gas + "output: {collisions: true}\n");
   here.write("many.yaml", gas + "output: {collisions: true, trajectory: {every: 0.001}, energy: {every: 0.0007}}\n");
   const Finished run = here.carom({"run", "few.yaml", "many.yaml"});
@@ -187,6 +192,7 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   // An output that the scene lacks has default settings.
   here.write("none.yaml", two_balls("output: {collisions: true}\n"));
   EXPECT_EQ(here.carom({"run", "none.yaml", "--only", "trajectory"}).code, 0);
+
   const string trajectory = here.read("output/none/trajectory.csv");
   EXPECT_EQ(std::ranges::count(trajectory, '\n'),
             1 + 31 * 2);  // every 1/30 s over 1 s, ends included
@@ -208,6 +214,7 @@ TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
   ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "frames", "-o", "plain"}).code, 0);
   EXPECT_EQ(frames("plain"), 21u);
   EXPECT_EQ(sizes(here, "plain/frames/*"), "64,64\n");
+
   ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "frames", "-o", "late", "--set", "output.frames.from=0.5"}).code,
             0);
   EXPECT_EQ(frames("late"), 11u);
@@ -217,6 +224,7 @@ TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
   ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "sheet", "-o", "sheet"}).code, 0);
   // Four columns and three rows of 470 pixels each, and gaps of 8.
   EXPECT_EQ(sizes(here, "sheet/sheet.png"), "1920,1442\n") << "square pictures, as those of the film";
+
   const Finished flat =
       here.carom({"run", "film.yaml", "--only", "sheet", "-o", "flat", "--set", "output.video.size=[64, 32]"});
   EXPECT_EQ(flat.code, 0);
@@ -247,6 +255,7 @@ TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
   here.write("fails.yaml", busy);
   here.write("quick.yaml", two_balls());
   here.write("there.yaml", two_balls());
+
   const auto run = [&](const string& jobs) {
     here.carom({"run", "there.yaml", "-o", jobs + "/there"});
     const Finished all =
@@ -254,6 +263,7 @@ TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
     EXPECT_EQ(all.code, 1);
     EXPECT_TRUE(all.err.starts_with("carom: fails.yaml: the run failed: more than simulate.max_collisions = 1"))
         << all.err;
+
     Json scenes = Json::parse(all.out)["scenes"];
     for (Json& scene : scenes) {
       scene.erase("time");
@@ -261,16 +271,19 @@ TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
     }
     return scenes;
   };
+
   const Json one = run("1"), three = run("3");
   EXPECT_EQ(one, three);
   ASSERT_EQ(one.size(), 4u);
   EXPECT_EQ(one[0]["status"], "done");
   EXPECT_EQ(one[1]["status"], "failed");
   EXPECT_EQ(one[3]["status"], "up to date");
+
   std::map<string, string> files[2] = {here.files("1"), here.files("3")};
   for (auto& some : files) std::erase_if(some, [](const auto& file) { return file.first.ends_with("manifest.json"); });
   EXPECT_GT(files[0].size(), 110u);
   EXPECT_EQ(files[0], files[1]);
+
   const Finished text = here.carom({"run", "quick.yaml", "slow.yaml", "there.yaml", "-j", "2", "-o", "2"});
   const size_t quick = text.out.find("quick: "), slow = text.out.find("slow: "), last = text.out.find("there: ");
   EXPECT_LT(quick, slow);
@@ -294,9 +307,11 @@ TEST(Run, OfASceneWithAMeshCanBeRepeatedFromItsFolderAlone) {
              "scene: 1\n"
              "bodies: {t: {mass: 1, mesh: meshes/t.stl, fit: box, position: [0, 2, 0]}}\n"
              "simulate: {duration: 0.1}\n");
+
   EXPECT_EQ(here.carom({"run", "scenes/fall.yaml", "-o", "deep/er/first"}).err, "");
   EXPECT_EQ(here.read("deep/er/first/t.stl"), tetrahedron);
   EXPECT_EQ(here.shell("mv deep/er/first moved && rm -r scenes deep && $CAROM run moved/scene.yaml -o again").err, "");
+
   auto first = here.files("moved"), again = here.files("again");
   first.erase("manifest.json");
   again.erase("manifest.json");
@@ -312,6 +327,7 @@ TEST(Run, ScenesWithATornMeshAreWrong) {
              "bodies: {t: {mass: 1, mesh: t.stl, fit: box, position: [0, 2, 0]}}\n"
              "simulate: {duration: 0.1}\n");
   const Finished run = here.carom({"run", "fall.yaml"});
+
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(
       run.err,
@@ -346,6 +362,7 @@ TEST(Run, SetAndSeedChangeTheScene) {
       "  gas: {count: 5, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, arrange: random, speed: "
       "1}\n"
       "simulate: {duration: 1}\n";
+
   here.write("gas.yaml", gas);
   EXPECT_EQ(here.carom({"run", "gas.yaml", "-o", "zero"}).code, 0);
   EXPECT_EQ(here.carom({"run", "gas.yaml", "-o", "seven", "--seed", "7"}).code, 0);
@@ -366,6 +383,7 @@ TEST(Run, ASettingThatChangesNothingOfWhatIsWrittenIsSaid) {
     EXPECT_EQ(run.code, 0) << run.err;
     return run.err;
   };
+
   EXPECT_EQ(errors("video", "output.frames.from=0.5"),
             "carom: balls.yaml: --set output.frames.from=0.5 changes nothing: the output `frames` is not written\n");
   EXPECT_EQ(errors("video", "output.frames.from=0.5", true), "");
@@ -378,6 +396,7 @@ TEST(Run, ASettingThatChangesNothingOfWhatIsWrittenIsSaid) {
             "carom: balls.yaml: --set balls.red.color=blue changes nothing: no output is drawn\n");
   EXPECT_EQ(errors("energy", "balls.red.restitution=0.5"), "");
   EXPECT_EQ(errors("frames", "balls.red.color=blue"), "");
+
   const string mesh = SCENES_DIR "/meshes/duck.obj";
   for (const string& drawn :
        {string("trails={seconds: 0.5}"), string("caption=true"), string("flash=true"), string("arrows=[velocity]"),
@@ -396,11 +415,13 @@ TEST(Run, ASettingOfAMeshThatIsTheBodysVolumeChangesTheMotion) {
              "/meshes/duck.obj, fit: box, position: [0, 1, 0]}}\n"
              "planes: {visible: {point: [0, -9, 0], normal: [0, 1, 0]}}\n"
              "simulate: {duration: 0.1}\noutput: {energy: true}\n");
+
   const auto errors = [&](const string& setting) {
     const Finished run = here.carom({"run", "duck.yaml", "--force", "--set", setting});
     EXPECT_EQ(run.code, 0) << run.err;
     return run.err;
   };
+
   EXPECT_EQ(errors("bodies.duck.mesh=" SCENES_DIR "/meshes/pin.obj"), "");
   // A thing with the name of a key is no key.
   EXPECT_EQ(errors("planes.visible.restitution=0.5"), "");
@@ -414,9 +435,11 @@ TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   here.write("b.yaml", two_balls());
   here.carom({"run", "b.yaml"});
   const Finished run = here.carom({"run", "a.yaml", "b.yaml", "--json"});
+
   EXPECT_EQ(run.code, 0);
   const Json document = Json::parse(run.out);
   EXPECT_EQ(document.at("carom"), CAROM_VERSION);
+
   const Json& a = document.at("scenes").at(0);
   EXPECT_EQ(a.at("status"), "done");
   EXPECT_EQ(a.at("scene"), "a.yaml");
@@ -427,11 +450,13 @@ TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   EXPECT_EQ(a.at("summary").at("title"), "Two balls");
   EXPECT_NEAR(a.at("summary").at("energy_lost_J").get<double>(), 7.6, 1e-14);
   EXPECT_GE(a.at("time").at("wall_s").get<double>(), 0);
+
   // Every column of summary.csv but the run's number, which a run by itself does not have.
   const string summary = here.read("output/a/summary.csv");
   string columns = "run";
   const auto ordered = nlohmann::ordered_json::parse(run.out).at("scenes").at(0).at("summary");
   for (const auto& item : ordered.items()) columns += "," + item.key();
+
   EXPECT_EQ(columns, summary.substr(0, summary.find('\n')));
   EXPECT_EQ(document.at("scenes").at(1).at("status"), "up to date");
   EXPECT_FALSE(document.at("scenes").at(1).contains("summary"));

@@ -47,11 +47,13 @@ TEST(SampledSweep, OfTheCommandLineIsThatOfAFile) {
   const Finished words = here.carom({"sweep", "balls.yaml", "--latin", "9", "--grid", "balls.red.mass=1:50:log",
                                      "--grid", "balls.red.position.z=-0.05:0.05", "--only", "energy", "--seed", "3",
                                      "--measures", "balls.blue.x_m", "-q"});
+
   EXPECT_EQ(words.code, 0) << words.err;
   for (const string run : {"r0001", "r0009"})
     EXPECT_EQ(here.read("output/balls.sweep/runs/" + run + "/energy.csv"),
               here.read("file/runs/" + run + "/energy.csv"));
   const string rows = here.read("output/balls.sweep/summary.csv");
+
   EXPECT_TRUE(rows.substr(0, rows.find('\n')).ends_with("balls.red.mass,balls.red.position.z,balls.blue.x_m")) << rows;
 }
 
@@ -59,12 +61,14 @@ TEST(SampledSweep, RangesAndNumbersOfSamplesNeedEachOther) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   here.write("latin.yaml", latin);
+
   const auto refused = [&](vector<string> words, const string& part) {
     words.insert(words.begin(), "sweep");
     const Finished sweep = here.carom(words);
     EXPECT_EQ(sweep.code, 2);
     EXPECT_NE(sweep.err.find(part), string::npos) << sweep.err;
   };
+
   refused({"balls.yaml", "--grid", "balls.red.mass=1:2"}, "add one, such as balls.red.mass=1:2:6, or draw from it");
   refused({"balls.yaml", "--latin", "5"}, "there are none: add --grid PATH=FROM:TO");
   refused({"balls.yaml", "--latin", "5", "--random", "5", "--grid", "balls.red.mass=1:2"}, "exclude one another");
@@ -95,18 +99,22 @@ TEST(SkipInvalid, LeavesOutInvalidScenariosAndKeepsTheIdsOfTheOthers) {
   here.write("masses.yaml", mass_sweep);
   EXPECT_EQ(here.carom({"sweep", "masses.yaml", "-q"}).code, 2);
   EXPECT_FALSE(here.has("output"));
+
   const Finished sweep = here.carom({"sweep", "masses.yaml", "--skip-invalid"});
   EXPECT_EQ(sweep.code, 0) << sweep.err;
   EXPECT_NE(sweep.out.find("  left out    2 invalid runs\n              r0001: `mass` is 0\n"), string::npos)
       << sweep.out;
   EXPECT_FALSE(here.has("output/masses/runs/r0001"));
   EXPECT_EQ(here.read("output/masses/skipped.csv"), "run,error\nr0001,`mass` is 0\nr0003,`mass` is -1\n");
+
   const string rows = here.read("output/masses/summary.csv");
   EXPECT_EQ(std::ranges::count(rows, '\n'), 3);
   EXPECT_NE(rows.find("\nr0004,"), string::npos);
+
   const Finished again = here.carom({"sweep", "masses.yaml", "--skip-invalid"});
   EXPECT_NE(again.out.find("up to date  2 runs"), string::npos) << again.out;
   EXPECT_NE(again.out.find("r0003: `mass` is -1"), string::npos) << again.out;
+
   const Finished compare = here.carom({"compare", "output/masses", "-q"});
   EXPECT_EQ(compare.code, 0) << compare.err;
 }

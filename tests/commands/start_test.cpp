@@ -26,6 +26,7 @@ vector<Row> rows_in(const string& table) {
   std::istringstream in(table);
   string line;
   std::getline(in, line);
+
   while (std::getline(in, line)) {
     Row& row = rows.emplace_back();
     std::istringstream cells(line);
@@ -38,6 +39,7 @@ vector<Row> rows_in(const string& table) {
         row.names.push_back(cell);
     }
   }
+
   return rows;
 }
 
@@ -89,6 +91,7 @@ TEST(Start, GoesOnAlongTheParabolasOfARun) {
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   const vector<Row> trajectory = rows_in(here.read("first/trajectory.csv"));
   const vector<Row> collisions = rows_in(here.read("first/collisions.csv"));
+
   for (const char* at : {"0", "0.3", "0.37", "1.2"}) {
     const double from = std::strtod(at, nullptr);
     here.write("second.yaml",
@@ -116,6 +119,7 @@ TEST(Start, OfStringsIsTheRunOfItsSceneFile) {
         tied + "simulate: {duration: 1.5}\noutput: {trajectory: {every: 0.1}, collisions: true, flights: true}\n";
     here.write("first.yaml", scene);
     expect_run(here, {"run", "first.yaml", "-o", "first"});
+
     for (const char* at : {"0.1", "0.37", "0.7", "1.2"}) {
       here.write("second.yaml", scene + "start: {run: first, at: " + at + "}\n");
       expect_run(here, {"run", "second.yaml", "-o", "second", "--force"});
@@ -138,6 +142,7 @@ TEST(Start, OfAFreeBallIsTheClosedFormAtAnyTime) {
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   expect_run(here, {"run", "second.yaml", "-o", "second"});
   const vector<Row> rows = rows_in(here.read("second/trajectory.csv"));
+
   ASSERT_EQ(rows.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
     const double t = 0.123456789 + static_cast<double>(i);
@@ -161,6 +166,7 @@ TEST(Start, WithoutFlightsHasTheNumbersOfTheTable) {
     const size_t rows = layout == string("long") ? 10 : 1;
     then.resize(rows);
     now.resize(rows);
+
     EXPECT_EQ(greatest_difference(then, now), 0) << layout;
   }
 }
@@ -183,12 +189,14 @@ TEST(Start, LeavesASceneThatRunsAlone) {
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   expect_run(here, {"run", "second.yaml", "-o", "second"});
   expect_run(here, {"run", "second/scene.yaml", "-o", "third"});
+
   EXPECT_EQ(here.read("second/scene.yaml").find("start:"), string::npos);
   std::map<string, string> second = without_manifest(here.files("second")),
                            third = without_manifest(here.files("third"));
   // These name the run by its folder.
   second.erase("summary.csv");
   third.erase("summary.csv");
+
   EXPECT_EQ(second, third);
 }
 
@@ -199,14 +207,17 @@ TEST(Start, IsInTheManifestAndAChangedRunIsNoticed) {
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   const Words again = {"run", "second.yaml", "-o", "second"};
   expect_run(here, again);
+
   EXPECT_NE(here.carom(again).out.find("up to date"), string::npos);
   const auto first = nlohmann::json::parse(here.read("first/manifest.json")),
              second = nlohmann::json::parse(here.read("second/manifest.json"));
   string flights;
   for (const auto& file : first["files"])
     if (file["name"] == "flights.bin") flights = file["sha256"];
+
   EXPECT_EQ(second["scene"]["start"],
             (nlohmann::json{{"run", "first"}, {"at", 0.37}, {"file", "flights.bin"}, {"sha256", flights}}));
+
   expect_run(here, {"run", "first.yaml", "-o", "first", "--set", "balls.blue.velocity.x=-1", "--force"});
   const Finished renewed = here.carom(again);
   EXPECT_EQ(renewed.code, 0) << renewed.err;
@@ -226,13 +237,16 @@ TEST(Start, OfAnySweptTimeHasItsState) {
   expect_run(here, sweep);
   // Red moves at 2 m/s from -1 m, and meets blue at 0.445 s.
   const vector<Row> rows = rows_in(here.read("sweep/summary.csv"));
+
   ASSERT_EQ(rows.size(), 3u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(rows[i].numbers.back(), -1 + 2 * 0.125 * static_cast<double>(i + 1)) << i;
   EXPECT_NE(here.carom(sweep).out.find("made        0 runs"), string::npos);
+
   const Finished within =
       here.carom({"sweep", "second.yaml", "--grid", "start.run=sweep/runs/r0001", "-o", "sweep", "--force"});
   EXPECT_EQ(within.code, 2);
   EXPECT_NE(within.err.find("the run `sweep/runs/r0001` lies in the folder of this sweep"), string::npos) << within.err;
+
   expect_run(here, {"run", "first.yaml", "-o", "first", "--set", "balls.red.position.x=-1.5", "--force"});
   EXPECT_NE(here.carom(sweep).err.find("holds something other"), string::npos);
 }
@@ -244,6 +258,7 @@ TEST(Start, ChecksWithoutWriting) {
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   const auto before = here.files();
   const Finished check = here.carom({"check", "second.yaml"});
+
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_NE(check.out.find("  start       the run first at 0.5 s, by its flights.bin\n"
                            "  note        start: the impulse of `red` is not applied again: the velocities of the run "
@@ -275,12 +290,14 @@ TEST(Start, RefusesRunsThatHaveNoSuchState) {
       "     = the nearest rows are at 0.5 and 0.6 s\n"
       "     = or run it with `output.flights: true`, which has every time of motion along parabolas\n"
       "carom: 1 error\n");
+
   EXPECT_EQ(error_of_start(here, "{run: first, at: 2.5}"),
             "second.yaml:10:25: error: the run `first` cannot be used: it ended at 2 s, before 2.5 s\n"
             "  10 | start: {run: first, at: 2.5}\n"
             "     |                         ^~~\n"
             "     = expected `at` from 0 to 2 s\n"
             "carom: 1 error\n");
+
   const auto expect = [&](const string& run, const string& fault) {
     const string error = error_of_start(here, "{run: " + run + "}");
     EXPECT_NE(error.find(":14: error: the run `" + run + "` cannot be used: " + fault), string::npos) << error;
@@ -300,6 +317,7 @@ TEST(Start, AppliesImpulsesOnce) {
   const string scene =
       "scene: 1\ngravity: [0, 0, 0]\nsimulate: {duration: 1, engine: ENGINE}\noutput: {trajectory: {every: 0.5}}\n"
       "balls: {red: {mass: 2, radius: 0.1, position: [0, 0, 0], velocity: [1, 0, 0], impulse: [6, 0, 0]}}\n";
+
   for (const char* engine : {"exact", "stepped", "book"}) {
     const Workplace here;
     string text = scene;
@@ -311,11 +329,13 @@ TEST(Start, AppliesImpulsesOnce) {
     expect_run(here, {"run", "second.yaml", "-o", "second"});
     for (const Row& row : rows_in(here.read("second/trajectory.csv"))) EXPECT_NEAR(row.numbers[4], 4, 1e-15) << engine;
     const Finished again = here.carom({"run", "again.yaml", "-o", "again"});
+
     if (engine == string("book")) {
       EXPECT_NE(again.err.find("the book's engine had not yet applied the impulses then"), string::npos);
       continue;
     }
     EXPECT_EQ(again.code, 0) << again.err;
+
     for (const Row& row : rows_in(here.read("again/trajectory.csv"))) EXPECT_EQ(row.numbers[4], 4) << engine;
   }
 }
@@ -343,12 +363,14 @@ TEST(Start, RefusesBodiesThatHaveMergedAndKeepsMassesOfTheScene) {
     here.write("both.yaml", lumps + blue_lump + "start: {run: first}\n");
     expect_run(here, {"run", "first.yaml", "-o", "first", "--only", only});
     const Finished both = here.carom({"check", "both.yaml"});
+
     EXPECT_EQ(both.code, 2);
     EXPECT_NE(
         both.err.find(": error: at 1 s of the run `blue` is gone: merged into another body, or removed by a region\n"),
         string::npos)
         << both.err;
     EXPECT_EQ(here.carom({"check", "both.yaml", "--set", "start.at=0.25"}).code, 0);
+
     here.write("red.yaml", lumps + "start: {run: first}\n");
     const Finished red = here.carom({"run", "red.yaml", "-o", "red"});
     EXPECT_EQ(red.code, 0) << red.err;

@@ -67,6 +67,7 @@ vector<std::map<string, string>> rows_of(const string& text) {
     for (const char c : line) c == ',' ? out.emplace_back() : out.back() += c;
     return out;
   };
+
   const vector<string> lines = lines_of(text);
   const vector<string> names = cells(lines.at(0));
   for (size_t i = 1; i < lines.size(); ++i) {
@@ -74,6 +75,7 @@ vector<std::map<string, string>> rows_of(const string& text) {
     rows.emplace_back();
     for (size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = values.at(k);
   }
+
   return rows;
 }
 
@@ -84,6 +86,7 @@ TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
   EXPECT_EQ(sweep.code, 0) << sweep.err;
   EXPECT_EQ(sweep.err, "");
   EXPECT_TRUE(sweep.out.starts_with("offsets: Offsets\n  runs        6 runs; done\n")) << sweep.out;
+
   for (const string name : {"summary.csv", "comparison.xlsx", "manifest.json", "runs/r0001/trajectory.csv",
                             "runs/r0006/manifest.json", "runs/r0006/scene.yaml"})
     EXPECT_TRUE(here.has("output/offsets/" + name)) << name;
@@ -145,6 +148,7 @@ TEST(Sweep, ReportsAPathWithoutEffectUnlessAMeasureUsesIt) {
     EXPECT_EQ(sweep.code, 0) << sweep.err;
     return sweep.err;
   };
+
   const auto idle = [](const string& path) {
     return "carom: " + path + " has no effect on the motion: its value is not used\n";
   };
@@ -190,14 +194,17 @@ TEST(Sweep, OneFailingRunStopsNoOther) {
           "sweep: 1\nbase: balls.yaml\nset: {room: {min: [-1.15, -1, -1], max: [1.15, 1, 1]}}\n"
           "grid: {simulate.max_collisions: [100, 1, 200]}\n");
   const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+
   EXPECT_EQ(sweep.code, 3);
   EXPECT_TRUE(sweep.err.starts_with("carom: r0002: the run failed: more than simulate.max_collisions = 1"))
       << sweep.err;
   EXPECT_TRUE(here.has("output/offsets/runs/r0002/error.txt"));
   EXPECT_TRUE(here.has("output/offsets/runs/r0003/trajectory.csv"));
+
   const vector<string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(rows[2].starts_with("r0002,,,failed,")) << rows[2];
+
   // It is tried again; the others are not.
   const Json again = Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out);
   EXPECT_EQ(again["made"], 0);
@@ -237,14 +244,17 @@ TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
   const string summary = here.read("output/offsets/summary.csv");
   auto rows = rows_of(summary);
+
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0]["balls.red.mass"], "5");
   EXPECT_EQ(rows[0]["balls.red.position.z"], "0");
   EXPECT_EQ(rows[2]["balls.red.mass"], "10");
   EXPECT_EQ(rows[2]["balls.red.position.z"], "0.05");
+
   // The same by another route.
   ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
   EXPECT_EQ(here.read("output/offsets/summary.csv"), summary);
+
   ASSERT_EQ(here.carom({"compare", "output/offsets", "-o", "again", "-q"}).code, 0);
   EXPECT_EQ(here.read("again/summary.csv"), summary);
 }
@@ -260,10 +270,12 @@ TEST(Sweep, RunsOfAnotherSweepAreNeverTakenForItsOwn) {
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
   prepare(here, masses("1, 2, 3, 4"));
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 2);
+
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "1/2", "--force"}).code, 0);
   const Finished gathered = here.carom({"gather", "output/offsets", "-q"});
   EXPECT_EQ(gathered.code, 1);
   EXPECT_NE(gathered.err.find("2 of 4 runs are missing: r0002 and r0004"), string::npos) << gathered.err;
+
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "2/2"}).code, 0);
   ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
   for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
@@ -278,6 +290,7 @@ TEST(Sweep, RunThatWasReplacedIsNotUpToDateAndNotGathered) {
       here.shell("rm -r output/offsets/runs/r0001 && cp -r output/offsets/runs/r0002 output/offsets/runs/r0001").code,
       0);
   const Finished again = here.carom({"sweep", "offsets.yaml", "-q"});
+
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
             "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something other than this run\n"
@@ -291,18 +304,23 @@ TEST(Sweep, ForceRunsAgainAndANewMeasureRunsWhatLacksIt) {
   const Workplace here;
   prepare(here, masses("1, 2"));
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+
   const auto made = [&](const vector<string>& more) {
     vector<string> words = {"sweep", "offsets.yaml", "--json", "--progress", "none"};
     words.insert(words.end(), more.begin(), more.end());
     return Json::parse(here.carom(words).out)["made"];
   };
+
   EXPECT_EQ(made({}), 0);
   EXPECT_EQ(made({"--force"}), 2);
+
   prepare(here, masses("1, 2", "compare: {measures: [energy_end_J]}\n"));
   EXPECT_EQ(made({}), 0);
+
   prepare(here, masses("1, 2", "compare: {measures: [balls.red.vx_m_per_s]}\n"));
   EXPECT_EQ(made({}), 2);
   EXPECT_EQ(made({}), 0);
+
   for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
     EXPECT_LT(std::stod(row["balls.red.vx_m_per_s"]), 0) << row["run"];
 }
@@ -333,10 +351,12 @@ TEST(Sweep, MeshesCountByTheirBytes) {
           "sweep: 1\nbase: balls.yaml\nonly: [frames]\nset: {output.frames: {fps: 1, size: [16, 16], samples: 1}}\n"
           "grid: {balls.red.mesh: [a/pin.obj, b/pin.obj]}\n");
   const auto sweep = [&] { return Json::parse(here.carom({"sweep", "offsets.yaml", "--json"}).out); };
+
   EXPECT_EQ(sweep()["made"], 2);
   EXPECT_EQ(here.read("output/offsets/runs/r0001/pin.obj"), tetrahedron("1"));
   EXPECT_EQ(here.read("output/offsets/runs/r0002/pin.obj"), tetrahedron("2"));
   EXPECT_EQ(sweep()["made"], 0);
+
   here.write("b/pin.obj", tetrahedron("3"));
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 2);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
@@ -362,12 +382,15 @@ TEST(Sweep, AllErrorsOfAllScenariosAreShownOnce) {
           "sweep: 1\nbase: balls.yaml\n"
           "grid: {balls.red.mass: [1, a, -3], simulate.duration: [-1, 2], balls.blue.radius: [q, 0.1]}\n");
   const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+
   EXPECT_EQ(sweep.code, 2);
   for (const char* place : {"3:28", "3:31", "3:56", "3:84"})
     EXPECT_NE(sweep.err.find(string("offsets.yaml:") + place + ": error: "), string::npos) << sweep.err;
   EXPECT_NE(sweep.err.find("carom: 4 errors: nothing was run\n"), string::npos) << sweep.err;
+
   const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--json"}).out);
   EXPECT_EQ(json["status"], "wrong");
+
   prepare(here, masses("1, 2", "compare: {measures: [balls.rde.x_m, energy_lst_J]}\n"));
   const Finished measures = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_NE(measures.err.find("offsets.yaml:5:22: error: "), string::npos) << measures.err;
@@ -429,9 +452,11 @@ TEST(Gather, RefusesAFolderThatHoldsSomethingElse) {
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "run"}).code, 0);
   const auto before = here.files("run");
   const Finished gathered = here.carom({"gather", "run", "output/offsets"});
+
   EXPECT_EQ(gathered.code, 2);
   EXPECT_EQ(gathered.err, "carom: the folder run holds something else; nothing was gathered\n");
   EXPECT_EQ(here.files("run"), before);
+
   // A user's own file of that name does not belong to the sweep.
   here.write("own/sweep.yaml", "# by hand\n" + masses("1, 2"));
   here.write("own/balls.yaml", two_balls());
@@ -467,6 +492,7 @@ TEST(Sweep, EqualScenariosAreCopiesAndCamerasShareASimulation) {
           "  - {camera.fov: 30}\n  - {camera.fov: 60}\n  - {camera.fov: 30}\n");
   here.write("balls.yaml", two_balls("camera: {eye: [0, 1, -4], target: [0, 0, 0]}\n"
                                      "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
+
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
   const auto run = [&](const string& id) { return here.files("output/offsets/runs/" + id); };
   // A copy has the times of its original too.
@@ -474,9 +500,11 @@ TEST(Sweep, EqualScenariosAreCopiesAndCamerasShareASimulation) {
   EXPECT_EQ(run("r0001").size(), run("r0003").size());
   EXPECT_NE(here.read("output/offsets/runs/r0001/frames/frame_00001.png"),
             here.read("output/offsets/runs/r0002/frames/frame_00001.png"));
+
   const Json one = Json::parse(here.read("output/offsets/runs/r0001/manifest.json"));
   const Json two = Json::parse(here.read("output/offsets/runs/r0002/manifest.json"));
   EXPECT_EQ(one["wall_times_s"]["simulate"], two["wall_times_s"]["simulate"]);  // one and the same
+
   here.carom({"run", "balls.yaml", "--set", "camera.fov=60", "-o", "alone", "-q"});
   EXPECT_EQ(here.read("alone/frames/frame_00003.png"), here.read("output/offsets/runs/r0002/frames/frame_00003.png"));
 }
@@ -513,14 +541,17 @@ balls: {row: {repeat: = n, radius: = r, mass: 1, position: [= 3 * r * i, 0, 0]}}
 simulate: {duration: 0.1}
 output: {energy: {every: 0.1}}
 )");
+
   const Finished run = here.carom({"sweep", "row.yaml", "--grid", "let.n=1:3:3", "--grid", "let.r=0.2,= n / 8", "-q"});
   ASSERT_EQ(run.code, 0) << run.err;
+
   std::istringstream table(here.files("output/row.sweep").at("summary.csv"));
   string line, ends;
   for (std::getline(table, line); std::getline(table, line);) {
     const size_t last = line.rfind(','), before = line.rfind(',', last - 1);
     ends += line.substr(before) + "\n";
   }
+
   EXPECT_EQ(ends, ",1,0.2\n,1,0.125\n,2,0.2\n,2,0.25\n,3,0.2\n,3,0.375\n");
   EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.q=1,2"}).err.find("`let` has no `q`"),
             string::npos);
@@ -561,6 +592,7 @@ TEST(Gather, KilledPartIsMissedAndRepeated) {
   const vector<string> first = {"sweep", "offsets.yaml", "--shard", "1/2", "-o", "parts", "-q"};
   EXPECT_EQ(here.interrupted(first, "parts/runs/r0003/manifest.json", SIGKILL).code, 1000 + SIGKILL);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--shard", "2/2", "-o", "parts", "-q"}).code, 0);
+
   const Finished early = here.carom({"gather", "parts", "--progress", "none"});
   EXPECT_EQ(early.code, 1);
   EXPECT_NE(early.err.find(" of 301 runs are missing: "), string::npos) << early.err;

@@ -118,20 +118,24 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
   here.write("never.yaml", two_balls());
   const Finished run = here.interrupted({"run", "short.yaml", "long.yaml", "never.yaml", "--json"},
                                         "output/long/frames/frame_00002.png", GetParam());
+
   EXPECT_EQ(run.code, 128 + GetParam());
   EXPECT_EQ(run.err.substr(run.err.find("carom:")),
             "carom: long.yaml: interrupted; the same command runs what is missing\n");
+
   const Json scenes = Json::parse(run.out).at("scenes");
   EXPECT_EQ(scenes.at(0).at("status"), "done");
   EXPECT_EQ(scenes.at(1).at("status"), "interrupted");
   EXPECT_EQ(scenes.at(2).at("status"), "not run");
   EXPECT_TRUE(here.has("output/short/manifest.json"));
   EXPECT_FALSE(here.has("output/long/manifest.json") || here.has("output/never"));
+
   for (const auto& [name, bytes] : here.files("output")) {
     EXPECT_EQ(name.find(".part"), string::npos) << name;
     EXPECT_FALSE(name.ends_with(".csv") && name.starts_with("long/")) << name;
     EXPECT_FALSE(name.ends_with(".mp4")) << name;
   }
+
   const Finished check = here.carom({"check", "long.yaml"});
   EXPECT_NE(check.out.find("  folder      output/long: incomplete, will be run again\n"), string::npos) << check.out;
 }
@@ -142,15 +146,18 @@ TEST_P(Interrupt, EndsAllScenesThatRunAtOnce) {
   const Finished run =
       here.interrupted({"run", "a.yaml", "b.yaml", "never.yaml", "-j", "2", "--json", "--progress", "none"},
                        "output/b/frames/frame_00002.png", GetParam());
+
   EXPECT_EQ(run.code, 128 + GetParam());
   EXPECT_EQ(run.err,
             "carom: a.yaml: interrupted; the same command runs what is missing\n"
             "carom: b.yaml: interrupted; the same command runs what is missing\n");
+
   const Json scenes = Json::parse(run.out).at("scenes");
   EXPECT_EQ(scenes.at(0).at("status"), "interrupted");
   EXPECT_EQ(scenes.at(1).at("status"), "interrupted");
   EXPECT_EQ(scenes.at(2).at("status"), "not run");
   EXPECT_FALSE(here.has("output/a/manifest.json") || here.has("output/b/manifest.json") || here.has("output/never"));
+
   for (const auto& [name, bytes] : here.files("output")) EXPECT_EQ(name.find(".part"), string::npos) << name;
 }
 
@@ -177,6 +184,7 @@ TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
   const auto raw = [](const Finished& run) {
     return (run.out + run.err).find("\u202e") != string::npos || (run.out + run.err).find("\u200b") != string::npos;
   };
+
   const vector<vector<string>> commands = {
       {"check", "a.yaml"},
       {"run", "a.yaml"},
@@ -196,6 +204,7 @@ TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
       {"new", "folder/" + turned},
       {"submit", turned + ".yaml", "--slurm"},
   };
+
   for (const auto& words : commands) {
     const Finished run = here.carom(words);
     EXPECT_FALSE(raw(run)) << words.front() << ":\n" << run.out << run.err;

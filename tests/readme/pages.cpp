@@ -81,6 +81,7 @@ string Page::folder() const {
 vector<PageBlock> Page::blocks() const {
   vector<PageBlock> found;
   std::istringstream in(text);
+
   bool inside = false;
   for (string line; std::getline(in, line);) {
     if (line.starts_with("```")) {
@@ -90,6 +91,7 @@ vector<PageBlock> Page::blocks() const {
       found.back().text += line + "\n";
     }
   }
+
   EXPECT_FALSE(inside) << path << " leaves a block open";
   return found;
 }

@@ -51,6 +51,7 @@ std::multimap<string, string> source_files() {
 TEST(Pages, NameOnlySourcesThatAreThereAndOfAFolderItsOwn) {
   const auto sources = source_files();
   const std::regex source("`([a-z0-9_/]+\\.(?:h|cpp))`");
+
   for (const Page& page : pages()) {
     const bool of_a_folder = page.folder().starts_with("src/");
     for (const string& name : matches(page.text, source, 1)) {
@@ -71,10 +72,12 @@ TEST(Pages, LinksReachPagesFilesAndHeadings) {
     for (std::sregex_iterator i(page.text.begin(), page.text.end(), link), end; i != end; ++i, ++links) {
       const string target = (*i)[1], anchor = (*i)[2];
       if (target.starts_with("http")) continue;
+
       const string path =
           target.empty() ? page.path : (fs::path(page.folder()) / target).lexically_normal().generic_string();
       EXPECT_TRUE(fs::exists(root / path)) << page.path << ": " << i->str();
       if (anchor.empty()) continue;
+
       const auto there =
           std::find_if(pages().begin(), pages().end(), [&](const Page& other) { return other.path == path; });
       ASSERT_NE(there, pages().end()) << page.path << ": " << i->str();
@@ -82,6 +85,7 @@ TEST(Pages, LinksReachPagesFilesAndHeadings) {
       EXPECT_TRUE(std::ranges::count(anchors, anchor.substr(1))) << page.path << ": " << i->str();
     }
   }
+
   EXPECT_GT(links, 50u);
 }
 
@@ -104,12 +108,15 @@ string first_paragraph(const Page& page) {
 TEST(Pages, OfEachSourceFolderBeginWithItsSentenceInTheTable) {
   const std::regex row("\\| \\[(\\w+)/\\]\\(\\w+/README.md\\) \\| ([^|\n]+) \\|\n");
   std::map<string, string> sentences;
+
   const string& text = page_at("src/README.md").text;
   for (std::sregex_iterator i(text.begin(), text.end(), row), end; i != end; ++i) sentences[(*i)[1]] = (*i)[2];
+
   std::set<string> folders;
   for (const auto& entry : fs::directory_iterator(root / "src"))
     if (entry.is_directory()) folders.insert(entry.path().filename());
   for (const string& folder : folders) EXPECT_TRUE(sentences.contains(folder)) << folder;
+
   for (const auto& [folder, sentence] : sentences) {
     ASSERT_TRUE(folders.contains(folder)) << folder;
     string paragraph = first_paragraph(page_at("src/" + folder + "/README.md"));

@@ -155,6 +155,7 @@ string shortened(string command) {
 TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
   const Clone clone;
   int run = 0, compared = 0;
+
   for (const Page& page : pages()) {
     bool printed = false;  // by a command of this page
     for (const PageBlock& block : page.blocks()) {
@@ -172,8 +173,10 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
       }
     }
   }
+
   EXPECT_EQ(run, 32);
   EXPECT_EQ(compared, 2);
+
   for (const char* file :
        {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
         "two_bowling_balls/still_1.25s.png", "half/collisions.csv", "two_bowling_balls.sweep/summary.csv",
@@ -183,10 +186,12 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
         "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
     EXPECT_TRUE(fs::exists(clone / (string("output/") + file))) << file;
   }
+
   EXPECT_FALSE(fs::exists(clone / "output/two_bowling_balls.sweep/runs/r0007"));
   for (const char* file : {"scene.schema.json", "sweep.schema.json", "format.md"})
     EXPECT_EQ(read_file(clone / (string("scenes/") + file)), read_file(SCENES_DIR "/" + string(file)))
         << "scenes/" << file << " is not made anew";
+
   EXPECT_EQ(header_of(clone / "output/raindrops.bench/bench.csv"),
             columns_in(page_at("src/bench/README.md"), "| column of `bench.csv` | content |"));
 }
@@ -197,11 +202,14 @@ TEST(PageCommands, OfDevAreThoseOfDev) {
   const auto all = [](const string& text, const std::regex& what) {
     return std::set<string>(std::sregex_token_iterator(text.begin(), text.end(), what, 1), {});
   };
+
   const std::set<string> known = all(usage, line);
   EXPECT_EQ(all(page_at("tests/README.md").section("All commands of ./dev"), row), known);
+
   for (const Page& page : pages()) {
     string code;  // sh blocks, and text in backticks
     for (const string& block : page.blocks("sh")) code += block;
+
     const std::regex ticks("`[^`\n]+`");
     for (std::sregex_iterator i(page.text.begin(), page.text.end(), ticks), end; i != end; ++i) code += i->str();
     for (const string& command : all(code, named)) EXPECT_TRUE(known.contains(command)) << page.path << ": " << command;
@@ -274,16 +282,19 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
   const BenchResult result = bench("raindrops.yaml", 0x1p-4, 0x1p-10);
   const std::regex line(
       R"(\| (exact|euler|verlet|rk4) \| (?:1/(\d+) s)? ?\| \S+ ms \| (\S+) m \| (\S+) m/s \| (\S+) J \|)");
+
   int lines = 0;
   const string& text = page_at("src/bench/README.md").text;
   for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i, ++lines) {
     const string name = (*i)[1], per_second = (*i)[2];
+
     const auto row = std::ranges::find_if(result.rows, [&](const BenchRow& r) {
       if (r.method.engine == Engine::exact) return name == "exact";
       return name == name_of(r.method.integrator) &&
              per_second == std::to_string(std::lround(1 / r.method.steps.length.value_or(1e9)));
     });
     ASSERT_NE(row, result.rows.end()) << name << " 1/" << per_second;
+
     const Differences& errors = *row->errors;
     for (const auto& [stated, measured] :
          {std::pair((*i)[3], errors.position), std::pair((*i)[4], errors.velocity), std::pair((*i)[5], errors.energy)})
@@ -343,15 +354,18 @@ TEST(ReadmeFiles, HaveTheHeadersItShows) {
                       "output.sheet.columns=1"),
             0)
       << clone.err();
+
   const fs::path folder = clone / "output/two_bowling_balls";
   const Page& files = page_at("output/README.md");
   for (const auto& entry : fs::directory_iterator(folder)) {
     const string name = entry.path().filename().string();
     EXPECT_NE(files.text.find("`" + name + "`"), string::npos) << name;
+
     if (entry.path().extension() != ".csv" || name == "summary.csv") continue;
     const string text = read_file(entry.path());
     EXPECT_NE(files.text.find("| `" + name + "` | `" + text.substr(0, text.find('\n')) + "` |"), string::npos) << name;
   }
+
   EXPECT_EQ(header_of(folder / "summary.csv"), columns_in(files, "| columns of `summary.csv` | meaning |"));
 }
 
@@ -411,6 +425,7 @@ balls:
   c: {position: [1, 0, 0], velocity: [-1, 0, 0]}
 simulate: {duration: 0.001}
 )");
+
   const State end = run_to(scene, scene.simulate.duration);
   EXPECT_EQ(end.velocity[0].x(), stated("with 1, 0 and -1 m/s leave with "));
   EXPECT_EQ(end.velocity[1].x(), stated("leave with -0.5, "));
@@ -449,13 +464,16 @@ TEST(ReadmeAccuracy, IsMeasured) {
   const Scene scene = load_scene(SCENES_DIR "/gas_in_a_room.yaml");
   const auto simulator = make_simulator(scene);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
+
   EXPECT_EQ(scene.world.body_count(), stated("`scenes/gas_in_a_room.yaml`, "));
   EXPECT_EQ(simulator->tally().collisions(), stated("200 balls and "));
   EXPECT_EQ(scene.simulate.duration, stated("2771 collisions in "));
+
   const double energy = kinetic_energy(scene.world, scene.initial);
   EXPECT_LT(std::abs(kinetic_energy(scene.world, simulator->state()) / energy - 1),
             stated("the energy changes by less than "));
   EXPECT_LT(simulator->tally().max_overlap / 0.1, stated("overlap by more than "));
+
   const Scene pi = load_scene(SCENES_DIR "/pi_to_six_digits.yaml");
   const auto counter = make_simulator(pi);
   while (counter->time() < pi.simulate.duration) counter->advance_to(pi.simulate.duration);
@@ -469,8 +487,10 @@ TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
     while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
     return std::pair(simulator->tally(), kinetic_energy(scene.world, simulator->state()));
   };
+
   const auto text = last("book_bowling_balls.yaml"), exact = last("two_bowling_balls.yaml"),
              printed = last("book_as_printed.yaml");
+
   EXPECT_NEAR(text.first.first_collision * 60, stated("collides in frame "), 1e-12);
   EXPECT_NEAR(text.first.first_collision - exact.first.first_collision, stated("in frame 86, "), 5e-7);
   EXPECT_NEAR(100 * text.first.max_overlap / 0.22, stated("late, overlapping by "), 0.05);
@@ -480,16 +500,19 @@ TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
 
 TEST(ReadmeBook, TheSlipsTableIsTheReferences) {
   const auto table = slips()["closed_form_single_call"];
+
   const auto row = [](const string& start, const nlohmann::json& velocity, const nlohmann::json& energy) {
     std::ostringstream line;
     line.precision(10);
     line << " | " << velocity[0].get<double>() << ", " << velocity[1].get<double>() << " | " << energy.get<double>()
          << " |";
+
     const string words = one_line(page_at("src/simulate/README.md").section("The book's engine"));
     const size_t at = words.find(start);
     ASSERT_NE(at, string::npos) << start;
     EXPECT_NE(words.find(line.str(), at), string::npos) << start << line.str();
   };
+
   const auto& velocity = table["right_angle"];
   const auto& energy = table["KE_ratio"]["right_angle"];
   row("| exact", velocity["exact"], energy["exact"]);

@@ -105,8 +105,11 @@ TEST(Accuracy, OfAMomentOfStrongDragIsTheToleranceToo) {
       drag.from = 0.25;
       drag.until = 0.25 + 1e-9;
       scene.world.forces = {drag};
+
       EngineChoice engine = choose_engine(scene);
       settle_steps(scene, engine, no_stop_check);
+
+      // Braked for the moment, then as fast as before its end.
       const double w = drag.until - drag.from, f = quadratic * speed * w;
       const double end = speed * 0.25 + std::log1p(f) / quadratic + speed / (1 + f) * (duration - drag.until);
       EXPECT_TRUE(engine.shortfall.empty()) << engine.shortfall;

@@ -38,6 +38,7 @@ class ContactScenes {
     reference_.origin = at_;
     reference_.has_floor = false;
     gravity_ = Vec3(0, -9.75, 0);
+
     switch (kind_) {
       case 0:
         return pendulum(decades(-7, 0));
@@ -81,16 +82,19 @@ class ContactScenes {
   Scene scene_of(double duration, double e) const {
     Scene scene;
     scene.world.gravity = gravity_;
+
     for (size_t k = 0; k < reference_.mass.size(); ++k) {
       scene.world.mass.push_back(reference_.mass[k]);
       scene.world.radius.push_back(reference_.radius[k]);
       scene.world.restitution.push_back(e);
     }
+
     scene.initial.position = reference_.start;
     scene.initial.velocity = reference_.velocity;
     for (const auto& [point, normal] : reference_.flats) scene.world.planes.push_back({point, normal, nullopt});
     for (const auto& [center, radius] : reference_.globes)
       scene.world.obstacles.push_back({center, Volume::sphere(radius), nullopt});
+
     for (const ConstrainedReference::Tie& tie : reference_.ties) {
       const bool anchored = tie.other == ConstrainedReference::none;
       const Vec3 end = anchored ? tie.anchor : reference_.start[static_cast<size_t>(tie.other)];
@@ -98,6 +102,7 @@ class ContactScenes {
                                      anchored ? no_entity : static_cast<Entity>(tie.other), tie.anchor,
                                      (reference_.start[tie.body] - end).norm(), 0, tie.rod});
     }
+
     scene.simulate.duration = duration;
     return scene;
   }
@@ -196,26 +201,33 @@ class ContactScenes {
     const double globe = decades(-1, 0), radius = globe * decades(-1, 0), sum = globe + radius;
     const double offset = decades(-10, -1) * sum, drop = random_(0.5, 1) * sum;
     const double time = std::sqrt(2 * drop / 9.75);
+
     ball({offset, sum + drop, 0}, radius, 1);
     reference_.globes.push_back({at_, globe});
     SceneWithTruth of{"bouncing ball", scene_of(random_(1, 14) * time, 1), {}};
+
+    // From contact to contact: a scan for the first sign of the gap, then bisection.
     const Vec far = at_.cast<Real>(), g = gravity_.cast<Real>();
     Vec x = reference_.start[0].cast<Real>() - far, v = Vec::Zero();
     const Real both = static_cast<Real>(globe) + radius, scan = 1e-3L * time;
     Real left = of.scene.simulate.duration;
     const auto gap = [&](Real t) { return (x + t * v + 0.5L * t * t * g).norm() - both; };
+
     for (;;) {
       Real t = scan;
       while (t < left && gap(t) > 0) t += scan;
       if (t >= left) break;
+
       Real from = t - scan;
       for (int pass = 0; pass < 70; ++pass) (gap(0.5L * (from + t)) > 0 ? from : t) = 0.5L * (from + t);
       x += t * v + 0.5L * t * t * g;
       v += t * g;
+
       const Vec n = x.normalized();
       v -= 2 * n.dot(v) * n;
       left -= t;
     }
+
     of.end = {(far + x + left * v + 0.5L * left * left * g).cast<double>()};
     return of;
   }

@@ -142,6 +142,7 @@ TEST(PathExtremes, OfSpringsHaveTheirFirstTimeByEveryMethod) {
             more + "}",
         quantity);
   };
+
   const double turn = std::atan(0.2) / 5, fastest = turn + std::numbers::pi / 10;
   for (const char* more : {"", ", engine: stepped"}) {
     EXPECT_NEAR(by(more, Quantity::x).greatest.time, turn, 1e-12) << more;         // measured: 2e-17,
@@ -161,6 +162,7 @@ TEST(PathExtremes, OfSpeedsAreThoseOfTheSummary) {
                          "forces: [{spring: {anchor: [0, 0, 0], stiffness: 25}}]\n"
                          "simulate: {duration: 20, engine: stepped, step: 0.05, integrator: ") +
                   integrator + "}");
+
     const auto simulator = make_simulator(scene, {.watch = {{Quantity::speed, 0, 1}}});
     while (simulator->time() < 20) simulator->advance_to(20);
     const double speed = simulator->extremes().front().greatest.value;
@@ -216,6 +218,7 @@ TEST(PathExtremes, ChangeNoResult) {
     while (simulator->time() < 1) simulator->advance_to(1);
     return simulator;
   };
+
   const auto plain = run({}), watched = run({{Quantity::speed, 0, 30}, {Quantity::y, 3, 1}});
   for (Entity i = 0; i < 30; ++i) {
     EXPECT_EQ(plain->state().position[i], watched->state().position[i]);

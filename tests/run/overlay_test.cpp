@@ -130,6 +130,7 @@ Taken pictures_of(const Scene& scene, const vector<double>& times, double interv
   const auto simulator = make_simulator(scene);
   PictureSeries series(scene, {{320, 180}, 4, 0, interval, 1, 2}, history, "here");
   Taken taken;
+
   for (const double time : times) {
     series.aim(time);
     while (series.next_instant() < time) {
@@ -137,6 +138,7 @@ Taken pictures_of(const Scene& scene, const vector<double>& times, double interv
       carry(*simulator, history, series.next_instant());
       series.expose(simulator->state());
     }
+
     carry(*simulator, history, time);
     taken.pictures.push_back(series.picture(simulator->state(), simulator->tally()));
   }

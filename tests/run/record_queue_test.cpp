@@ -49,11 +49,13 @@ TEST(RecordQueue, PassesCollisionsJustBeforeThePiecesThatBeginWithThem) {
   Recorder simulator;
   simulator.collided = {collision(0.1), collision(0.2), collision(0.5)};
   simulator.pieces = {piece(0, 0.1), piece(1, 0.1), piece(0, late), piece(2, 0.3)};
+
   RecordQueue queue;
   queue.put(simulator);
   queue.end(true);
   const vector<Recorded> all = all_of(queue);
   ASSERT_EQ(all.size(), 7u);
+
   using Kind = Recorded::Kind;
   const Kind kinds[] = {Kind::collision, Kind::piece, Kind::piece,    Kind::collision,
                         Kind::piece,     Kind::piece, Kind::collision};
@@ -74,6 +76,7 @@ TEST(RecordQueue, HoldsABoundedNumberOfPartsAndLosesNone) {
     }
     queue.end(true);
   });
+
   const vector<Recorded> all = all_of(queue);
   writer.join();
   ASSERT_EQ(all.size(), 200'000u);

@@ -146,6 +146,7 @@ TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
   for (uint64_t k = 0; k < 12; ++k) {
     stress::RandomScene scene = stress::make_scene(GetParam() + families * k);
     const auto simulator = make_exact_simulator(scene.world, scene.initial, scene.options);
+
     scene.options.record_paths = true;
     Record run;
     try {
@@ -153,6 +154,7 @@ TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
     } catch (const SimulationError&) {
       continue;  // a run without end has no record
     }
+
     SCOPED_TRACE("seed " + std::to_string(scene.seed));
     expect_same_states(scene.world, scene.options.duration, run, *simulator, 20);
   }

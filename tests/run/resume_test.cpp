@@ -65,17 +65,20 @@ class RunByChecks {
   bool stopped(int keeps, int ends, End end) {
     settings_.checkpoint_s = 1e9;
     bool cut = false;
+
     const auto at = [&](int check) {
       settings_.checkpoint_s = check >= keeps && !kept() ? 1e-9 : 1e9;
       if (check < ends || !kept() || cut) return;
       if (end == End::interrupt) throw Stopped();
       cut = copied();
     };
+
     try {
       go(at);
     } catch (const Stopped&) {
       return true;
     }
+
     if (!cut) return false;
     fs::remove_all(place_ / "run");
     fs::rename(place_ / "cut", place_ / "run");
@@ -124,6 +127,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
   const RunPlace undisturbed;
   RunByChecks plain(undisturbed, scene);
   const int checks = plain.whole();
+
   const std::map<string, string> right = plain.files();
 
   for (const End end : {End::interrupt, End::power_cut}) {
@@ -138,6 +142,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
       if (!stopped) break;
       EXPECT_EQ(run.kept(), is_kept);
     }
+
     run.settings().checkpoint_s = 60;
     run.whole();
     const std::map<string, string> files = run.files();
@@ -152,9 +157,11 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
 Scene with_outputs(Scene scene, const vector<string>& outputs) {
   for (Output* output : {&scene.output, &scene.requested}) {
     *output = restricted(scene.requested, outputs);
+
     const PictureOutput small{2, {32, 18}, 1, 0, {}};
     if (output->frames) static_cast<PictureOutput&>(*output->frames) = small;
     if (output->gltf) output->gltf = GltfOutput{2};
+
     const double every = scene.simulate.duration / 20;
     if (output->trajectory) output->trajectory->every = every;
     if (output->contacts) output->contacts->every = every;
@@ -222,15 +229,18 @@ TEST(Resume, DoesNotSettleStepsAgain) {
   RunByChecks run(place, place.scene("scene: 1\nballs: {b: {mass: 1, radius: 0.1, position: [0, 1, 0]}}\n"
                                      "simulate: {duration: 1, engine: stepped, tolerance: 1e-6}\n"
                                      "output: {trajectory: {every: 0.1}}\n"));
+
   int settled = 0;
   run.settings().simulator = [&](const Scene& of, Recording recording, const StepChoice& steps) {
     settled += steps.length || steps.error > 0 ? 1 : 0;
     return make_simulator(of, std::move(recording), steps);
   };
+
   const int checks = run.whole();
   const auto right = run.files();
   fs::remove_all(place / "run");
   ASSERT_TRUE(run.stopped(checks - 300, checks - 200, End::interrupt));
+
   run.settings().checkpoint_s = 60;
   EXPECT_LT(run.whole(), 400);
   EXPECT_EQ(settled, 3);
@@ -253,14 +263,17 @@ TEST(Resume, OfDamagedFilesBeginsAnew) {
     bytes[3] ^= 1;
     std::ofstream(path, std::ios::binary) << bytes;
   };
+
   for (const string name : {".trajectory.csv.part", ".flights.bin.part", ".checkpoint.part"}) {
     for (const bool truncates : {false, true}) {
       const RunPlace place;
       RunByChecks run(place, place.scene(text));
       const auto right = keep(run);
+
       const string path = place / ("run/" + name);
       ASSERT_GT(fs::file_size(path), 0u) << name;
       truncates ? fs::resize_file(path, 3) : damage(path);
+
       run.whole();
       EXPECT_EQ(run.begun_at(), 0);
       EXPECT_EQ(run.files(), right) << name;
@@ -283,6 +296,7 @@ TEST(Resume, IsOfTheSameRequestOnly) {
     EXPECT_EQ(run.remarks().at(0).starts_with("begins anew: "), begins_anew);
     return begins_anew && !run.kept();
   };
+
   EXPECT_FALSE(anew([](RunByChecks&) {}));
   EXPECT_TRUE(anew([](RunByChecks& run) { run.scene().output.collisions = false; }));
   EXPECT_TRUE(anew([](RunByChecks& run) { run.scene().resolved += "# other\n"; }));
@@ -317,11 +331,13 @@ TEST(Resume, IsOfTheMeshThatTheRunBeganWith) {
                                       << " 0\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
   };
   write_mesh(0.3);
+
   const string text =
       "scene: 1\nroom: {min: [0, 0, 0], max: [1, 1, 1]}\ngravity: [0, -9.81, 0]\nrestitution: 0.9\n"
       "bodies: {b: {mass: 1, mesh: body.obj, fit: box, position: [0.5, 0.5, 0.5], velocity: [1, 0, 0.7]}}\n"
       "simulate: {duration: 2}\noutput: {collisions: true}\n";
   RunByChecks run(place, place.scene(text));
+
   ASSERT_TRUE(run.stopped(300, 500, End::interrupt));
   RunByChecks edited(place, [&] {
     write_mesh(0.5);
@@ -333,12 +349,14 @@ TEST(Resume, IsOfTheMeshThatTheRunBeganWith) {
   // Edited while it was simulated.
   write_mesh(0.3);
   const Scene before = place.scene(text);
+
   RunByChecks other(place, before);
   other.settings().simulator = [&](const Scene& of, Recording recording, const StepChoice& steps) {
     write_mesh(0.5);
     return make_simulator(of, std::move(recording), steps);
   };
   ASSERT_TRUE(other.stopped(300, 500, End::interrupt));
+
   RunByChecks after(place, place.scene(text));
   after.whole();
   EXPECT_EQ(after.begun_at(), 0);
@@ -413,10 +431,12 @@ TEST(Resume, IsNotPreparedByAShortRun) {
 TEST(Resume, OfRandomScenesHasTheSameFiles) {
   std::mt19937_64 random(3);
   int done = 0;
+
   for (uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const RunPlace place;
     const string text = stress::as_yaml(stress::make_scene(seed));
+
     try {
       const Scene scene = place.scene(text);
       expect_to_go_on(with_outputs(scene, {"trajectory", "collisions", "energy", "contacts", "flights"}), random);

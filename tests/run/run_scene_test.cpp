@@ -27,6 +27,7 @@ int simulators_of(Scene scene, const vector<string>& outputs) {
   scene.output = restricted(scene.requested, outputs);
   make_small(scene.output);
   make_small(scene.requested);
+
   int made = 0;
   RunSettings settings;
   settings.durability = Durability::deferred;
@@ -34,6 +35,7 @@ int simulators_of(Scene scene, const vector<string>& outputs) {
     ++made;
     return make_simulator(of, std::move(recording), steps);
   };
+
   run_scene({&scene, place / "run"}, choose_engine(scene), settings, {[] {}, [](const RunProgress&) {}});
   return made;
 }
@@ -58,11 +60,13 @@ const string ball =
 TEST(Run, SimulatesOnceWithEveryCombinationOfOutputs) {
   const RunPlace place;
   const vector<string> kinds = {"trajectory", "collisions", "frames", "sheet", "xyz", "gltf", "flights"};
+
   for (const string& more :
        {string("simulate: {duration: 1}\n"), string("simulate: {duration: 2, stop: [{collisions: 3}]}\n"),
         string("simulate: {duration: 1}\ncamera: {eye: [0, 1, 5], target: [0, 1, 0]}\n"),
         string("simulate: {duration: 1}\nshutter: 0.5\ntrails: true\nflash: true\n")}) {
     const Scene scene = place.scene(ball + more + "output: {sheet: true}\n");
+
     for (unsigned set = 0; set < 1u << kinds.size(); ++set) {
       vector<string> outputs;
       for (size_t k = 0; k < kinds.size(); ++k)

@@ -40,15 +40,18 @@ void store_run(StoredRun& run) {
   const auto simulator = make_simulator(run.scene, {.paths = true});
   const Descriptor opened = open_folder(AT_FDCWD, run.folder.path(), true);
   FlightsFile file({opened.get(), run.folder.path()}, run.scene);
+
   const auto take = [&] {
     file.record_paths(simulator->paths());
     run.pieces.insert(run.pieces.end(), simulator->paths().begin(), simulator->paths().end());
   };
+
   take();
   while (simulator->time() < run.scene.simulate.duration) {
     simulator->advance_to(run.scene.simulate.duration);
     take();
   }
+
   file.end(simulator->tally());
   for (OutputFile* output : file.files()) output->publish();
   run.bytes = std::filesystem::file_size(run.folder / flights_name);
@@ -161,9 +164,12 @@ TEST(HeapInFlights, IsReadFromAnyTimeOn) {
   StoredRun run;
   store_heap(run, "60", "3");
   FlightsReader reader = run.reader();
+
   for (const double time : {2.5, 0.0, 1.3, 2.999, 0.4, run.pieces.back().from, 4.0}) {
     SCOPED_TRACE(time);
     reader.seek(time);
+
+    // First the path that each body has at that time, then those that begin later.
     Recorded recorded;
     std::map<Entity, PathPiece> present;
     double last = 0;
@@ -173,6 +179,7 @@ TEST(HeapInFlights, IsReadFromAnyTimeOn) {
       last = recorded.piece.from;
       present[recorded.piece.body] = recorded.piece;
     }
+
     vector<PathPiece> rest = from_time_on(run.pieces, time);
     for (size_t k = 0; k < 60; ++k) ASSERT_TRUE(same_bits(present.at(rest[k].body), rest[k])) << k;
     for (size_t k = 60; k < rest.size(); ++k) {

@@ -26,14 +26,17 @@ Camera surveyed(const Scene& scene, Size size = {1280, 720}) {
 double filled(const Scene& scene, const Camera& camera, Size size = {1280, 720}) {
   const CameraFrame view = view_of(camera, size);
   const double tan_x = std::tan(view.fov_x * M_PI / 360), tan_y = std::tan(view.fov_y * M_PI / 360);
+
   const auto part = [](double across, double depth, double radius, double tangent) {
     return std::tan(std::atan2(std::abs(across), depth) + std::asin(radius / std::hypot(across, depth))) / tangent;
   };
+
   double most = 0;
   const auto simulator = make_simulator(scene);
   const PictureStreams plan = plan_pictures(scene);
   for (int64_t i = plan.ticks.front().first(); i <= plan.ticks.front().last(); ++i) {
     while (simulator->time() < plan.ticks.front().at(i)) simulator->advance_to(plan.ticks.front().at(i));
+
     const State& state = simulator->state();
     for (Entity body = 0; body < scene.world.body_count(); ++body) {
       const Vec3 p = state.position[body] - camera.eye;

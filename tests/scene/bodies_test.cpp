@@ -47,6 +47,7 @@ TEST(Bodies, HaveSpheresCylindersAndBoxes) {
                                 "  crate: {density: 10, box: [1, 2, 2], position: [20, 0, 0], velocity: [0, 1, 0]}\n"
                                 "groups: {gas: {count: 2, ball: {mass: 1, radius: 0.1}, in: {min: [30, 0, 0], max: "
                                 "[31, 1, 1]}}}\n");
+
   const World& world = scene.world;
   ASSERT_EQ(world.volume.size(), 6u);
   EXPECT_EQ(world.volume[0].shape, Shape::sphere);
@@ -60,6 +61,7 @@ TEST(Bodies, HaveSpheresCylindersAndBoxes) {
   EXPECT_DOUBLE_EQ(world.mass[2], 100 * pi * 9 * 8);
   EXPECT_EQ(world.mass[3], 40);
   EXPECT_EQ(scene.initial.velocity[3], Vec3(0, 1, 0));
+
   EXPECT_EQ(scene.roster.name(2), "can");
   EXPECT_EQ(scene.roster.name(5), "gas.1");
 }
@@ -97,6 +99,7 @@ TEST(Obstacles, AreNumberedAfterPlanesAndWalls) {
                                 "balls: {b: {mass: 2, radius: 1, position: [0, 0, 0]}}\n"
                                 "walls: {w: {center: [9, 0, 0], normal: [1, 0, 0], size: [1, 1]}}\n"
                                 "planes: {p: {point: [0, -5, 0], normal: [0, 1, 0]}}\n");
+
   EXPECT_EQ(scene.roster.name(1), "p");
   EXPECT_EQ(scene.roster.name(2), "w");
   EXPECT_EQ(scene.roster.name(3), "post");
@@ -221,6 +224,7 @@ TEST(Meshes, FitGivesTheTightestVolumeAndItsCentre) {
                                            "  b: {mass: 1.5, mesh: ./pin.stl, fit: box, position: [2, 0.19, 0]}\n"
                                            "obstacles: {c: {mesh: pin.stl, fit: cylinder, position: [3, 0, 0]}}\n",
                                        with_reader(&reads));
+
   EXPECT_EQ(reads, 1);
   EXPECT_EQ(scene.world.volume[0].shape, Shape::cylinder);
   EXPECT_TRUE(scene.world.volume[0].half.isApprox(Vec3(0.06, 0.19, 0.06), 1e-15)) << scene.world.volume[0].half;
@@ -268,11 +272,13 @@ TEST(Meshes, OfTheResolvedSceneAreTheCopiesBesideIt) {
   std::filesystem::create_directories(test_folder() + "/sub");
   write_file("solid\n", "sub/pin.stl");
   const Scene scene = load_with_meshes(text);
+
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].copy, "pin.stl");
   EXPECT_EQ(scene.meshes[1].copy, "pin-2.stl");
   EXPECT_NE(scene.resolved.find("a: {mass: 1.5, mesh: \"pin.stl\", fit: cylinder,"), string::npos);
   EXPECT_NE(scene.resolved.find("mesh: \"pin-2.stl\"}"), string::npos);
+
   write_file("solid\n", "pin-2.stl");
   const Scene again = load_with_meshes(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
@@ -286,11 +292,13 @@ TEST(Meshes, HaveTheirOwnColorsUnlessTheSceneGivesOne) {
                                        "obstacles:\n  d: {mesh: pin.stl, fit: box, position: [30, 0, 0]}\n"
                                        "  e: {mesh: pin.stl, fit: box, position: [40, 0, 0], color: red}\n");
   const auto own = [&](size_t body) { return scene.roster.bodies[body].mesh->own_colors; };
+
   EXPECT_TRUE(own(0));
   EXPECT_FALSE(own(1));
   EXPECT_FALSE(own(2));
   EXPECT_TRUE(scene.roster.fixed[0].mesh->own_colors);
   EXPECT_FALSE(scene.roster.fixed[1].mesh->own_colors);
+
   // The resolved scene gives them none either.
   const Scene again = load_with_meshes(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
@@ -320,6 +328,7 @@ TEST(MeshErrors, NameTheFileAndWhatIsWrongWithIt) {
             "   3 | bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"
             "     |                             ^~~~~~~~\n"
             "     = expected a mesh with width, height and depth\n");
+
   EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n", {}),
             "scene.yaml:3:29: error: the mesh `pin.stl` cannot be used: there is no reader of meshes here\n"
             "   3 | bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n"

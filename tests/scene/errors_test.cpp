@@ -175,6 +175,7 @@ TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {
   EXPECT_EQ(duration_error("1_000"), "`1_000` is not a number / write 1000");
   EXPECT_EQ(duration_error("1e999"),
             "`1e999` is too large for a double / " + wanted + "; the largest is about 1.8e308");
+
   EXPECT_EQ(duration_error("1e-999"),
             "`1e-999` is too small for a double / " + wanted + "; the smallest is about 5e-324");
   EXPECT_EQ(duration_error("1/30"), "`1/30` is not a number / " + wanted);
@@ -208,6 +209,7 @@ TEST(SceneErrors, CaretStandsRightAfterCharactersOfSeveralBytesAndCells) {
   EXPECT_EQ(errors_of(start + "background: \"\xE6\x97\xA5\", sed: 1\n").substr(0, 16), "scene.yaml:3:16:");
   // Two characters of two cells each and one of one: column 6 of characters stands 7 cells from the left.
   EXPECT_EQ(errors_of(start + "{\xE6\x97\xA5\xE6\x9C\xAC: 1}\n").substr(0, 15), "scene.yaml:3:1:");
+
   EXPECT_EQ(errors_of("{scene: 1, simulate: {duration: 1}, title: \xE6\x97\xA5\xE6\x9C\xAC\xC3\xA9, sed: 1}"),
             "scene.yaml:1:49: error: unknown key `sed` in the scene\n"
             "   1 | {scene: 1, simulate: {duration: 1}, title: \xE6\x97\xA5\xE6\x9C\xAC\xC3\xA9, sed: 1}\n"
@@ -246,6 +248,7 @@ TEST(SceneErrors, ManyOverlapsAreOneError) {
   for (int i = 0; i < 27; ++i)
     text += fmt::format("  p{}: {{position: [{:.7f}, {}, {}]}}\n", i, i % 3 * 0.9999999 - (i == 26 ? 4e-7 : 0),
                         i / 3 % 3 * 0.9999999, i / 9 * 0.9999999);
+
   EXPECT_EQ(errors_of(text),
             "scene.yaml:31:19: error: `p26` overlaps `p25` by 5e-07 m at the start, the deepest of 54 overlaps of 27 "
             "bodies\n"
@@ -253,6 +256,7 @@ TEST(SceneErrors, ManyOverlapsAreOneError) {
             "     |                   ^\n"
             "     = expected bodies apart, or just touching to 1e-09 of the smaller one\n"
             "     = radii smaller by 5e-07 of their size leave none\n");
+
   // With such radii the scene loads.
   text.replace(text.find("radius: 0.5"), 11, "radius: 0.49999975");
   EXPECT_EQ(errors_of(text), "");
@@ -265,6 +269,7 @@ TEST(SceneErrors, ManyOverlapsAreOneError) {
             "   6 |   b1: {position: [0.75, 0, 0]}\n"
             "     |                  ^\n"
             "     = expected bodies apart, or just touching to 1e-09 of the smaller one\n");
+
   const string heap = errors_of(start + "balls: {b: {repeat: 100, mass: 1, radius: 1, position: [0, 0, 0]}}\n");
   EXPECT_NE(heap.find("`b.1` overlaps `b.0` by 2 m at the start, the deepest of 4950 overlaps of 100 bodies"),
             string::npos)
@@ -278,6 +283,7 @@ TEST(SceneErrors, ACharacterThatLooksLikeAnotherIsNamed) {
             "     |              ^~~~~\n"
             "     = U+2212 is a minus sign: write `-`\n"
             "     = expected a number in m/s^2\n");
+
   const auto names = [](const string& text, const string& remedy) {
     const string errors = errors_of(text);
     EXPECT_NE(errors.find("     = " + remedy + "\n"), string::npos) << errors;
@@ -287,6 +293,7 @@ TEST(SceneErrors, ACharacterThatLooksLikeAnotherIsNamed) {
   names(start + "seed: 7\u00a0\n", "U+00A0 is a no-break space: write a plain space");
   names(start + "background: \u201cred\u201d\n", "U+201C is a curly quote: write `'`");
   names("scene: 1\nsimulate: {duration:\u202f1}\n", "U+202F is a narrow no-break space: write a plain space");
+
   // Where a text is right, the same characters are.
   EXPECT_EQ(errors_of(start + "title: 3\u00d72 balls \u2013 \u201cfast\u201d\n"), "");
 }
@@ -386,6 +393,7 @@ TEST(SceneErrors, ANameThatIsNotThereIsAnsweredByThoseThatAre) {
             "     |               ^~~\n"
             "     = expected a ball, body, group or member (gas.3)\n"
             "     = there are `red` and `row`\n");
+
   EXPECT_EQ(errors_with(start + "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}}\n", "balls.cue.mass=2"),
             "--set balls.cue.mass=2: error: there is no ball `cue`\n"
             "     | balls.cue.mass=2\n"
@@ -412,6 +420,7 @@ TEST(SceneErrors, SyntaxErrorsPointAtTheCause) {
             "   3 |   duration 2\n"
             "     |   ^~~~~~~~~~\n"
             "     = expected `key: value`\n");
+
   EXPECT_EQ(errors_of("scene: 1\ntitle: Bowling: two balls\nsimulate: {duration: 1}\n"),
             "scene.yaml:2:15: error: a second ':' in this line\n"
             "   2 | title: Bowling: two balls\n"
@@ -422,6 +431,7 @@ TEST(SceneErrors, SyntaxErrorsPointAtTheCause) {
             "   2 | title: \"no end\n"
             "     |        ^\n"
             "     = expected `\"` before the next key\n");
+
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1 step: 2}\n"),
             "scene.yaml:2:28: error: a value ends and something else follows\n"
             "   2 | simulate: {duration: 1 step: 2}\n"

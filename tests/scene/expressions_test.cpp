@@ -120,10 +120,12 @@ TEST(Formulas, PointAtTheirErrors) {
       {"acos(i)", "acos: no angle has the cosine -3"},
       {"tan(90)", "tan: the tangent of 90 degrees"},
   };
+
   for (const auto& [text, expected] : cases) EXPECT_EQ(fault_of(text), expected) << text;
   const string tiny = "0." + string(400, '0') + "1";
   const string fault = fault_of(tiny + " + r");
   EXPECT_TRUE(fault.starts_with(tiny + ": ") && fault.ends_with(" is too small for a double")) << fault;
+
   // The second of two equal functions.
   try {
     value_of("sqrt(4) + sqrt(i)");
@@ -254,6 +256,7 @@ TEST(ExpressionErrors, PointIntoTheExpression) {
             "     = expected a divisor other than 0\n");
   EXPECT_EQ(marked_errors(start_r + "balls: {a: {mass: = -r, radius: '= -r', position: [= r, = q, 0]}}\n"),
             (Marked{{"= -r", "`mass` is -0.05"}, {"'= -r'", "`radius` is -0.05"}, {"q", "no number is named `q`"}}));
+
   EXPECT_EQ(marked_errors(start_r + "groups:\n  gas:\n    count: = 5 / 2\n    in: {min: [0, 0, 0], max: [1, 1, 1]}\n"
                                     "    ball: {mass: 1, radius: 0.01}\n"),
             (Marked{{"= 5 / 2", "`count` is 2.5"}}));
@@ -275,6 +278,7 @@ TEST(ExpressionErrors, OfLet) {
                     {"pi", "`pi` is a number of expressions"},
                     {"my-r", "`my-r` is not a name for a number"},
                     {"3x", "`3x` is not a name for a number"}}));
+
   EXPECT_EQ(marked_errors(start + "let: {a: big, b: '3', c: [1], d: , e: = }\n"),
             (Marked{{"big", "`big` is not a number"},
                     {"'3'", "`3` in quotes is text, not a number"},
@@ -308,6 +312,7 @@ balls:
   a: {mass: none, density: 700, color: none, velocity: none, restitution: none, position: [0, 0, 0]}
   b: {position: [1, 0, 0]}
 )");
+
   EXPECT_NEAR(scene.world.mass[0], 700 * 4.0 / 3 * 3.141592653589793 * 0.001, 1e-14);
   EXPECT_EQ(scene.world.restitution, (vector<double>{1, 0.5}));
   EXPECT_EQ(scene.initial.velocity[0], Vec3(0, 0, 0));

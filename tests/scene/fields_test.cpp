@@ -18,11 +18,13 @@ TEST(Fields, EveryRowIsComplete) {
   for (const Kind& kind : kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
     EXPECT_FALSE(kind.doc.empty()) << kind.name;
+
     std::set<string_view> keys;
     for (const Field& field : kind.fields) {
       EXPECT_TRUE(keys.insert(field.key).second) << kind.name << "." << field.key;
       EXPECT_TRUE(field.doc.ends_with('.')) << kind.name << "." << field.key;
       EXPECT_FALSE(expected(field).empty());
+
       for (const string_view rival : rivals(field)) {
         const Field* other = find_field(kind, rival);
         ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
@@ -30,6 +32,7 @@ TEST(Fields, EveryRowIsComplete) {
         EXPECT_NE(std::ranges::find(its, field.key), its.end())
             << kind.name << ": " << rival << " does not exclude " << field.key;
       }
+
       for (const string_view key : parts_of(field.spared_by)) EXPECT_NE(find_field(kind, key), nullptr) << key;
       if (holds_map(field) || field.type == Type::named || field.type == Type::list) {
         EXPECT_EQ(kind_named(field.of).name, field.of);
@@ -85,6 +88,7 @@ TEST(Numbers, AreReadAsYamlWritesThem) {
   EXPECT_EQ(parse_number("0.1"), 0.1);
   EXPECT_EQ(parse_number("0e0"), 0);
   EXPECT_EQ(parse_number("5e-324"), 5e-324);
+
   for (const char* text :
        {"",    "+",   "-",  ".",  "e5",   "1e",  "1e+", "--1",  "+-1",      "01",    "-01.5",  "0x1",
         "1,5", "1 2", " 1", "1 ", ".nan", "nan", "inf", "-inf", "infinity", "1e999", "1e-999", "1.5.2"}) {

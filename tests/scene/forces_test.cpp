@@ -21,6 +21,7 @@ TEST(Forces, ActOnAllOrOnThoseNamedFromTimeToTime) {
                                 "  - {uniform: [1, 0, 0]}\n"
                                 "  - {acceleration: [0, 0, 2], on: [gas, red, gas.1], from: 0.5, until: 1.5}\n"
                                 "  - {uniform: [0, 3, 0], on: [gas.2]}\n");
+
   ASSERT_EQ(scene.world.forces.size(), 3u);
   const Force &all = scene.world.forces[0], &gust = scene.world.forces[1];
   EXPECT_TRUE(all.law == ForceLaw(UniformForce{Vec3(1, 0, 0)}));
@@ -57,6 +58,7 @@ TEST(ForceErrors, NamesThatMeanNothingOrNothingThatMoves) {
             "     |                                                  ^~~\n"
             "     = expected a ball, body, group or member (gas.3)\n"
             "     = there are `red`, `blue`, `gas` and `none`\n");
+
   EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: []}\n"),
             "scene.yaml:8:30: error: `on` has 0 entries\n"
             "   8 |   - {uniform: [1, 0, 0], on: []}\n"
@@ -88,6 +90,7 @@ TEST(ForceErrors, OneKindEach) {
             "     = or `drag`: a map of keys\n"
             "     = or `spring`: a map of keys\n"
             "     = or `attractor`: a map of keys\n");
+
   EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"),
             "scene.yaml:8:26: error: this entry of `forces` has both `uniform` and `acceleration`\n"
             "   8 |   - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"
@@ -103,6 +106,7 @@ TEST(Forces, OfEveryKindHaveTheirFigures) {
                 "  - {spring: {anchor: [1, 0, 0], stiffness: 40, rest_length: 0.5, damping: 2}, on: [red]}\n"
                 "  - {spring: {anchor: [0, 0, 0], stiffness: 4}}\n"
                 "  - {attractor: {center: [0, 9, 0], strength: -3, softening: 0.1}}\n");
+
   ASSERT_EQ(scene.world.forces.size(), 4u);
   EXPECT_TRUE(scene.world.forces[0].law == ForceLaw(Drag{0.5, 0.25, Vec3(1, 2, 3)}));
   EXPECT_EQ(scene.world.forces[0].from, 1);
@@ -132,6 +136,7 @@ TEST(ForceErrors, OfWhatTheyAreMadeOf) {
             "   8 |   - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n"
             "     |                                             ^~\n"
             "     = expected a number of at least 0 in N/m\n");
+
   EXPECT_EQ(errors_of(things + "forces:\n  - {attractor: {center: [1, 0, 0]}}\n"),
             "scene.yaml:8:6: error: `attractor` has no `strength`\n"
             "   8 |   - {attractor: {center: [1, 0, 0]}}\n"
@@ -150,6 +155,7 @@ TEST(Engines, HaveTheForcesThatTheyCanFollow) {
             Engine::exact);
   EXPECT_TRUE(load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n")
                   .simulate.contact.merge);
+
   EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, contact: merge}\n"),
             "scene.yaml:4:34: error: `contact: merge` is for parabolas and linear drag, not for `drag`\n"
             "   4 | simulate: {duration: 1, contact: merge}\n"

@@ -85,6 +85,7 @@ TEST(Groups, ErrorsHaveTheNumberThatWouldFit) {
     EXPECT_EQ(load_text(group(arrange, std::to_string(fit), 0.05, 1)).world.body_count(), 1254u);
     EXPECT_NE(errors_of(group(arrange, std::to_string(fit + 1), 0.05, 1)), "");
   }
+
   const string error = errors_of(group("random", "1", 0.6, 1));
   EXPECT_NE(error.find("error: 1 ball of radius 0.6 does not fit into the box of `gas`"), string::npos) << error;
   EXPECT_NE(error.find("= 0 would fit"), string::npos);
@@ -107,8 +108,10 @@ TEST(Groups, KeepClearOfEverythingElse) {
       "planes: {tilted: {point: [0.1, 0, 0], normal: [1, 0.2, 0]}}\n"
       "walls: {screen: {center: [0.9, 0.5, 0.5], normal: [1, 0, 0], size: [0.5, 0.5]}}\n"
       "output: {}\n");
+
   EXPECT_EQ(scene.world.body_count(), 309u);
   EXPECT_LT(greatest_overlap(scene), 1e-12);
+
   const Plane& plane = scene.world.planes[0];
   const Wall& wall = scene.world.walls[0];
   for (Entity i = 1; i < scene.world.body_count(); ++i) {
@@ -152,6 +155,7 @@ TEST(Random, NormalDeviatesHaveTheMomentsOfTheNormalDistribution) {
   constexpr int n = 1'000'000;
   double m1 = 0, m2 = 0, m3 = 0, m4 = 0;
   int beyond_3 = 0;
+
   for (int i = 0; i < n; ++i) {
     const double x = random.normal();
     m1 += x / n;
@@ -160,6 +164,7 @@ TEST(Random, NormalDeviatesHaveTheMomentsOfTheNormalDistribution) {
     m4 += x * x * x * x / n;
     if (std::fabs(x) > 3) ++beyond_3;
   }
+
   // Four standard errors each: 1, sqrt 2, sqrt 15, sqrt 96 over sqrt n.
   EXPECT_NEAR(m1, 0, 4e-3);
   EXPECT_NEAR(m2, 1, 4 * 1.4e-3);

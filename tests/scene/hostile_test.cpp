@@ -29,6 +29,7 @@ TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
                       .append(last)
                       .append("]\n");
   }
+
   const string cases[] = {"",
                           ",",
                           "{",
@@ -142,6 +143,7 @@ TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
                           repeat("\n", 200'000),
                           repeat("a: 1\n", 2000),
                           alias_bomb};
+
   for (const string& text : cases) {
     const string errors = errors_of(text);
     EXPECT_NE(errors.find("error: "), string::npos) << text.substr(0, 60);
@@ -159,6 +161,7 @@ TEST(HostileFiles, WhatIsNoFileIsReported) {
     }
     return "";
   };
+
   const string folder = test_folder();
   EXPECT_EQ(error(folder + "/none.yaml"), folder + "/none.yaml: error: no such file\n");
   EXPECT_EQ(error(""), ": error: no such file\n");
@@ -169,11 +172,13 @@ TEST(HostileFiles, WhatIsNoFileIsReported) {
   EXPECT_EQ(error("/dev/zero"),
             "/dev/zero: error: this is not a regular file\n    = write the scene to a file and name that\n");
   EXPECT_NE(error(string(5000, 'x')).find("File name too long"), string::npos);
+
   std::filesystem::resize_file(write_file("scene: 1\n", "sparse.yaml"), 1ull << 40);
   EXPECT_EQ(
       error(folder + "/sparse.yaml"),
       folder +
           "/sparse.yaml: error: the file is larger than 32 MiB\n    = many balls of one kind are a group: `groups`\n");
+
   std::filesystem::remove_all(folder);
 }
 
@@ -261,10 +266,12 @@ TEST(MutatedScenes, AreScenesOrErrors) {
                            "\\",
                            "1e-300",
                            "1e300"};
+
   LoadOptions options;
   options.budget.bodies = 10'000;  // mutated counts are to stay cheap
   Random random(1, "mutations");
   int scenes = 0, errors = 0;
+
   for (int round = 0; round < 4000; ++round) {
     string text = everything;
     const uint64_t changes = 1 + random.below(3);
@@ -280,6 +287,7 @@ TEST(MutatedScenes, AreScenesOrErrors) {
       if (kind > 4 && text[at] >= '0' && text[at] <= '9') text[at] = static_cast<char>('0' + random.below(10));
       if (text.empty()) text.assign(1, 'x');
     }
+
     std::ofstream(path, std::ios::binary) << text;
     try {
       const Scene scene = load_scene(path, options);
@@ -291,8 +299,10 @@ TEST(MutatedScenes, AreScenesOrErrors) {
       ++errors;
     }
   }
+
   EXPECT_GT(scenes, 200);  // both kinds must be met for the test to mean anything
   EXPECT_GT(errors, 1000);
+
   std::filesystem::remove_all(test_folder());
 }
 
@@ -308,6 +318,7 @@ TEST(MutatedScenes, SettingsAreScenesOrErrorsToo) {
                           "x",
                           "",
                           "balls"};
+
   const string values[] = {"1",    "",     "[1, 2, 3]", "{a: b}", "{",    "'",  "*a",  "&a 1",      "- x", "a: b", "\n",
                            "#fff", "true", "~",         ",",      "\xFF", "\t", "---", "1\n---\n2", "=",   "1e999"};
   for (const string& p : paths) {
@@ -323,6 +334,7 @@ TEST(MutatedScenes, SettingsAreScenesOrErrorsToo) {
       }
     }
   }
+
   std::filesystem::remove_all(test_folder());
 }
 

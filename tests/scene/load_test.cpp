@@ -31,6 +31,7 @@ output:
   frames: {fps: 30, size: [1280, 720]}
   video: true
 )");
+
   EXPECT_EQ(scene.title, "Two bowling balls meet near the origin");
   EXPECT_EQ(scene.seed, 0u);
   EXPECT_EQ(scene.world.gravity, Vec3(0, 0, 0));
@@ -44,6 +45,7 @@ output:
   EXPECT_FALSE(scene.world.planes[0].restitution);
   EXPECT_EQ(scene.roster.name(0), "red");
   EXPECT_EQ(scene.roster.name(1), "blue");
+
   EXPECT_EQ(scene.roster.name(2), "lane");
   EXPECT_EQ(scene.roster.bodies[0].color.r, 220 / 255.0);  // crimson is #dc143c
   EXPECT_EQ(scene.simulate.engine, Engine::exact);
@@ -94,6 +96,7 @@ TEST(LoadScene, SizesHaveNames) {
     EXPECT_EQ(scene.output.video->size, size) << name;
     EXPECT_EQ(scene.output.sheet->size, size) << name;
   }
+
   EXPECT_EQ(load_text(start + "output: {sheet: true}\n").output.sheet->size, nullopt);
   EXPECT_EQ(
       errors_of(start + "output: {frames: {size: 1080}}\n"),
@@ -118,6 +121,7 @@ TEST(LoadScene, ASheetThatCannotBeMadeNeedsAnotherSize) {
       "     |                                              ^~~~\n"
       "     = expected a `size` of the sheet, such as [1920, 1080]: without one, its pictures have the shape of 16 "
       "x 16384\n");
+
   EXPECT_EQ(errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: {size: [1920, 1080]}}\n"), "");
   EXPECT_NE(errors_of(start + "output: {sheet: {size: [16384, 16384]}}\n").find("at most 100000000 pixels in all"),
             string::npos);
@@ -137,18 +141,21 @@ TEST(LoadScene, TheEndOfAFilmsNameIsItsFormat) {
 TEST(LoadScene, AGifHasARateThatItCanKeep) {
   EXPECT_EQ(load_text(start + "output: {video: {file: x.gif}}\n").output.video->fps, 25);
   EXPECT_EQ(load_text(start + "output: {video: {file: x.mp4}}\n").output.video->fps, 30);
+
   for (const char* fps : {"50", "25", "20", "12.5", "10", "33.333333333333336", "1", "0.01"})
     EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n"), "") << fps;
   for (const char* fps : {"100", "60", "30", "24", "29.97", "33.3"})
     EXPECT_NE(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n").find("a GIF cannot show"),
               string::npos)
         << fps;
+
   EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: 30}}\n"),
             "scene.yaml:3:36: error: a GIF cannot show 30 pictures a second\n"
             "   3 | output: {video: {file: x.gif, fps: 30}}\n"
             "     |                                    ^~\n"
             "     = expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
             "second, at least 2\n");
+
   for (const string fps : {"foo", "100/3"}) {
     const string errors = errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n");
     EXPECT_NE(errors.find("error: `" + fps + "` "), string::npos);
@@ -191,6 +198,7 @@ TEST(LoadScene, AFilmHasASizeAndARateThatItsFormatCanHold) {
             "268435455\n");
   EXPECT_EQ(error("size: [16384, 16128]"), "");
   EXPECT_NE(error("size: [16384, 16130]"), "");
+
   EXPECT_EQ(error("file: x.webp, size: [16384, 1024]"),
             "scene.yaml:3:38: error: a WebP of 16384 x 1024 pixels\n"
             "   3 | output: {video: {file: x.webp, size: [16384, 1024]}}\n"
@@ -204,6 +212,7 @@ TEST(LoadScene, AFilmHasASizeAndARateThatItsFormatCanHold) {
             "     = expected a number from 0.00006 to 1000: a WebP shows a picture for 1 to 16777215 thousandths of a "
             "second\n");
   EXPECT_EQ(error("file: x.webp, fps: 1000"), "");
+
   EXPECT_EQ(error("file: x.webp, fps: 6e-5"), "");
   EXPECT_EQ(error("fps: 1e-9"),
             "scene.yaml:3:23: error: an MP4 of 1e-09 pictures a second\n"
@@ -275,6 +284,7 @@ TEST(LoadScene, RoomMakesSixInwardPlanesAmongThePlanesInFileOrder) {
   const Scene scene = load_text(start + walls + room + planes);
   const char* names[] = {"room.x_min", "room.x_max", "room.y_min", "room.y_max",
                          "room.z_min", "room.z_max", "floor",      "net"};
+
   ASSERT_EQ(scene.roster.fixed.size(), 8u);
   for (Entity i = 0; i < 8; ++i) EXPECT_EQ(scene.roster.name(i), names[i]);
   EXPECT_EQ(scene.world.planes[2].normal, Vec3(0, 1, 0));
@@ -292,16 +302,19 @@ TEST(LoadScene, WallFramesAreRightHanded) {
                                 "  upright: {center: [0, 0, 0], normal: [0, 0, 2], size: [2, 1]}\n"
                                 "  level: {center: [0, 0, 0], normal: [0, 1, 0], size: [2, 1]}\n"
                                 "  tilted: {center: [0, 0, 0], normal: [1, 1, 0.5], size: [2, 1], up: [0.3, 1, 0]}\n");
+
   EXPECT_EQ(scene.world.walls[0].up, Vec3(0, 1, 0));
   EXPECT_EQ(scene.world.walls[0].right, Vec3(1, 0, 0));
   EXPECT_EQ(scene.world.walls[0].half_width, 1);
   EXPECT_EQ(scene.world.walls[0].half_height, 0.5);
   EXPECT_EQ(scene.world.walls[1].up, Vec3(0, 0, 1));
+
   for (const Wall& wall : scene.world.walls) {
     EXPECT_LT((wall.right.cross(wall.up) - wall.normal).norm(), 3e-16);  // measured: 1.2e-16
     EXPECT_LT(std::fabs(wall.up.dot(wall.normal)), 3e-16);
     EXPECT_NEAR(wall.up.norm(), 1, 3e-16);
   }
+
   EXPECT_NE(errors_of(start + "walls: {a: {center: [0, 0, 0], normal: [0, 1, 0], size: [1, 1], up: [0, -2, 0]}}\n")
                 .find("up is parallel to the normal"),
             string::npos);
@@ -323,6 +336,7 @@ TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
                         "balls: {a: {position: [0, 0, 0]}}\n"
                         "groups: {gas: {count: 5, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}}\n"
                         "room: {min: [-9, -9, -9], max: [9, 9, 9]}\n";
+
   const Scene scene =
       load_text(things +
                 "restitution: {default: 0.8, combine: mass_weighted, pairs: [{between: [a, gas], value: 0.1}, "
@@ -336,6 +350,7 @@ TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
   EXPECT_EQ(scene.world.pairs[1].a_count, 1u);
   EXPECT_EQ(scene.world.pairs[1].b_first, 8u);
   EXPECT_EQ(scene.world.pairs[2].b_first, 6u);
+
   EXPECT_EQ(scene.world.pairs[2].b_count, 6u);
   const string wrong = errors_of(things +
                                  "restitution: {pairs: [{between: [a, gsa], value: 1}, {between: [gas.5, room], "
@@ -433,12 +448,14 @@ TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
             "   3 | output: {frames: {fps: 60}}\n"
             "     |                        ^~\n"
             "     = expected a lower `fps` or a shorter duration, or --force to allow it\n");
+
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\nballs: {a: {mass: 1, radius: 1, position: [0, 0, "
                       "0]}}\noutput: {trajectory: {every: 1e-3}}\n"),
             "scene.yaml:4:30: error: the run would write 1000000001 rows of trajectory.csv; the limit is 200000000\n"
             "   4 | output: {trajectory: {every: 1e-3}}\n"
             "     |                              ^~~~\n"
             "     = expected a longer `every`, a shorter duration or fewer bodies, or --force to allow it\n");
+
   LoadOptions force;
   force.budget.enforced = false;
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n", force), "");
@@ -467,6 +484,7 @@ TEST(LoadScene, PicturesHaveLimits) {
   EXPECT_NE(errors_of(start + "output: {sheet: {from: 0.5, until: 0.25}}\n").find("`until` is 0.25 but `from` is 0.5"),
             string::npos);
   EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("`speed` is 0"), string::npos);
+
   EXPECT_NE(errors_of(start + "output: {sheet: {rows: 0}}\n").find("`rows` is 0"), string::npos);
   for (const char* file : {"../x.mp4", ".mp4", "-x.mp4", ".x.mp4", "x.avi", "a/b.mp4", "\"\"", "\"a\\nb.mp4\""}) {
     EXPECT_NE(errors_of(start + "output: {video: {file: " + file + "}}\n"), "") << file;

@@ -74,12 +74,14 @@ TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
                           "obstacles.post.radius=0.3",
                           "obstacles.post.restitution=0.1"})
     texts.push_back(text_with(set));
+
   for (const auto& [from, to] : {std::pair("until: 1", "until: 1.5"), std::pair("[0, 0, 1]", "[0, 0, 2]"),
                                  std::pair("on: [red]", "on: [crate]"), std::pair("stiffness: 3", "stiffness: 4")}) {
     string other = both;
     other.replace(other.find(from), string_view(from).size(), to);
     texts.push_back(motion_text(load_text(other)));
   }
+
   for (size_t i = 0; i < texts.size(); ++i)
     for (size_t k = 0; k < i; ++k) EXPECT_NE(texts[i], texts[k]) << i << ", " << k;
 }

@@ -30,9 +30,11 @@ TEST(Motions, AreWindowsOfConstantVelocity) {
                                 "obstacles:\n"
                                 "  post: {radius: 1, position: [-5, 0, 0], motion: [{from: 1, until: 2, velocity: [0, "
                                 "0.5, 0]}, {from: 3, velocity: [2, 0, 0]}]}\n");
+
   const World& world = scene.world;
   const auto at = [&](Entity e, double time) { return fixed_position(world, e, {time, 0}); };
   ASSERT_EQ(world.fixed_count(), 9u);
+
   for (Entity e = 1; e < 8; ++e) EXPECT_FALSE(world.moves(e)) << e;
   EXPECT_EQ(at(8, 2.5), Vec3(5, 0, 2.5));
   EXPECT_EQ(at(9, 0.5), Vec3(-5, 0, 0));
@@ -60,6 +62,7 @@ TEST(MotionErrors, NameThePlaceAndTheRemedy) {
             "scene.yaml:5:74: error: `until` is 1 but `from` is 1");
   EXPECT_EQ(first_error("[{from: 1}]"), "scene.yaml:5:57: error: this entry of `motion` has no `velocity`");
   EXPECT_EQ(first_error("{velocity: [0, 1, 0]}"), "scene.yaml:5:56: error: `motion` is a map of keys");
+
   EXPECT_EQ(
       first_error("[{velocity: [0, 1e20, 0]}]"),
       "scene.yaml:5:56: error: `floor` goes as far as 4e+20 m from the origin, more than 1e+12 times the smallest "

@@ -76,6 +76,7 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_NE(error_of("{balls}").find("`balls` holds several values"), string::npos);
   EXPECT_NE(error_of("{camera.fov}").find("this scene has no `camera`"), string::npos);
   EXPECT_NE(error_of("{balls.red.color}").find("`color` has no value in this scene"), string::npos);
+
   EXPECT_NE(error_of("{balls.red.mass.x}").find("`mass` has no part `x`"), string::npos);
   EXPECT_EQ(error_of("{foo}"),
             "scene.yaml:9:11: error: unknown key `foo` in the scene\n"
@@ -89,6 +90,7 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
             "   9 | caption: \"{}\"\n"
             "     |           ^~\n"
             "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
+
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), string::npos);
 }
 
@@ -114,11 +116,13 @@ TEST(Caption, ThatBeginsWithABraceNeedsQuotes) {
             "   9 | caption: {time} s of {collisions}\n"
             "     |                 ^\n"
             "     = a text that begins with a bracket or a brace needs quotes\n");
+
   EXPECT_EQ(errors_with(balls, "caption={time} s of {collisions}"),
             "--set caption={time} s of {collisions}: error: text goes on after the closing bracket\n"
             "     | caption={time} s of {collisions}\n"
             "     |                ^\n"
             "     = a text that begins with a bracket or a brace needs quotes\n");
+
   LoadOptions options;
   options.set = {"caption='{time} s of {collisions}'"};
   EXPECT_EQ(load_text(balls, options).overlay.caption, "{time} s of {collisions}");
@@ -226,12 +230,14 @@ TEST(ColourBy, StandsWhereverAColourOfBodiesGoes) {
                 "balls: {red: {position: [0, 0, 0]}, gold: {position: [1, 0, 0], color: gold}}\n" +
                 "bodies: {box: {mass: 1, box: [1, 1, 1], position: [5, 0, 0], " + by + "}}\n" +
                 "groups: {gas: {count: 1, in: {min: [-5, 0, 0], max: [-4, 1, 1]}, ball: {" + by + "}}}\n");
+
   const Coloring expected{ColorQuantity::speed, nullopt, 9, ColorMap::cividis};
   EXPECT_EQ(scene.roster.bodies[0].coloring, expected);
   EXPECT_FALSE(scene.roster.bodies[1].coloring);
   EXPECT_EQ(scene.roster.bodies[1].color, parse_color("gold"));
   EXPECT_EQ(scene.roster.bodies[2].coloring, expected);
   EXPECT_EQ(scene.roster.bodies[3].coloring, expected);
+
   const Scene again = load_text(scene.resolved);
   EXPECT_EQ(again.roster.bodies[3].coloring, expected);
   EXPECT_EQ(again.resolved, scene.resolved);

@@ -22,6 +22,7 @@ TEST(RegionKeys, MakeShapesOnBodies) {
                 "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
                 "  crate: {box: [1, 2, 3], position: [1, 2, 3], action: remove}\n"
                 "  below: {plane: {point: [0, -1, 0], normal: [0, -2, 0]}, on: [gas.1]}\n");
+
   const vector<WorldRegion>& regions = scene.world.regions;
   ASSERT_EQ(regions.size(), 4u);
   EXPECT_EQ(scene.roster.regions, (vector<string>{"ball", "can", "crate", "below"}));
@@ -35,6 +36,7 @@ TEST(RegionKeys, MakeShapesOnBodies) {
   EXPECT_TRUE(!regions[2].stops && regions[2].removes);
   EXPECT_EQ(regions[3].position, Vec3(0, -1, 0));
   EXPECT_EQ(regions[3].normal, Vec3(0, -1, 0));
+
   EXPECT_EQ(regions[3].on, (vector<Entity>{3}));
 }
 
@@ -56,6 +58,7 @@ TEST(RegionKeys, AreInTheResolvedScene) {
                                 "normal: [0, -1, 0]}, on: [red]}}\n"
                                 "simulate: {duration: 1, stop: [rest, {region: low}]}\n"
                                 "output: {regions: true}\n");
+
   EXPECT_NE(scene.resolved.find("regions:\n"
                                 "  pocket: {radius: 1, position: [9, 9, 9], action: none}\n"
                                 "  low: {plane: {point: [0, 0, 0], normal: [0, -1, 0]}, on: [red], action: none}\n"),
@@ -104,6 +107,7 @@ TEST(RegionErrors, OneShapeEach) {
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 1, 0]}, position: [0, 0, 0]}"),
             "scene.yaml:6:66: error: region `pocket` has both `plane` and `position`\n");
   EXPECT_EQ(of_region("{radius: 1}"), "scene.yaml:6:11: error: region `pocket` has no `position` and no `plane`\n");
+
   EXPECT_EQ(of_region("{}").substr(0, 52), "scene.yaml:6:11: error: region `pocket` has no `radi");
 }
 
@@ -131,6 +135,7 @@ TEST(RegionErrors, OfNamesAndActions) {
             "scene.yaml:6:57: error: nothing is named `pocket`\n");
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], action: kill}"),
             "scene.yaml:6:60: error: `action` is `kill`\n");
+
   EXPECT_EQ(errors_of(things + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n"),
             "scene.yaml:6:11: error: the name `red` is taken\n"
             "   6 | regions: {red: {radius: 1, position: [0, 0, 0]}}\n"
@@ -144,6 +149,7 @@ TEST(StopErrors, NameWhatIsWrong) {
                      "}\n"
                      "regions: {pocket: {radius: 1, position: [0, 0, 0]}}\n");
   };
+
   EXPECT_EQ(of("[{region: pokcet}]"),
             "scene.yaml:2:41: error: no region is named `pokcet`\n"
             "   2 | simulate: {duration: 1, stop: [{region: pokcet}]}\n"
@@ -154,6 +160,7 @@ TEST(StopErrors, NameWhatIsWrong) {
             "   2 | simulate: {duration: 1, stop: [{collisions: 0}]}\n"
             "     |                                             ^\n"
             "     = expected a whole number of at least 1\n");
+
   EXPECT_EQ(of("[]"),
             "scene.yaml:2:31: error: `stop` has no entries\n"
             "   2 | simulate: {duration: 1, stop: []}\n"
@@ -164,6 +171,7 @@ TEST(StopErrors, NameWhatIsWrong) {
             "   2 | simulate: {duration: 1, stop: [sleep]}\n"
             "     |                                ^~~~~\n"
             "     = expected rest, or a map of collisions or region\n");
+
   for (const char* stop : {"[{collisions: -1}]", "[{collisions: 1.5}]", "rest", "[{collisions: 1, region: pocket}]",
                            "[{}]", "[{rest: true}]", "[[rest]]", "{collisions: 1}", "[~]", "[{region: [pocket]}]"})
     EXPECT_NE(of(stop), "") << stop;

@@ -27,6 +27,7 @@ TEST(Repeat, IsTheSceneWithItsMembersWrittenOut) {
       on += fmt::format("{}b{}", on.empty() ? "" : ", ", 4 * i + j);
     }
   }
+
   written += "  shot: {radius: 0.1, position: [0, 3, 0]}\nforces: [{drag: {linear: 0.1}, on: [" + on + "]}]\n";
   const Scene scene = load_text(bricks);
   EXPECT_EQ(motion_text(scene), motion_text(load_text(written)));
@@ -63,6 +64,7 @@ forces:
   - {uniform: [1, 0, 0], on: [gas.1, gas.0.2]}
 camera: {follow: row}
 )");
+
   ASSERT_EQ(scene.world.body_count(), 9u);
   EXPECT_EQ(scene.roster.name(2), "row.2");
   EXPECT_EQ(scene.roster.name(8), "gas.1.2");
@@ -76,6 +78,7 @@ camera: {follow: row}
   ASSERT_EQ(scene.world.forces.size(), 4u);
   EXPECT_EQ(scene.world.forces[2].on, (vector<Entity>{2}));
   EXPECT_EQ(scene.world.forces[3].on, (vector<Entity>{5, 6, 7, 8}));
+
   EXPECT_EQ(scene.world.pairs[0].a_count, 3u);
   EXPECT_EQ(scene.world.pairs[0].b_count, 2u);
   EXPECT_EQ(scene.world.pairs[1].a_first, 6u);
@@ -92,12 +95,14 @@ planes: {sides: {repeat: {i: 0, j: 3}, point: [= i, 0, 0], normal: [0, 1, 0]}}
 forces: [{drag: {linear: 1}, on: [row, red]}, {uniform: [1, 0, 0], on: [row]}, {repeat: 0, uniform: [= i, 0, 0]}]
 restitution: {pairs: [{between: [row, red], value: 0.5}]}
 )";
+
   const Scene scene = load_text(text);
   EXPECT_EQ(scene.world.body_count(), 1u);
   ASSERT_EQ(scene.world.forces.size(), 1u);
   EXPECT_EQ(scene.world.forces[0].on, (vector<Entity>{0}));
   EXPECT_TRUE(scene.world.planes.empty());
   EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
+
   LoadOptions options;
   options.set = {"let.n=4"};
   EXPECT_EQ(load_text(text, options).world.body_count(), 5u);
@@ -145,6 +150,7 @@ TEST(RepeatErrors, PointAtTheCount) {
   EXPECT_EQ(of("{}"), (Marked{{"{", "`repeat` has 0 indices"}}));
   EXPECT_EQ(of("{i: -1}"), (Marked{{"-1", "`i` is `-1`"}}));
   EXPECT_EQ(of("{i: }"), (Marked{{"i", "`i` is empty"}}));
+
   EXPECT_EQ(of("1e9"), (Marked{{"1e9", "`repeat` makes 1000000000 members; the limit is 2000000"}}));
   EXPECT_EQ(of("{i: 1e5, j: 1e5}"), (Marked{{"{", "`repeat` makes 10000000000 members; the limit is 2000000"}}));
   EXPECT_EQ(of("1e300"), (Marked{{"1e300", "`repeat` makes 1e+300 members; the limit is 2000000"}}));
@@ -175,17 +181,20 @@ TEST(RepeatErrors, OfOneHugeThingAreThoseOfNoOther) {
   const string others =
       "  w: {repeat: 2, mass: 1, radius: 0.1, position: [= i, 0, 5]}\n"
       "  u: {repeat: 3, mass: 1, radius: 0.1, position: [= i, 0, 9]}\n";
+
   for (const string count : {"1e9", "2e6"})
     EXPECT_EQ(marked_errors(start + "balls:\n  v: {repeat: " + count +
                             ", mass: 1, radius: 0.1, position: [= i, 0, 0]}\n" + others)
                   .size(),
               1u)
         << count;
+
   string sines = "= sin(i)";
   for (int k = 0; k < 100; ++k) sines += " + sin(i)";
   const Marked slow =
       marked_errors(start + "balls:\n  v: {repeat: 500000, mass: 1, radius: 0.1, position:\n    [= i,\n    " + sines +
                     ", 0]}\n" + others);
+
   ASSERT_EQ(slow.size(), 1u);
   EXPECT_EQ(slow[0].second, "evaluating the expressions of so many members takes too long");
 }
@@ -233,6 +242,7 @@ TEST(RepeatErrors, OfNames) {
   EXPECT_EQ(marked_errors(row + "forces: [{uniform: [1, 0, 0], on: ['row.{1']}]\n"),
             (Marked{{"1", "this brace is not closed"}}));
   EXPECT_NE(errors_of(row + "forces: [{uniform: [1, 0, 0], on: [roww]}]\n").find("did you mean `row`?"), string::npos);
+
   EXPECT_EQ(marked_errors(row + "planes: {row: {point: [0, -9, 0], normal: [0, 1, 0]}}\n"),
             (Marked{{"row", "the name `row` is taken"}}));
 }

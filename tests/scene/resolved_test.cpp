@@ -17,11 +17,13 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.world.gravity, b.world.gravity);
   EXPECT_EQ(a.world.combine, b.world.combine);
   ASSERT_EQ(a.world.planes.size(), b.world.planes.size());
+
   for (size_t i = 0; i < a.world.planes.size(); ++i) {
     EXPECT_EQ(a.world.planes[i].point, b.world.planes[i].point);
     EXPECT_EQ(a.world.planes[i].normal, b.world.planes[i].normal);
     EXPECT_EQ(a.world.planes[i].restitution, b.world.planes[i].restitution);
   }
+
   ASSERT_EQ(a.world.walls.size(), b.world.walls.size());
   for (size_t i = 0; i < a.world.walls.size(); ++i) {
     const Wall &v = a.world.walls[i], &w = b.world.walls[i];
@@ -33,6 +35,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(v.half_height, w.half_height);
     EXPECT_EQ(v.restitution, w.restitution);
   }
+
   ASSERT_EQ(a.world.pairs.size(), b.world.pairs.size());
   for (size_t i = 0; i < a.world.pairs.size(); ++i) {
     EXPECT_EQ(a.world.pairs[i].a_first, b.world.pairs[i].a_first);
@@ -41,17 +44,21 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.world.pairs[i].b_count, b.world.pairs[i].b_count);
     EXPECT_EQ(a.world.pairs[i].value, b.world.pairs[i].value);
   }
+
   const auto same_volume = [](const Volume& v, const Volume& w) { return v.shape == w.shape && v.half == w.half; };
   ASSERT_EQ(a.world.volume.size(), b.world.volume.size());
+
   for (size_t i = 0; i < a.world.volume.size(); ++i) {
     EXPECT_TRUE(same_volume(a.world.volume[i], b.world.volume[i]));
   }
   ASSERT_EQ(a.world.obstacles.size(), b.world.obstacles.size());
+
   for (size_t i = 0; i < a.world.obstacles.size(); ++i) {
     EXPECT_EQ(a.world.obstacles[i].center, b.world.obstacles[i].center);
     EXPECT_TRUE(same_volume(a.world.obstacles[i].volume, b.world.obstacles[i].volume));
     EXPECT_EQ(a.world.obstacles[i].restitution, b.world.obstacles[i].restitution);
   }
+
   ASSERT_EQ(a.world.forces.size(), b.world.forces.size());
   for (size_t i = 0; i < a.world.forces.size(); ++i) {
     EXPECT_TRUE(a.world.forces[i].law == b.world.forces[i].law);
@@ -59,12 +66,15 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.world.forces[i].until, b.world.forces[i].until);
     EXPECT_EQ(a.world.forces[i].on, b.world.forces[i].on);
   }
+
   EXPECT_EQ(a.simulate.contact.merge, b.simulate.contact.merge);
   EXPECT_EQ(a.output.contacts.has_value(), b.output.contacts.has_value());
   EXPECT_EQ(a.initial.position, b.initial.position);
   EXPECT_EQ(a.initial.velocity, b.initial.velocity);
+
   const auto same_color = [](const Color& x, const Color& y) { return x.r == y.r && x.g == y.g && x.b == y.b; };
   ASSERT_EQ(a.roster.bodies.size(), b.roster.bodies.size());
+
   for (size_t i = 0; i < a.roster.bodies.size(); ++i) {
     EXPECT_EQ(a.roster.bodies[i].name, b.roster.bodies[i].name);
     EXPECT_EQ(a.roster.bodies[i].first, b.roster.bodies[i].first);
@@ -72,12 +82,14 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.roster.bodies[i].group, b.roster.bodies[i].group);
     EXPECT_TRUE(same_color(a.roster.bodies[i].color, b.roster.bodies[i].color));
   }
+
   ASSERT_EQ(a.roster.fixed.size(), b.roster.fixed.size());
   for (size_t i = 0; i < a.roster.fixed.size(); ++i) {
     EXPECT_EQ(a.roster.fixed[i].name, b.roster.fixed[i].name);
     EXPECT_EQ(a.roster.fixed[i].visible, b.roster.fixed[i].visible);
     EXPECT_TRUE(same_color(a.roster.fixed[i].color, b.roster.fixed[i].color));
   }
+
   EXPECT_EQ(a.simulate.duration, b.simulate.duration);
   EXPECT_EQ(a.simulate.engine, b.simulate.engine);
   EXPECT_EQ(a.simulate.step, b.simulate.step);
@@ -85,6 +97,7 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.simulate.max_collisions, b.simulate.max_collisions);
   EXPECT_EQ(a.simulate.as_printed, b.simulate.as_printed);
   ASSERT_EQ(a.camera.has_value(), b.camera.has_value());
+
   if (a.camera) {
     EXPECT_EQ(a.camera->eye, b.camera->eye);
     EXPECT_EQ(a.camera->up, b.camera->up);
@@ -92,6 +105,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.camera->fov_horizontal, b.camera->fov_horizontal);
     EXPECT_EQ(a.camera->far, b.camera->far);
   }
+
   ASSERT_EQ(a.lights.size(), b.lights.size());
   for (size_t i = 0; i < a.lights.size(); ++i) {
     EXPECT_EQ(a.lights[i].name, b.lights[i].name);
@@ -99,20 +113,24 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.lights[i].position, b.lights[i].position);
     EXPECT_EQ(a.lights[i].intensity, b.lights[i].intensity);
   }
+
   EXPECT_EQ(a.ambient.has_value(), b.ambient.has_value());
   EXPECT_EQ(a.background.has_value(), b.background.has_value());
   ASSERT_EQ(a.output.trajectory.has_value(), b.output.trajectory.has_value());
+
   if (a.output.trajectory) {
     EXPECT_EQ(a.output.trajectory->every, b.output.trajectory->every);
     EXPECT_EQ(a.output.trajectory->wide, b.output.trajectory->wide);
   }
   EXPECT_EQ(a.output.collisions, b.output.collisions);
   ASSERT_EQ(a.output.energy.has_value(), b.output.energy.has_value());
+
   if (a.output.energy) {
     EXPECT_EQ(a.output.energy->every, b.output.energy->every);
   }
   ASSERT_EQ(a.output.frames.has_value(), b.output.frames.has_value());
   ASSERT_EQ(a.output.video.has_value(), b.output.video.has_value());
+
   if (a.output.video) {
     EXPECT_EQ(a.output.video->file, b.output.video->file);
     EXPECT_EQ(a.output.video->fps, b.output.video->fps);
@@ -123,6 +141,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.output.video->until, b.output.video->until);
     EXPECT_EQ(a.output.video->speed, b.output.video->speed);
   }
+
   ASSERT_EQ(a.output.sheet.has_value(), b.output.sheet.has_value());
   if (a.output.sheet) {
     EXPECT_EQ(a.output.sheet->size, b.output.sheet->size);

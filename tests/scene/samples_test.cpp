@@ -102,6 +102,7 @@ TEST(LatinHypercube, HasOneNumberInEachPartOfTheRange) {
         const double share = log ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
         parts.insert(static_cast<int>(std::floor(share * count + 1e-9)));
       }
+
       EXPECT_EQ(parts.size(), static_cast<size_t>(count)) << from;
       EXPECT_EQ(*parts.begin(), 0);
       EXPECT_EQ(*parts.rbegin(), count - 1);

@@ -131,6 +131,7 @@ const vector<Beyond>& beyond_schemas() {
       {"a GIF cannot show", "the end of a name against a number"},
       {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
   };
+
   return all;
 }
 
@@ -161,6 +162,7 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   for (const Kind& kind : kinds()) {
     for (const Field& field : kind.fields) all.insert(fmt::format("{}.{}", kind.name, field.key));
   }
+
   EXPECT_EQ(visited, all) << "right_scenes() lacks a key of the table";
 
   for (const Variation& variation : variations) validator.add_json(variation.text);
@@ -168,9 +170,11 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   vector<string> all_errors;
   for (const Variation& variation : variations) all_errors.push_back(loaded(file, variation.text));
   const vector<string> verdicts = validating.get();
+
   ASSERT_EQ(verdicts.size(), variations.size());
   std::set<size_t> used;
   size_t right = 0, differing = 0;
+
   for (size_t i = 0; i < variations.size(); ++i) {
     const string& errors = all_errors[i];
     right += errors.empty();
@@ -180,8 +184,10 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
     if (!why.empty() && verdicts[i] == "right") continue;
     if (++differing <= 40) ADD_FAILURE() << variations[i].what << "\nschema: " << verdicts[i] << "\nloader: " << errors;
   }
+
   EXPECT_EQ(differing, 0u) << "of " << variations.size();
   EXPECT_GT(right, 500u) << "of " << variations.size();
+
   for (size_t i = 0; i < beyond_schemas().size(); ++i)
     EXPECT_TRUE(used.contains(i)) << "no variation has: " << beyond_schemas()[i].error;
   RecordProperty("variations", static_cast<int>(variations.size()));
@@ -222,6 +228,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
       {"0o17", false, true, "YAML reads 15: numbers of a scene are decimal"},
       {"1e-999", false, true, "YAML reads 0"},
   };
+
   const vector<Written> flags = {
       {"true", true, true},
       {"false", true, true},
@@ -233,6 +240,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
       {"True", false, true, "YAML reads true: the loader has one way to write it"},
       {"FALSE", false, true, "YAML reads false: the loader has one way to write it"},
   };
+
   Validator validator("scene");
   vector<std::pair<string, Written>> all;
   for (const Written& number : numbers)
@@ -246,6 +254,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
                    Written{"'4'", false, false});
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: 4.0}}\n",
                    Written{"4.0", false, true, "JSON knows one 4"});
+
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\nseed: 1e17\n",
                    Written{"1e17", false, true, "JSON knows one 1e17"});
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\nseed: 1e3\n", Written{"1e3", true, true});
@@ -254,6 +263,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
   const string file = validator.folder() + "/scene.yaml";
   for (const auto& [text, written] : all) validator.add_yaml(text);
   const vector<string> verdicts = validator.run();
+
   ASSERT_EQ(verdicts.size(), all.size());
   for (size_t i = 0; i < all.size(); ++i) {
     const Written& written = all[i].second;
@@ -286,6 +296,7 @@ TEST(Schema, HasEverySceneRightByReadersOfYaml12And11) {
     (sweep ? sweeps : validator).add_yaml(text);
     (sweep ? sweeps : validator).add_yaml11(text);
   }
+
   ASSERT_GT(of_scenes.size(), 20u);
   for (const auto& [files, verdicts] : {std::pair(of_scenes, validator.run()), std::pair(of_sweeps, sweeps.run())}) {
     ASSERT_EQ(verdicts.size(), 2 * files.size());

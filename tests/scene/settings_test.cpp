@@ -61,6 +61,7 @@ TEST(Settings, AVolumeReplacesTheOneThereWas) {
       "forces: [{uniform: [1, 0, 0]}]\n"
       "simulate: {duration: 1}\n",
       options);
+
   EXPECT_EQ(scene.world.volume[0].shape, Shape::sphere);
   EXPECT_EQ(scene.world.volume[1].half, Vec3(0.5, 2, 0.5));
   EXPECT_TRUE(scene.world.forces[0].law == ForceLaw(UniformForce{Vec3(3, 0, 0)}));
@@ -105,6 +106,7 @@ TEST(Settings, ErrorsPointIntoTheOption) {
             "     | balls.rde.mass=3\n"
             "     |       ^~~\n"
             "     = did you mean `red`?\n");
+
   EXPECT_EQ(errors_with(two, "simulate.durration=3"),
             "--set simulate.durration=3: error: unknown key `durration` in `simulate`\n"
             "     | simulate.durration=3\n"
@@ -115,6 +117,7 @@ TEST(Settings, ErrorsPointIntoTheOption) {
             "     | balls.red.position.w=3\n"
             "     |                    ^\n"
             "     = expected x, y or z\n");
+
   EXPECT_EQ(errors_with(two, "simulate.duration.x=3"),
             "--set simulate.duration.x=3: error: `duration` has no parts\n"
             "     | simulate.duration.x=3\n"
@@ -125,6 +128,7 @@ TEST(Settings, ErrorsPointIntoTheOption) {
             "     | simulate.duration\n"
             "     | ^~~~~~~~~~~~~~~~~\n"
             "     = expected path=value, such as simulate.duration=2\n");
+
   EXPECT_EQ(errors_with(two, "simulate.duration=-2"),
             "--set simulate.duration=-2: error: `duration` is -2\n"
             "     | simulate.duration=-2\n"

@@ -24,6 +24,7 @@ LoadOptions with_run(const vector<string>& names, const vector<Entity>& gone = {
     for (const Entity i : gone) former.state.part_of[i] = no_entity;
     return former;
   };
+
   return options;
 }
 
@@ -44,6 +45,7 @@ TEST(Start, GivesBodiesByNameThePlacesOfTheRun) {
   ASSERT_TRUE(scene.made_from.start);
   EXPECT_EQ(scene.made_from.start->run, "first");
   EXPECT_EQ(scene.made_from.start->at, 2);
+
   EXPECT_EQ(scene.made_from.notes,
             (vector<string>{"start: the run has no `box`, which begins where this scene places it",
                             "start: this scene has no `blue`, which the run has",
@@ -92,9 +94,11 @@ TEST(Start, LeavesNumbersInTheResolvedSceneWhichNeedsNoRun) {
                  "{mass: 1, radius: 0.1}}}\n"
                  "caption: 'from {start.at} s of {start.run}'\n"),
       with_run({"red", "gas.0", "gas.1"}));
+
   EXPECT_EQ(scene.resolved.find("start:"), string::npos);
   EXPECT_EQ(scene.overlay.caption, "from 2 s of first");
   EXPECT_TRUE(scene.made_from.expressions.empty());
+
   const Scene again = load_text(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);
   EXPECT_EQ(again.initial.position, scene.initial.position);

@@ -39,8 +39,10 @@ TEST(Strings, TieBodiesAndPoints) {
                                 "  a: {from: [0, 4, 0], to: red}\n"
                                 "  b: {from: blue, to: red, length: 6, restitution: 0.5}\n"
                                 "  c: {from: gas.2, to: gas.1, rod: true}\n");
+
   const World& world = scene.world;
   ASSERT_EQ(world.strings.size(), 3u);
+
   const String &a = world.strings[0], &b = world.strings[1], &c = world.strings[2];
   EXPECT_EQ(a.body, 0u);
   EXPECT_EQ(a.other, no_entity);
@@ -54,6 +56,7 @@ TEST(Strings, TieBodiesAndPoints) {
   EXPECT_EQ(b.restitution, 0.5);
   EXPECT_EQ(c.body, 3u);
   EXPECT_EQ(c.other, 4u);
+
   EXPECT_EQ(c.length, (scene.initial.position[3] - scene.initial.position[4]).norm());
   EXPECT_TRUE(c.rod);
   // Five bodies, a plane and an obstacle come before them.
@@ -81,6 +84,7 @@ TEST(Strings, AreRepeated) {
       "  chain: {repeat: 2, from: 'ball.{i}', to: 'ball.{i + 1}', length: 1.5}\n"
       "  none: {repeat: 0, from: [0, 1, 0], to: ball.0}\n" +
       simulate);
+
   ASSERT_EQ(scene.world.strings.size(), 5u);
   EXPECT_EQ(scene.roster.strings, (vector<string>{"hung.0", "hung.1", "hung.2", "chain.0", "chain.1"}));
   EXPECT_EQ(scene.world.strings[2].anchor, Vec3(2, 2, 0));
@@ -134,6 +138,7 @@ TEST(StringErrors, NameThePlaceAndTheRemedy) {
   EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: 0}"), "scene.yaml:8:41: error: `length` is 0");
   EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: -1}"), "scene.yaml:8:41: error: `length` is -1");
   EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, restitution: -1}"), "scene.yaml:8:46: error: `restitution` is -1");
+
   EXPECT_EQ(first_error("{from: [0, 1, 0], to: red}"),
             "scene.yaml:8:3: error: the ends of `s` are at the same point at time 0");
   EXPECT_EQ(remedy("{from: [0, 1, 0], to: red}"), "expected `length`: a number above 0 in m");
@@ -152,6 +157,7 @@ TEST(StringErrors, OfRodsWithVelocitiesAlongThem) {
                      "strings: {bar: {from: b, to: a" +
                      more + "}}\n" + simulate);
   };
+
   EXPECT_EQ(error_of("velocity: [5, 0, 2]", ", rod: true"),
             "scene.yaml:5:38: error: the ends of `bar` part at 3 m/s at time 0\n"
             "   5 | strings: {bar: {from: b, to: a, rod: true}}\n"
@@ -179,6 +185,7 @@ TEST(StringErrors, OfTheEnds) {
   EXPECT_EQ(remedy("{from: red, to: gas}"),
             "expected one of them, such as gas.0; for a string to each `repeat`, and 'gas.{i}'");
   EXPECT_EQ(first_error("{from: red, to: [0, 1, 0]}"), "scene.yaml:8:22: error: `to` is a list");
+
   EXPECT_EQ(first_error("{from: [0, 1], to: red}"), "scene.yaml:8:13: error: `from` has 2 numbers");
   EXPECT_EQ(first_error("{to: red}"), "scene.yaml:8:3: error: string `s` has no `from`");
   EXPECT_EQ(first_error("{from: [0, 4, 0]}"), "scene.yaml:8:3: error: string `s` has no `to`");

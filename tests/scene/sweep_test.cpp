@@ -140,11 +140,13 @@ TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
   has("random: 5\nover: {}\n", "has no entries");
   has("random: 5\nover: {a: {from: 1, to: 2, count: 3}}\n", "unknown key `count`");
   has("random: 5\nover: {a: {from: 2, to: 2}}\n", "falls.yaml:4:25: error: no number lies between 2 and 2");
+
   has("random: 5\nover: {a: {from: 2, to: 1}}\n", "expected `from` below `to`");
   has("random: 5\nover: {a: {from: 0, to: 1, log: true}}\n", "0 has no logarithm");
   has("random: 5\nover: {seed: {from: 0.5, to: 7}}\n", "falls.yaml:4:21: error: `seed` takes whole numbers");
   has("random: 5\nover: {a: {from: 1, to: 1.00000000000000001}}\n", "no number lies between");
   has("random: 5\nover: {a: {from: 1, to: 1.000000000000001}}\n", "the numbers of `a` have more than 15 digits");
+
   has(
       "random: 1000000\nover: {" +
           [] {
@@ -154,6 +156,7 @@ TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
           }() +
           "}\n",
       "expected at most 10000000 values in all");
+
   has("random: 5\ngrid: {a: [1]}\nover: {a: {from: 1, to: 2}}\n", "`a` is varied twice");
   has("random: 1000\ngrid: {b: {from: 1, to: 1001, count: 1001}}\nover: {a: {from: 1, to: 2}}\n",
       "more than 1000000 runs");
@@ -186,6 +189,7 @@ TEST(SweepFile, ResolvedTextMeansTheSameAndResolvesToItself) {
                       "seed: 5\nskip_invalid: true\n"
                       "repeat: {seeds: 2, first: 7}\nonly: [energy]\n"
                       "compare: {measures: [collisions], charts: [{x: a, y: collisions, by: b}]}\n";
+
   const Sweep sweep = sweep_of(text);
   const string resolved = sweep.resolved("base.yaml");
   const Sweep again = sweep_of(resolved);
@@ -194,6 +198,7 @@ TEST(SweepFile, ResolvedTextMeansTheSameAndResolvesToItself) {
   EXPECT_EQ(values_of(again), values_of(sweep));
   EXPECT_EQ(again.paths, sweep.paths);
   EXPECT_EQ(again.only.front().text, "energy");
+
   for (size_t i = 0; i < sweep.size(); ++i) {
     ASSERT_EQ(again.run(i).settings.size(), sweep.run(i).settings.size());
     for (size_t k = 0; k < sweep.run(i).settings.size(); ++k)
@@ -237,6 +242,7 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has(head + "grid: {a: [1]}\nzip: {a: [2]}\n", "`a` is varied twice");
   has(head + "grid: {a: [1]}\nruns: [{}]\n", "`grid` stands beside `runs`");
   has(head + "grid: {a: [1, 2]}\nskip: [{a: 3}]\n", "no run has these values");
+
   has(head + "grid: {a: [1, 2]}\nskip: [{a: [1, 2]}]\n", "every run is left out");
   has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`seed` is varied twice: here and by `repeat`");
   has(head + "grid: {a: {from: 1, to: 1000, count: 1000}, b: {from: 1, to: 1001, count: 1001}}\n",

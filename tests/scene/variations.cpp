@@ -25,6 +25,7 @@ vector<Json> values_for(const Field& field, bool few) {
   if (few) return values;
   values.push_back(json_of_yaml(field.example));
   if (!field.initial.empty()) values.push_back(json_of_yaml(field.initial));
+
   for (const double edge : {field.range.min, field.range.max}) {
     if (!std::isfinite(edge)) continue;
     for (const double value : {edge, std::nextafter(edge, -1e9), edge + 1}) values.push_back(number_json(value));
@@ -65,14 +66,17 @@ class Varying {
         node.erase(key);
         note("no " + here);
         node = kept;
+
       } else {
         for (const Json& value : {json_of_yaml(field.example), Json(nullptr)}) {
           node[key] = value;
           note(here + " too, " + value.dump());
         }
+
         node = kept;
       }
     }
+
     for (const string key : {"zzz", "Mass", "ambient", "mass ", ""}) {
       if (kept.contains(key)) continue;
       node[key] = 1;
@@ -85,6 +89,7 @@ class Varying {
     const Kind* kind = held_kind(field);
     if (kind == nullptr) return;
     const Json kept = value;
+
     if (field.type == Type::named) {
       for (const auto& [name, entry] : kept.items()) {
         if (kind->also == nullptr || name != kind->also->key) map(value[name], *kind, path + "." + name + ".");
@@ -99,6 +104,7 @@ class Varying {
         note(path + "." + name + " is null");
         value = kept;
       }
+
     } else if (field.type == Type::list) {
       for (size_t i = 0; i < kept.size(); ++i)
         if (value[i].is_object()) map(value[i], *kind, fmt::format("{}.{}.", path, i));
