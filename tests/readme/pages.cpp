@@ -26,9 +26,8 @@ Page read_page(const string& path) {
 
 vector<Page> read_pages() {
   vector<string> paths;
-  for (const string folder : {"output", "scenes"}) paths.push_back(folder + "/README.md");
-  paths.push_back("scenes/format.md");
-  for (const string folder : {"src", "tests"}) {
+  paths.push_back("output/README.md");
+  for (const string folder : {"scenes", "src", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(SOURCE_DIR "/" + folder))
       if (entry.path().extension() == ".md") paths.push_back(fs::relative(entry.path(), SOURCE_DIR).generic_string());
   }
