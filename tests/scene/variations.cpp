@@ -118,11 +118,9 @@ class Varying {
   vector<Variation> found_;
 };
 
-}  // namespace
-
-vector<string> right_scenes() {
-  return {"{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
-          R"(
+const vector<string> all_right = {
+    "{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
+    R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 walls: {fence: {center: [20, 1, 0], normal: [1, 0, 0], size: [1, 1]}}
@@ -134,7 +132,7 @@ regions:
 simulate: {duration: 1, stop: [rest, {collisions: 100}, {region: pocket}]}
 output: {regions: true, trajectory: {every: 0.1}}
 )",
-          R"(
+    R"(
 scene: 1
 defaults: {string: {restitution: 0.5}}
 balls: {text: {mass: 1, radius: 0.1, position: [0, 1, 0]}, fast: {mass: 1, radius: 0.1, position: [2, 8, 0], velocity: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= 1 + i', 2, 3]}}
@@ -147,7 +145,7 @@ strings:
   nets: {repeat: 2, from: ['= i', 6, 0], to: 'row.{i}'}
 simulate: {duration: 1}
 )",
-          R"(
+    R"(
 scene: 1
 title: Balls
 seed: 3
@@ -168,7 +166,7 @@ flash: true
 arrows: [velocity, force]
 shutter: 0.5
 )",
-          R"(
+    R"(
 scene: 1
 defaults: {ball: {mass: 1, radius: 0.1, mesh: box.stl}, body: {density: 2}, obstacle: {color: red}}
 balls: {red: {position: [0, 1, 0]}}
@@ -184,7 +182,7 @@ obstacles:
   globe: {radius: 0.5, position: [-3, -3, 0]}
 simulate: {duration: 1}
 )",
-          R"(
+    R"(
 scene: 1
 defaults:
   body: {fit: box, mesh: box.stl, mass: 1}
@@ -203,7 +201,7 @@ obstacles: {post: {color: tan}}
 room: {min: [-9, -9, -9], max: [30, 30, 30], restitution: 1, color: tan, visible: false}
 simulate: {duration: 1}
 )",
-          R"(
+    R"(
 scene: 1
 balls: {former: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 groups:
@@ -211,7 +209,7 @@ groups:
 start: {run: first, at: 2}
 simulate: {duration: 1}
 )",
-          R"(
+    R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 forces:
@@ -223,7 +221,7 @@ forces:
 planes: {fence: {point: [0, -9, 0], normal: [0, 1, 0]}}
 simulate: {duration: 1, engine: stepped, step: 0.1, integrator: verlet}
 )",
-          R"(
+    R"(
 scene: 1
 simulate: {duration: 1, tolerance: 0.1, engine: auto, contact: bounce}
 defaults: {plane: {color: tan}, wall: {color: tan}, group: {speed: 1}}
@@ -246,7 +244,7 @@ output:
   flights: true
   plots: true
 )",
-          R"(
+    R"(
 scene: 1
 balls: {row: {repeat: 2, mass: 1, radius: 0.1, position: ['= i', 0, 0]}}
 bodies: {bricks: {repeat: {i: 2, j: 2}, mass: 1, box: [0.2, 0.2, 0.2], position: ['= i', '= 5 + j', 0]}}
@@ -259,23 +257,28 @@ forces: [{repeat: 2, acceleration: ['= i + 1', 0, 0], on: ['row.{i}']}]
 lights: {lamps: {repeat: 2, position: ['= i', 9, 0]}}
 simulate: {duration: 1}
 )",
-          "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
-          "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
-          "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
-          R"(
+    "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
+    "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
+    "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
+    R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 planes: {text: {point: [0, 0, 0], normal: [0, 1, 0]}}
 simulate: {duration: 1}
 camera: {follow: red, eye: [0, 3, -5], target: [0, 1, 0], near: 0.5}
 )",
-          R"(
+    R"(
 scene: 1
 simulate: {duration: 1}
 camera:
   up: [0, 1, 0.1]
   path: [{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 0.5, eye: [5, 3, 0], target: [0, 0, 1], fov: 30}]
 )"};
+
+}  // namespace
+
+vector<string> right_scenes() {
+  return all_right;
 }
 
 vector<Variation> vary(const string& scene, std::set<string>& visited) {
