@@ -30,6 +30,7 @@ void simulate(benchmark::State& state, const string& file) {
   options.rest_speed = scene.simulate.rest_speed.value_or(0);
   options.record_collisions = false;
   uint64_t collisions = 0, result = 0;
+
   for (auto _ : state) {
     const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
     while (simulator->time() < options.duration) {
@@ -38,6 +39,7 @@ void simulate(benchmark::State& state, const string& file) {
     collisions = simulator->tally().collisions();
     result = hash_of(simulator->state());
   }
+
   const double all = static_cast<double>(collisions);
   state.counters["collisions"] = all;
   state.counters["per_s"] = benchmark::Counter(all, benchmark::Counter::kIsIterationInvariantRate);
@@ -61,6 +63,7 @@ const bool registered = [] {
     files.push_back(entry.path());
   }
   std::ranges::sort(files);
+
   for (const std::filesystem::path& file : files) {
     const string name = "/" + file.stem().string();
     benchmark::RegisterBenchmark(("load" + name).c_str(), load, file.string())->Unit(benchmark::kMillisecond);

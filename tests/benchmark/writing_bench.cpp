@@ -68,6 +68,7 @@ void trajectory(benchmark::State& state) {
   scene.world.mass.assign(bodies, 1);
   scene.roster.bodies = {{"gas", 0, bodies, true, {}}};
   scene.output.trajectory = TrajectoryOutput{0.001, false};
+
   for (auto _ : state) {
     const Folder folder;
     const Descriptor open_folder(open(folder.path().c_str(), O_RDONLY | O_DIRECTORY));
@@ -75,6 +76,7 @@ void trajectory(benchmark::State& state) {
     for (int64_t instant = 0; instant < state.range(0) / bodies; ++instant)
       table.add(0.001 * static_cast<double>(instant), of, {});
     table.files().front()->complete();
+
     state.SetLabel(table.files().front()->record().sha256.substr(0, 16));
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
@@ -110,6 +112,7 @@ void load_list(benchmark::State& state) {
                           i / 10'000);
     text << "simulate: {duration: 1}\n";
   }
+
   for (auto _ : state) benchmark::DoNotOptimize(load_scene(file));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }

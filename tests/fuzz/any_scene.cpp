@@ -42,10 +42,12 @@ void bodies(Maker& m, const Units& u) {
   for (int k = m.whole(0, 8); k > 0; --k) {
     const double mass = wide ? m.spread(lightest, heaviest) : u.mass * m.spread(0.1, 10);
     const double own = lively ? m.any({1.05, 2}) : m.chance(0.2) ? m.restitution() : e;
+
     Vec3 v = u.speed() * m.somewhere(1);
     if (m.chance(0.3)) v.setZero();
     if (m.chance(0.05)) v *= m.any({most_speeds, 1e-9, 1e-3});
     if (m.chance(0.2)) v = Vec3(0, -v.norm(), 0);
+
     const Volume volume = any_volume(m, u.length);
     const auto& placed = m.scene.initial.position;
     if (!placed.empty() && m.chance(0.3)) {  // touching another, along an axis
@@ -58,6 +60,7 @@ void bodies(Maker& m, const Units& u) {
       m.fit((far ? most_lengths : 3) * u.length, volume, v, mass, own);
     }
   }
+
   if (m.chance(0.2))
     for (Entity i = 0; i < m.scene.world.body_count(); ++i)
       m.scene.world.impulse.push_back(m.chance(0.5) ? Vec3(m.scene.world.mass[i] * u.speed() * m.somewhere(1))
@@ -73,10 +76,12 @@ ForceLaw any_law(Maker& m, const Units& u, double light) {
     case 1:
       return UniformAcceleration{acceleration * m.somewhere(3)};
     case 2:
+
       return Drag{light / u.time * m.uniform(0, 3), 0, u.speed() * zero_or_one * m.somewhere(1)};
     case 3:
       return Drag{light / u.time * zero_or_one * m.uniform(0, 3), light / u.length * m.uniform(0, 0.5),
                   u.speed() * zero_or_one * m.somewhere(1)};
+
     case 4:
       return Spring{u.length * m.somewhere(3), light / (u.time * u.time) * m.spread(1e-3, 30),
                     u.length * zero_or_one * m.uniform(0, 2), light / u.time * m.any({0, 0.1, 3})};
@@ -120,6 +125,7 @@ void regions(Maker& m, const Units& u) {
 void strings(Maker& m, const Units& u) {
   World& world = m.scene.world;
   const auto n = static_cast<int>(world.body_count());
+
   for (int k = n == 0 ? 0 : m.whole(-3, 4); k > 0; --k) {
     String string;
     string.body = static_cast<Entity>(m.whole(0, n - 1));
@@ -130,17 +136,20 @@ void strings(Maker& m, const Units& u) {
     } else {
       string.anchor = m.scene.initial.position[string.body] + m.any({0.01, 1, 1, 10}) * u.length * m.somewhere(1);
     }
+
     const Vec3 to = string.other == no_entity ? string.anchor : m.scene.initial.position[string.other];
     string.length = (m.scene.initial.position[string.body] - to).norm();
     string.rod = m.chance(0.2);
     if (!string.rod && m.chance(0.5)) string.length *= m.uniform(1, 2);
     string.restitution = m.chance(0.6) ? 0 : m.restitution();
+
     if (string.rod && string.length > 0) {  // it moves across itself
       vector<Vec3>& v = m.scene.initial.velocity;
       const Vec3 along = (m.scene.initial.position[string.body] - to) / string.length;
       const Vec3 other_v = string.other == no_entity ? Vec3(Vec3::Zero()) : v[string.other];
       v[string.body] -= (v[string.body] - other_v).dot(along) * along;
     }
+
     if (string.length > 0) world.strings.push_back(string);
   }
 }
@@ -164,20 +173,24 @@ void everything(Maker& m, bool tied) {
   Units u{1, 1, 1};
   if (m.chance(0.4)) u = {m.spread(smallest_length, largest_length), m.spread(shortest_time, longest_time), 1};
   m.scene.options.duration = u.time * (m.chance(0.1) ? m.spread(1e-3, 8) : m.uniform(0.1, 5));
+
   m.gravity(1);
   if (m.chance(0.6)) {
     const double g = u.speed() / u.time * m.any({0.1, 1, 10});
     m.scene.world.gravity = m.chance(0.7) ? Vec3(0, -g, 0) : Vec3(g * m.direction());
   }
+
   surfaces(m, u);
   bodies(m, u);
   forces(m, u);
   m.rules();
+
   m.scene.options.merge = m.chance(0.05);
   if (m.chance(0.1)) m.scene.options.rest_speed = u.speed() * m.spread(1e-6, 1e-1);
   if (m.chance(0.2)) m.motions(m.scene.world, m.scene.options.duration, u.speed());
   regions(m, u);
   if (tied) strings(m, u);
+
   World& world = m.scene.world;
   const bool spheres = std::ranges::all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
   if (spheres) world.volume.clear();

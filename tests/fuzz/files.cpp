@@ -33,6 +33,7 @@ void hold(const MeshPaint& paint, size_t vertices, size_t triangles) {
     for (const float x : part.factor)
       if (!(x >= 0 && x <= 1)) throw Finding("a colour is not between 0 and 1");
   }
+
   if (in_parts != triangles) throw Finding("parts of other triangles");
   for (const auto& uv : paint.uv)
     if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) throw Finding("a place in a texture is not finite");
@@ -78,14 +79,17 @@ string flights() {
   vector<PathPiece> pieces;
   for (Entity i = 0; i < 4; ++i) pieces.push_back({i, 0, {0, 0}, Vec3(i, 1, 0), Vec3(1, 0, 0), Vec3(0, -10, 0)});
   pieces.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -1, 0)});
+
   PathPiece step{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
   step.kicked = true;
   step.until = {0.175, 1e-19};
   step.kick = Vec3(0, -1, 0);
+
   PolynomialPath curve = PolynomialPath::parabola(0.5, Vec3(1, 1, 1), Vec3(0, -10, 0));
   curve.displacement.back() = Vec3(0, 1, -2);
   PathPiece curved{2, 0.17, {0.17, 0}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3(0, -10, 0)};
   curved.curve = std::make_shared<PolynomialPath>(curve);
+
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -93,11 +97,13 @@ string flights() {
   joint.mass = 3;
   joint.radius = 0.125;
   joint.half = Vec3::Constant(0.125);
+
   PathPiece other{2, 0.19, {0.19, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
   other.fade = 0.25;
   PathPiece frame{3, 0.19, {0.2, 0}, Vec3(1, -1, 1), Vec3(-3, 0, 0), Vec3::Zero()};
   frame.law = PathLaw::frame;
   frame.rounding = 0x1p-40;
+
   for (const PathPiece& piece : {step, curved, part, joint, other, frame}) pieces.push_back(piece);
   // An impact of two of mass 1 and restitution 1: they swap velocities along x.
   for (const Entity i : {2u, 3u}) {
@@ -108,6 +114,7 @@ string flights() {
     const double side = i == 2 ? -1 : 1;
     pieces.push_back({i, 0.195, {0.195, 0}, Vec3(side * 0.995, 0, 0), Vec3(side, 0, 0), Vec3::Zero()});
   }
+
   const Scene scene = small_scene();
   FlightsFile file({folder().descriptor(), folder().path()}, scene);
   file.record_paths(pieces);
@@ -123,6 +130,7 @@ string flights_with_key() {
   string block = whole.substr(header, whole.size() - header - tail), end = whole.substr(whole.size() - tail);
   block[0] = 1;
   end[8] = 1;
+
   const double time = 0.15;
   const uint64_t place = whole.size() - tail, entries = 0;
   string key(24, '\0');
@@ -149,6 +157,7 @@ string with_checksums(string bytes) {
     std::memcpy(&value, bytes.data() + at, sizeof value);
     return value;
   };
+
   for (size_t at = header; at + block_head + tail <= bytes.size();) {
     const size_t size = block_head + number(at + 8);
     if (at + size + tail > bytes.size()) break;
@@ -177,6 +186,7 @@ void read_mesh_reply_bytes(string_view bytes) {
   MeshLimits limits;
   limits.vertices = limits.triangles = 10'000;
   limits.texture_bytes = 100'000;
+
   string_view left = bytes;
   const auto receive = [&](void* to, size_t size) {
     if (size > left.size()) return false;
@@ -184,6 +194,7 @@ void read_mesh_reply_bytes(string_view bytes) {
     left.remove_prefix(size);
     return true;
   };
+
   try {
     hold(receive_mesh({receive, [] { return string("it is cut off"); }}, limits));
   } catch (const std::runtime_error& error) {
@@ -213,9 +224,11 @@ void read_mesh_bytes(string_view bytes) {
   static constexpr const char* names[] = {"a.obj", "a.stl", "a.glb", "a.gltf"};
   const string name = bytes.empty() ? names[0] : names[static_cast<unsigned char>(bytes[0]) % 4];
   folder().put(name, bytes.substr(std::min<size_t>(bytes.size(), 1)));
+
   MeshLimits limits;
   limits.seconds = 3;
   limits.vertices = limits.triangles = 10'000;
+
   try {
     const Mesh mesh = read_painted_mesh(folder().path() + "/" + name, limits);
     hold(mesh);
@@ -234,6 +247,7 @@ vector<string> mesh_seeds() {
        {std::pair{".obj", '\0'}, std::pair{".stl", '\1'}, std::pair{".glb", '\2'}, std::pair{".gltf", '\3'}})
     for (const string& path : files_below(data, ending))
       if (const string bytes = bytes_of(path); bytes.size() < 20'000) seeds.push_back(first + bytes);
+
   seeds.push_back(string(1, '\0') +
                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 4\nf 1 2 3 4\n");
   seeds.push_back(string(1, '\0') + "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
@@ -248,10 +262,12 @@ void hold_flights(FlightsReader& reader, const Scene& scene) {
   double last = 0;
   for (Recorded recorded; reader.next(recorded);) {
     if (recorded.kind == Recorded::Kind::collision) continue;
+
     const PathPiece& piece = recorded.piece;
     if (piece.body >= scene.world.body_count()) throw Finding("a path of no body");
     if (piece.part_of != no_entity && piece.part_of >= scene.world.body_count()) throw Finding("part of no body");
     if (!(piece.from >= last)) throw Finding("paths that go back in time");
+
     if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.kick.allFinite() ||
         !std::isfinite(piece.start.hi + piece.start.lo) || !std::isfinite(piece.until.hi + piece.until.lo))
       throw Finding("a path that is not finite");
@@ -261,6 +277,7 @@ void hold_flights(FlightsReader& reader, const Scene& scene) {
     if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&
                          std::isfinite(piece.radius)))
       throw Finding("a joint body without mass or size");
+
     last = piece.from;
   }
 }
@@ -304,6 +321,7 @@ vector<string> manifest_seeds() {
 /// The lines from the end are the rows from the start, where nothing is in quotes.
 void read_table_bytes(string_view bytes) {
   const MemoryFile file(bytes);
+
   StoredTable table(file.open());
   vector<string> rows;
   while (const vector<string_view>* cells = table.next()) {
@@ -316,9 +334,11 @@ void read_table_bytes(string_view bytes) {
     rows.push_back(std::move(row));
     if (rows.size() > bytes.size()) throw Finding("more rows than bytes");
   }
+
   if (bytes.find('"') != string_view::npos) return;
   // Empty lines at the end, and between rows, are no lines from the end.
   std::erase(rows, "");
+
   lines_from_end(file.open().get(), [&](string_view line) {
     if (rows.empty() || rows.back() != line) throw Finding("another line from the end: " + string(line));
     rows.pop_back();

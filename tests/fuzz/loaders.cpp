@@ -50,6 +50,7 @@ void hold(const Scene& scene) {
       scene.initial.velocity.size() != n || (!world.volume.empty() && world.volume.size() != n) ||
       (!world.impulse.empty() && world.impulse.size() != n))
     throw Finding("arrays by body differ in length");
+
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (!std::ranges::all_of(world.mass, positive)) throw Finding("a mass is not above 0");
   if (!std::ranges::all_of(world.radius, positive)) throw Finding("a radius is not above 0");
@@ -100,6 +101,7 @@ vector<string> scene_seeds() {
   for (const string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
     if (string text = bytes_of(path); text.size() < longest_seed) seeds.push_back(std::move(text));
   add_texts_of_tests("scene: 1", seeds);
+
   seeds.emplace_back(R"(scene: 1
 let: {n: 3, r: 0.1, gap: '= r / 10'}
 defaults: {ball: {mass: = 2 * r, radius: = r, color: red}}
@@ -113,6 +115,7 @@ restitution: = 1 / 2
 camera: {follow: row}
 simulate: {duration: 1}
 )");
+
   return seeds;
 }
 
@@ -123,6 +126,7 @@ void load_sweep_bytes(string_view bytes) {
     if (sweep.size() == 0) throw Finding("a sweep without runs");
     for (const size_t k : {size_t{0}, sweep.size() / 2, sweep.size() - 1})
       if (sweep.run(k).values.size() != sweep.paths.size()) throw Finding("a run has values of other paths");
+
     const string resolved = sweep.resolved("base.yaml");
     const MemoryFile again(resolved);
     const Sweep same = load_sweep(again.path());
@@ -155,6 +159,7 @@ lights: {sun: {direction: [0, -1, 0]}}
 simulate: {duration: 1}
 output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
 )");
+
   static SceneFile scene(base.path(), options());
   vector<Setting> settings;
   for (size_t at = 0; at <= bytes.size() && settings.size() < 4;) {
@@ -162,6 +167,7 @@ output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
     settings.push_back({string(bytes.substr(at, end - at)), settings.size() % 2 == 0 ? "" : "sweep.yaml:7:3"});
     at = end + 1;
   }
+
   try {
     hold_resolved(scene.scene(settings));
   } catch (const SceneError& error) {
@@ -171,20 +177,17 @@ output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
 
 vector<string> settings_seeds() {
   return {
-      "balls.red.mass=2",
-      "defaults.ball.restitution=0.5\nsimulate.duration=2",
-      "balls.red.position=[0, 2, 0]\nballs.blue.velocity.x=3",
-      "groups.gas.count=5\ngroups.gas.in.max=[9, 9, 9]",
+      "balls.red.mass=2", "defaults.ball.restitution=0.5\nsimulate.duration=2",
+      "balls.red.position=[0, 2, 0]\nballs.blue.velocity.x=3", "groups.gas.count=5\ngroups.gas.in.max=[9, 9, 9]",
       "forces.0.uniform.y=2\nforces.1.drag={quadratic: 1}",
-      "output.video={fps: 30, size: [64, 48]}\ncamera.eye.z=9",
-      "camera.fit=motion\ncamera.fov=30",
+      // Of outputs and cameras.
+      "output.video={fps: 30, size: [64, 48]}\ncamera.eye.z=9", "camera.fit=motion\ncamera.fov=30",
       "camera={follow: gas.1}\ncamera.eye=[0, 1, 9]",
       "camera.path=[{at: 0, eye: [0, 1, 5], target: [0, 0, 0]}, {at: 1, eye: [5, 1, 0], target: [0, 0, 0], fov: 9}]",
-      "balls.red.density=1000",
-      "simulate={duration: 1, engine: stepped, integrator: verlet, step: 0.01}",
+      // Of the whole.
+      "balls.red.density=1000", "simulate={duration: 1, engine: stepped, integrator: verlet, step: 0.01}",
       "restitution={combine: minimum}\nrestitution.pairs=[{between: [red, blue], value: 0.5}]",
-      "title=\"a = b\"\nlights.sun.color=red",
-      "let.r=0.2\nlet.n== 2 + 3",
+      "title=\"a = b\"\nlights.sun.color=red", "let.r=0.2\nlet.n== 2 + 3",
       "bodies.row.repeat={i: 2, j: 3}\nbodies.row.position='[= j, = i, 0]'",
       "balls.red.mass== 2 * r\nballs.red.velocity=[= r, 0, 0]"};
 }

@@ -20,6 +20,7 @@ void Mutator::change(string& bytes) {
     case 1:
       if (length > 0) bytes[at] = static_cast<char>(draw(256));
       break;
+
     case 2:
       bytes.erase(at, length);
       break;
@@ -29,12 +30,14 @@ void Mutator::change(string& bytes) {
     case 4:
       bytes.resize(at);
       break;
+
     case 5: {  // a piece of another one
       const string& other = seeds_[draw(seeds_.size())];
       const size_t from = draw(other.size() + 1);
       bytes.insert(at, other.substr(from, 1 + draw(64)));
       break;
     }
+
     case 6:  // an odd number in place of digits
       for (size_t k = at; k < bytes.size(); ++k)
         if (bytes[k] >= '0' && bytes[k] <= '9') {
@@ -43,6 +46,7 @@ void Mutator::change(string& bytes) {
           break;
         }
       break;
+
     default:
       if (!words_.empty()) bytes.insert(at, words_[draw(words_.size())]);
   }

@@ -33,21 +33,25 @@ class Run {
     outcome_.engine = name_of(engine.engine);
     exact_ = engine.engine == Engine::exact && varying_force(world_) == nullptr;
     book_ = engine.engine == Engine::book;
+
     try {
       simulator_ = make_simulator(scene_, {.collisions = true}, engine.steps);
       const long double before = energy();
+
       if (!go_to(0) || !check_state()) return;
       for (int k = 1; k <= instants; ++k) {
         if (!go_to(k == instants ? scene_.simulate.duration : scene_.simulate.duration * k / instants) ||
             !check_state())
           return;
       }
+
       const Tally& tally = simulator_->tally();
       outcome_.collisions = tally.collisions();
       if (counted_ != tally.collisions())
         fail(fmt::format("{} collisions are recorded and {} counted", counted_, tally.collisions()));
       rows(tally);
       transitions();
+
       if (exact_) books(static_cast<double>(energy() - before), tally);
       if (exact_) overlaps(tally);
     } catch (const SimulationError& error) {
@@ -88,16 +92,19 @@ class Run {
       const double before = simulator_->time();
       simulator_->advance_to(time);
       const double now = simulator_->time();
+
       if (!(now >= before) || now > time) {
         fail(fmt::format("from {} s on to {} s it gets to {} s", before, time, now));
         return false;
       }
+
       for (const Collision& c : simulator_->collisions()) record(c);
       idle = now > before || !simulator_->collisions().empty() ? 0 : idle + 1;
       if (idle > most_idle) {
         fail(fmt::format("time stands still at {} s", now));
         return false;
       }
+
       if (time_spent() > patience_) {
         fail(fmt::format("takes more than {} s of CPU time; {} s of {} s are done, with {} collisions", patience_, now,
                          scene_.simulate.duration, counted_));
@@ -118,6 +125,7 @@ class Run {
       hash(state.velocity[i]);
       extent_ = std::max(extent_, state.position[i].cwiseAbs().sum() + world_.radius[i]);
     }
+
     if (state.time != simulator_->time()) fail("the state is of another time");
     return true;
   }
@@ -133,6 +141,7 @@ class Run {
       sum += kinetic + potential(world_, i, state.position[i]);
       all += static_cast<double>(kinetic) + pull(i) * extent_;
     }
+
     size_ = std::max(size_, all);
     return sum;
   }
@@ -183,6 +192,7 @@ class Run {
     if (!(c.time >= last_) || c.time < 0 || c.time > scene_.simulate.duration)
       fail(what + fmt::format("it comes after one at {} s", last_));
     last_ = std::max(last_, c.time);
+
     for (const double x : {c.time, c.approach_speed, c.separation_speed, c.impulse, c.energy_lost}) hash(x);
     hash(&c.a, sizeof c.a);
     hash(&c.b, sizeof c.b);
@@ -190,11 +200,13 @@ class Run {
     hash(c.normal);
     lost_ += c.energy_lost;
     turned_ += std::abs(c.energy_lost);
+
     if (c.kind == CollisionKind::rest) return;
     ++counted_;
     if (!c.position.allFinite() || !c.normal.allFinite() || !std::isfinite(c.approach_speed) ||
         !std::isfinite(c.separation_speed) || !std::isfinite(c.impulse) || !std::isfinite(c.energy_lost))
       return fail(what + "not finite");
+
     if (c.kind == CollisionKind::merge) return;
     if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + fmt::format("its normal has length {}", c.normal.norm()));
     // The chapter's program lets separating bodies collide, and its printed listings add energy.

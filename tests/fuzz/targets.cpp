@@ -35,6 +35,7 @@ vector<string> words() {
                           "*a",        "!!x",           "|",         ">",           "# ",  "\"",   "'",   ",",
                           "<<",        "...",           "\n---",     "null",        "nan", ".inf", "= ",  "'= i * r'",
                           "= sin(",    "{i}",           "repeat: 3", "let: {r: 1}", "none"};
+
   for (const span<const Kind>& family : families())
     for (const Kind& kind : family)
       for (const Field& field : kind.fields) {

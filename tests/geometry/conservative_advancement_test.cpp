@@ -29,6 +29,8 @@ void check(const World& world, const Path& path, double horizon, Tally& tally, b
   const FeatureTime m =
       time_of_impact(world, 0, 1, {path.d, path.w, path.a, path.w.cwiseAbs().sum(), false}, no_feature, horizon);
   ++tally.paths;
+
+  // Before, not even the cores overlap.
   const double end = std::min(m.time, horizon);
   const Thing core_a = shrunk(a, 1e-7), core_b = shrunk(b, 1e-7);
   for (int k = 0; k < 300; ++k) {
@@ -39,8 +41,11 @@ void check(const World& world, const Path& path, double horizon, Tally& tally, b
       break;
     }
   }
+
   if (m.time == never) return;
   ++tally.hits;
+
+  // The contact's own point and normal fit both.
   const Vec3 d = path.at(m.time);
   World there = world;
   if (!there.walls.empty()) there.walls[0].center = d;
@@ -50,6 +55,7 @@ void check(const World& world, const Path& path, double horizon, Tally& tally, b
   const double off_b = (touched.point - d - b.nearest(touched.point - d)).norm();
   const double reach = size + path.d.norm() + path.w.norm() * m.time + path.a.norm() * m.time * m.time;
   const double error = std::max({std::abs(gap), off_a, off_b, std::abs(touched.gap)}) / reach;
+
   tally.worst = std::max(tally.worst, error);
   const bool approaching = touched.normal.dot(path.speed(m.time)) < 0;
   if (error > 1e-12 || !approaching) {
@@ -86,6 +92,7 @@ TEST(TimeOfImpact, NoContactIsMissedAndNoneInvented) {
           const Path path = random_path(world, random, curved, horizon);
           check(world, path, horizon, tally);
         }
+
         printf("%-9s %-13s %s: %d paths, %d hits, %d missed, %d invented, worst %.2g\n", name(ka), name(kb),
                curved ? "curved  " : "straight", tally.paths, tally.hits, tally.missed, tally.invented, tally.worst);
         EXPECT_EQ(tally.missed, 0) << name(ka) << name(kb) << curved;
@@ -109,6 +116,7 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
         const Thing a = of(world, 0), b = of(world, 1);
         const Thing core_a = shrunk(a, 1e-6), core_b = shrunk(b, 1e-6);
         const double size = a.half.sum() + b.half.sum();
+
         double horizon;
         Path path = random_path(world, random, false, horizon);
         uint8_t left = no_feature;
@@ -116,12 +124,15 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
           const RelativeMotion motion{path.d, path.w, path.a, path.w.cwiseAbs().sum(), false};
           const FeatureTime m = time_of_impact(world, 0, 1, motion, left, horizon);
           ++tally.paths;
+
+          // Nothing overlaps before.
           const double end = std::min(m.time, horizon);
           for (int i = 0; i < 60; ++i)
             if (distance(core_a, core_b, path.at(end * i / 60), 1e-12 * size) <= 1e-12 * size) {
               ++tally.missed;
               break;
             }
+
           if (m.time == never) break;
           ++tally.hits;
           const Vec3 d = path.at(m.time), v = path.speed(m.time);
@@ -131,6 +142,8 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
           const double reach = size + path.d.norm() + path.w.norm() * m.time + path.a.norm() * m.time * m.time;
           tally.worst = std::max(tally.worst, std::max(std::abs(gap), std::abs(t.gap)) / reach);
           if (m.time > 0 && !(t.normal.dot(v) < 0)) ++tally.invented;
+
+          // It bounces.
           if (bounce == 0) path.a = -random.log_uniform(0.1, 10) * (t.normal + random.vector(k % 4 < 2 ? 0.2 : 1));
           const double restitution[] = {1, 0.3, 1e-4};
           path = {d, v - (1 + restitution[bounce % 3]) * v.dot(t.normal) * t.normal, path.a};
@@ -138,6 +151,7 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
           horizon = 5;
         }
       }
+
       EXPECT_EQ(tally.missed, 0) << name(ka) << " " << name(kb);
       EXPECT_EQ(tally.invented, 0) << name(ka) << " " << name(kb);
       EXPECT_GT(tally.hits, 30) << name(ka) << " " << name(kb);
@@ -155,14 +169,18 @@ TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
         const World world = pair_world(ka, kb, k % 2 == 0, random, 0.1);
         const Thing a = of(world, 0), b = of(world, 1);
         const int axis = k % 3, other = (k + 1 + k / 3 % 2) % 3;
+
+        // Almost along one axis, with a small part along another.
         Path path{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
         const double reach = a.support(Vec3::Unit(axis)) + b.support(Vec3::Unit(axis));
         path.d[axis] = reach * (1 + random.log_uniform(1e-10, 1e-2));
         path.w[axis] = -random.log_uniform(1e-3, 1e-1);
         path.d[other] = 1e-3 * reach * random.log_uniform(1e-12, 1);
         path.w[other] = 0.3 * random.uniform(-1, 1) * path.w[axis];
+
         check(world, path, 0.5 * reach / -path.w[axis], tally);
       }
+
       EXPECT_EQ(tally.missed, 0) << name(ka) << " " << name(kb);
       EXPECT_EQ(tally.invented, 0) << name(ka) << " " << name(kb);
       EXPECT_GT(tally.hits, 120) << name(ka) << " " << name(kb);
@@ -189,15 +207,20 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
     for (const double push : {0.0, 1e-12, 1e-9}) {
       const double r = 0.15, half = 0.1, out = r * std::sqrt(0.5), speed = 1;
       const Vec3 along = Vec3(1, -1, 0) * std::sqrt(0.5), normal = Vec3(-1, -1, 0) * std::sqrt(0.5);
+
       World world;
       world.mass = {1, 1};
       world.restitution = {1, 1};
       world.volume = {Volume::box({8, 2 * half, 2 * half}), Volume::sphere(r)};
       for (const Volume& v : world.volume) world.radius.push_back(v.reach());
+
       const Vec3 d(-4 - out, -half - out, 0), w = speed * along;
       const Vec3 a = pull * along - (1 - push) * speed * speed / r * normal;
+
+      // When it comes back to the bottom.
       const double room = d.y() + half + r;  // m, above the plane of the bottom
       const double time = (-w.y() + std::sqrt(w.y() * w.y() - 2 * a.y() * room)) / a.y();
+
       const FeatureTime found = time_of_impact(world, 0, 1, {d, w, a, 4, false}, no_feature, 10);
       EXPECT_NEAR(found.time, time, 1e-13) << pull << ' ' << push;
     }
@@ -211,6 +234,7 @@ TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingL
   world.restitution = {1, 1};
   world.volume = {Volume::cylinder(0.136, 0.2), Volume::box({0.2, 0.2, 0.2})};
   for (const Volume& v : world.volume) world.radius.push_back(v.reach());
+
   Sampler random(11);
   int met = 0;
   for (int k = 0; k < 4000; ++k) {
@@ -223,6 +247,7 @@ TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingL
     ++met;
     EXPECT_LT(touch(world, 0, Vec3::Zero(), 1, d + found.time * w, found.feature).gap, 1e-14) << k;
   }
+
   EXPECT_GT(met, 100);
 }
 

@@ -23,6 +23,7 @@ TEST(Fading, SquaredSpeedIsTheIntegral) {
   for (const double fade : {0.0, 1e-9, 0.3, 40.0}) {
     const FadingPath path{Vec3::Zero(), {3, -1, 0}, {-2, 5, 1}, fade};
     const double t = 1.5;
+
     double sum = 0;
     constexpr int parts = 4000;
     for (int k = 0; k < parts; ++k) {  // Simpson's rule
@@ -31,6 +32,7 @@ TEST(Fading, SquaredSpeedIsTheIntegral) {
              (path.velocity(from).squaredNorm() + 4 * path.velocity(from + h / 2).squaredNorm() +
               path.velocity(from + h).squaredNorm());
     }
+
     EXPECT_NEAR(path.squared_speed(t) / sum, 1, 1e-12) << fade;
   }
 }
@@ -50,16 +52,19 @@ TEST(FadingDescent, MissesNoneAndInventsNone) {
     const auto fade = [&] { return random(0, 1) < 0.2 ? 0 : std::exp(random(-4, 6)); };
     const FadingDistance f{random(0.01, 1), random(-3, 3), {{{random(-20, 20), fade()}, {random(-20, 20), fade()}}}};
     const double horizon = random(0.1, 5), t = first_descent(f, horizon), sample = first_sample(f, horizon);
+
     if (t == never) {
       EXPECT_EQ(sample, never) << n;
       continue;
     }
+
     ++found;
     EXPECT_LE(t, horizon) << n;
     EXPECT_LE(t, sample) << n;  // a dip between two samples is found too
     EXPECT_NEAR(f(t), 0, 1e-13 * (1 + std::abs(f.rate) * t + 20 * t * t)) << n;
     EXPECT_LE(f.slope(t), 1e-6) << n;
   }
+
   EXPECT_GT(found, 500);
 }
 

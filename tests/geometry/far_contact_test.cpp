@@ -32,6 +32,7 @@ struct Throw {
     s = random.log_uniform(1e-3, 1);
     m.just_separated = just_separated;
     const Vec3 direction = random.direction();
+
     if (just_separated) {  // up and down again
       m.d = s * direction;
       m.w = far * random.direction();
@@ -45,6 +46,7 @@ struct Throw {
       const double miss = grazes ? 1 + random.uniform(-1, 1) * random.log_uniform(0x1p-45, 1) : random.uniform(0, 1.2);
       m.d = s * miss * aside - (m.w + 0.5 * m.a);
     }
+
     m.speeds = m.w.cwiseAbs().sum();
     size = m.d.norm() + s + m.w.norm() + 0.5 * m.a.norm();
   }
@@ -78,11 +80,14 @@ TEST(FarContact, SmallSpheresMeetToTheRoundingOfTheWay) {
     const double unit = 0x1p-53 * ball.size, t = sphere_contact_time(ball.m, ball.s, 2);
     if (t < never) worst = std::max(worst, std::abs(ball.gap(t)) / unit);
     ++(t < never ? hits : misses);
+
+    // Between, the two come no nearer.
     double end = std::min(t, 2.0), nearest = 0.5 * end;
     for (double u = nearest; u <= end; u += end / 64)
       if (ball.gap(u) < ball.gap(nearest)) nearest = u;
     deepest = std::max(deepest, -ball.least(nearest - end / 64, std::min(nearest + end / 64, end)) / unit);
   }
+
   printf("%d hits, %d misses, gap at contact %.2g, overlap before %.2g\n", hits, misses, worst, deepest);
   EXPECT_GT(hits, 1000);
   EXPECT_GT(misses, 1000);
@@ -95,6 +100,7 @@ TEST(FarContact, ASmallBallMeetsAWallsEdgesAndCornersToTheRoundingOfTheWay) {
   const Wall wall{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, 1, {}};
   int edges = 0, corners = 0;
   double worst = 0;
+
   for (int k = 0; k < 20000; ++k) {
     const double radius = random.log_uniform(1e-3, 1e-1);
     const Vec3 v = random.uniform(1, 10) * random.direction(), a(0, -random.log_uniform(1e-2, 10), 0);
@@ -103,6 +109,8 @@ TEST(FarContact, ASmallBallMeetsAWallsEdgesAndCornersToTheRoundingOfTheWay) {
     const WallContact c = wall_contact_time(wall, x, v, a, radius, no_feature, 3);
     if (c.feature == no_feature || c.feature < wall_edges) continue;
     ++(c.feature < wall_corners ? edges : corners);
+
+    // By the reference, the nearest point of the wall is a radius away.
     Quad square = 0;
     for (int axis = 0; axis < 3; ++axis) {
       Quad p = Quad(x[axis]) + c.time * (Quad(v[axis]) + c.time * (Quad(a[axis]) / 2));
@@ -112,6 +120,7 @@ TEST(FarContact, ASmallBallMeetsAWallsEdgesAndCornersToTheRoundingOfTheWay) {
     const double size = x.norm() + v.norm() + a.norm() + 1;
     worst = std::max(worst, std::abs(static_cast<double>(root(square) - radius)) / (0x1p-53 * size));
   }
+
   printf("%d edges, %d corners, gap at contact %.2g\n", edges, corners, worst);
   EXPECT_GT(edges, 1000);
   EXPECT_GT(corners, 100);

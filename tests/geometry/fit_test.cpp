@@ -80,6 +80,7 @@ TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
   for (int round = 0; round < 2000; ++round) {
     const Vec3 center = std::ldexp(1.0, round % 21 - 10) * Vec3(noise(seed), noise(seed), noise(seed));
     const double radius = std::ldexp(1.0 + 0.5 * noise(seed), round % 31 - 15);
+
     vector<Vec3> on;
     const int support = 2 + round % 3;
     for (int i = 0; i + 1 < support; ++i) on.push_back(direction(seed));
@@ -89,10 +90,12 @@ TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
     if (support == 4)
       against = -(on[0] + (0.6 + 0.4 * noise(seed)) * on[1] + (0.6 + 0.4 * noise(seed)) * on[2]).normalized();
     on.push_back(against);
+
     vector<Vec3> points;
     for (int i = 0; i < round % 50; ++i) points.push_back(center + 0.999 * radius * direction(seed));
     for (const Vec3& v : on)
       points.insert(points.begin() + round % (static_cast<int>(points.size()) + 1), center + radius * v);
+
     const Fit fit = tightest(Shape::sphere, points);
     expect_holds(fit, points);
     // A point itself is rounded in its coordinates.
@@ -100,6 +103,7 @@ TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
     worst = std::max(worst, std::abs(fit.volume.half.x() - radius) / scale);
     worst_center = std::max(worst_center, (fit.center - center).norm() / scale);
   }
+
   EXPECT_LT(worst, 8 * eps);       // measured: 5.02 eps
   EXPECT_LT(worst_center, 1e-12);  // measured: 3.6e-13, where the support is nearly one-sided
 }
@@ -113,6 +117,7 @@ TEST(TightestSphere, OfManyPointsOnOneSphereOrCircleOrLineIsThatOne) {
       points.push_back(v.norm() > 0 ? Vec3(v.normalized()) : v);
       points.push_back(points.back());  // twice
     }
+
     const Fit fit = tightest(Shape::sphere, points);
     EXPECT_NEAR(fit.volume.half.x(), 1, 8 * eps);
     EXPECT_LT(fit.center.norm(), 4 * eps);  // measured: 0.8 eps
@@ -129,8 +134,10 @@ TEST(TightestSphere, OfNearlyFlatAndNearlyStraightCloudsIsNoLargerThanNeeded) {
       disc.emplace_back(std::cos(angle), thin * noise(seed), std::sin(angle));
       line.emplace_back(noise(seed), thin * noise(seed), thin * noise(seed));
     }
+
     disc.insert(disc.end(), {{1, 0, 0}, {-1, 0, 0}});
     line.insert(line.end(), {{1, 0, 0}, {-1, 0, 0}});
+
     for (const auto& points : {disc, line}) {
       const Fit fit = tightest(Shape::sphere, points);
       EXPECT_GE(fit.volume.half.x(), 1);
@@ -144,6 +151,7 @@ TEST(Tightest, ScaledByPowersOfTwoHasTheSameBits) {
   uint64_t seed = 11;
   vector<Vec3> points;
   for (int i = 0; i < 300; ++i) points.push_back(Vec3(noise(seed), 2 * noise(seed), noise(seed)));
+
   for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::box}) {
     const Fit one = tightest(shape, points);
     for (const int power : {-600, -40, 7, 600}) {
@@ -191,6 +199,7 @@ TEST(Tightest, ReportsErrorsOfItsPoints) {
   EXPECT_EQ(error_of(Shape::box, {{0, 0, 0}, {1, std::nan(""), 1}}), "a point is not finite");
   EXPECT_EQ(error_of(Shape::sphere, {{-1e308, 0, 0}, {1e308, 1, 1}}), "the points are too far apart");
   EXPECT_EQ(error_of(Shape::sphere, {{1, 2, 3}}), "all points are in one place: a volume around them has no size");
+
   EXPECT_EQ(error_of(Shape::box, {{1, 2, 3}, {1, 2, 3}}),
             "all points are in one place: a volume around them has no size");
   EXPECT_EQ(error_of(Shape::box, {{0, 0, 0}, {1, 0, 1}}),
@@ -199,6 +208,7 @@ TEST(Tightest, ReportsErrorsOfItsPoints) {
             "the points have no extent along y: a cylinder around them has no thickness");
   EXPECT_EQ(error_of(Shape::cylinder, {{0, 0, 0}, {0, 1, 0}}),
             "the points have no extent along x and z: a cylinder around them has no radius");
+
   EXPECT_EQ(error_of(Shape::sphere, {{0, 0, 0}, {1, 0, 0}}), "");  // a flat cloud has a sphere
 }
 

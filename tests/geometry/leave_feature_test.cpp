@@ -70,9 +70,11 @@ TEST(LeaveFeature, WallsAreLeftOverTheirRimToo) {
   world.obstacles.clear();
   world.walls = {make_wall(Vec3::UnitY(), Vec3::UnitZ(), 2, 1)};  // right is -x
   const RelativeMotion m{{0, -0.5, 0}, {-1, 0, 0}, Vec3::Zero(), 1, false};
+
   const FeatureTime rim = leave_feature(world, 0, 1, wall_front, m, 10);
   EXPECT_EQ(rim.time, 2);
   EXPECT_EQ(rim.feature, wall_edges + 1) << "left";
+
   for (const Volume& v : {can, brick}) {
     world.volume = {v};
     const RelativeMotion n{{0, -1, 0}, {-1, 0, 0}, Vec3::Zero(), 1, false};
@@ -95,12 +97,14 @@ TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
         const Vec3 d = random.uniform(2, 5) * random.direction(), w = -(d + random.vector(0.5));
         const FeatureTime m = time_of_impact(world, 0, 1, {d, w, Vec3::Zero(), w.norm(), false}, no_feature, 10);
         if (m.time == never || !is_flat(world, 0, 1, m.feature)) continue;
+
         const Thing a = of(world, 0), b = of(world, 1);
         const double size = a.half.norm() + b.half.norm();
         const auto place = [&](const Vec3& x) {
           if (!world.walls.empty()) world.walls[0].center = x;
           return x;
         };
+
         const Vec3 x = place(d + m.time * w), n = touch(world, 0, Vec3::Zero(), 1, x, m.feature).normal;
         const Vec3 slide = n.cross(random.direction());
         const Vec3 pull = k % 2 == 0 ? Vec3::Zero() : Vec3(n.cross(random.direction()));
@@ -109,6 +113,7 @@ TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
         ASSERT_NE(rim.feature, no_feature);
         ASSERT_NE(rim.feature, m.feature);
         ++left;
+
         const auto gap_at = [&](double t) {
           const Vec3 p = place(x + t * (slide + 0.5 * t * pull));
           return touch(world, 0, Vec3::Zero(), 1, p).gap;
@@ -116,6 +121,7 @@ TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
         for (int i = 0; i < 10; ++i) EXPECT_LT(gap_at(rim.time * 0.1 * i), 1e-13 * size) << name(ka) << " " << name(kb);
         EXPECT_LT(gap_at(rim.time * (1 - 1e-9)), 1e-13 * size) << name(ka) << " " << name(kb);
         EXPECT_GT(gap_at(rim.time + 1e-4 * size), 1e-13 * size) << name(ka) << " " << name(kb) << int(m.feature);
+
         // The feature beyond counts as just left, and the pair is pulled back: it does not meet the rim again at once.
         const Vec3 edge = place(x + rim.time * (slide + 0.5 * rim.time * pull)), v = slide + rim.time * pull;
         const FeatureTime next = time_of_impact(world, 0, 1, {edge, v, -1e-3 * n, v.norm(), false}, rim.feature, 10);
@@ -123,11 +129,13 @@ TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
         const Vec3 beyond = touch(world, 0, Vec3::Zero(), 1, edge, rim.feature).normal;
         const double bend =
             (beyond - n).norm() > 1e-6 ? 1 : bending(world, 0, Vec3::Zero(), 1, edge, {0, n, edge, rim.feature}, v);
+
         if (bend > 0.9e-3 && bend < 1.1e-3) continue;
         const bool flies = bend > 1e-3;
         EXPECT_EQ(next.time > 0, flies) << name(ka) << " " << name(kb) << " from " << int(m.feature) << " to "
                                         << int(rim.feature);
       }
+
       EXPECT_GT(left, ka == Kind::sphere && kb == Kind::sphere ? -1 : 20) << name(ka) << " " << name(kb);
     }
 }

@@ -26,9 +26,11 @@ vector<Quad> roots(const Coefficients& f, Quad end) {
   if (f.size() < 2) return {};
   Coefficients slope;
   for (size_t k = 1; k < f.size(); ++k) slope.push_back(static_cast<Quad>(static_cast<double>(k)) * f[k]);
+
   vector<Quad> corners = roots(slope, end), found;
   corners.insert(corners.begin(), 0);
   corners.push_back(end);
+
   for (size_t k = 0; k + 1 < corners.size(); ++k) {
     Quad low = corners[k], high = corners[k + 1];
     const bool positive = value(f, low) > 0;
@@ -39,6 +41,7 @@ vector<Quad> roots(const Coefficients& f, Quad end) {
     }
     found.push_back(low);
   }
+
   return found;
 }
 
@@ -81,12 +84,14 @@ Scenario scenario(const string& family, Sampler& random) {
   if (family == "generic") return thrown(random, g, random.uniform(0.2, 2), 2);
   if (family == "fast") return thrown(random, g, random.log_uniform(1e-4, 1e-2), 1.6);
   if (family == "weak_g") return thrown(random, random.log_uniform(1e-9, 1e-4), random.uniform(0.2, 2), 1.6);
+
   if (family == "graze") {
     // The sum of radii is the least distance but for a part in 1e10.
     Scenario path = thrown(random, g, random.uniform(0.2, 0.6), 3);
     const auto distance = [&](double t) {
       return (path.motion.d + t * path.motion.w + 0.5 * t * t * path.motion.a).norm();
     };
+
     double best = 0;
     for (int k = 0; k <= 4000; ++k)
       if (distance(1e-3 * k) < distance(best)) best = 1e-3 * k;
@@ -95,9 +100,11 @@ Scenario scenario(const string& family, Sampler& random) {
       const double a = low + (high - low) / 3, b = high - (high - low) / 3;
       (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
     }
+
     path.s = distance(low) * (1 + 1e-10);
     return path;
   }
+
   const double speed = std::stod(family.substr(7));  // bounce_<speed>
   const Vec3 n = (Vec3(0, -1, 0) + random.vector(0.5)).normalized();
   RelativeMotion m{n, speed * n, Vec3(0, g, 0), speed, true};
@@ -114,21 +121,25 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
                       {"weak_g", 3.1e-16, 8.2e-15},      {"graze", 3.8e-12, 3e-11},
                       {"bounce_1", 1.2e-16, 6e-16},      {"bounce_0.01", 1.4e-16, 6e-16},
                       {"bounce_0.0001", 1.2e-16, 6e-16}, {"bounce_1e-06", 1.2e-16, 6e-16}};
+
   World world;
   world.mass = {1};
   world.restitution = {1};
   world.radius = {0.5};
   world.obstacles = {{Vec3::Zero(), Volume::sphere(0.5), nullopt}};
+
   for (const Row& row : rows) {
     Sampler random(7);
     int hits = 0, missed = 0, invented = 0;
     vector<double> errors;
+
     for (int k = 0; k < 400; ++k) {
       const Scenario c = scenario(row.family, random);
       world.radius[0] = 0.5 * c.s;
       world.obstacles[0].volume = Volume::sphere(0.5 * c.s);
       const bool left = c.motion.just_separated;
       const double t = time_of_impact(world, 0, 1, c.motion, left ? 0 : no_feature, 100).time;
+
       const Quad expected = reference(c.motion, c.s, left, 100);
       hits += expected >= 0;
       missed += expected >= 0 && t == never;
@@ -138,10 +149,12 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
         errors.push_back(std::abs(static_cast<double>(error)));
       }
     }
+
     std::ranges::sort(errors);
     const double median = errors[errors.size() / 2], worst = errors.back();
     printf("%-14s %3d hits, %d missed, %d invented, relative error: median %.2g, worst %.2g\n", row.family, hits,
            missed, invented, median, worst);
+
     EXPECT_EQ(missed, 0) << row.family;
     EXPECT_EQ(invented, 0) << row.family;
     EXPECT_GT(hits, 90) << row.family;

@@ -33,11 +33,13 @@ Long outside(const WorldRegion& region, const function<Long(int, Long)>& path, L
   for (int k = 0; k < 3; ++k) d[k] = path(k, t) - Long{region.position[k]};
   if (region.is_side())
     return -(d[0] * Long{region.normal[0]} + d[1] * Long{region.normal[1]} + d[2] * Long{region.normal[2]});
+
   const Vec3& half = region.volume.half;
   const Long r = half.x();
   if (region.volume.shape == Shape::sphere) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - r * r;
   if (region.volume.shape == Shape::cylinder)
     return std::max(d[0] * d[0] + d[2] * d[2] - r * r, std::abs(d[1]) - Long{half.y()});
+
   Long most = std::abs(d[0]) - Long{half.x()};
   for (int k = 1; k < 3; ++k) most = std::max(most, std::abs(d[k]) - Long{half[k]});
   return most;
@@ -51,6 +53,7 @@ vector<double> changes(const WorldRegion& region, const function<Long(int, Long)
     Long l = Long{length} * i / samples, r = Long{length} * (i + 1) / samples;
     const bool before = outside(region, path, l) < 0;
     if (before == (outside(region, path, r) < 0)) continue;
+
     for (int k = 0; k < 80; ++k) {
       const Long middle = (l + r) / 2;
       ((outside(region, path, middle) < 0) == before ? l : r) = middle;
@@ -86,6 +89,7 @@ TEST(RegionCrossing, OfAParabolaIsRightToTheRoundingOfItsTime) {
   for (int trial = 0; trial < 120; ++trial) {
     const Vec3 x = in_cube(random, 2), v = in_cube(random, 1) - x, a = in_cube(random, 1);
     const auto path = [&](int k, Long t) { return Long{x[k]} + t * (Long{v[k]} + t * Long{a[k]} / 2); };
+
     for (const WorldRegion& region : regions_near(random)) {
       const vector<double> expected = changes(region, path, 3);
       const vector<double> times =
@@ -106,11 +110,13 @@ TEST(RegionCrossing, OfAPolynomialIsRightToItsRounding) {
     PolynomialPath::Terms terms;
     for (Vec3& term : terms) term = in_cube(random, 2);
     terms[0] -= 2 * x;
+
     const auto path = [&](int k, Long t) {
       Long sum = 0;
       for (size_t n = terms.size(); n-- > 0;) sum = (sum + Long{terms[n][k]}) * (t / 3);
       return Long{x[k]} + sum;
     };
+
     for (const WorldRegion& region : regions_near(random)) {
       const vector<double> expected = changes(region, path, 3);
       const vector<double> times =

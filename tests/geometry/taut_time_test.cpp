@@ -57,19 +57,23 @@ TEST(TautTime, PolynomialsAgreeWithParabolas) {
     const Vec3 d = 0.5 * Vec3(of(random), of(random), of(random)), w(of(random), of(random), of(random)),
                a = 4 * Vec3(of(random), of(random), of(random));
     const double length = 0.9;
+
     PolynomialPath::Terms terms;
     terms.fill(Vec3::Zero());
     terms[0] = length * w;
     terms[1] = 0.5 * length * length * a;
+
     const double one = taut(d, w, a, 1, length), other = taut_time(d, terms, length, 1, 2 * w.norm(), false, length);
     if (one == never) {
       EXPECT_EQ(other, never);
       continue;
     }
+
     ++found;
     EXPECT_NEAR(one, other, 1e-14);
     EXPECT_NEAR((d + one * (w + 0.5 * one * a)).norm(), 1, 4e-16);
   }
+
   EXPECT_GT(found, 500);
 }
 

@@ -79,12 +79,14 @@ TEST(TimeOfImpact, TouchingAndApproachingIsNowAndSeparatingIsNever) {
   for (const Volume& a : volumes)
     for (const Volume& b : volumes) {
       const double reach = a.half.x() + b.half.x();
+
       for (double off : {0.0, -0x1p-52, -0.01}) {
         const Vec3 d = (reach + off) * right;
         EXPECT_EQ(meet(a, b, d, -1e-3 * right), 0);
         EXPECT_EQ(meet(a, b, d, 1e-3 * right), never);
         EXPECT_EQ(meet(a, b, d, none), never);
       }
+
       const World world = two_bodies(a, b);
       const RelativeMotion noise{reach * right, -0x1p-52 * right, none, 2, false};
       EXPECT_EQ(time_of_impact(world, 0, 1, noise, no_feature, 10).time, never)
@@ -154,13 +156,16 @@ TEST(TimeOfImpact, AxesMayBePermutedAsFarAsTheShapesAllow) {
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
         const Vec3 w = -(d + random.vector(0.5));
         const double t = time_of_impact(world, 0, 1, motion(d, w, a), no_feature, 10).time;
+
         const bool round = ka == Kind::cylinder || kb == Kind::cylinder;
         const auto permuted = [&](const Vec3& v) {
           return round ? Vec3(v.z(), v.y(), v.x()) : Vec3(v.y(), v.z(), v.x());
         };
+
         for (Volume& v : world.volume) v.half = permuted(v.half);
         const double u =
             time_of_impact(world, 0, 1, motion(permuted(d), permuted(w), permuted(a)), no_feature, 10).time;
+
         if (t == never) {
           EXPECT_EQ(u, never);
         } else {
@@ -179,6 +184,7 @@ TEST(TimeOfImpact, ScalingByPowersOfTwoKeepsTheBits) {
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
         const Vec3 w = -(d + random.vector(0.5));
         const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w, a), no_feature, 10);
+
         for (const auto& [length, time] : {std::pair(0x1p20, 0x1p-7), std::pair(0x1p-30, 0x1p11)}) {
           World scaled = world;
           scaled.volume[0].half *= length;
@@ -187,6 +193,7 @@ TEST(TimeOfImpact, ScalingByPowersOfTwoKeepsTheBits) {
             wall.half_width *= length;
             wall.half_height *= length;
           }
+
           const FeatureTime n = time_of_impact(
               scaled, 0, 1, motion(length * d, length / time * w, length / time / time * a), no_feature, 10 * time);
           EXPECT_EQ(n.time, m.time * time) << name(ka) << " " << name(kb);
@@ -208,11 +215,13 @@ TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
         const Vec3 d = random.uniform(2, 5) * random.direction(), w = -(d + random.vector(0.5));
         const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w), no_feature, 10);
         if (m.time == never) continue;
+
         ++bounced;
         const Vec3 x = d + m.time * w;
         if (!world.walls.empty()) world.walls[0].center = x;
         const Touch t = touch(world, 0, none, 1, x, m.feature);
         const Vec3 along = w - w.dot(t.normal) * t.normal;
+
         for (double speed : {1.0, 1e-3, 1e-6, 1e-9}) {
           EXPECT_EQ(time_of_impact(world, 0, 1, motion(x, speed * t.normal + along), m.feature, 10).time, never)
               << name(ka) << " " << name(kb) << " feature " << int(m.feature) << " speed " << speed;
@@ -222,6 +231,7 @@ TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
               << name(ka) << " " << name(kb) << " feature " << int(m.feature) << " speed " << speed;
         }
       }
+
       EXPECT_GT(bounced, 20) << name(ka) << " " << name(kb);
     }
 }
@@ -238,17 +248,20 @@ TEST(TimeOfImpact, PairsARoundingApartThatApproachMeetAtOnce) {
         const Vec3 d = random.uniform(2, 5) * random.direction(), w = -(d + random.vector(0.5));
         const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w), no_feature, 10);
         if (m.time == never) continue;
+
         ++touched;
         const double off = random.uniform(-1e-15, 1e-15);
         const Vec3 x = d + (m.time + off) * w;
         if (!world.walls.empty()) world.walls[0].center = x;
         const Touch there = touch(world, 0, none, 1, x, m.feature);
+
         const Vec3 fall(1, -10, 2);
         const double speed = -there.normal.dot(w);
         if (speed < 0.1 * w.norm()) continue;
         const FeatureTime now = time_of_impact(world, 0, 1, motion(x, w, fall), no_feature, 10);
         EXPECT_LE(now.time * speed, 1e-14) << name(ka) << " " << name(kb) << " feature " << int(m.feature);
       }
+
       EXPECT_GT(touched, 20) << name(ka) << " " << name(kb);
     }
 }
@@ -265,6 +278,7 @@ TEST(TimeOfImpact, GrazingARoundingIsAHitOrAMissByItsDepth) {
       const Vec3 from = random.uniform(3, 5) * random.direction();
       const Vec3 beside = 1.5 * random.direction();
       const Vec3 v = beside - from;  // the ball's; it passes `beside` at t = 1
+
       const auto distance_to_core = [&](long double t) {
         const long double x = from.x() + t * v.x(), y = from.y() + t * v.y(), z = from.z() + t * v.z();
         long double e[3] = {x, y, z}, sum = 0;
@@ -273,12 +287,15 @@ TEST(TimeOfImpact, GrazingARoundingIsAHitOrAMissByItsDepth) {
           const long double over = std::max(std::abs(y) - static_cast<long double>(core.half.y()), 0.0L);
           return std::sqrt(out * out + over * over);
         }
+
         for (int k = 0; k < 3; ++k) {
           const long double out = std::max(std::abs(e[k]) - static_cast<long double>(core.half[k]), 0.0L);
           sum += out * out;
         }
         return std::sqrt(sum);
       };
+
+      // The least distance, by thirds.
       long double low = 0, high = 4;
       for (int k = 0; k < 300; ++k) {
         const long double p = low + (high - low) / 3, q = high - (high - low) / 3;
@@ -288,27 +305,34 @@ TEST(TimeOfImpact, GrazingARoundingIsAHitOrAMissByItsDepth) {
           low = p;
         }
       }
+
       const double least = static_cast<double>(distance_to_core(low));
       if (least < 0.1 || low > 3.9L) continue;
       ++hits;
+
       const double depths[3] = {0x1p-10, 0x1p-20, 0x1p-33};
       for (int k = 0; k < 3; ++k) {
         world.volume[0] = Volume::sphere(least * (1 + depths[k]));
         const double r = world.volume[0].half.x();
         const double t = time_of_impact(world, 0, 1, motion(-from, -v), no_feature, 10).time;
         ASSERT_LT(t, never) << name(kb) << " depth " << depths[k];
+
+        // The time by bisection: the distance is the radius there.
         long double a = 0, b = low;
         for (int step = 0; step < 200; ++step) {
           const long double middle = (a + b) / 2;
           (distance_to_core(middle) > r ? a : b) = middle;
         }
         worst[k] = std::max(worst[k], std::abs(static_cast<double>((t - a) / a)));
+
         world.volume[0] = Volume::sphere(least * (1 - depths[k]));
         EXPECT_EQ(time_of_impact(world, 0, 1, motion(-from, -v), no_feature, 10).time, never) << name(kb) << depths[k];
       }
     }
+
     printf("%s: %d, relative error at depths 2^-10, 2^-20, 2^-33: %.2g %.2g %.2g\n", name(kb), hits, worst[0], worst[1],
            worst[2]);
+
     EXPECT_GT(hits, 100);
     EXPECT_LT(worst[0], 2e-14);
     EXPECT_LT(worst[1], 1e-12);

@@ -95,6 +95,7 @@ TEST(Touch, EveryPairAgreesWithPointsFoundByProjection) {
         const Thing a = of(world, 0), b = of(world, 1);
         const double size = a.half.norm() + b.half.norm();
         const Vec3 d = random.uniform(0.2, 3) * size * random.direction();
+
         if (!world.walls.empty()) world.walls[0].center = d;
         const double gap = distance(a, b, d, 1e-10, 3000);
         const Touch t = touch(world, 0, Vec3::Zero(), 1, d);
@@ -102,6 +103,7 @@ TEST(Touch, EveryPairAgreesWithPointsFoundByProjection) {
         if (gap > 1e-3 * size) {
           EXPECT_NEAR(t.gap, gap, 1e-5 * size) << name(ka) << " " << name(kb);
         }
+
         // A plane between the two at this gap; a point of a that lies at this distance from b.
         EXPECT_NEAR(t.normal.dot(d) - a.support(t.normal) - b.support(t.normal), t.gap, 1e-14 * size)
             << name(ka) << " " << name(kb) << " " << gap;
@@ -109,6 +111,7 @@ TEST(Touch, EveryPairAgreesWithPointsFoundByProjection) {
           EXPECT_LT((a.nearest(t.point) - t.point).norm(), 1e-14 * size) << name(ka) << " " << name(kb);
           EXPECT_NEAR((b.nearest(t.point - d) + d - t.point).norm(), t.gap, 1e-14 * size) << name(ka) << name(kb);
         }
+
         if (!world.is_body(1)) continue;
         const Touch swapped = touch(world, 1, d, 0, Vec3::Zero());
         EXPECT_EQ(swapped.gap, t.gap) << name(ka) << " " << name(kb);

@@ -110,6 +110,7 @@ inline Wall make_wall(const Vec3& normal, const Vec3& up, double half_width, dou
 inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double least = 1e-2) {
   World world;
   world.gravity = Vec3::Zero();
+
   const auto size = [&] { return random.log_uniform(least, 1); };
   const auto volume = [&](Kind kind) {
     if (kind == Kind::sphere) return Volume::sphere(size());
@@ -117,15 +118,18 @@ inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double le
       const double r = size();
       return Volume::cylinder(r, 2 * size());
     }
+
     const double x = size(), y = size(), z = size();
     return Volume::box(2 * Vec3(x, y, z));
   };
+
   const auto add = [&](Kind kind) {
     world.volume.push_back(volume(kind));
     world.radius.push_back(world.volume.back().reach());
     world.mass.push_back(1);
     world.restitution.push_back(1);
   };
+
   add(a);
   const double w = size(), h = size();
   switch (b) {
@@ -138,6 +142,7 @@ inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double le
         world.obstacles.push_back({Vec3::Zero(), volume(b), nullopt});
       }
       break;
+
     case Kind::tilted_wall:
       world.walls.push_back(make_wall(random.direction(), random.direction(), w, h));
       break;
@@ -146,6 +151,7 @@ inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double le
       world.walls.push_back(make_wall(Vec3(std::cos(angle), 0, std::sin(angle)), Vec3::UnitY(), w, h));
       break;
     }
+
     case Kind::level_wall:
       world.walls.push_back(make_wall(Vec3::UnitY(), Vec3::UnitZ(), w, h));
       break;
@@ -153,6 +159,7 @@ inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double le
       world.walls.push_back(make_wall(-Vec3::UnitX(), Vec3::UnitY(), w, h));
       break;
   }
+
   return world;
 }
 

@@ -20,6 +20,7 @@ TEST(ImpactClusters, AHundredThousandKeepAllGuarantees) {
     examine(seed, 60, all, seed % 2 == 0 ? Walls::still : Walls::moving);
     longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
+
   expect_guarantees(all);
   std::printf(
       "%u rounds and %.2g s at most; %llu ended by their limit, %llu for want of room; gain %.1e, books %.1e, momentum "

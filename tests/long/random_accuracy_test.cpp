@@ -27,13 +27,16 @@ void add_force(Scene& scene, Random& random) {
       scene.world.forces.push_back(
           {Attractor{anywhere(random, 1), decades(random, -3, 1), random(0, 1) < 0.3 ? 0 : decades(random, -5, -1)}});
       break;
+
     case 1:
       scene.world.forces.push_back({Spring{anywhere(random, 1), decades(random, -5, 5), random(0, 1),
                                            random(0, 1) < 0.5 ? 0 : decades(random, -5, 5)}});
       break;
+
     case 2:
       scene.world.forces.push_back({Drag{decades(random, -5, 5), decades(random, -5, 5), anywhere(random, 1)}});
       break;
+
     default:
       scene.world.forces.push_back({UniformAcceleration{anywhere(random, 10)}, random(0, 0.5)});
   }
@@ -43,6 +46,7 @@ Scene random_scene(uint64_t seed) {
   Random random(seed);
   Scene scene;
   scene.world.gravity = Vec3::Zero();
+
   const int bodies = 1 + static_cast<int>(random(0, 3));
   for (int k = 0; k < bodies; ++k) {
     scene.world.mass.push_back(decades(random, -1, 1));
@@ -51,9 +55,11 @@ Scene random_scene(uint64_t seed) {
     scene.initial.position.push_back(anywhere(random, 0.8) + Vec3(2.0 * k, 0, 0));
     scene.initial.velocity.push_back(anywhere(random, 3));
   }
+
   const int forces = 1 + static_cast<int>(random(0, 3));
   for (int k = 0; k < forces; ++k) add_force(scene, random);
   if (random(0, 1) < 0.5) scene.world.planes.push_back({Vec3(0, -2, 0), Vec3(0, 1, 0), 1.0});
+
   scene.simulate.duration = 1;
   scene.simulate.engine = Engine::stepped;
   scene.simulate.integrator = Integrator::dop853;
@@ -87,12 +93,14 @@ TEST(RandomAccuracy, OfAThousandScenesIsAsReported) {
         ++unmet;
         continue;
       }
+
       ++met;
       EXPECT_LT(true_error(scene, engine), *scene.simulate.tolerance) << seed << ": " << engine.why;
     } catch (const SimulationError&) {
       ++refused;
     }
   }
+
   EXPECT_GT(met, 950) << unmet << " not met, " << refused << " refused";
 }
 

@@ -18,9 +18,11 @@ TEST(Degrees, HaveExactSinesWhereDoublesHoldThem) {
       EXPECT_EQ(sin_cos_degrees(full + angles[k] - 90).cos, sines[k]) << full + angles[k];
     }
   }
+
   for (const double angle : {45.0, 225.0, -135.0}) {
     EXPECT_EQ(sin_cos_degrees(angle).sin, sin_cos_degrees(angle).cos) << angle;
   }
+
   EXPECT_FALSE(std::signbit(sin_cos_degrees(180).sin) || std::signbit(sin_cos_degrees(90).cos));
 }
 
@@ -28,6 +30,7 @@ TEST(Degrees, AreTheReferences) {
   struct Row {
     double angle, sin, cos;
   };
+
   const Row rows[] = {
       {1, 0.017452406437283512819, 0.99984769515639123916},
       {1e-9, 1.7453292519943296856e-11, 1.0},
@@ -37,6 +40,7 @@ TEST(Degrees, AreTheReferences) {
       {123.25, 0.83628615584775950731, -0.5482932295199138211},
       {1e15, -0.98480775301220805937, 0.17364817766693034885},
   };
+
   for (const Row& row : rows) {
     const SinCos of = sin_cos_degrees(row.angle);
     EXPECT_NEAR(of.sin, row.sin, 4e-16 * std::abs(row.sin)) << row.angle;
@@ -52,6 +56,7 @@ TEST(Degrees, ComeBackWholeFromTheirSineCosineAndTangent) {
     for (const double scale : {1.0, 0x1p900, 0x1p-900})
       EXPECT_EQ(arc_tangent_degrees(scale * of.sin, scale * of.cos), angle);
   }
+
   EXPECT_NEAR(arc_sine_degrees(0.3), 17.457603123722091623, 1e-14);
   EXPECT_NEAR(arc_cosine_degrees(-0.3), 107.45760312372209162, 1e-13);
   EXPECT_NEAR(arc_tangent_degrees(-2, -7), -164.0546040990771452, 1e-13);

@@ -29,6 +29,7 @@ TEST(Power, IsTheReference) {
   struct Row {
     double x, y, value;
   };
+
   const Row rows[] = {
       {1.1, 10, 2.5937424601000020943},
       {0.3, 2.7, 0.03874604582249406801},
@@ -42,6 +43,7 @@ TEST(Power, IsTheReference) {
       {123456.789, -0.125, 0.23097268761162055196},
       {7, -20, 1.2532542894196848998e-17},
   };
+
   for (const Row& row : rows)
     EXPECT_NEAR(power(row.x, row.y), row.value, 4 * 1.2e-16 * row.value) << row.x << "^" << row.y;
 }

@@ -49,6 +49,7 @@ TEST(RadauCollocation, OfAPointThatDragStopsIsTheClosedForm) {
     const vector<RadauCollocation::Forces> forces{{Vec3(0, -9, 0), fade}};
     const auto free = [](const vector<Vec3>&, double, vector<Vec3>&) {};
     EXPECT_LT(motion.step(h, forces, free, 1e-11, 1e-11), 1) << fade;
+
     for (const double t : {0.0125, 0.025, h}) {
       const double s = -std::expm1(-fade * t) / fade;
       EXPECT_LT((motion.displacement(0, t) - Vec3(s, -9 * (t - s) / fade, 0)).norm(), 1e-14) << fade;

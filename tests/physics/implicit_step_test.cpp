@@ -59,6 +59,7 @@ struct Motion {
       if (last) h = duration - t;
       const double error = forces.step(method, h, x, v, tolerance, velocity);
       const double next = ImplicitStep::next_length(h, error);
+
       if (error <= 1) {
         take(method.path(), t, exact);
         t = last ? duration : t + h;
@@ -66,6 +67,7 @@ struct Motion {
       } else {
         ++rejected;
       }
+
       h = next;
     }
   }
@@ -96,6 +98,7 @@ ForceJacobian differences(const Law& law, const Particle& p) {
     };
     return Vec3(1.5 * pair(1) - 0.6 * pair(2) + 0.1 * pair(3));
   };
+
   ForceJacobian j;
   for (int axis = 0; axis < 3; ++axis) {
     j.by_position.col(axis) = slope(&Particle::x, axis);
@@ -137,6 +140,7 @@ TEST(ForceJacobian, IsFiniteWhereADirectionIsLost) {
 TEST(ImplicitStep, HasOrder13AtItsEndAnd8Before) {
   Forces forces;
   forces.spring = {Vec3::Zero(), 1, 0, 0};
+
   const auto miss = [&](double h, double s) {
     ImplicitStep method;
     forces.step(method, h, {1, 0.5, 0}, {0.3, 0, 1}, 1e-13, 1e-13);
@@ -145,14 +149,17 @@ TEST(ImplicitStep, HasOrder13AtItsEndAnd8Before) {
     return std::pair{(Vec3(1, 0.5, 0) + path.displacement_at(t) - Vec3(c + 0.3 * d, 0.5 * c, d)).norm(),
                      (Vec3(0.3, 0, 1) + path.change_at(t) - Vec3(0.3 * c - d, -0.5 * d, c)).norm()};
   };
+
   const auto order = [&](double h, double s) {  // of the local error
     const auto [x, v] = miss(h, s);
     const auto [half_x, half_v] = miss(h / 2, s);
     return std::pair{std::log2(x / half_x), std::log2(v / half_v)};
   };
+
   const auto [end_x, end_v] = order(3, 1);
   EXPECT_NEAR(end_x, 14, 0.6);  // measured: 13.95
   EXPECT_NEAR(end_v, 14, 0.6);  // measured: 13.58
+
   const auto [x, v] = order(1, 0.2);
   EXPECT_NEAR(x, 9, 0.2);  // measured: 8.93
   EXPECT_NEAR(v, 8, 0.2);  // measured: 7.94
@@ -183,10 +190,12 @@ TEST(ImplicitStep, OfLinearDragIsTheClosedFormOverDecades) {
     forces.pull = {0, -9, 0};
     forces.drag.linear = c;
     const Vec3 v0(1, 0, 0.5);
+
     const auto exact = [&](double t) {
       const double s = -std::expm1(-c * t) / c, fallen = c * t < 1e-3 ? t * t / 2 * (1 - c * t / 3) : (t - s) / c;
       return Place{s * v0 - 9 * fallen * Vec3(0, 1, 0), (1 - c * s) * v0 - 9 * s * Vec3(0, 1, 0)};
     };
+
     for (const double first : {0.05 / c, 1.0}) {
       Motion run{Vec3::Zero(), v0};
       run.go(forces, 1, first, exact);
@@ -203,10 +212,12 @@ TEST(ImplicitStep, OfQuadraticDragFallsToItsTerminalVelocity) {
     forces.pull = {0, 0, -9};
     forces.drag.quadratic = q;
     const double terminal = 3 / std::sqrt(q), rate = 9 / terminal;
+
     const auto exact = [&](double t) {
       const double fallen = rate * t + std::log1p(std::exp(-2 * rate * t)) - std::numbers::ln2;
       return Place{{0, 0, -terminal / rate * fallen}, {0, 0, -terminal * std::tanh(rate * t)}};
     };
+
     Motion run{Vec3::Zero(), Vec3::Zero()};
     run.go(forces, 1, 1e-3 / rate, exact);
     EXPECT_LT(run.off, 1e-13) << q;   // measured: 6e-15 at most
@@ -220,10 +231,12 @@ TEST(ImplicitStep, OfLinearAndQuadraticDragIsTheClosedForm) {
     const double q = 0.3 * c, v0 = 10;
     Forces forces;
     forces.drag = {c, q, Vec3::Zero()};
+
     const auto exact = [&](double t) {
       const double spent = -std::expm1(-c * t) * q * v0 / c;
       return Place{{std::log1p(spent) / q, 0, 0}, {v0 * std::exp(-c * t) / (1 + spent), 0, 0}};
     };
+
     Motion run{Vec3::Zero(), Vec3(v0, 0, 0)};
     run.go(forces, 1, 1e-3 / c, exact);
     EXPECT_LT(run.off, 1e-12) << c;   // measured: 2.5e-13 at most
@@ -238,11 +251,13 @@ TEST(ImplicitStep, OfAnOverdampedSpringCreepsToItsRestLength) {
     Forces forces;
     forces.spring = {Vec3::Zero(), k, 1, c};
     const double root = std::sqrt(c * c / 4 - k), slow = -k / (c / 2 + root), quick = -(c / 2 + root);
+
     const auto exact = [&](double t) {
       const double a = -quick * stretch / (slow - quick), b = slow * stretch / (slow - quick);
       const double first = a * std::exp(slow * t), second = b * std::exp(quick * t);
       return Place{{1 + first + second, 0, 0}, {slow * first + quick * second, 0, 0}};
     };
+
     Motion run{Vec3(1 + stretch, 0, 0), Vec3::Zero()};
     run.go(forces, 1, 0.01 / c, exact, tolerance * std::sqrt(k));
     EXPECT_LT(run.off, 2e-12) << k;                  // measured: 4e-13 at most
@@ -271,8 +286,10 @@ TEST(ImplicitStep, AcrossADamperIsWhatALongReferenceComesTo) {
   for (int k = 0; k < steps; ++k)
     s = extrapolated_step(s, 1.0L / steps,
                           [&](const Long3& x, const Long3& v) { return damped_and_attracted(x, v, damping); });
+
   Motion run{Vec3(1, 0, 0), Vec3(0.5, 2, 0)};
   run.go(damper_and_attractor(damping), 1, 0.05 / damping, nullptr);
+
   for (int axis = 0; axis < 3; ++axis) {
     const auto p = static_cast<size_t>(axis);
     EXPECT_LT(std::abs(static_cast<double>(run.x[axis] - s.x[p])), 1e-12) << axis;
@@ -291,15 +308,18 @@ LongState slow_motion(LongState s, long double damping, long double duration, in
     const long double outward = (w * w / r + pull[0] * c + pull[1] * d) / damping;
     return Long3{outward, w / r, -pull[0] * d + pull[1] * c - outward * w / r};
   };
+
   Long3 y{s.x[0], 0, s.v[1]};
   const long double h = duration / steps;
   const auto moved = [](const Long3& from, long double by, const Long3& rate) {
     return Long3{from[0] + by * rate[0], from[1] + by * rate[1], from[2] + by * rate[2]};
   };
+
   for (int k = 0; k < steps; ++k) {
     const Long3 a = rates(y), b = rates(moved(y, h / 2, a)), c = rates(moved(y, h / 2, b)), d = rates(moved(y, h, c));
     for (size_t p = 0; p < 3; ++p) y[p] += h / 6 * (a[p] + 2 * b[p] + 2 * c[p] + d[p]);
   }
+
   const long double c = std::cos(y[1]), d = std::sin(y[1]), outward = rates(y)[0];
   return {{y[0] * c, y[0] * d, 0}, {outward * c - y[2] * d, outward * d + y[2] * c, 0}};
 }
@@ -367,10 +387,12 @@ Forces scaled(Forces f, double l, double t) {
   f.drag.linear /= t;
   f.drag.quadratic /= l;
   f.drag.wind *= l / t;
+
   f.spring.anchor *= l;
   f.spring.stiffness /= t * t;
   f.spring.rest_length *= l;
   f.spring.damping /= t;
+
   f.attractor.center *= l;
   f.attractor.strength *= l * l * l / (t * t);
   f.attractor.softening *= l;
@@ -391,6 +413,7 @@ TEST(ImplicitStep, HasTheSameBitsInUnitsOfPowersOfTwo) {
         const double error = forces.step(method, h, x, v, 1e-12, 1e-10);
         const double same = scaled(forces, l, t).step(other, t * h, l * x, l / t * v, l * 1e-12, l / t * 1e-10);
         EXPECT_EQ(error, same) << h;
+
         const PolynomialPath path = method.path(), in_units = other.path();
         for (size_t k = 0; k < PolynomialPath::terms; ++k)
           EXPECT_EQ(Vec3(l * path.displacement[k]), in_units.displacement[k]) << h;
@@ -405,11 +428,13 @@ TEST(ImplicitStep, ErrorIsWhatIsMissedWithinTheStep) {
     const long double square = x[0] * x[0] + x[1] * x[1], pull = 1 / (square * std::sqrt(square));
     return Long3{-pull * x[0], -pull * x[1], 0};
   };
+
   ImplicitStep method;
   for (double h = 0.05; h < 0.5; h *= 1.5) {
     const Vec3 x0(0.7, 0.1, 0), v0(0, 1.4, 0);
     const double estimated = forces.step(method, h, x0, v0, 1e200, 1e-12) * 1e-12;
     const PolynomialPath path = method.path();
+
     LongState s{{0.7, 0.1, 0}, {0, 1.4, 0}};
     double missed = 0;
     for (int k = 1; k <= 40; ++k) {
@@ -418,6 +443,7 @@ TEST(ImplicitStep, ErrorIsWhatIsMissedWithinTheStep) {
       for (int axis = 0; axis < 2; ++axis)
         missed = std::max(missed, std::abs(static_cast<double>(s.v[static_cast<size_t>(axis)] - v[axis])));
     }
+
     if (missed < 1e-13) continue;             // the stages are no better
     EXPECT_LT(missed, 1.2 * estimated) << h;  // measured: 0.92 to 0.99
     EXPECT_GT(missed, 0.7 * estimated) << h;

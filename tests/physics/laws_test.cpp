@@ -21,6 +21,7 @@ TEST(Restitution, EveryRuleGivesTheReferencesNumber) {
   for (const auto& r : all["rows"]) {
     const double a = r["e1"], b = r["e2"];
     const auto e = [&](Combine rule) { return combine_restitution(rule, a, 1, b, 1); };
+
     EXPECT_DOUBLE_EQ(e(Combine::average), r["average"]);
     EXPECT_DOUBLE_EQ(e(Combine::product), r["product"]);
     EXPECT_DOUBLE_EQ(e(Combine::minimum), r["minimum"]);
@@ -28,6 +29,7 @@ TEST(Restitution, EveryRuleGivesTheReferencesNumber) {
     EXPECT_DOUBLE_EQ(e(Combine::geometric_mean), r["geometric"]);
     EXPECT_DOUBLE_EQ(e(Combine::book), r["book_listing"]);
   }
+
   EXPECT_DOUBLE_EQ(combine_restitution(Combine::mass_weighted, 0.5, 1, 0.9, 3), 0.8);
 }
 

@@ -43,14 +43,17 @@ TEST(Maxwell, HasTheMeanAndThePeakOfTextbooks) {
 
 TEST(EnergyByDirection, CountsTheDirectionsOfMotionWhateverTheirAngle) {
   const Vec3 along = Vec3(1, 2, -0.5), across = Vec3(0.3, -1, 4);
+
   EnergyByDirection rest, line, plane, space;
   rest.add(2, Vec3::Zero());
+
   for (int i = 1; i <= 50; ++i) {
     const double a = std::sin(i), b = std::cos(3 * i);
     line.add(i, a * along);
     plane.add(i, a * along + b * across);
     space.add(i, a * along + b * across + 0.01 * std::sin(7 * i) * Vec3(1, 0, 0));
   }
+
   EXPECT_EQ(rest.dimensions(), 0);
   EXPECT_EQ(line.dimensions(), 1);
   EXPECT_EQ(plane.dimensions(), 2);

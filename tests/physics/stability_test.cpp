@@ -49,6 +49,7 @@ TEST(StableStep, IsThatOfTheStiffestDirection) {
 TEST(Growth, IsTheFactorOfEachStep) {
   const double w = 199, h = 0.01;
   double x = 1, v = 0;
+
   for (int k = 0; k < 100; ++k) {
     const auto acceleration = [&](const Vec3& at, const Vec3&) { return Vec3(-w * w * at); };
     const Vec3 x0(x, 0, 0), v0(v, 0, 0);
@@ -56,6 +57,7 @@ TEST(Growth, IsTheFactorOfEachStep) {
     x += h * v + step.bend.x();
     v += step.change.x();
   }
+
   const double factor = growth(Integrator::rk4, {w * w, 0}, h);
   EXPECT_NEAR(factor, 0.751, 5e-4);
   EXPECT_NEAR(std::hypot(x, v / w) / std::pow(factor, 100), 1, 1e-11);

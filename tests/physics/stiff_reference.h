@@ -23,6 +23,7 @@ inline LongState extrapolated_step(const LongState& s, long double h, const Long
     }
     return z;
   };
+
   array<LongState, 16> t;
   for (int k = 0; k < columns; ++k) {
     const int n = 2 * (k + 1);
@@ -34,6 +35,7 @@ inline LongState extrapolated_step(const LongState& s, long double h, const Long
       y = next;
     }
     t[k] = y;
+
     for (int l = k - 1; l >= 0; --l) {
       const long double ratio = static_cast<long double>(k + 1) / (l + 1), share = 1 / (ratio * ratio - 1);
       for (int p = 0; p < 3; ++p) {
@@ -42,6 +44,7 @@ inline LongState extrapolated_step(const LongState& s, long double h, const Long
       }
     }
   }
+
   return t[0];
 }
 

@@ -17,12 +17,14 @@ double noise(uint64_t& seed) {
 /// A camera along z, with the world's axes x, y and -z.
 Shot shot_of(int width, int height, double tan_x) {
   Shot shot;
+
   shot.lens.width = width, shot.lens.height = height;
   shot.lens.pixel = static_cast<float>(2 * tan_x / width);
   shot.lens.left = static_cast<float>(-tan_x) + 0.5F * shot.lens.pixel;
   shot.lens.top = 0.5F * static_cast<float>(height - 1) * shot.lens.pixel;
   shot.lens.near = 0.1F;
   shot.lens.axes = {Float3{1, 0, 0}, Float3{0, 1, 0}, Float3{0, 0, -1}};
+
   shot.backdrop.plain = true;
   shot.lighting.ambient = {0.3F, 0.3F, 0.3F};
   shot.lighting.softness = 0.03F;
@@ -37,10 +39,12 @@ vector<uint8_t> drawn(const Shot& shot, TileKernel kernel, int channels = 3) {
   bins.fill(shot, silhouettes);
   LightGrid lights;
   lights.fill(shot);
+
   vector<uint8_t> pixels(static_cast<size_t>(channels) * static_cast<size_t>(shot.lens.width) *
                          static_cast<size_t>(shot.lens.height));
   vector<Line> lines{{10, 10, 90, 60, 1, 3, 0.3F, 0.2F, {1, 1, 0}, 1, 0.2F, false}};
   vector<vector<uint32_t>> by_tile(static_cast<size_t>(bins.count()), {0U});
+
   const Picture picture{&shot, &silhouettes, &bins, &lights, &lines, &by_tile, pixels.data(), channels};
   TileMemory memory;
   for (int tile = 0; tile < bins.count(); ++tile) kernel(picture, memory.data(), tile);
@@ -58,24 +62,28 @@ Shot crowded(int balls, bool lamp) {
   Shot shot = shot_of(203, 121, 0.5);
   uint64_t seed = 3;
   const auto any = [&](double low, double high) { return static_cast<float>(low + (high - low) * noise(seed)); };
+
   for (int i = 0; i < balls; ++i) {
     const Float3 center{any(-2, 2), any(-1, 1), any(2, 7)};
     shot.solids.push_back(ball(center, any(0.01, 0.15)));
     shot.solids.back().color = {any(0, 1), any(0, 1), any(0, 1)};
     shot.solids.back().glow = i % 7 ? 0.0F : 0.5F;
   }
+
   for (const SolidKind kind : {SolidKind::box, SolidKind::cylinder, SolidKind::wall}) {
     Solid s = ball({any(-1, 1), any(-0.5, 0.5), any(2, 5)}, 0.7F);
     s.kind = kind;
     s.half = {0.3F, 0.2F, 0.3F};
     shot.solids.push_back(s);
   }
+
   shot.walls.push_back({{1, 0, 0}, {0, 0.8F, 0.6F}, {0, 0.6F, -0.8F}});
   shot.solids.push_back(ball({0.2F, -0.1F, 0.15F}, 0.1F));  // across the near plane
   shot.grounds.push_back({{0, 1, 0}, 1, {1, 0, 0}, {0, 0, 1}, 0.3F, 0.2F, {0.6F, 0.5F, 0.4F}, true});
   shot.grounds.push_back({{0, 0, -1}, 8, {1, 0, 0}, {0, 1, 0}, 0.3F, 0.2F, {0.4F, 0.5F, 0.4F}, true});
   shot.floor.present = true, shot.floor.normal = {0, 1, 0}, shot.floor.height = 1, shot.floor.sky = {0.1F, 0.1F, 0.1F},
   shot.floor.key = {0.2F, 0.2F, 0.1F};
+
   if (lamp) shot.lighting.lamps[0] = {{0.5F, 1.5F, 3}, true, {0.8F, 0.8F, 0.7F}}, shot.lighting.lamp_radius = 0.1F;
   return shot;
 }
@@ -119,12 +127,15 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
                                static_cast<float>(0.05 + 0.4 * noise(seed))));
     shot.solids.back().glow = 1;
   }
+
   const vector<uint8_t> pixels = drawn(shot, tile_kernels().back());
   double worst = 0, square = 0;
   int edges = 0;
+
   for (int y = 64; y < shot.lens.height; ++y)  // below the line that drawn() adds
     for (int x = 0; x < shot.lens.width; ++x) {
       int hits = 0;
+
       for (int k = 0; k < 64; ++k) {
         const double dx = double{shot.lens.left} + (x + (k % 8 + 0.5) / 8 - 0.5) * double{shot.lens.pixel};
         const double dy = double{shot.lens.top} - (y + (k / 8 + 0.5) / 8 - 0.5) * double{shot.lens.pixel};
@@ -138,12 +149,14 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
           break;
         }
       }
+
       const double share =
           linear(pixels[3U * static_cast<unsigned>(y * shot.lens.width + x)]) / 0.85;  // by the tone curve
       const double error = share - hits / 64.0;
       if (hits > 0 && hits < 64) square += error * error, ++edges;
       worst = std::max(worst, std::abs(error));
     }
+
   EXPECT_GT(edges, 300);
   EXPECT_LT(std::sqrt(square / edges), 0.04);  // measured: 0.031
   EXPECT_LT(worst, 0.25);                      // measured: 0.215, where edges cross

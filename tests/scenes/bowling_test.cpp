@@ -42,14 +42,18 @@ TEST_P(BowlingBalls, TheCommentHasTheSameNumbers) {
   const auto [file, e] = GetParam();
   const string comment = comment_of(file);
   const auto has = [&](const string& words) { EXPECT_NE(comment.find(words), string::npos) << words; };
+
   EXPECT_NEAR(stated(file, "(s - r sqrt(2)) / v = "), meeting, 5e-16);
+
   const auto number = [](double x) {
     string text = nlohmann::json(std::round(x * 1e9) / 1e9 + 0.0).dump();
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
   };
   const auto vector = [&](double x, double z) { return "(" + number(x) + ", 0, " + number(z) + ") m/s"; };
+
   has("= " + vector(-v * (1 - e) / 2, v * (1 + e) / 2));
   has("= " + vector(-v * (1 + e) / 2, v * (1 - e) / 2));
+
   if (e != 1) {
     EXPECT_NEAR(stated(file, "m v^2 (1-e^2)/2 = "), m * v * v * (1 - e * e) / 2, 1e-14);
   } else {
@@ -99,16 +103,21 @@ TEST(TwoBowlingBalls, VariantsDifferInRestitutionAndOutputsOnly) {
 TEST(BookBowlingBalls, CollideInFrame86AndPartExactly) {
   const Played run = play("book_bowling_balls");
   ASSERT_EQ(run.collisions.size(), 1u);
+
   const double u = s - v * 86 / 60;
   EXPECT_GE(2 * (u + v / 60) * (u + v / 60), 4 * r * r) << "no overlap in frame 85";
   EXPECT_LT(2 * u * u, 4 * r * r);
+
   const double time = run.collisions[0].time;
   EXPECT_EQ(time, 86 / 60.0);
+
   EXPECT_NEAR(stated("book_bowling_balls", "t = 86/60 = "), time, 5e-16);
   EXPECT_NEAR(stated("book_bowling_balls", "333 s, "), time - meeting, 5e-16);
   EXPECT_NEAR(stated("book_bowling_balls", "late, at u = "), u, 5e-16);
+
   EXPECT_NEAR(stated("book_bowling_balls", "2 r - u sqrt(2) = "), run.tally.max_overlap, 2e-14);  // measured: 7e-15
   EXPECT_NEAR(stated("book_bowling_balls", "587 m, "), 100 * run.tally.max_overlap / (2 * r), 0.05);
+
   EXPECT_LT((run.velocity("red") - Vec3(-0.1, 0, 1.9)).norm(), 1e-13);  // measured: 5e-14, of 86 sums of v dt
   EXPECT_LT((run.velocity("blue") - Vec3(-1.9, 0, 0.1)).norm(), 1e-13);
 }
@@ -116,16 +125,21 @@ TEST(BookBowlingBalls, CollideInFrame86AndPartExactly) {
 TEST(BookAsPrinted, MakesEnergyAsTheListingsDo) {
   const Played run = play("book_as_printed");
   ASSERT_EQ(run.collisions.size(), 1u);
+
   const double e = 0.9 * 0.9 / 2;
+
   EXPECT_EQ(run.collisions[0].time, 86 / 60.0);
   EXPECT_NEAR(run.collisions[0].restitution, stated("book_as_printed", "e = e1 e2 / 2 = "), 1e-15);
+
   const Vec3 red = 2 * v * Vec3(-(1 - e) / 2, 0, (1 + e) / 2), blue = 2 * v * Vec3(-(1 + e) / 2, 0, (1 - e) / 2);
   EXPECT_LT((run.velocity("red") - red).norm(), 1e-13);
   EXPECT_LT((run.velocity("blue") - blue).norm(), 1e-13);
+
   const string comment = comment_of("book_as_printed");
   EXPECT_NE(comment.find("(-1.19, 0, 2.81), blue with (-2.81, 0, 1.19) m/s"), string::npos);
   EXPECT_NEAR(red.x(), -1.19, 1e-15);
   EXPECT_NEAR(red.z(), 2.81, 1e-15);
+
   const double energy = kinetic_energy(run.scene.world, run.end);
   EXPECT_NEAR(energy, stated("book_as_printed", "2 m v^2 (1+e^2) = "), 1e-11);
   EXPECT_NEAR(energy / 40, stated("book_as_printed", "93.122 J, "), 1e-12);

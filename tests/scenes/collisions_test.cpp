@@ -20,12 +20,14 @@ TEST(BilliardBreak, TheFirstCollisionIsTheClosedForm) {
   const string file = "billiard_break";
   const double b = 0.004, d = 0.05715, v = 7, share = std::sqrt(1 - b * b / (d * d));
   const double time = (1.27 - std::sqrt(d * d - b * b)) / v;
+
   const Played run = play(file, {0.1733});
   const Collision& first = run.collisions[0];
   EXPECT_NEAR(first.time, time, 4e-16);
   EXPECT_LT((first.normal - Vec3(share, 0, -b / d)).norm(), 1e-14);
   EXPECT_NEAR(first.approach_speed, v * share, 1e-14);
   EXPECT_NEAR(run.states[0].velocity[run.number("one")].norm(), v * share * 1.95 / 2, 1e-14);
+
   EXPECT_NEAR(stated(file, "(1.27 - sqrt(d^2 - b^2)) / v = "), time, 5e-16);
   EXPECT_NEAR(stated(file, "along the normal (sqrt(1 - (b/d)^2), 0, -b/d) = ("), share, 5e-13);
   EXPECT_NEAR(stated(file, "at v sqrt(1 - (b/d)^2) = "), v * share, 5e-13);
@@ -42,6 +44,7 @@ TEST(BilliardBreak, EveryBallMovesAndStaysOnTheTable) {
     EXPECT_LT(std::abs(x.x()), 1.27 - 0.028575 + 1e-12);
     EXPECT_LT(std::abs(x.z()), 0.635 - 0.028575 + 1e-12);
   }
+
   EXPECT_NEAR(kinetic_energy(run.scene.world, run.scene.initial),
               stated("billiard_break", "less than half of the initial kinetic energy of "), 1e-14);
   EXPECT_LT(kinetic_energy(run.scene.world, run.end), 4.165 / 2);
@@ -61,13 +64,17 @@ TEST(BilliardBreak, TheRackIsATenthOfAMillimetreApart) {
 TEST(NewtonsCradleGap, OneBallMovesAtATimeToTheLastBit) {
   const string file = "newtons_cradle_gap";
   const Played run = play(file, {0.25, 0.8, 2.2});
+
   const double first_pass[] = {0.484375, 0.5, 0.515625, 0.53125, 1.1875, 1.84375};
   for (int i = 0; i < 6; ++i) EXPECT_EQ(run.collisions[i].time, first_pass[i]) << i;
+
   EXPECT_EQ(run.states[1].velocity, (vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}}));
   EXPECT_EQ(run.states[2].velocity, (vector<Vec3>{{-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+
   EXPECT_EQ(run.of("left")[0].time, stated(file, "red strikes the left wall at "));
   EXPECT_EQ(run.of("orange")[4].time, stated(file, "and orange again at "));
   EXPECT_EQ(run.of("right")[0].time, stated(file, "(0.9375 - 0.28125) = "));
+
   EXPECT_EQ(run.collisions[10].time - run.collisions[0].time, stated(file, "repeats every "));
   EXPECT_EQ(run.collisions.size(), stated(file, "repeats every 2.75 s "));
   EXPECT_EQ(among_balls(run), stated(file, "in 5.5 s, "));
@@ -77,16 +84,20 @@ TEST(NewtonsCradleGap, OneBallMovesAtATimeToTheLastBit) {
 TEST(NewtonsCradleTouching, TwoInTwoOutToTheLastBit) {
   const string file = "newtons_cradle_touching";
   const Played run = play(file, {0.8, 2.2});
+
   const auto at = [&](double time) {
     return std::ranges::count_if(run.collisions, [&](const Collision& c) { return c.time == time; });
   };
+
   EXPECT_EQ(run.states[0].velocity, (vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
   EXPECT_EQ(run.states[1].velocity, (vector<Vec3>{{-1, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+
   EXPECT_EQ(at(0.5), 6);
   EXPECT_EQ(at(stated(file, "(0.9375 - 0.25) = ")), 3);
   EXPECT_EQ(at(stated(file, "6 more collisions at ")), 6);
   EXPECT_EQ(at(stated(file, "to the left wall, 3 there at ")), 3);
   EXPECT_EQ(at(0.5 + stated(file, "repeats every ")), 6);
+
   EXPECT_EQ(run.collisions.size(), stated(file, "repeats every 2.75 s "));
   EXPECT_EQ(among_balls(run), stated(file, "in 5.5 s, "));
   EXPECT_EQ(kinetic_energy(run.scene.world, run.end), stated(file, "the energy stays "));
@@ -124,6 +135,7 @@ TEST(GasInARoom, KeepsItsEnergyAndPushesTheWalls) {
   const World& world = run.scene.world;
   const double energy = kinetic_energy(world, run.scene.initial);
   EXPECT_NEAR(kinetic_energy(world, run.end), energy, 1e-13 * energy);
+
   double push = 0;            // N s, of all walls
   Vec3 taken = Vec3::Zero();  // N s, by the walls
   for (const Collision& c : run.collisions) {
@@ -131,13 +143,16 @@ TEST(GasInARoom, KeepsItsEnergyAndPushesTheWalls) {
     push += c.impulse;
     taken += c.impulse * c.normal;
   }
+
   const Vec3 change = momentum(world, run.end) - momentum(world, run.scene.initial);
   EXPECT_LT((change + taken).norm(), 1e-11);  // measured: 2e-13, of momenta that sum to 4e3
+
   const double force = push / 6 / run.scene.simulate.duration, ideal = 2 * energy / (3 * 1.9);
   EXPECT_NEAR(stated(file, "2 E / (3 L) = "), ideal, 0.05);
   EXPECT_NEAR(stated(file, "with E = "), energy, 0.005);
   EXPECT_NEAR(stated(file, "over the six walls and 6 s: "), force, 0.05);
   EXPECT_NEAR(stated(file, "N, a factor of "), force / ideal, 0.0005);
+
   const double filling = 200 * 4 / 3.0 * M_PI * std::pow(0.05, 3) / 8;
   EXPECT_NEAR(stated(file, "pi r^3 / 8 m^3 = "), filling, 5e-5);
   EXPECT_NEAR(stated(file, "gives a factor of "),

@@ -30,8 +30,10 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   for (size_t i = 0; i < run.end.position.size(); ++i) {
     EXPECT_TRUE(run.end.position[i].allFinite() && run.end.velocity[i].allFinite()) << run.scene.roster.name(i);
   }
+
   // Energy at the end = at the start - that of removed bodies + work - losses in impacts - losses of the method of
   // lasting contact.
+  // What there was, what there is, and what has passed.
   const World& world = run.scene.world;
   const double before = run.energy_start - run.tally.removed.energy;
   const double after = kinetic_energy(world, run.end) + potential_energy(world, run.end);
@@ -39,6 +41,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   if (run.scene.simulate.engine == Engine::book && !world.gravity.isZero(0)) return;  // Euler's steps keep no energy
   EXPECT_NEAR(after, before + run.tally.work - run.tally.energy_lost - run.tally.method_error,
               1e-11 * passed);  // measured: 3e-12 (pi_to_six_digits)
+
   const bool crowds = run.tally.stepped_contact > 0;
   const double least = crowds ? 1e-4 : 1e-9;  // measured: 8e-6 (pile_at_rest)
   EXPECT_LT(std::abs(run.tally.method_error), least * passed);
@@ -53,9 +56,11 @@ TEST_P(EveryScene, ShowsSomething) {
   if (!scene.output.pictures()) return;
   ASSERT_TRUE(scene.camera) << "pictures without a camera";
   const Played run = play(GetParam(), {scene.simulate.duration / 2});
+
   Renderer renderer(run.scene, {192, 108}, 1);
   const Image empty = renderer.draw({0, vector<Vec3>(run.end.position.size(), Vec3(0, -1e6, 0)), run.end.velocity});
   const Image image = renderer.draw(run.states[0]);
+
   size_t changed = 0;
   for (size_t i = 0; i < image.pixels.size(); i += 3) {
     changed += !std::equal(image.pixels.begin() + i, image.pixels.begin() + i + 3, empty.pixels.begin() + i);

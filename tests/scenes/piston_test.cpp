@@ -28,6 +28,7 @@ double compression(bool dense, bool viscous) {
     const double mu = viscous ? 1.016 * 5 / (16 * d * d) * std::sqrt(kt / std::numbers::pi) : 0;
     return (count * kt * z / (room * area) + 4 * mu * u / (3 * room)) * area * u;
   };
+
   double energy = 300;
   for (int k = 0; k < steps; ++k) energy += dt * power(dt * (k + 0.5), energy + 0.5 * dt * power(dt * k, energy));
   return energy / 300;
@@ -61,11 +62,13 @@ TEST(Piston, HeatsTheGasByTheAdiabat) {
     options.set = {"seed=" + std::to_string(seed)};
     const Scene scene = load_scene(SCENES_DIR "/piston.yaml", options);
     const auto simulator = make_exact_simulator(scene.world, scene.initial, {.duration = duration});
+
     const double start = kinetic_energy(scene.world, simulator->state());
     while (simulator->time() < duration) simulator->advance_to(duration);
     const double factor = kinetic_energy(scene.world, simulator->state()) / start;
     sum += factor, squares += factor * factor;
   }
+
   const double mean = sum / seeds, error = std::sqrt((squares / seeds - mean * mean) / (seeds - 1));
   EXPECT_NEAR(mean, stated(file, "over the seeds 1 to 12: "), 1e-6);
   EXPECT_LT(error, 0.01);

@@ -75,6 +75,7 @@ Played play(const string& name, const vector<double>& times) {
   const auto simulator = make_simulator(run.scene, {.collisions = true});
   run.energy_start =
       kinetic_energy(run.scene.world, simulator->state()) + potential_energy(run.scene.world, simulator->state());
+
   const auto go_to = [&](double time) {
     do {
       simulator->advance_to(time);
@@ -83,10 +84,12 @@ Played play(const string& name, const vector<double>& times) {
       }
     } while (simulator->time() < time);
   };
+
   for (const double time : times) {
     go_to(time);
     run.states.push_back(simulator->state());
   }
+
   go_to(run.scene.simulate.duration);
   run.end = simulator->state();
   run.tally = simulator->tally();

@@ -117,14 +117,17 @@ TEST(NewtonsCradle, StrikesEachHalfPeriodAndKeepsItsEnergy) {
   const double aim = std::numbers::pi / 6, period = pendulum_period(aim);
   EXPECT_NEAR(period, stated("newtons_cradle", "K(sin(aim / 2)) ="), 1e-14);
   EXPECT_NEAR(period / 4, stated("newtons_cradle", "the first strike at T / 4 ="), 1e-14);
+
   const double speed = std::sqrt(2 * g_n * (1 - std::cos(aim)));
   EXPECT_NEAR(speed, stated("newtons_cradle", "cos aim)) ="), 1e-14);
   EXPECT_NEAR(-std::cos(aim), stated("newtons_cradle", "-l cos aim ="), 1e-14);
+
   const Played run = play("newtons_cradle");
   EXPECT_NEAR(run.collisions.front().time, period / 4, 1e-12);
   EXPECT_NEAR(run.collisions.front().approach_speed, speed, 1e-12);
   EXPECT_NEAR(run.collisions.back().time, period / 4 + 7 * period / 2, 1e-10);
   EXPECT_NEAR(run.tally.energy_lost, 0, 1e-12);
+
   EXPECT_NEAR(measured("newtons_cradle", "first_hit_s"), period / 4, 1e-12);
   EXPECT_EQ(measured("newtons_cradle", "last_hits"), 8);
   EXPECT_NEAR(measured("newtons_cradle", "last_rises_m"), -std::cos(aim), 1e-11);
@@ -133,11 +136,13 @@ TEST(NewtonsCradle, StrikesEachHalfPeriodAndKeepsItsEnergy) {
 TEST(SlackPendulum, GoesSlackAndTautWhenStated) {
   const double u = std::sqrt(g_n / 2), flight = 4 * u * std::sqrt(0.75) / g_n;
   const double slack = stated("slack_pendulum", "sqrt(g l / 2), at t ="), taut = slack + flight;
+
   // The time to 120 degrees, by Gauss-Legendre of order 10 in twenty parts: dt = dangle / sqrt(v^2 - 2 g (1 - cos)).
   constexpr double nodes[] = {0.14887433898163122, 0.43339539412924719, 0.67940956829902441, 0.86506336668898451,
                               0.97390652851717172};
   constexpr double weights[] = {0.29552422471475287, 0.26926671930999636, 0.21908636251598204, 0.14945134915058059,
                                 0.06667134430868814};
+
   double sum = 0;
   constexpr int parts = 20;
   const double half = 2 * std::numbers::pi / 3 / parts / 2;
@@ -147,21 +152,26 @@ TEST(SlackPendulum, GoesSlackAndTautWhenStated) {
         const double angle = half * (2 * part + 1 + sign * nodes[k]);
         sum += half * weights[k] / std::sqrt(g_n * (1.5 + 2 * std::cos(angle)));
       }
+
   EXPECT_NEAR(slack, sum, 1e-14);
   EXPECT_NEAR(taut, stated("slack_pendulum", "cos(30) / g later, at t ="), 1e-14);
+
   const double jerk = 3 * u * std::sqrt(0.75), swing = std::acos(15.0 / 16);
   EXPECT_NEAR(jerk, stated("slack_pendulum", "3 u cos 30 ="), 1e-14);
   EXPECT_NEAR(jerk * jerk / 2, stated("slack_pendulum", "81 / 48 g l J ="), 1e-13);
   EXPECT_NEAR(swing * 180 / std::numbers::pi, stated("slack_pendulum", "acos(15 / 16) ="), 1e-12);
   EXPECT_NEAR(pendulum_period(swing), stated("slack_pendulum", "with the period"), 1e-14);
+
   const Played run = play("slack_pendulum", {taut + pendulum_period(swing) / 4});
   ASSERT_EQ(run.collisions.size(), 1u);
+
   const Collision& hit = run.collisions.front();
   EXPECT_EQ(hit.kind, CollisionKind::taut);
   EXPECT_NEAR(hit.time, taut, 1e-12);
   EXPECT_NEAR(hit.approach_speed, jerk, 1e-11);
   EXPECT_NEAR(hit.energy_lost, jerk * jerk / 2, 1e-10);
   EXPECT_NEAR(run.states[0].position[0].y(), -15.0 / 16, 1e-11);
+
   EXPECT_NEAR(measured("slack_pendulum", "taut_again_s"), taut, 1e-12);
   EXPECT_EQ(measured("slack_pendulum", "jerks"), 1);
 }

@@ -84,6 +84,7 @@ TEST(Book, AsPrintedSometimesHandlesAPairAgainAndAgain) {
       if (r["scene"] == scene && r["variant"] == "slips 1+3B+4") return r;
     return nlohmann::json();
   };
+
   int repeated = 0;
   double greatest = 0;
   for (int k = 0; k < 200; ++k) {
@@ -92,9 +93,11 @@ TEST(Book, AsPrintedSometimesHandlesAPairAgainAndAgain) {
     repeated += run.collisions.size() > 1;
     greatest = std::max(greatest, energy_ratio(p, run));
   }
+
   const auto head = of("head");
   EXPECT_NEAR(repeated / 200.0, head["fraction_multiple_calls"].get<double>(), 0.01);
   EXPECT_NEAR(greatest, head["KE_ratio_max"].get<double>(), 1e-14);
+
   // At right angles such a pair ends with both centres in one place, where the listing divides by zero.
   int undefined = 0;
   for (int k = 0; k < 200; ++k) {

@@ -46,9 +46,11 @@ TEST(BouncingBall, RestsFromTheZenoTimeOn) {
   const auto all = reference("bouncing_ball");
   for (const auto& r : all["vertical"]) {
     if (r["zeno_time"].is_null()) continue;
+
     Problem problem = drop(r);
     const double zeno = r["zeno_time"];
     problem.options.duration = zeno + 100;
+
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.all.back().kind, CollisionKind::rest) << r["id"];
     EXPECT_NEAR(run.all.back().time / zeno, 1, 1e-13) << r["id"];
@@ -82,12 +84,14 @@ TEST(BouncingBall, SlidesDownASlopeAfterTheBouncesEnd) {
   for (const auto& r : all["incline"]) {
     const double angle = r["angle_deg"].get<double>() * M_PI / 180, g = r["g"], radius = 0.1;
     const Vec3 up_slope(-std::cos(angle), std::sin(angle), 0), normal(std::sin(angle), std::cos(angle), 0);
+
     Problem problem;
     problem.world.gravity = Vec3(0, -g, 0);
     const Vec3 start = normal * (radius + r["h_perp0"].get<double>());
     problem.ball(start, -r["v_along0"].get<double>() * up_slope, 1, radius, r["e"]);
     problem.plane({0, 0, 0}, normal);
     problem.options.duration = 20;
+
     const Outcome run = run_exact(problem);
     for (const auto& impact : r["impacts"]) {
       const size_t n = impact["n"];
@@ -95,13 +99,17 @@ TEST(BouncingBall, SlidesDownASlopeAfterTheBouncesEnd) {
         EXPECT_NEAR(run.collisions[n - 1].time / impact["t"].get<double>(), 1, 1e-14) << r["id"] << n;
       }
     }
+
     EXPECT_EQ(run.all.back().kind, CollisionKind::rest);
     EXPECT_NEAR(run.all.back().time / r["zeno_time"].get<double>(), 1, 1e-13) << r["id"];
+
+    // The states between, from another run.
     const auto again = make_exact_simulator(problem.world, problem.initial, problem.options);
     for (const auto& s : r["states"]) {
       const double t = s["t"];
       do again->advance_to(t);
       while (again->time() < t);
+
       const Vec3 x = again->state().position[0] - start, v = again->state().velocity[0];
       const double along = -up_slope.dot(x), scale = std::abs(s["s_along"].get<double>());
       EXPECT_NEAR(along, s["s_along"].get<double>(), 1e-14 * scale) << r["id"] << " t = " << t;

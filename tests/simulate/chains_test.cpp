@@ -65,6 +65,7 @@ TEST(ThreeBalls, AreStruckFromBothEndsAtOnce) {
                    number(r["e"]));
     problem.options.duration = 0;
     const Outcome run = run_exact(problem);
+
     const auto& expected = r["simultaneous_newton"];
     EXPECT_EQ(run.collisions.size(), 2u) << r.dump();
     for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(run.end.velocity[i].x(), number(expected["v"][i]), 2e-15) << r.dump();
@@ -76,6 +77,8 @@ TEST(StackedDrop, TheSmallBallRisesByTheClosedForm) {
   for (const auto& r : all["cases"]) {
     Problem problem;
     const double r1 = r["R1"], r2 = r["R2"], h = r["h_bottom"], gap = r["gap"], g = r["g"];
+
+    // Two balls above one another fall on the floor.
     problem.world.gravity = Vec3(0, -g, 0);
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.world.planes[0].restitution = r["e_floor"].get<double>();
@@ -83,10 +86,13 @@ TEST(StackedDrop, TheSmallBallRisesByTheClosedForm) {
     problem.ball({0, 2 * r1 + r2 + h + gap, 0}, {0, 0, 0}, r["m2"], r2, 1);
     problem.world.pairs = {{0, 1, 1, 1, r["e_ball"].get<double>()}, {0, 2, 2, 1, r["e_floor"].get<double>()}};
     problem.options.duration = r["t_ball_ball"].get<double>() + 1e-6;
+
     const Outcome run = run_exact(problem);
     ASSERT_GE(run.collisions.size(), 2u);
     EXPECT_NEAR(run.collisions[0].time / r["t_floor"].get<double>(), 1, 1e-15) << r["tag"];
     EXPECT_NEAR(run.collisions[1].time / r["t_ball_ball"].get<double>(), 1, 5e-15) << r["tag"];
+
+    // From the second impact on they fall.
     const double since = problem.options.duration - run.collisions[1].time;
     EXPECT_NEAR(run.end.velocity[0].y() + g * since, r["v_after"][0].get<double>(), 2e-13) << r["tag"];
     EXPECT_NEAR(run.end.velocity[1].y() + g * since, r["v_after"][1].get<double>(), 2e-13) << r["tag"];
@@ -101,8 +107,10 @@ TEST(MassChain, SpeedGrowsAsTheGeometricFormula) {
     for (int i = 0; i < n; ++i)
       problem.ball({2.0 * i, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}, std::pow(r["q"].get<double>(), i), 0.5, r["e"]);
     problem.options.duration = 1000;
+
     const Outcome run = run_exact(problem);
     EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<size_t>());
+
     for (int i = 0; i < n; ++i) {
       const double expected = r["v_final"][static_cast<size_t>(i)];
       EXPECT_NEAR(run.end.velocity[static_cast<size_t>(i)].x(), expected, 5e-15 * std::abs(expected) + 1e-16)
@@ -127,10 +135,12 @@ TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
   const auto all = reference("chains_cradle_stack")["stacked_drop"]["infinite_mass_ladder"];
   for (const auto& r : all) {
     const int n = r["n_balls"];
+
     Problem problem;
     problem.plane({0, 0, 0}, {0, 1, 0});
     for (int i = 0; i < n; ++i) problem.ball({0, 1.0 + i * (1 + 0x1p-30), 0}, {0, -1, 0}, std::pow(1e-7, i), 0.5, 1);
     problem.options.duration = 0.75;
+
     const Outcome run = run_exact(problem);
     const double expected = r["speed_ratio"], got = run.end.velocity[static_cast<size_t>(n - 1)].y();
     EXPECT_NEAR(got, expected, 1e-6 * expected * n) << n;
@@ -143,12 +153,14 @@ TEST(StackedDrop, TheSmallBallRisesToTheReferencesHeight) {
   for (const auto& r : all["cases"]) {
     Problem problem;
     const double r1 = r["R1"], r2 = r["R2"], h = r["h_bottom"], gap = r["gap"], g = r["g"];
+
     problem.world.gravity = Vec3(0, -g, 0);
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.ball({0, r1 + h, 0}, {0, 0, 0}, r["m1"], r1, 1);
     problem.ball({0, 2 * r1 + r2 + h + gap, 0}, {0, 0, 0}, r["m2"], r2, 1);
     problem.world.pairs = {{0, 1, 1, 1, r["e_ball"].get<double>()}, {0, 2, 2, 1, r["e_floor"].get<double>()}};
     problem.options.duration = r["t_ball_ball"].get<double>() + r["v_after"][1].get<double>() / g;  // its top
+
     const Outcome run = run_exact(problem);
     EXPECT_NEAR(run.end.position[1].y() / r["z2_max"].get<double>(), 1, 1e-14) << r["tag"];
   }
@@ -162,6 +174,7 @@ TEST(ThreeBalls, PartAfterAtMostAsManyCollisionsAsTheReferenceFinds) {
     const double e = r["e"];
     const size_t most = r["max_collisions_found_cap60"];
     size_t found = 0;
+
     for (int i = -20; i <= 20; ++i) {
       Problem problem;
       problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5, e);
@@ -170,6 +183,7 @@ TEST(ThreeBalls, PartAfterAtMostAsManyCollisionsAsTheReferenceFinds) {
       problem.options.duration = 1e6;
       found = std::max(found, run_exact(problem).collisions.size());
     }
+
     if (most < 60) {
       EXPECT_LE(found, most) << "e = " << e;
       EXPECT_GE(found, most / 2) << "e = " << e;

@@ -26,9 +26,11 @@ double worst(const Problem& given, double mu, double duration, bool mirror) {
   Problem problem = given;
   const Vec3 center = std::get<Attractor>(problem.world.forces[0].law).center;
   if (mirror) problem.plane(center - Vec3(0, problem.world.radius[0], 0), {0, 1, 0});
+
   const LongKepler kepler(mu, given.initial.position[0] - center, given.initial.velocity[0]);
   problem.options.duration = duration;
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+
   double most = 0;
   for (int k = 1; k <= 50; ++k) {
     const double t = k == 50 ? duration : duration * (k - 0.381966) / 50;
@@ -37,6 +39,7 @@ double worst(const Problem& given, double mu, double duration, bool mirror) {
     if (mirror) there.y() = std::abs(there.y());
     most = std::max(most, (simulator->state().position[0] - center - there).norm());
   }
+
   EXPECT_TRUE(!mirror || simulator->tally().collisions() > 0);
   return most;
 }
@@ -109,6 +112,7 @@ TEST(ClosedFlights, OnASpringAreSines) {
     Problem problem = swing(stiffness, 0, 0.01);
     problem.options.duration = 1000 / std::sqrt(stiffness);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+
     for (int k = 1; k <= 20; ++k) {
       const double t = problem.options.duration * k / 20;
       go_to(*simulator, t);

@@ -19,6 +19,7 @@ double energy(const World& world, const State& state) {
 Outcome run_and_watch_energy(const Problem& problem, double every, double tolerance, const string& what) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   const double start = energy(problem.world, problem.initial), scale = std::abs(start);
+
   double before = start, worst_gain = 0, worst_books = 0;
   for (int i = 1; i * every <= problem.options.duration; ++i) {
     go_to(*simulator, i * every);
@@ -27,6 +28,7 @@ Outcome run_and_watch_energy(const Problem& problem, double every, double tolera
     worst_books = std::max(worst_books, std::abs(now + simulator->tally().energy_lost - start) / scale);
     before = now;
   }
+
   EXPECT_LT(worst_gain, tolerance) << what;   // measured: 3.2e-16
   EXPECT_LT(worst_books, tolerance) << what;  // measured: 1.8e-16
   EXPECT_LT(simulator->tally().max_overlap, 1e-9 * 2 * problem.world.radius[0]) << what;
@@ -40,11 +42,13 @@ TEST(Collapse, OfThreeBallsInARowBelowTheCriticalRestitution) {
     problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5, e);
     problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.5, e);
     problem.ball({2.5, 0, 0}, {-1, 0, 0}, 1, 0.5, e);
+
     const Outcome run = run_and_watch_energy(problem, 0.25, 1e-13, "e = " + std::to_string(e));
     if (e > 0) {
       EXPECT_GT(run.tally.collapses, 0u) << e;
     }
     EXPECT_LT(run.tally.collisions(), 1000u) << e;
+
     Vec3 p = momentum(problem.world, run.end);
     EXPECT_LT(p.norm(), 1e-15) << e;
     for (size_t i = 0; i < 3; ++i) EXPECT_LT(run.end.velocity[i].norm(), 1e-9) << e;
@@ -120,6 +124,7 @@ TEST(Collapse, OfColumnsOfBoxesDroppedOnTheFloorEndsAtRest) {
     for (int i = 0; i < n; ++i)
       problem.body(Volume::box({0.5, 0.5, 0.5}), {0.01 * i, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1 + i % 3, 0.5);
     problem.options.duration = 10;
+
     const Outcome run = run_and_watch_energy(problem, 0.0625, 1e-12, "boxes " + std::to_string(n));
     EXPECT_EQ(run.tally.resting, static_cast<uint64_t>(n));
     EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
@@ -174,6 +179,7 @@ TEST(Collapse, IsNoneWhereACommonFallMakesManySlowImpacts) {
     problem.ball({1 + 0x1p-19, 0, 0}, {-1e-3, 0, 0}, 1, 0.5, 0.999);
     return run_exact(problem);
   };
+
   const Outcome falling = run(100), at_rest = run(0);
   EXPECT_EQ(falling.tally.collapses, 0u);
   EXPECT_EQ(falling.tally.collisions(), at_rest.tally.collisions());

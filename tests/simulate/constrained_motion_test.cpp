@@ -30,10 +30,12 @@ TEST(ConstrainedMotion, ARowOfAnyNumberIsPushedAsOneBody) {
     for (const bool reversed : {false, true}) {
       const Problem problem = pushed_row(n, 3, reversed, 1);
       const Outcome run = run_exact(problem);
+
       const double way = 0.5 * 3 / n;  // m
       for (Entity i = 0; i < problem.world.body_count(); ++i)
         EXPECT_LT((run.end.position[i] - problem.initial.position[i] - Vec3(way, 0, 0)).norm(), 1e-12 * n)
             << n << ": " << i;  // measured: 0
+
       EXPECT_TRUE(run.collisions.empty()) << n;
       EXPECT_EQ(run.tally.stepped_contact, 0) << n;
       EXPECT_EQ(run.tally.doubts.contacts, 0u) << n;
@@ -47,6 +49,7 @@ TEST(ConstrainedMotion, AStackOfAnyNumberStandsAndEachBallCarriesThoseAboveIt) {
     problem.options.duration = 10;
     for (int k = 0; k < n; ++k) problem.ball({0, 0.5 + k, 0}, {0, 0, 0}, 1, 0.5, 0.5);
     problem.plane({0, 0, 0}, {0, 1, 0});
+
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     for (const double t : {0.0, 10.0}) {
       go_to(*simulator, t);
@@ -70,6 +73,8 @@ double angle_of_roof(double q, double top, double base, int n, double r, double 
     const double slope = 2 * length * length * s * c * (top - n * base);
     return (top * g_n * length * s - 0.5 * slope * rate * rate) / inertia;
   };
+
+  // The method of Runge and Kutta of order 4.
   const int steps = 20000;
   const double h = time / steps;
   double rate = 0;
@@ -88,6 +93,7 @@ Problem roofs(int bases, int copies, double angle, double top, double r) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
   problem.options.duration = 0.2;
+
   for (int c = 0; c < copies; ++c) {
     const double z = 5.0 * c;
     for (int b = 0; b < bases; ++b) {
@@ -96,6 +102,7 @@ Problem roofs(int bases, int copies, double angle, double top, double r) {
     }
     problem.ball({0, r + 2 * r * std::cos(angle), z}, {0, 0, 0}, top, r, 0);
   }
+
   problem.plane({0, 0, 0}, {0, 1, 0});
   return problem;
 }
@@ -106,9 +113,11 @@ TEST(ConstrainedMotion, RoofsAndPyramidsComeDownByTheEquationOfTheirOneCoordinat
       for (const double top : {0.5, 2.0}) {
         const double r = 0.5, angle = 0.8;
         const Problem problem = roofs(bases, copies, angle, top, r);
+
         const Outcome run = run_exact(problem);
         const double q = angle_of_roof(angle, top, 1, bases, r, problem.options.duration);
         ASSERT_GT(q, angle + 0.03);
+
         for (int c = 0; c < copies; ++c) {
           const size_t first = static_cast<size_t>(c * (bases + 1)), last = first + static_cast<size_t>(bases);
           EXPECT_NEAR(run.end.position[last].y(), r + 2 * r * std::cos(q), 5e-12);  // measured: 2e-12
@@ -118,6 +127,7 @@ TEST(ConstrainedMotion, RoofsAndPyramidsComeDownByTheEquationOfTheirOneCoordinat
             EXPECT_NEAR(out.y(), r, 1e-15);
           }
         }
+
         EXPECT_TRUE(run.collisions.empty());
         EXPECT_EQ(run.tally.stepped_contact, 0);
         EXPECT_LT(run.tally.max_overlap, 1e-11);
@@ -129,6 +139,7 @@ TEST(ConstrainedMotion, RoofsAndPyramidsComeDownByTheEquationOfTheirOneCoordinat
 TEST(ConstrainedMotion, InOtherUnitsAPyramidHasTheSameBits) {
   const Problem one = roofs(4, 1, 0.8, 2, 0.5);
   const double length = 0x1p10, time = 0x1p-4, mass = 0x1p6;
+
   Problem other = one;
   other.world.gravity *= length / (time * time);
   other.options.duration *= time;
@@ -136,6 +147,7 @@ TEST(ConstrainedMotion, InOtherUnitsAPyramidHasTheSameBits) {
   for (double& r : other.world.radius) r *= length;
   for (Vec3& x : other.initial.position) x *= length;
   for (Plane& plane : other.world.planes) plane.point *= length;
+
   const Outcome a = run_exact(one), b = run_exact(other);
   for (size_t i = 0; i < a.end.position.size(); ++i) {
     EXPECT_EQ(length * a.end.position[i], b.end.position[i]);
@@ -162,15 +174,18 @@ TEST(ConstrainedMotion, BoxesInARowSlideDownASlopeAsOneAlsoWhenTheUppermostIsPus
   for (const int n : {1, 2, 5, 9, 17, 40})
     for (const double angle : {0.1, 0.3, 0.6})  // tan < 1: their faces touch
       for (const double push : {0.0, 3.0}) {    // N, down the slope, on the uppermost
+
         Problem problem = boxes_on_a_slope(n, 0.5, angle, 2);
         const Vec3 down(std::cos(angle), -std::sin(angle), 0);
         if (push > 0) problem.world.forces.push_back({UniformForce{push * down}, 0, never, {0}});
         problem.options.duration = 1;
         const Outcome run = run_exact(problem);
+
         const double way = 0.5 * (g_n * std::sin(angle) + push / (2 * n));  // m
         for (Entity i = 0; i < problem.world.body_count(); ++i)
           EXPECT_LT((run.end.position[i] - problem.initial.position[i] - way * down).norm(), 1e-12 * (1 + n))
               << n << ' ' << angle << ' ' << push << ": " << i;
+
         EXPECT_TRUE(run.collisions.empty()) << n << ' ' << angle << ' ' << push;
         EXPECT_EQ(run.tally.stepped_contact, 0);
       }
@@ -188,11 +203,14 @@ TEST(ConstrainedMotion, ABoxOnABoxOnASlopeSinksWhileTheLowerOneSlidesAway) {
           problem.body(Volume::cylinder(0.25, 0.5), start, {0, 0, 0}, upper, 0);
         else
           problem.body(Volume::box({0.5, 0.5, 0.5}), start, {0, 0, 0}, upper, 0);
+
         const double sine = std::sin(angle), a = (3 + upper) * g_n * sine / (3 + upper * sine * sine);
         const double time = 0.25, way = 0.5 * a * time * time;
         ASSERT_LT(way * std::cos(angle), 1.2);  // m: still under it
+
         problem.options.duration = time;
         const Outcome run = run_exact(problem);
+
         EXPECT_LT((run.end.position[0] - below - way * down).norm(), 1e-13) << angle << ' ' << upper;
         EXPECT_LT((run.end.position[1] - start - Vec3(0, -way * sine, 0)).norm(), 1e-13) << angle << ' ' << upper;
         EXPECT_TRUE(run.collisions.empty());

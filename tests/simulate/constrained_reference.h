@@ -52,6 +52,7 @@ class ConstrainedReference {
   /// `step` (s).
   Motion follow(double duration, double step) {
     const size_t n = mass.size();
+
     x_.clear();
     for (const Vec3& at : start) x_.push_back(from_origin(at));
     v_.assign(n, Vec::Zero());
@@ -59,6 +60,7 @@ class ConstrainedReference {
     near_ = std::max<Real>(1e-12L, 0x1p-47L * origin.cwiseAbs().sum());
     find_rows();
     press();
+
     Motion motion;
     Real time = 0;
     while (time < duration) {
@@ -69,6 +71,7 @@ class ConstrainedReference {
         h = find_opening(x, v, h);
         motion.openings += open();
       }
+
       if (closes() || slackens()) {
         x_ = x;
         v_ = v;
@@ -76,6 +79,7 @@ class ConstrainedReference {
       }
       time += h;
     }
+
     motion.time = static_cast<double>(time);
     for (size_t k = 0; k < n; ++k) {
       motion.x.push_back((x_[k] + origin.cast<Real>()).cast<double>());
@@ -112,12 +116,15 @@ class ConstrainedReference {
       const Bend at = bend_along(d, anchored ? Vec(-v[row.a]) : Vec(v[other] - v[row.a]), 0);
       return {-at.n, 0, -at.bend};
     }
+
     if (row.flat != none) {
       const Flat& flat = flats[static_cast<size_t>(row.flat)];
       const Vec n = flat.normal.cast<Real>();
       return {-n, n.dot(x[row.a] - from_origin(flat.point)) - radius[row.a], 0};
     }
+
     if (row.b == floor) return {Vec(0, -1, 0), x[row.a].y() - radius[row.a], 0};
+
     const bool body = row.b >= 0;
     const auto b = static_cast<size_t>(body ? row.b : -2 - row.b);
     const Vec d = (body ? x[b] : from_origin(globes[b].center)) - x[row.a];
@@ -135,6 +142,7 @@ class ConstrainedReference {
       for (int k = 0; k < static_cast<int>(globes.size()); ++k) rows_.push_back({i, -2 - k});
       for (int k = 0; k < static_cast<int>(flats.size()); ++k) rows_.push_back({i, none, false, k});
     }
+
     for (int k = 0; k < static_cast<int>(ties.size()); ++k) {
       const Tie& tie = ties[static_cast<size_t>(k)];
       rows_.push_back({tie.body, tie.other, true, none, k});
@@ -144,15 +152,20 @@ class ConstrainedReference {
   /// The multipliers (N) with which the rates of these rows' gaps stay unchanged, by Cholesky's factors.
   vector<Real> multipliers(const vector<size_t>& set, const vector<Vec>& x, const vector<Vec>& v) const {
     const size_t n = set.size();
+
     vector<Bend> at;
     for (const size_t c : set) at.push_back(bend_of(rows_[c], x, v));
+
     vector<vector<Real>> m(n, vector<Real>(n));
     vector<Real> y(n);
+
+    // Of each row: its gap's acceleration without it, and what a unit force along it or another does to that.
     for (size_t c = 0; c < n; ++c) {
       const Row& p = rows_[set[c]];
       Vec f = -force[p.a].cast<Real>();
       if (p.b >= 0) f += force[static_cast<size_t>(p.b)].cast<Real>();
       y[c] = -(at[c].n.dot(f) + at[c].bend);
+
       for (size_t d = 0; d <= c; ++d) {
         const Row& q = rows_[set[d]];
         const Real cosine = at[c].n.dot(at[d].n);
@@ -164,6 +177,8 @@ class ConstrainedReference {
         m[c][d] = sum;
       }
     }
+
+    // Factors, and the substitution forwards.
     for (size_t c = 0; c < n; ++c) {
       for (size_t d = 0; d <= c; ++d) {
         for (size_t k = 0; k < d; ++k) m[c][d] -= m[c][k] * m[d][k];
@@ -172,6 +187,8 @@ class ConstrainedReference {
       for (size_t k = 0; k < c; ++k) y[c] -= m[c][k] * y[k];
       y[c] /= m[c][c];
     }
+
+    // Backwards.
     for (size_t c = n; c-- > 0;) {
       for (size_t k = c + 1; k < n; ++k) y[c] -= m[k][c] * y[k];
       y[c] /= m[c][c];
@@ -213,8 +230,10 @@ class ConstrainedReference {
     for (size_t c = 0; c < rows_.size(); ++c)
       if (rows_[c].tie == none && std::abs(bend_of(rows_[c], x_, v_).gap) < near_) closed.push_back(c);
     vector<Real> y(rows_.size(), 0);
+
     for (;;) {
       const vector<Vec> a = accelerate(x_, v_);
+      // The contact that closes fastest joins the set.
       size_t next = rows_.size();
       Real least = -1e-12L;
       for (const size_t c : closed)
@@ -222,9 +241,12 @@ class ConstrainedReference {
           least = parting(rows_[c], a);
           next = c;
         }
+
       if (next == rows_.size()) return;
       rows_[next].presses = true;
+
       for (;;) {
+        // As far towards the new forces as none of them pulls; one that comes to nothing leaves.
         const vector<size_t> set = pressing();
         const vector<Real> z = multipliers(set, x_, v_);
         Real share = 1;
@@ -237,6 +259,7 @@ class ConstrainedReference {
             y[set[k]] = 0;
           }
         }
+
         if (share == 1) break;
       }
     }
@@ -247,14 +270,17 @@ class ConstrainedReference {
     constexpr int columns = 8;
     const size_t n = x_.size();
     vector<vector<Vec>> xs, vs;
+
     for (int j = 0; j < columns; ++j) {
       const int parts = 2 * (j + 1);
       const Real s = h / parts;
       vector<Vec> x0 = x_, v0 = v_, a = accelerate(x_, v_), x1 = x0, v1 = v0;
+
       for (size_t k = 0; k < n; ++k) {
         x1[k] += s * v0[k];
         v1[k] += s * a[k];
       }
+
       for (int part = 1; part < parts; ++part) {
         a = accelerate(x1, v1);
         for (size_t k = 0; k < n; ++k) {
@@ -263,9 +289,12 @@ class ConstrainedReference {
           v0[k] = std::exchange(v1[k], v2);
         }
       }
+
       xs.push_back(x1);
       vs.push_back(v1);
     }
+
+    // Each order takes away the next even power of the error.
     for (int order = 1; order < columns; ++order)
       for (int j = columns - 1; j >= order; --j) {
         const Real ratio = static_cast<Real>(j + 1) / (j + 1 - order);
@@ -276,6 +305,7 @@ class ConstrainedReference {
           vs[to][k] += f * (vs[to][k] - vs[to - 1][k]);
         }
       }
+
     x_ = xs.back();
     v_ = vs.back();
   }
@@ -302,6 +332,7 @@ class ConstrainedReference {
       advance(middle);
       (pull() < -tiny ? high : low) = middle;
     }
+
     x_ = x;
     v_ = v;
     advance(high);

@@ -39,16 +39,20 @@ Errors compare(const ConstrainedReference& reference, const ConstrainedReference
   vector<size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   const double least = *std::ranges::min_element(reference.radius);
+
   Errors errors;
+
   for (int turn = 0; turn < 2; ++turn) {
     const Outcome run = run_exact(same(reference, order, expected.time, e));
     for (size_t k = 0; k < n; ++k) {
       errors.position = std::max(errors.position, (run.end.position[k] - expected.x[order[k]]).norm() / least);
       errors.velocity = std::max(errors.velocity, (run.end.velocity[k] - expected.v[order[k]]).norm() / least);
     }
+
     EXPECT_TRUE(run.collisions.empty());
     EXPECT_EQ(run.tally.stepped_contact, 0);
     EXPECT_EQ(run.tally.doubts.contacts, 0u);
+
     std::ranges::reverse(order);
   }
   return errors;
@@ -60,13 +64,16 @@ bool place_touching(const ConstrainedReference& there, double r, Random& random,
   const size_t n = there.mass.size();
   for (int trial = 0; trial < 200; ++trial) {
     const auto pick = [&] { return std::min(n - 1, static_cast<size_t>(random(0, static_cast<double>(n)))); };
+
     vector<size_t> on;
     const int touches = 1 + static_cast<int>(random(0, 3));
     for (int k = 0; k < touches && n > 0; ++k) on.push_back(pick());
     const bool floor = n == 0 || random(0, 1) < 0.3;
+
     Eigen::Matrix<long double, 3, 1> at =
         (n == 0 ? Vec3(Vec3::Zero()) : there.start[on[0]]).cast<long double>() +
         Eigen::Matrix<long double, 3, 1>(random(-1, 1), random(-0.3, 1), random(-1, 1));
+
     // Newton's method on the gaps, by least change.
     for (int pass = 0; pass < 60; ++pass) {
       for (const size_t k : on) {
@@ -76,6 +83,7 @@ bool place_touching(const ConstrainedReference& there, double r, Random& random,
       }
       if (floor) at.y() = r;
     }
+
     x = at.cast<double>();
     bool good = x.y() > r - 1e-15;
     for (const size_t k : on) good = good && std::abs((x - there.start[k]).norm() - there.radius[k] - r) < 4e-16;
@@ -91,6 +99,7 @@ ConstrainedReference random_island(size_t n, uint64_t seed) {
   ConstrainedReference island;
   while (island.mass.size() < n) {
     const double r = random(0.2, 0.6);
+
     Vec3 x;
     if (!place_touching(island, r, random, x)) continue;
     island.start.push_back(x);
@@ -103,20 +112,25 @@ ConstrainedReference random_island(size_t n, uint64_t seed) {
 
 TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsFollowIt) {
   Errors worst;
+
   size_t openings = 0, islands = 0;
+
   for (const size_t n : {2, 3, 5, 8, 12, 16, 17, 24, 40, 60}) {
     for (uint64_t seed = 1; seed <= (n <= 17 ? 10u : 2u); ++seed) {
       ConstrainedReference island = random_island(n, 1000 * n + seed);
       const ConstrainedReference::Motion expected = island.follow(0.15, 1.0 / 128);
       if (expected.time == 0) continue;
+
       ++islands;
       openings += expected.openings;
+
       const Errors errors = compare(island, expected, seed % 2 == 0 ? 0 : 0.5);
       EXPECT_LT(errors.position, 1e-10) << n << " balls, seed " << seed << ", " << expected.time << " s";
       EXPECT_LT(errors.velocity, 1e-9) << n << " balls, seed " << seed << ", " << expected.time << " s";
       worst = {std::max(worst.position, errors.position), std::max(worst.velocity, errors.velocity)};
     }
   }
+
   std::printf("%zu islands, %zu openings: off by %.2g of a radius, %.2g of one a second\n", islands, openings,
               worst.position, worst.velocity);
 }
@@ -125,8 +139,10 @@ TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsFollowIt) {
 ConstrainedReference train(size_t n, double push) {
   ConstrainedReference train;
   train.has_floor = false;
+
   const double globe = 5, r = 0.25, out = globe + r, turn = 2 * std::asin(r / out);
   train.globes.push_back({{0, -globe, 0}, globe});
+
   for (size_t k = 0; k < n; ++k) {
     const double angle = -0.05 - static_cast<double>(k) * turn;
     train.start.emplace_back(out * std::sin(angle), out * std::cos(angle) - globe, 0);
@@ -144,8 +160,10 @@ TEST(ConstrainedReference, TrainsArePushedOverAHumpAndComeApartOnTheFarSide) {
     for (const double push : {4.0, 10.0}) {
       ConstrainedReference cars = train(n, push);
       const ConstrainedReference::Motion expected = cars.follow(1.2, 1.0 / 64);
+
       const bool over = push == 10 && n <= 9;  // longer ones, or those pushed less, come no farther or slide back
       EXPECT_GT(expected.x[0].x(), over ? 1 : -1) << n;  // m, from the top
+
       const Errors errors = compare(cars, expected, 0.5);
       EXPECT_LT(errors.position, 1e-10) << n << ' ' << push << ' ' << expected.time;
       EXPECT_LT(errors.velocity, 1e-9) << n << ' ' << push;

@@ -41,8 +41,10 @@ TEST(ContactGroup, OfARowThatIsPushedIsNotPutToRest) {
       for (int k = 0; k < n; ++k) problem.ball({1.0 * k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
       problem.plane({0, 0, 0}, {0, 1, 0});
       problem.world.forces.push_back({UniformForce{Vec3(3, 0, 0)}, 0, never, {0}});
+
       const auto simulator = stepped(problem, step);
       go_to(*simulator, 1);
+
       const double way = 0.5 * 3 / n;  // m
       for (int k = 0; k < n; ++k)
         EXPECT_NEAR(simulator->state().position[static_cast<size_t>(k)].x() - k, way, 1e-12 * n) << n << ", " << step;
@@ -54,6 +56,7 @@ TEST(ContactGroup, GainsNoEnergyAsItSettles) {
   for (const int side : {3, 5}) {
     const Problem problem = loose_pile(side, 6, 10);
     const auto simulator = stepped(problem, 0.01);
+
     double least = energy(problem, problem.initial);
     for (int k = 0; k <= 333; ++k) {
       const double t = k * 0.03;  // the instantaneous energy is right to first order
@@ -62,6 +65,7 @@ TEST(ContactGroup, GainsNoEnergyAsItSettles) {
       EXPECT_LT(now, 1.0003 * least) << side << " at " << t;
       least = std::min(least, now);
     }
+
     go_to(*simulator, 10);
     const Tally& tally = simulator->tally();
     const double first = energy(problem, problem.initial);

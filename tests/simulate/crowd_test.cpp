@@ -27,12 +27,15 @@ struct NearBalls {
 NearBalls near_balls(int seed) {
   Random random(seed);
   NearBalls balls;
+
   for (int k = 0; k < 60; ++k) {
     const double place[3] = {random(0, 4), random(0, 4), random(0, 4)};
     const double speed[3] = {random(-1, 1), random(-1, 1), random(-1, 1)};
     balls.x.push_back({{place[0], place[1], place[2], random(0.4, 0.5)}});
     balls.v.push_back({{speed[0], speed[1], speed[2], random(0.1, 10)}});
   }
+
+  // Those near each other may touch.
   vector<CrowdRows::Pair> pairs;
   for (uint32_t a = 0; a < 60; ++a)
     for (uint32_t b = a + 1; b < 60; ++b) {
@@ -49,7 +52,9 @@ NearBalls near_balls(int seed) {
 vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
   NearBalls balls = near_balls(seed);
   CrowdRows& rows = balls.rows;
+
   const double h = 0.01;
+  // The aim of the step, and the first strike in it.
   kernels.measure(rows.hot.data(), rows.state.data(), rows.parts[0].balls, balls.x.data());
   vector<uint8_t> may_strike(rows.groups());
   const AimResult aim = kernels.aim(rows.hot.data(), rows.change.data(), rows.state.data(), rows.groups(),
@@ -57,29 +62,36 @@ vector<double> numbers_of(const CrowdKernels& kernels, int seed) {
   unsigned which = 0;
   const size_t first = kernels.next_strike(rows.hot.data(), rows.state.data(), 0, rows.groups(), balls.v.data(), h,
                                            may_strike.data(), which);
+
+  // Some impulses, pushed into the speeds.
   for (RowGroup& group : rows.hot)
     for (double& impulse : group.impulse) impulse = 0.01;
   const vector<Four> free = balls.v;
   kernels.push(rows.hot.data(), rows.groups(), balls.v.data());
   vector<Four> before = balls.v;
   vector<Four> direction(balls.v.size());
+
   vector<uint8_t> marks(rows.groups());
   kernels.mark(rows.hot.data(), rows.groups(), balls.v.data(), h, 1e-3, marks.data());
+
   vector<uint32_t> every(rows.groups());
   std::iota(every.begin(), every.end(), 0u);
   vector<double> all{aim.strikes ? 1.0 : 0.0, aim.least_gap, static_cast<double>(first), static_cast<double>(which)};
+
   for (int sweep = 0; sweep < 5; ++sweep) {
     const SweepResult found = kernels.sweep(rows.hot.data(), rows.change.data(), every, balls.v.data(), h);
     kernels.conjugate(rows.hot.data(), rows.change.data(), every, 0.5);
     kernels.follow(balls.v.data(), before.data(), direction.data(), balls.v.size(), 0.5);
     all.insert(all.end(), {found.change, found.is_short ? 1.0 : 0.0});
   }
+
   const Agitation agitation = kernels.agitation(rows.hot.data(), rows.state.data(), rows.groups(), balls.v.data(), 50);
   all.insert(all.end(), {agitation.squares, static_cast<double>(agitation.pressing)});
   const GuardSums sums = kernels.guard(rows.hot.data(), rows.groups(), balls.v.data(), free.data(), h);
   all.insert(all.end(), {sums.aim, sums.gain,
                          kernels.safe_drift(rows.hot.data(), rows.state.data(), rows.groups(), balls.v.data(), 1e-10)});
   all.insert(all.end(), marks.begin(), marks.end());
+
   for (const Four& v : balls.v) all.insert(all.end(), std::begin(v.at), std::end(v.at));
   for (const RowGroup& group : rows.hot) all.insert(all.end(), std::begin(group.impulse), std::end(group.impulse));
   return all;
@@ -102,8 +114,10 @@ TEST(CrowdRows, OfOneGroupShareNoBody) {
   vector<CrowdRows::Pair> pairs;
   for (uint32_t k = 1; k < 200; ++k) pairs.push_back({0, k, {0, k}, true, 2, 0, 0, 0, 0});
   for (uint32_t k = 1; k + 1 < 200; ++k) pairs.push_back({k, k + 1, {k, k + 1}, k % 2 == 0, 2, 0, 0, 0, 0});
+
   CrowdRows rows;
   rows.add_part(pairs, 200, 200);
+
   size_t seen = 0;
   for (const RowGroup& group : rows.hot) {
     vector<uint32_t> bodies;
@@ -112,6 +126,7 @@ TEST(CrowdRows, OfOneGroupShareNoBody) {
       ++seen;
       bodies.insert(bodies.end(), {group.a[lane], group.b[lane]});
     }
+
     std::ranges::sort(bodies);
     EXPECT_EQ(std::unique(bodies.begin(), bodies.end()), bodies.end());
   }
@@ -122,6 +137,7 @@ TEST(CrowdRows, OfOneGroupShareNoBody) {
 Crowd wide_crowd(uint32_t count) {
   Random random(5);
   Crowd crowd;
+
   for (uint32_t k = 0; k < count; ++k) {
     crowd.members.push_back(3 * k);
     crowd.by_name.push_back(k);
@@ -129,12 +145,14 @@ Crowd wide_crowd(uint32_t count) {
     const double z = k % 9 < 2 ? 0 : (k % 9 % 2 == 0 ? 1 : -1) * random(1, 50);
     crowd.x.push_back({{random(0, 1), random(0, 1), z, 0.1}});
   }
+
   for (const Four& x : crowd.x) {
     crowd.v.push_back(x);
     crowd.a.push_back(vector_of(x));
     crowd.lag.push_back(x.at[2]);
     crowd.lent.push_back(x.at[2]);
   }
+
   crowd.idle.resize(count);
   crowd.pressed.resize(count);
   crowd.still.resize(count);
@@ -145,11 +163,13 @@ TEST(CrowdSlabs, KeepMembersTogetherAndOrderThemByName) {
   Crowd crowd = wide_crowd(9000);
   arrange_in_slabs(crowd, 0.1);
   ASSERT_EQ(crowd.rows.first.size(), 9u);
+
   for (uint32_t k = 0; k < 9000; ++k) {
     ASSERT_EQ(crowd.members[crowd.by_name[k]], 3 * k);
     EXPECT_EQ(crowd.lag[k], crowd.x[k].at[2]);
     EXPECT_EQ(crowd.a[k], crowd.position(k));
     EXPECT_EQ(crowd.rows.place[k] == 7, crowd.x[k].at[2] == 0);
+
     if (k > 0 && crowd.rows.place[k - 1] == crowd.rows.place[k]) {
       EXPECT_LT(crowd.members[k - 1], crowd.members[k]);
     }
@@ -172,6 +192,7 @@ TEST(CrowdSlabs, OfOnePhaseShareNoBody) {
   const vector<vector<CrowdRows::Pair>> parts = pairs_of_parts(crowd.rows, pairs);
   ASSERT_EQ(parts.size(), 16u);
   size_t seen = 0;
+
   for (const vector<CrowdRows::Pair>& part : parts) seen += part.size();
   EXPECT_EQ(seen, pairs.size());
   for (const auto& [first, last] : {std::pair{0, 8}, std::pair{8, 12}, std::pair{12, 15}}) {
@@ -261,12 +282,15 @@ TEST(CrowdMotion, KeepsTheMomentumOfClusters) {
       problem.ball(place, Vec3(cluster == 0 ? 1 : -1, 0, 0), std::pow(10, random(-2, 2)), 0.05, 0.5);
     }
   AloneInACrowd crowd(problem);
+
+  // The momentum and its scale.
   Vec3 start = Vec3::Zero();
   double size = 0;
   for (Entity i = 0; i < 128; ++i) {
     start += problem.world.mass[i] * problem.initial.velocity[i];
     size += problem.world.mass[i];
   }
+
   double energy = crowd.energy(problem);
   for (int k = 0; k < 300 && crowd.step(); ++k) {
     Vec3 now = Vec3::Zero();
@@ -335,9 +359,11 @@ TEST(CrowdMotion, HasTheSameBitsByAnyNumberOfThreadsAndMirrored) {
     go_to(*simulator, problem.options.duration);
     EXPECT_GT(simulator->tally().stepped_contact, 500);
     ends.push_back(simulator->state());
+
     for (Vec3& x : ends.back().position) x.x() *= sign;
     for (Vec3& v : ends.back().velocity) v.x() *= sign;
   }
+
   for (const State& end : ends)
     for (size_t k = 0; k < end.position.size(); ++k) {
       ASSERT_EQ(end.position[k], ends[0].position[k]) << k;
@@ -364,13 +390,16 @@ TEST(CrowdMotion, OfAHeapEndsAtEveryQuality) {
 Problem shaft(int seed) {
   Random random(seed);
   Problem problem;
+
   problem.world.gravity = Vec3(0, -gravity, 0);
   for (int k = 0; k < 30; ++k)
     problem.ball({random(0.5, 2.5), 0.6 + 1.1 * k, random(0.5, 2.5)}, Vec3::Zero(), 1, 0.5, 0.3);
   problem.plane({0, 0, 0}, {0, 1, 0});
+
   for (int axis = 0; axis < 3; axis += 2)
     for (const double side : {0.0, 3.0})
       problem.plane(side * Vec3::Unit(axis), (side == 0 ? 1 : -1) * Vec3::Unit(axis));
+
   problem.options.duration = 10;
   problem.options.record_collisions = false;
   return problem;
@@ -378,10 +407,12 @@ Problem shaft(int seed) {
 
 TEST(CrowdMotion, OfBodiesThatJustFitBetweenWallsMakesHardlyAnyEnergy) {
   uint64_t steps = 0;
+
   for (int seed = 1; seed <= 8; ++seed) {
     const Problem problem = shaft(seed);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     go_to(*simulator, 10);
+
     const Doubts& doubts = simulator->tally().doubts;
     EXPECT_LT(doubts.contact_made, 5e-4 * simulator->tally().energy_lost) << seed;  // measured: 3e-4
     EXPECT_LE(doubts.unsolved_steps, doubts.crowd_steps / 100) << seed;

@@ -53,12 +53,14 @@ TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
       Problem problem;
       problem.world.gravity = Vec3::Zero();
       problem.ball(Vec3::Zero(), {brake.speed, 0, 0}, 1, radius);
+
       for (const Drag& drag : {Drag{brake.linear, brake.quadratic, Vec3::Zero()}, Drag{0, 1e-60, Vec3::Zero()}}) {
         Force force{drag};
         force.from = 0.25;
         force.until = 0.25 + brake.window;
         problem.world.forces.push_back(force);
       }
+
       problem.options.duration = brake.duration;
       const double end = brake.end();
       EXPECT_NEAR(run_exact(problem).end.position[0].x() / end, 1, 1e-10) << radius << ", " << brake.window;
@@ -74,6 +76,7 @@ TEST(CurvedFlights, PastASmallAttractorAreTheSameForLargeAndSmallBodies) {
     problem.ball({1, 0.001, 0}, {-1, 0, 0}, 1, radius);
     problem.world.forces = {{Attractor{Vec3::Zero(), 1, 1e-3}}};
     problem.options.duration = 100;
+
     const Outcome outcome = run_exact(problem);
     EXPECT_NEAR(energy(problem, outcome.end), energy(problem, problem.initial), 1e-7) << radius;
     ends.push_back(outcome.end.position[0]);
@@ -106,6 +109,7 @@ TEST(CurvedFlights, OfElasticBallsThatDragBrakesEndOnTheFloor) {
     problem.plane(Vec3::Zero(), {0, 1, 0});
     problem.world.forces = {force};
     problem.options.duration = 10;
+
     const Outcome outcome = run_exact(problem);
     EXPECT_LT(outcome.tally.collisions(), 200'000u);
     EXPECT_GT(outcome.tally.collisions(), 10'000u);
@@ -129,8 +133,10 @@ TEST(CurvedFlights, ThroughTheAnchorOfASpringWithARestLengthAreOscillationsPutTo
         problem.world.gravity = Vec3::Zero();
         problem.ball(anchor + start * line, Vec3::Zero(), 1, 0.1);
         problem.world.forces = {spring(0, anchor, stiffness, length, 0)};
+
         const double period = 4 * std::acos(-length / (start - length)) / std::sqrt(stiffness);
         problem.options.duration = 100 * period;
+
         const Outcome outcome = run_exact(problem);
         EXPECT_LT((outcome.end.position[0] - problem.initial.position[0]).norm(), 2e-6) << line << stiffness;
         EXPECT_NEAR(energy(problem, outcome.end) / energy(problem, problem.initial), 1, 2e-9) << line << stiffness;
@@ -174,10 +180,13 @@ TEST(CurvedFlights, MeetWhateverElseFlies) {
     const Entity i = problem.ball({side, 0, 0}, Vec3::Zero(), 1, 0.1);
     problem.world.forces.push_back(spring(i, {0.1 * side, 0, 0}, 100, 0.3, 0.01));
   }
+
   const Outcome alone = run_exact(problem);
+
   const Entity far = problem.ball({100, 0, 0}, {1, 2, 3}, 1, 0.1);
   problem.world.forces.push_back(spring(far, {101, 0, 0}, 1e4, 0, 1));
   const Outcome both = run_exact(problem);
+
   ASSERT_GT(alone.collisions.size(), 10u);
   ASSERT_EQ(alone.collisions.size(), both.collisions.size());
   for (Entity i = 0; i < 2; ++i) EXPECT_EQ(alone.end.position[i], both.end.position[i]);
@@ -222,10 +231,12 @@ TEST(CurvedFlights, OfACradleOnSpringsMakeNoEnergy) {
         const Problem problem = cradle(balls, stiffness, damping);
         const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
         const double before = energy(problem, simulator->state());
+
         for (int k = 1; k <= 10000; ++k) {
           while (simulator->time() < 1e-4 * k) simulator->advance_to(1e-4 * k);
           ASSERT_LT(energy(problem, simulator->state()) - before, 1e-9) << balls << " " << stiffness << " " << damping;
         }
+
         const Tally& tally = simulator->tally();
         EXPECT_GE(tally.energy_lost, -1e-9);
         EXPECT_LT(tally.max_overlap, 1e-12);
@@ -242,13 +253,16 @@ TEST(CurvedFlights, OfACradleInStepsOfAMethodMakeNoEnergyEither) {
           Problem problem = cradle(balls, stiffness, damping);
           problem.options.integrator = method;
           problem.options.step = step;
+
           const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
           const double before = energy(problem, simulator->state());
+
           for (int k = 1; k <= 1000; ++k) {
             while (simulator->time() < 1e-3 * k) simulator->advance_to(1e-3 * k);
             ASSERT_LT(energy(problem, simulator->state()) - before, 1e-8)
                 << balls << " " << stiffness << " " << damping;
           }
+
           EXPECT_LT(simulator->tally().max_overlap, 1e-12);
           EXPECT_LT(simulator->tally().fastest.speed, 1.64);
         }

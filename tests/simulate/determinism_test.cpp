@@ -58,9 +58,11 @@ TEST(Determinism, TheBooksLoopHasTheSameBitsInEveryBuild) {
 TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
   Problem problem = lattice(0.5, 9);
   problem.world.forces = {{Drag{0.1, 0.05, {0.5, 0, 0}}}};
+
   ExactOptions options;
   options.duration = 3;
   options.step = 0.005;
+
   for (const auto& [method, hash] :
        {std::pair(Integrator::euler, 16177003933122412586u), std::pair(Integrator::verlet, 11117665312863948820u),
         std::pair(Integrator::rk4, 10729463312428075050u)}) {
@@ -86,6 +88,7 @@ TEST(Determinism, CollisionsThatDieAwayKeepTheirBitsInOtherUnits) {
     problem.options.duration = 100;
     return run_exact(problem);
   };
+
   const Outcome p = run(1), q = run(0x1p-20);
   EXPECT_EQ(p.tally.collisions(), q.tally.collisions());
   EXPECT_EQ(p.tally.energy_lost, q.tally.energy_lost * 0x1p40);
@@ -98,11 +101,14 @@ TEST(Agreement, TheBooksLoopConvergesToTheExactMotion) {
   problem.ball({-1, 0.03, 0}, {2, 0, 0}, 10, 0.11, 0.9);
   problem.ball({0.02, -1, 0.01}, {0, 2, 0}, 7, 0.13, 0.8);
   problem.options.duration = 1;
+
   const State exact = run_exact(problem).end;
+
   double previous = 1;
   for (double step : {1e-3, 1e-4, 1e-5}) {
     const auto book = make_book_simulator(problem.world, problem.initial, {step, false, 0, true});
     const State end = run_to_end(*book, 1).end;
+
     const double error = (end.position[0] - exact.position[0]).norm();
     EXPECT_LT(error, 3 * step) << "step " << step;
     EXPECT_LT(error, previous);

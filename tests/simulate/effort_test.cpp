@@ -104,10 +104,12 @@ TEST(Effort, WhatLiesBeyondTheDurationIsNotScheduled) {
   p.plane(Vec3(0, 0, 0), Vec3(0, 1, 0));
   p.ball(Vec3(0, 5.5, 0), Vec3::Zero());  // lands at 1 s
   p.ball(Vec3(3, 5.5, 0), Vec3(-1, 0, 0));
+
   p.options.duration = 0.999;
   Counted shorter(p);
   EXPECT_EQ(shorter.at(0.999).next, std::numeric_limits<double>::infinity());
   EXPECT_EQ(shorter.collisions(), 0U);
+
   p.options.duration = 1.001;
   Counted longer(p);
   EXPECT_LE(longer.at(0).next, 1.001);
@@ -116,11 +118,13 @@ TEST(Effort, WhatLiesBeyondTheDurationIsNotScheduled) {
 
   // A gas always has pending events, and none at its end.
   Problem gas;
+
   gas.room(Vec3(0, 0, 0), Vec3(12, 12, 12));
   Random random(3);
   for (int i = 0; i < 216; ++i)
     gas.ball(Vec3(1 + 2 * (i % 6), 1 + 2 * (i / 6 % 6), 1 + 2 * (i / 36)),
              Vec3(random(-1, 1), random(-1, 1), random(-1, 1)));
+
   gas.options.duration = 5;
   Counted counted(gas);
   EXPECT_LE(counted.at(4).next, 5);
@@ -157,13 +161,17 @@ TEST(Effort, IsolatedBodiesCostNothing) {
 Effort ten_among(int all) {
   Problem p;
   p.options.duration = 100;
+  // The walls.
   for (int k = 0; k < 3; ++k)
     for (const int side : {-1, 1})
       p.wall(5 * side * Vec3::Unit(k), -side * Vec3::Unit(k), 10, 10, Vec3::Unit((k + 1) % 3));
+
+  // Those within, and those without.
   Random random(1);
   for (int i = 0; i < 10; ++i)
     p.ball(Vec3(-4 + 2 * (i % 4), -3 + 3 * (i / 4), 0), Vec3(random(-2, 2), random(-2, 2), random(-2, 2)));
   for (int i = 10; i < all; ++i) p.ball(Vec3(20 + 1.5 * (i % 20), 1.5 * (i / 20 % 20), 1.5 * (i / 400)), Vec3::Zero());
+
   Counted counted(p);
   const Effort effort = counted.at(100);
   EXPECT_GT(counted.collisions(), 400U);

@@ -69,9 +69,11 @@ TEST(EventLog, StopsAtTheFirstCollisionBeyondTheLimit) {
   EventLog log(2, true);
   log.record(strike(1));
   log.record(strike(2));
+
   Collision rest = strike(2.5);
   rest.kind = CollisionKind::rest;  // the end of bounces is no collision
   log.record(rest);
+
   try {
     log.record(strike(3));
     FAIL();

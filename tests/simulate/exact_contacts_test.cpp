@@ -167,13 +167,16 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   p.obstacle(Vec3::Zero(), Volume::sphere(1));
   p.ball(Vec3(0, 1.5, 0), Vec3(0.5, 0, 0));
   ExactParts parts(p);
+
   parts.group.join(0);
   ASSERT_TRUE(parts.constrained.advance(0));
   const Island& island = parts.bodies.islands.of(0);
   EXPECT_EQ(parts.bodies.mode(0), Mode::held);
+
   const double end = island.end.hi;
   ASSERT_GT(end, 0);
   for (const double t : {0.5 * end, end}) EXPECT_NEAR(parts.bodies.flights[0].position(t).norm(), 1.5, 1e-10);
+
   vector<ContactForce> forces;
   parts.constrained.report(island, 0, forces);
   ASSERT_EQ(forces.size(), 1u);
@@ -270,6 +273,7 @@ TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreRead) {
   p.initial.velocity[0] = Vec3(1, 0, 0.1);
   p.ball(Vec3(0.3, 5, 0.1), Vec3(0, -7, 0), 1, 0.4, 0.3);
   p.options.duration = 4;
+
   const auto silent = make_exact_simulator(p.world, p.initial, p.options);
   const auto requested = make_exact_simulator(p.world, p.initial, p.options);
   for (int k = 1; k <= 40; ++k) {
@@ -277,10 +281,12 @@ TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreRead) {
     requested->state();
     requested->contacts();
   }
+
   while (silent->time() < 4) silent->advance_to(4);
   EXPECT_EQ(silent->tally().energy_lost, requested->tally().energy_lost);
   EXPECT_EQ(silent->tally().fastest.speed, requested->tally().fastest.speed);
   EXPECT_EQ(silent->tally().work, requested->tally().work);
+
   const Tally before = silent->tally();
   silent->state();
   EXPECT_EQ(silent->tally().energy_lost, before.energy_lost);
@@ -320,12 +326,15 @@ TEST(CrowdMotion, BooksWhatContactTakesUpToAnyInstantOfAStep) {
     p.initial.velocity[0] = Vec3(0.1, -v, 0);
     ExactParts parts(p);
     step_as_a_crowd(parts);
+
     ASSERT_TRUE(parts.bodies.mode(0) == Mode::stepped);
     EXPECT_NEAR(parts.bodies.log.tally().energy_lost, 0.5 * m * v * v, 1e-15);
+
     const Instant end = parts.bodies.islands.of(0).end;
     const Instant at = Instant{} + part * end.hi;
     const double slower = parts.bodies.velocity_without_kick(0, at).y();
     const double drift = parts.bodies.flights[0].v.y();
+
     parts.crowds.book_last(parts.bodies.islands.of(0), at.hi);
     const double lost = m * (0.5 * (v * v - slower * slower) - pull * drift * at.hi);
     EXPECT_NEAR(parts.bodies.log.tally().energy_lost + parts.bodies.log.tally().method_error, lost, 1e-15);

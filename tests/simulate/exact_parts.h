@@ -23,6 +23,7 @@ struct ExactParts {
         crossings(bodies, [this](Entity i) { return bodies.flight_end(i); }),
         paths(bodies, crossings),
         collapses(bodies),
+        // Ways to move.
         modes(bodies),
         flat(bodies, modes, collapses),
         group(bodies, modes, flat, collapses, paths),
@@ -30,6 +31,7 @@ struct ExactParts {
         crowds(bodies, modes, group, flights),
         constrained(bodies, modes, group, flat, collapses, flights),
         merging(bodies, modes, group, flat, flights, paths),
+        // What impacts need.
         guard(problem.world.body_count(), problem.options.duration),
         all_impacts(bodies, {collapses, flat, group, flights, merging, guard}),
         impacts(all_impacts.of_two) {

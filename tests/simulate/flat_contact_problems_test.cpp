@@ -10,15 +10,18 @@ namespace {
 TEST(FlatContactProblems, TheNearestAllowedMotionIsChosen) {
   const FlatSurface up{Vec3::Unit(1)}, slope{Vec3(0.6, 0.8, 0)}, other{Vec3(-0.6, 0.8, 0)}, back{Vec3::Unit(2)};
   const Vec3 g(0, -10, -1);
+
   EXPECT_EQ(solve_flat_contacts(Vec3(1, 2, 3), vector{up}).u, Vec3(1, 2, 3));
   EXPECT_EQ(solve_flat_contacts(Vec3(1, 2, 3), vector{up}).active, 0u);
   EXPECT_EQ(solve_flat_contacts(g, vector{up}).u, Vec3(0, 0, -1));
   EXPECT_EQ(solve_flat_contacts(g, vector{up}).active, 1u);
+
   EXPECT_LT((solve_flat_contacts(g, vector{slope}).u - Vec3(4.8, -3.6, -1)).norm(), 1e-14);
   EXPECT_LT((solve_flat_contacts(g, vector{slope, other}).u - Vec3(0, 0, -1)).norm(), 1e-14);
   EXPECT_EQ(solve_flat_contacts(g, vector{slope, other}).active, 3u);
   EXPECT_EQ(solve_flat_contacts(g, vector{slope, other, back}).u, Vec3(0, 0, 0));
   EXPECT_EQ(solve_flat_contacts(g, vector{slope, other, back}).active, 7u);
+
   EXPECT_EQ(solve_flat_contacts(g, vector{FlatSurface{Vec3(1, 0, 0)}, up}).u, Vec3(0, 0, -1));
   EXPECT_EQ(solve_flat_contacts(g, vector{FlatSurface{Vec3(1, 0, 0)}, up}).active, 2u)
       << "a wall that nothing presses on is not active";

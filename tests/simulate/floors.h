@@ -28,12 +28,15 @@ inline Crossing random_crossing(Sliding kind, uint64_t seed, int riders = 0) {
   Crossing crossing;
   Problem& problem = crossing.problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);
+
   const auto edges = [&] {
     vector<double> at{random(-3, 3)};
     for (int k = 0; k < side; ++k) at.push_back(at.back() + unit * random(0.5, 1.5));
     return at;
   };
   const vector<double> x = edges(), z = edges();
+
+  // Of each cell of the grid a wall or a tile.
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
       const auto p = static_cast<size_t>(i), q = static_cast<size_t>(j);
@@ -45,19 +48,23 @@ inline Crossing random_crossing(Sliding kind, uint64_t seed, int riders = 0) {
         problem.obstacle(center - Vec3(0, height / 2, 0), Volume::box({width, height, length}));
     }
   if (pieces == 3) problem.plane({0, top, 0}, {0, 1, 0});
+
   // From one point to another, both well on the floor.
   const auto within = [&](const vector<double>& of) { return random(of.front(), of.back()); };
   const Vec3 from(within(x), 0, within(z)), to(within(x), 0, within(z));
   const double speed = random(0.5, 3);
   problem.options.duration = std::max((to - from).norm(), 0.1) / speed;
   crossing.velocity = (to - from) / problem.options.duration;
+
   double y = top;
   for (int k = riders; k >= 0; --k) {
     const double r = random(0.05, 0.5), mass = std::exp2(std::floor(random(-3, 4)));
     const Sliding shape = k == 0 ? kind : random(0, 1) < 0.5 ? Sliding::box : Sliding::cylinder;
+
     crossing.start.emplace_back(from + Vec3(0, y + r, 0));
     y = crossing.start.back().y() + r;
     const Vec3& at = crossing.start.back();
+
     if (shape == Sliding::ball) problem.ball(at, crossing.velocity, mass, r, e);
     if (shape == Sliding::box) problem.body(Volume::box({2 * r, 2 * r, 2 * r}), at, crossing.velocity, mass, e);
     if (shape == Sliding::cylinder) problem.body(Volume::cylinder(r, 2 * r), at, crossing.velocity, mass, e);

@@ -26,20 +26,25 @@ TEST(TimedForces, ThePathIsMadeOfParabolas) {
   problem.world.gravity = Vec3(0, -9.80665, 0);
   problem.ball({0, 0, 0}, {1, 2, 3}, 2);
   problem.ball({50, 0, 0}, {0, 0, 0}, 3);
+
   problem.world.forces.push_back({UniformForce{Vec3(4, 0, 0)}, 0.3, 1.7, {0}});
   problem.world.forces.push_back({UniformForce{Vec3(0, 1, 0)}, 1.1, 2.9, {}});
   problem.world.forces.push_back({UniformAcceleration{Vec3(0, 0, -0.7)}, 2.3, for_ever, {0}});
   problem.options.duration = 5;
+
   const Outcome run = run_exact(problem);
+  // By the sums of 2, 4 and 3 parabolas.
   Path x{0, 1}, y{0, 2}, z{0, 3}, other{0, 0};
   x.go(0, 0.3), x.go(2, 1.4), x.go(0, 3.3);
   y.go(-9.80665, 1.1), y.go(-9.80665 + 0.5, 1.8), y.go(-9.80665, 2.1);
   z.go(0, 2.3), z.go(-0.7, 2.7);
   other.go(-9.80665, 1.1), other.go(-9.80665 + 1.0 / 3, 1.8), other.go(-9.80665, 2.1);
+
   const Vec3 expected_x(x.x, y.x, z.x), expected_v(x.v, y.v, z.v);
   EXPECT_LT((run.end.position[0] - expected_x).norm(), 1e-15 * expected_x.norm());  // measured: 1.3e-16
   EXPECT_LT((run.end.velocity[0] - expected_v).norm(), 1e-15 * expected_v.norm());  // measured: 1.6e-16
   EXPECT_NEAR(run.end.position[1].y(), other.x, 1e-14 * std::abs(other.x));
+
   const double gain = kinetic_energy(problem.world, run.end) + potential_energy(problem.world, run.end) -
                       kinetic_energy(problem.world, problem.initial);
   EXPECT_NEAR(run.tally.work, gain, 1e-13 * std::abs(potential_energy(problem.world, run.end)));
@@ -60,16 +65,19 @@ TEST(TimedForces, AWindowOfNoLengthDoesNothingAndTwoThatMeetAreOne) {
 TEST(TimedForces, BallsUnderUnequalAccelerationsMeetAtTheRootOfTheirGap) {
   // 2 m between surfaces; from 0.5 s on one is driven at 4 m/s^2, the other at 1 m/s^2 the same way: 3 t^2 / 2 = 2.
   Problem problem;
+
   problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.5, 1);
   problem.ball({3, 0, 0}, {0, 0, 0}, 1, 0.5, 1);
   problem.world.forces = {{UniformAcceleration{Vec3(4, 0, 0)}, 0.5, for_ever, {0}},
                           {UniformAcceleration{Vec3(1, 0, 0)}, 0.5, for_ever, {1}}};
   problem.options.duration = 2;
+
   const Outcome run = run_exact(problem);
   const double t = std::sqrt(4.0 / 3);
   ASSERT_EQ(run.collisions.size(), 1u);
   EXPECT_NEAR(run.collisions[0].time, 0.5 + t, 4e-16);
   EXPECT_NEAR(run.collisions[0].approach_speed, 3 * t, 1e-15);
+
   const double since = 1.5 - t;
   EXPECT_NEAR(run.end.velocity[0].x(), t + 4 * since, 2e-15);
   EXPECT_NEAR(run.end.velocity[1].x(), 4 * t + since, 2e-15);
@@ -98,6 +106,7 @@ TEST(TimedForces, AForceTooWeakToLiftChangesWhatTheFloorCarries) {
   problem.ball({0, 0.5, 0}, {0, 0, 0}, 2, 0.5, 0);
   problem.world.forces = {{UniformForce{Vec3(0, 10, 0)}, 1, 2, {0}}};
   problem.options.duration = 3;
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   for (const auto& [time, force] : {std::pair(0.5, 16.0), std::pair(1.5, 6.0), std::pair(2.5, 16.0)}) {
     go_to(*simulator, time);

@@ -139,6 +139,7 @@ const vector<Case>& cases() {
       {"in thick air", in_thick_air, 1e-9},
       {"gas", gas, 1e-9},
   };
+
   return all;
 }
 
@@ -165,15 +166,19 @@ void expect_same(const Case& of, const Vec3& u, Integrator integrator, double st
   Problem still = of.make();
   still.options.integrator = integrator;
   if (step > 0) still.options.step = step, still.options.closed_forms = false;
+
   const Problem moved = moving(still, u);
   const Outcome a = run_exact(still), b = run_exact(moved);
+
   const double t = still.options.duration;
   double off = 0, fast = 0;
   for (Entity i = 0; i < still.world.body_count(); ++i) {
     off = std::max(off, (b.end.position[i] - a.end.position[i] - t * u).norm());
     fast = std::max(fast, (b.end.velocity[i] - a.end.velocity[i] - u).norm());
   }
+
   const double scale = mass_of(still) * (u.squaredNorm() + g_n * (1 + u.norm() * t));
+
   EXPECT_EQ(fast_impacts(a), fast_impacts(b)) << of.name;
   EXPECT_LT(off, of.precision) << of.name;
   EXPECT_LT(fast, 10 * of.precision) << of.name;
@@ -221,6 +226,7 @@ TEST(Galilean, ForcesOnCurvedSurfacesAreTheSameAtEachInstant) {
   const Problem still = off_a_ball(), drifting = moving(still, {0.3, -0.7, 0.2});
   const auto at_rest = make_exact_simulator(still.world, still.initial, still.options);
   const auto moves = make_exact_simulator(drifting.world, drifting.initial, drifting.options);
+
   size_t forces = 0;
   for (double t = 0.0137; t < 0.3; t += 0.0137) {
     go_to(*at_rest, t);
@@ -230,6 +236,7 @@ TEST(Galilean, ForcesOnCurvedSurfacesAreTheSameAtEachInstant) {
     for (size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k].force, b[k].force, 1e-10) << t;
     forces += a.size();
   }
+
   EXPECT_GT(forces, 20u);
 }
 

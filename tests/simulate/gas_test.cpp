@@ -18,6 +18,7 @@ Problem gas(int side, double density, double e = 1, bool mixed = false) {
   Problem problem;
   Random random;
   const double spacing = std::cbrt(1 / density);
+
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
       for (int k = 0; k < side; ++k) {
@@ -25,6 +26,7 @@ Problem gas(int side, double density, double e = 1, bool mixed = false) {
         const double radius = mixed ? random(0.05, 0.5) : 0.5;
         problem.ball(Vec3(i + 0.5, j + 0.5, k + 0.5) * spacing, v, mixed ? 8 * radius * radius * radius : 1, radius, e);
       }
+
   problem.room({0, 0, 0}, Vec3::Constant(side * spacing));
   return problem;
 }
@@ -92,7 +94,9 @@ TEST(Gas, EnergyBooksBalanceForEveryRestitution) {
 TEST(Gas, MoreStatesReadMoveNothing) {
   Problem problem = gas(5, 0.3, 0.9, true);
   problem.world.gravity = Vec3(0, -1, 0);
+
   const Outcome once = run_exact(problem);
+  // Read again and again.
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   size_t collisions = 0;
   for (int i = 1; i <= 3333; ++i) do {
@@ -102,6 +106,7 @@ TEST(Gas, MoreStatesReadMoveNothing) {
                                             [](const Collision& c) { return c.kind != CollisionKind::rest; }));
       simulator->state();
     } while (simulator->time() < i * problem.options.duration / 3333);
+
   EXPECT_TRUE(same_bits(once.end.position, simulator->state().position));
   EXPECT_TRUE(same_bits(once.end.velocity, simulator->state().velocity));
   EXPECT_EQ(collisions, once.collisions.size());
@@ -124,6 +129,8 @@ TEST(Gas, ScalingByPowersOfTwoGivesTheSameBits) {
     Problem problem = gas(4, 0.3, e, true);
     problem.world.gravity = Vec3(0, -1, 0.25);
     problem.options.duration = e < 1 ? 2.5 : 8;
+
+    // In other units.
     Problem scaled = problem;
     const double length = 8, time = 0.25, mass = 32;
     for (double& m : scaled.world.mass) m *= mass;
@@ -133,23 +140,28 @@ TEST(Gas, ScalingByPowersOfTwoGivesTheSameBits) {
     for (Vec3& x : scaled.initial.position) x *= length;
     for (Vec3& v : scaled.initial.velocity) v *= length / time;
     scaled.options.duration *= time;
+
     const Outcome a = run_exact(problem);
     Outcome b = run_exact(scaled);
     for (Vec3& x : b.end.position) x /= length;
     for (Vec3& v : b.end.velocity) v /= length / time;
+
     EXPECT_TRUE(same_bits(a, b)) << "e = " << e;
   }
 }
 
 TEST(Gas, ReversedVelocitiesLeadBackToTheStart) {
   Problem problem = gas(5, 0.3);
+
   problem.options.duration = 4;  // 8 collisions a ball
   const Outcome there = run_exact(problem);
   EXPECT_GT(there.tally.body_body * 2, 8u * 125);
+
   Problem back = problem;
   back.initial = there.end;
   for (Vec3& v : back.initial.velocity) v = -v;
   const Outcome home = run_exact(back);
+
   double worst = 0;
   for (Entity i = 0; i < problem.world.body_count(); ++i)
     worst = std::max(worst, (home.end.position[i] - problem.initial.position[i]).norm());
@@ -175,9 +187,11 @@ TEST(Gas, TheOrderOfTheAxesDoesNotMatter) {
   problem.options.duration = 2;
   Problem turned = problem;
   const auto turn = [](Vec3& v) { v = Vec3(v.y(), v.z(), v.x()); };
+
   for (Vec3& x : turned.initial.position) turn(x);
   for (Vec3& v : turned.initial.velocity) turn(v);
   for (Plane& p : turned.world.planes) turn(p.point), turn(p.normal);
+
   Outcome a = run_exact(problem), b = run_exact(turned);
   ASSERT_EQ(a.tally.collisions(), b.tally.collisions());
   for (Vec3& x : a.end.position) turn(x);

@@ -13,14 +13,17 @@ namespace {
 
 TEST(Groove, ABallComesToRestInBothPlanesAndSlidesOnByTheClosedForm) {
   // Two planes at 45 degrees meet along z, the whole tilted by gravity's z component.
+
   Problem problem;
   problem.world.gravity = Vec3(0, -9, 2);
   problem.plane({0, 0, 0}, {1, 1, 0});
   problem.plane({0, 0, 0}, {-1, 1, 0});
   problem.ball({0.1, 1, 0}, {0.3, 0, 0.25}, 2, 0.1, 0.6);
   problem.options.duration = 20;
+
   const Outcome run = run_exact(problem);
   const Vec3 x = run.end.position[0], v = run.end.velocity[0];
+
   EXPECT_NEAR(x.z(), 0.25 * 20 + 0.5 * 2 * 400, 1e-12 * 405);
   EXPECT_NEAR(v.z(), 0.25 + 2 * 20, 1e-13 * 40);
   EXPECT_NEAR(x.x(), 0, 1e-12);
@@ -56,10 +59,12 @@ TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
   const double height = 0.5 * std::sqrt(2.0);
   for (double z : {0.5, 1.5, 2.5 + 1e-9}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
   problem.options.duration = 1;
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 1);
   EXPECT_LT(simulator->tally().collisions(), 200u);
   EXPECT_EQ(simulator->tally().resting, 3u);
+
   const auto contacts = simulator->contacts();
   const auto pair = std::ranges::find_if(contacts, [](const ContactForce& c) { return c.b == 2; });
   ASSERT_NE(pair, contacts.end());
@@ -84,15 +89,18 @@ TEST(Groove, ACanThatOneSideThrowsBackAtTheOtherAtOnceComesToRest) {
   // The slope takes all of a strike and keeps the can, so that it is thrown at the wall again without a hop.
   Problem problem;
   problem.world.gravity = Vec3(0, -0.01, 0);
+
   problem.plane({0.6190810161555866, -1.4257625580382707, 0.010248686928507444},
                 {0.5446097485842876, 0.6800825567467852, 0.4908033595603383});
   problem.plane({2, 2, 2}, {-1, 0, 0});
   problem.body(Volume::cylinder(0.3444271546196192, 0.3057767352506796),
                {0.9611822461744686, -1.3857326667293413, 0.6445128248202379},
                {0.16731940288976777, -2.950246491254352, -2.748381666436531}, 1.6081011216408814, 0.3);
+
   problem.world.pairs = {{0, 1, 1, 1, 0}};
   problem.options.duration = 1;
   problem.options.max_collisions = 1000;
+
   const Outcome run = run_exact(problem);
   EXPECT_EQ(run.tally.resting, 1u);
   EXPECT_NEAR(run.end.position[0].x(), 2 - 0.3444271546196192, 1e-15);
@@ -139,10 +147,12 @@ TEST(Pile, BallsThatSettleInABoxNeverOverlapNorGainEnergy) {
   Problem problem;
   problem.world.gravity = Vec3(0, -9.8, 0);
   problem.room({0, 0, 0}, {0.6, 4, 0.6});
+
   for (int i = 0; i < 9; ++i)
     problem.ball({0.15 + 0.28 * (i % 2), 0.3 + 0.3 * (i / 4), 0.15 + 0.28 * (i / 2 % 2) + 0.01 * (i % 2)},
                  {0.1 * (i % 2), 0, 0}, 1, 0.1 + 0.01 * (i % 4), 0.4);
   problem.options.duration = 3;
+
   const double start =
       kinetic_energy(problem.world, problem.initial) + potential_energy(problem.world, problem.initial);
   const Outcome run = run_exact(problem);
@@ -156,11 +166,14 @@ TEST(Pile, BallsThatSettleInABoxNeverOverlapNorGainEnergy) {
 // that motion. It ends by impacts, which lose the energy that is missing.
 TEST(Groove, DoesNotStopABallThatSlidesAmongOthersInIt) {
   Problem problem;
+
   problem.world.gravity = Vec3(0, -10, 0);
   problem.plane({0, 0, 0}, {1, 1, 0});
   problem.plane({0, 0, 0}, {-1, 1, 0});
   problem.plane({0, 0, -0.5}, {0, 0, 1});
   problem.plane({0, 0, 0.5}, {0, 0, -1});
+
+  // The twelve balls.
   problem.ball({-1.3822203826819068e-12, 0.14142135623869517, 0.40000000000000002}, {0, 0, 0}, 1, 0.1, 0.3);
   problem.ball({-6.682501936250432e-09, 0.14142136291981522, 1.9547038923544965e-16}, {0, 0, 0}, 1, 0.1, 0.3);
   problem.ball({0.12296121460844543, 0.26438257084632222, -0.098798175104062178},
@@ -169,6 +182,7 @@ TEST(Groove, DoesNotStopABallThatSlidesAmongOthersInIt) {
   problem.ball({0.14142135623542074, 0.28284271247651138, 0.40000000000000002}, {0, 0, 0}, 1, 0.1, 0.3);
   problem.ball({0.12296121460683743, 0.26438257084792705, 0.10120182489593783},
                {-0.1815266811319832, -0.18152668113198325, -0.45184521216854184}, 1, 0.1, 0.3);
+
   problem.ball({0.12247448713915887, 0.26389584337646843, -0.29999999999999988}, {0, 0, 0}, 1, 0.1, 0.3);
   problem.ball({-0.12247448713916263, 0.26389584337647226, -0.30000000000000909}, {0, 0, 0}, 1, 0.1, 0.3);
   problem.ball({0.24494897427832485, 0.38637033051563441, -0.40000000000000002}, {0, 0, 0}, 1, 0.1, 0.3);
@@ -176,6 +190,7 @@ TEST(Groove, DoesNotStopABallThatSlidesAmongOthersInIt) {
                {0.0029210595519984844, 0.0029210595519984922, -0.007154194158238765}, 1, 0.1, 0.3);
   problem.ball({-1.2587634991732167e-20, 0.14142135623730953, -0.40000000000000002}, {0, 0, 0}, 1, 0.1, 0.3);
   problem.ball({-7.9798651704323865e-13, 0.14142135623810753, 0.19999999999999998}, {0, 0, 0}, 1, 0.1, 0.3);
+
   problem.options.duration = 0.05;
   const Outcome run = run_exact(problem);
   EXPECT_NEAR(residual(problem, run), 0, 3e-10);  // of 0.28 J of kinetic energy; measured: 1.3e-10

@@ -80,8 +80,10 @@ inline Resolved resolve(const Cluster& cluster, uint32_t most_rounds = 1'000'000
     outcome.v.push_back(set.velocity(i));
     greatest = std::max(greatest, outcome.v.back().norm());
   }
+
   for (uint32_t c = 0; c < set.rows(); ++c)
     outcome.approach = std::max(outcome.approach, set.approach(c) / std::max(greatest, 1e-300));
+
   outcome.rounds = set.rounds();
   outcome.without_room = set.without_room();
   outcome.leaves_open = set.open_outcome().has_value();
@@ -149,10 +151,12 @@ inline double draw_restitution(Draw& draw, Restitutions kind) {
       return 0;
     case Restitutions::one:
       return 1;
+
     case Restitutions::some_zero_and_one: {
       const uint64_t which = draw.below(3);
       return which == 0 ? 0 : which == 1 ? 1 : draw.between(0, 1);
     }
+
     case Restitutions::half:
       return 0.5;
     case Restitutions::nine_tenths:
@@ -170,96 +174,135 @@ enum class Walls : uint8_t { still, moving };
 
 /// Up to `most` balls, in the plane or in space, on a lattice or a tree of random touches, with up to two walls, masses
 /// over up to six decades, and in a third of the cases strings and rods.
+class RandomCluster {
+ public:
+  RandomCluster(uint64_t seed, uint64_t most, Restitutions kind, Walls motion_of_walls)
+      : draw_(seed),
+        motion_draw_(seed + 0x9e3779b97f4a7c15),
+        motion_of_walls_(motion_of_walls),
+        most_(2 + draw_.below(most - 1)),
+        planar_(draw_.below(2) == 0),
+        on_lattice_(draw_.below(2) == 0),
+        kind_(kind == Restitutions::all_kinds ? static_cast<Restitutions>(draw_.below(7)) : kind),
+        walls_(draw_.below(3)),
+        motion_(draw_.below(3)),
+        decades_(3 * static_cast<double>(draw_.below(3))),
+        tied_(draw_.below(3) == 0) {}
+
+  Cluster make() {
+    place();
+    join_touching();
+    for (uint64_t k = 0; k < walls_; ++k) add_wall(k == 1);
+    set_off();
+    if (tied_) tie();
+    return cluster_;
+  }
+
+ private:
+  /// Each ball touches one that is there, and no other by more than rounding.
+  void place() {
+    const double h = std::sqrt(3.0);
+    const double q = std::sqrt(2.0);
+    const vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
+    const vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0}, {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
+                            {-q, 0, q}, {-q, 0, -q}, {0, q, q},  {0, q, -q},  {0, -q, q}, {0, -q, -q}};
+    const vector<Vec3>& steps = planar_ ? flat : deep;
+
+    for (int tries = 0; x_.size() < most_ && tries < 20'000; ++tries) {
+      const size_t i = draw_.below(x_.size());
+      const double r = on_lattice_ ? 1 : std::pow(10, draw_.between(-0.3, 0.3));
+      const Vec3 at = on_lattice_ ? Vec3(x_[i] + steps[draw_.below(steps.size())])
+                                  : Vec3(x_[i] + (radius_[i] + r) * draw_.direction(planar_));
+      bool clear = true;
+      for (size_t k = 0; k < x_.size(); ++k) clear = clear && (at - x_[k]).norm() >= radius_[k] + r - 1e-9;
+      if (!clear) continue;
+      x_.push_back(at);
+      radius_.push_back(r);
+    }
+  }
+
+  void join_touching() {
+    for (uint32_t i = 0; i < x_.size(); ++i)
+      for (uint32_t j = i + 1; j < x_.size(); ++j) {
+        const Vec3 d = x_[j] - x_[i];
+        if (d.norm() < radius_[i] + radius_[j] + 1e-9)
+          cluster_.rows.push_back({i, j, d / d.norm(), x_[i] + x_[j], 0, draw_restitution(draw_, kind_)});
+      }
+  }
+
+  /// A wall that the outermost balls touch; the second one may be opposite to the last row.
+  void add_wall(bool second) {
+    Vec3 normal = draw_.direction(planar_);
+    const bool opposite = second && draw_.below(2) == 0;
+    if (opposite) normal = -cluster_.rows.back().normal;
+    double outermost = -1e9;
+    for (size_t i = 0; i < x_.size(); ++i) outermost = std::max(outermost, x_[i].dot(normal) + radius_[i]);
+
+    double surface = motion_of_walls_ == Walls::still ? 0 : motion_draw_.between(tied_ ? 0 : -1, 1);
+    if (opposite) surface = std::max(surface, -cluster_.rows.back().surface);
+    for (uint32_t i = 0; i < x_.size(); ++i)
+      if (x_[i].dot(normal) + radius_[i] > outermost - 1e-9)
+        cluster_.rows.push_back({i, fixed, normal, x_[i] + x_[i], surface, draw_restitution(draw_, kind_)});
+  }
+
+  /// Masses and velocities: random ones, one ball alone, or all towards the middle.
+  void set_off() {
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& at : x_) middle += at / static_cast<double>(x_.size());
+
+    for (const Vec3& at : x_) {
+      cluster_.mass.push_back(std::pow(10, draw_.between(-decades_ / 2, decades_ / 2)));
+      Vec3 v = Vec3::Zero();
+      if (motion_ == 0) v = draw_.between(0, 1) * draw_.direction(planar_);
+      if (motion_ == 2) v = 0.1 * (middle - at);
+      cluster_.v.push_back(v);
+    }
+    if (motion_ == 1) cluster_.v[draw_.below(x_.size())] = draw_.direction(planar_);
+  }
+
+  /// Strings and rods to points and between balls. The velocities keep their lengths.
+  void tie() {
+    vector<ContactConstraint> links;
+    for (uint64_t k = 1 + draw_.below(3); k > 0; --k) {
+      const auto a = static_cast<uint32_t>(draw_.below(x_.size()));
+      const auto b = static_cast<uint32_t>(draw_.below(x_.size()));
+      ImpactSet::Row link{a, fixed, draw_.direction(planar_), x_[a] + x_[a]};
+      link.kind = draw_.below(2) == 0 ? ImpactSet::Kind::taut : ImpactSet::Kind::rod;
+      if (a != b && draw_.below(2) == 0) {
+        link.b = b;
+        link.normal = (x_[a] - x_[b]).normalized();
+        link.place = x_[a] + x_[b];
+      }
+
+      cluster_.rows.push_back(link);
+      links.push_back({link.a, link.b, link.normal});
+      links.back().bilateral = true;
+      links.back().slack = 1e-12;
+    }
+
+    vector<double> inverse_mass;
+    for (const double mass : cluster_.mass) inverse_mass.push_back(1 / mass);
+    solve({inverse_mass, cluster_.v, links});
+  }
+
+  // In the order in which they are drawn.
+  Draw draw_, motion_draw_;
+  Walls motion_of_walls_;
+  uint64_t most_;
+  bool planar_, on_lattice_;
+  Restitutions kind_;
+  uint64_t walls_, motion_;
+  double decades_;
+  bool tied_;
+
+  vector<Vec3> x_{Vec3::Zero()};  // m
+  vector<double> radius_{1};      // m
+  Cluster cluster_;
+};
+
 inline Cluster random_cluster(uint64_t seed, uint64_t most, Restitutions kind = Restitutions::all_kinds,
                               Walls motion_of_walls = Walls::still) {
-  Draw draw(seed);
-  Draw motion_draw(seed + 0x9e3779b97f4a7c15);
-  const uint64_t n = 2 + draw.below(most - 1);
-  const bool planar = draw.below(2) == 0;
-  const bool on_lattice = draw.below(2) == 0;
-  if (kind == Restitutions::all_kinds) kind = static_cast<Restitutions>(draw.below(7));
-  const uint64_t walls = draw.below(3);
-  const uint64_t motion = draw.below(3);
-  const double decades = 3 * static_cast<double>(draw.below(3));
-  const bool tied = draw.below(3) == 0;
-
-  // Each ball touches one that is there, and no other by more than rounding.
-  vector<Vec3> x{Vec3::Zero()};
-  vector<double> radius{1};
-  const double h = std::sqrt(3.0);
-  const double q = std::sqrt(2.0);
-  const vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
-  const vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0}, {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
-                          {-q, 0, q}, {-q, 0, -q}, {0, q, q},  {0, q, -q},  {0, -q, q}, {0, -q, -q}};
-  for (int tries = 0; x.size() < n && tries < 20'000; ++tries) {
-    const size_t i = draw.below(x.size());
-    const double r = on_lattice ? 1 : std::pow(10, draw.between(-0.3, 0.3));
-    const vector<Vec3>& steps = planar ? flat : deep;
-    const Vec3 at = on_lattice ? Vec3(x[i] + steps[draw.below(steps.size())])
-                               : Vec3(x[i] + (radius[i] + r) * draw.direction(planar));
-    bool clear = true;
-    for (size_t k = 0; k < x.size(); ++k) clear = clear && (at - x[k]).norm() >= radius[k] + r - 1e-9;
-    if (!clear) continue;
-    x.push_back(at);
-    radius.push_back(r);
-  }
-
-  Cluster cluster;
-  for (uint32_t i = 0; i < x.size(); ++i)
-    for (uint32_t j = i + 1; j < x.size(); ++j) {
-      const Vec3 d = x[j] - x[i];
-      if (d.norm() < radius[i] + radius[j] + 1e-9)
-        cluster.rows.push_back({i, j, d / d.norm(), x[i] + x[j], 0, draw_restitution(draw, kind)});
-    }
-
-  // Walls that the outermost balls touch; some of them opposite to a pair.
-  for (uint64_t k = 0; k < walls; ++k) {
-    Vec3 normal = draw.direction(planar);
-    const bool opposite = k == 1 && draw.below(2) == 0;
-    if (opposite) normal = -cluster.rows.back().normal;
-    double outermost = -1e9;
-    for (size_t i = 0; i < x.size(); ++i) outermost = std::max(outermost, x[i].dot(normal) + radius[i]);
-    double surface = motion_of_walls == Walls::still ? 0 : motion_draw.between(tied ? 0 : -1, 1);
-    if (opposite) surface = std::max(surface, -cluster.rows.back().surface);
-    for (uint32_t i = 0; i < x.size(); ++i)
-      if (x[i].dot(normal) + radius[i] > outermost - 1e-9)
-        cluster.rows.push_back({i, fixed, normal, x[i] + x[i], surface, draw_restitution(draw, kind)});
-  }
-
-  // Velocities: random ones, one ball alone, or all towards the middle.
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& at : x) middle += at / static_cast<double>(x.size());
-  for (size_t i = 0; i < x.size(); ++i) {
-    cluster.mass.push_back(std::pow(10, draw.between(-decades / 2, decades / 2)));
-    Vec3 v = Vec3::Zero();
-    if (motion == 0) v = draw.between(0, 1) * draw.direction(planar);
-    if (motion == 2) v = 0.1 * (middle - x[i]);
-    cluster.v.push_back(v);
-  }
-  if (motion == 1) cluster.v[draw.below(x.size())] = draw.direction(planar);
-  if (!tied) return cluster;
-
-  // Strings and rods to points and between balls. The velocities keep their lengths.
-  vector<ContactConstraint> links;
-  for (uint64_t k = 1 + draw.below(3); k > 0; --k) {
-    const auto a = static_cast<uint32_t>(draw.below(x.size()));
-    const auto b = static_cast<uint32_t>(draw.below(x.size()));
-    ImpactSet::Row link{a, fixed, draw.direction(planar), x[a] + x[a]};
-    link.kind = draw.below(2) == 0 ? ImpactSet::Kind::taut : ImpactSet::Kind::rod;
-    if (a != b && draw.below(2) == 0) {
-      link.b = b;
-      link.normal = (x[a] - x[b]).normalized();
-      link.place = x[a] + x[b];
-    }
-    cluster.rows.push_back(link);
-    links.push_back({link.a, link.b, link.normal});
-    links.back().bilateral = true;
-    links.back().slack = 1e-12;
-  }
-  vector<double> inverse_mass;
-  for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
-  solve({inverse_mass, cluster.v, links});
-  return cluster;
+  return RandomCluster(seed, most, kind, motion_of_walls).make();
 }
 
 /// The same cluster under other numbers of bodies and rows. `number`: by body, its new one.
@@ -268,6 +311,7 @@ inline Cluster renamed(const Cluster& given, uint64_t seed, vector<uint32_t>& nu
   const auto shuffle = [&](auto& list) {
     for (size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[draw.below(k)]);
   };
+
   number.resize(given.mass.size());
   std::iota(number.begin(), number.end(), 0u);
   shuffle(number);
@@ -277,6 +321,8 @@ inline Cluster renamed(const Cluster& given, uint64_t seed, vector<uint32_t>& nu
     other.mass[number[i]] = given.mass[i];
     other.v[number[i]] = given.v[i];
   }
+
+  // A touching row leads from the lower number to the higher.
   for (ImpactSet::Row& r : other.rows) {
     r.a = number[r.a];
     if (r.b == fixed) continue;
@@ -326,9 +372,11 @@ struct Findings {
 /// The energy, the books and the impulses of an outcome.
 inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findings& all) {
   double lost = 0;
+
   double work = 0;  // of walls
   double of_walls = 0;
   vector<double> impulse(cluster.rows.size(), 0.0);
+
   for (const auto* const list : {&outcome.impacts, &outcome.absorbed})
     for (const ImpactSet::Impact& impact : *list) {
       lost += impact.lost;
@@ -354,6 +402,7 @@ inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findi
     momentum += cluster.mass[i] * std::max(cluster.v[i].norm(), outcome.v[i].norm());
     change += cluster.mass[i] * (outcome.v[i] - cluster.v[i]);
   }
+
   for (size_t c = 0; c < cluster.rows.size(); ++c) {
     const ImpactSet::Row& r = cluster.rows[c];
     if (r.b == fixed) change += impulse[c] * r.normal;

@@ -122,13 +122,16 @@ TEST(ImpactSet, ARackOfSixBreaksSymmetrically) {
   vector<Vec3> x{{-2, 0, 0}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) x.emplace_back(i * root_of_3, 2.0 * j - i, 0);
+
   Cluster c = balls(x, 1);
   c.v[0] = Vec3(10, 0, 0);
   const Resolved outcome = resolve(c);
+
   const double a = 1.05746259830521;
   const double b = 3.28178047749893;
   const vector<Vec3> expected{{-2, 0, 0},          {-48.0 / 95, 0, 0}, {-66.0 / 95, -a, 0}, {-66.0 / 95, a, 0},
                               {108.0 / 19, -b, 0}, {48.0 / 19, 0, 0},  {108.0 / 19, b, 0}};
+
   ASSERT_EQ(outcome.v.size(), expected.size());
   for (size_t i = 0; i < expected.size(); ++i) EXPECT_LE((outcome.v[i] - expected[i]).norm(), 2e-14) << i;
 }

@@ -57,6 +57,7 @@ TEST(InstantImpacts, ABallOnTwoThatTouchLeavesByTheClosedForm) {
     problem.ball({0, 0, -0.5}, {0, 0, 0}, 1, 0.5, e);
     problem.options.duration = 0.3;
     const Outcome three = run_exact(problem);
+
     EXPECT_NEAR(three.end.velocity[0].x(), 4 - 6 * e, 1e-13);
     EXPECT_NEAR(three.end.velocity[1].x(), 3 * (1 + e), 1e-13);
     EXPECT_NEAR(three.end.velocity[1].z(), 2 * half_root_of_3 * (1 + e), 1e-13);

@@ -31,6 +31,7 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
   const Vec3 a = GetParam() ? Vec3(0.3, -9.81, 0) : Vec3(Vec3::Zero());
   Random random;
   Flights flights(bodies, a);
+
   vector<double> radius(bodies), same(bodies, 0.5);
   for (Entity i = 0; i < bodies; ++i) {
     radius[i] = random(0.1, 0.6);
@@ -41,8 +42,10 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
   flights.set(1, {Instant{1, 0}, Vec3(1, 0, 0), Vec3(-1, 0, 0), a});
   flights.set(2, {Instant{1, 0}, Vec3(5, 1, 0), Vec3(-1, 0, 0), a});
   flights.set(3, {Instant{1, 0}, Vec3(1 + 0x1p-40, 0, 0), Vec3(-1, 0, 0), a});
+
   vector<Entity> others(bodies - 1);
   std::iota(others.begin(), others.end(), Entity{1});
+
   for (const StraightKernel kernel : straight_kernels()) {
     int met = 0, left = 0;
     for (const bool alike : {false, true})
@@ -54,9 +57,12 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
           vector<Meet> found(partners.size());
           bool latest = true;
           for (const Entity j : partners) latest = latest && flights[j].start <= flights[i].start;
+
           for (const bool latest_only : {false, latest}) {
             const size_t impacts = kernel(
                 {flights.cores(), alike ? nullptr : r.data(), r[i], i, partners, a, latest_only, end}, found.data());
+
+            // Each body is one of them, or none by the law either.
             size_t next = 0;
             for (const Entity j : partners) {
               const Instant law = time_of(flights, r, i, j, end);
@@ -66,15 +72,18 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
                   ++left;
                   continue;
                 }
+
                 EXPECT_EQ(time, law) << i << " and " << j;
                 ++met;
               } else {
                 EXPECT_EQ(law.hi, never) << i << " and " << j;
               }
             }
+
             EXPECT_EQ(next, impacts);
           }
         }
+
     EXPECT_GT(met, 500);
     EXPECT_GT(left, 3);
     EXPECT_LT(left, met / 2);
@@ -91,10 +100,13 @@ TEST(Touching, IsTheSameForEveryWidth) {
     r = {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z()),
          static_cast<float>(random(0.1, 2))};
   }
+
   regions[1] = regions[0];
   regions[2].half = std::numeric_limits<float>::infinity();
+
   vector<Entity> bodies(regions.size());
   std::iota(bodies.begin(), bodies.end(), Entity{0});
+
   for (const SelectKernel kernel : select_kernels())
     for (const size_t count : {0u, 1u, 3u, 4u, 15u, 16u, 17u, 299u})
       for (const bool touching : {false, true})
@@ -102,6 +114,7 @@ TEST(Touching, IsTheSameForEveryWidth) {
           vector<Entity> expected;
           for (size_t k = 0; k < count; ++k)
             if (may_touch(region, regions[k]) == touching) expected.push_back(bodies[k]);
+
           vector<Entity> found(bodies);
           found.resize(bodies.size() + select_slack);
           found.resize(kernel(region, regions.data(), found.data(), count, touching, found.data()));

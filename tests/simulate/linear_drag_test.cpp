@@ -38,6 +38,7 @@ TEST(LinearFlight, IsTheReferencesAtAnyTime) {
     problem.world.gravity = {0, 0, -params["g"].get<double>()};
     problem.ball(vec3(params["p0"]), vec3(params["v0"]), 2);
     problem.world.forces = {{Drag{2 * c["k"].get<double>(), 0, Vec3::Zero()}}};
+
     for (const nlohmann::json& state : c["states"]) {
       problem.options.duration = state["t"];
       const Outcome got = run(problem);
@@ -56,13 +57,16 @@ TEST(LinearFlight, BouncesAreTheReferences) {
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.world.forces = {{Drag{3 * c["k"].get<double>(), 0, Vec3::Zero()}}};
     problem.options.duration = c["impacts"].back()["t"].get<double>() + 1e-9;
+
     const Outcome got = run(problem);
     ASSERT_EQ(got.collisions.size(), c["impacts"].back()["n"].get<size_t>());
+
     for (const nlohmann::json& impact : c["impacts"]) {
       const Collision& collision = got.collisions[impact["n"].get<size_t>() - 1];
       EXPECT_NEAR(collision.time, impact["t"].get<double>(), 1e-13);
       EXPECT_NEAR(collision.approach_speed, std::abs(impact["v_before"].get<double>()), 1e-12);
     }
+
     EXPECT_NEAR(residual(problem, got), 0, 1e-10);  // of 29 J, measured: 2e-11
   }
 }
@@ -77,12 +81,15 @@ TEST(LinearFlight, BallsOfDifferentMassInTheWindMeetWhereTheirPathsDo) {
   problem.options.duration = 2;
   const Outcome got = run(problem);
   ASSERT_EQ(got.collisions.size(), 1u);
+
+  // Where the closed forms of both paths meet.
   const auto way = [&](Entity i) {
     const double m = problem.world.mass[i], k = drag.linear / m;
     const Vec3 push = i == 1 ? Vec3(Vec3(0, 0.5, 0.25) / m) : Vec3(Vec3::Zero());
     return Way{problem.initial.position[i], problem.initial.velocity[i], problem.world.gravity + push + k * drag.wind,
                k};
   };
+
   const Way a = way(0), b = way(1);
   double early = 0, late = 0;
   while ((b.position(late) - a.position(late)).norm() > 0.5) late += 1e-4;
@@ -91,6 +98,7 @@ TEST(LinearFlight, BallsOfDifferentMassInTheWindMeetWhereTheirPathsDo) {
     ((b.position(t) - a.position(t)).norm() > 0.5 ? early : late) = t;
     if (t == early && t == late) break;
   }
+
   EXPECT_NEAR(got.collisions[0].time, late, 1e-14);
   EXPECT_LT(got.tally.max_overlap, 1e-14);
   EXPECT_NEAR(residual(problem, got), 0, 1e-11);
@@ -104,9 +112,11 @@ TEST(LinearFlight, ABouncingBallComesToRestAndDriftsWithTheWind) {
   problem.world.forces = {{Drag{0.4, 0, {1, 0, 0}}}};
   problem.options.duration = 40;
   const Outcome got = run(problem);
+
   const double k = 0.2, s = -std::expm1(-k * 40) / k;
   EXPECT_NEAR(got.end.position[0].x(), 40 + 3 * s, 1e-10);  // the floor has no effect along it
   EXPECT_NEAR(got.end.velocity[0].x(), 1 + 3 * std::exp(-k * 40), 1e-11);
+
   EXPECT_NEAR(got.end.position[0].y(), 0.5, 1e-12);
   EXPECT_EQ(got.tally.resting, 1u);
   EXPECT_GT(got.collisions.size(), 150u);  // down to hops of 1e-9 s
@@ -130,8 +140,10 @@ TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
   problem.room({-2, 0, -2}, {2, 3, 2});
   problem.world.forces = {{Drag{1, 0, {0, 0, 1}}}};
   problem.options.duration = 1.5;
+
   const Outcome exact = run(problem);
   EXPECT_GE(exact.collisions.size(), 4u);
+
   double last = 0;
   for (const double step : {0.02, 0.01, 0.005}) {
     ExactOptions options;
@@ -139,6 +151,7 @@ TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
     options.step = step;
     options.integrator = Integrator::rk4;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
+
     const Outcome got = run_to_end(*simulator, options.duration);
     double error = 0;
     for (size_t i = 0; i < 2; ++i) error = std::max(error, (got.end.position[i] - exact.end.position[i]).norm());
@@ -147,6 +160,7 @@ TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
     }
     last = error;
   }
+
   EXPECT_LT(last, 1e-9);
 }
 
@@ -158,9 +172,11 @@ TEST(LinearDrag, AHeavyBodyPushesALightOneThatDragHoldsBack) {
     problem.ball({2, 0, 0}, {1, 0, 0}, 0.25, 0.5, 0);
     problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
     problem.options.duration = 3;
+
     const Outcome got = run(problem);
     const double k = 3 * linear / 10.25;
     for (Entity i = 0; i < 3; ++i) EXPECT_NEAR(got.end.position[i].x(), i - std::expm1(-3 * k) / k, 1e-12) << linear;
+
     EXPECT_LT(got.tally.max_overlap, 1e-12);
     EXPECT_EQ(got.tally.stepped_contact, 0);
     EXPECT_NEAR(unbooked(problem, got), 0, 1e-10);
@@ -174,15 +190,19 @@ TEST(LinearDrag, TheWindBlowsABoxOffATable) {
   problem.body(Volume::box({0.4, 0.4, 0.4}), {0, 1.2, 0}, {0, 0, 0}, 2, 0);
   problem.obstacle({0, 0.5, 0}, Volume::box({2, 1, 2}));
   problem.world.forces = {{Drag{3, 0, {2, 0, 0}}}};
+
   const double k = 1.5;
   const auto x = [&](double t) { return 2 * (t + std::expm1(-k * t) / k); };
+
   double early = 0, late = 2;  // its trailing edge comes to the rim at 1.2 m
   for (int pass = 0; pass < 60; ++pass) {
     const double t = 0.5 * (early + late);
     (x(t) < 1.2 ? early : late) = t;
   }
+
   problem.options.duration = late + 0.3;
   const Outcome got = run(problem);
+
   const double s = -std::expm1(-k * 0.3) / k;
   EXPECT_NEAR(got.end.position[0].x(), x(late + 0.3), 1e-13);
   EXPECT_NEAR(got.end.position[0].y(), 1.2 - 9.80665 * (0.3 - s) / k, 1e-13);
@@ -220,6 +240,7 @@ Problem off_a_globe(double linear) {
 TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
   for (const double linear : {0.3, 4.0, 200.0}) {
     Problem problem = off_a_globe(linear);
+
     OffAGlobe reference{linear / 2};
     double h = 2e-5;
     while (reference.presses()) {
@@ -229,10 +250,13 @@ TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
       reference = before;
       h /= 10;
     }
+
     problem.options.duration = reference.time + 0.1;
     const Outcome got = run(problem);
+
     const Vec3 out(std::sin(reference.angle), std::cos(reference.angle), 0), along(out.y(), -out.x(), 0);
     const Way way{OffAGlobe::reach * out, OffAGlobe::reach * reference.rate * along, problem.world.gravity, linear / 2};
+
     EXPECT_LT((got.end.position[0] - way.position(0.1)).norm(), 2e-10) << linear;
     EXPECT_LT(got.tally.max_overlap, 1e-12);
     EXPECT_NEAR(residual(problem, got), 0, 1e-9);
@@ -257,12 +281,14 @@ TEST(LinearDrag, ABallCreepsOverAGlobeInThickAir) {
 Problem in_units(double length, double time, double mass, double linear, int seed) {
   Random random(seed);
   Problem problem;
+
   problem.world.gravity = Vec3(0, -9.80665 * length / (time * time), 0);
   for (int i = 0; i < 12; ++i) {
     const Vec3 x(i % 2 + 0.5, i / 4 * 0.67 + 0.33, i / 2 % 2 + 0.5), v(random(-2, 2), random(-2, 2), random(-2, 2));
     const double radius = random(0.17, 0.3), m = random(0.3, 3);
     problem.ball(length * x, length / time * v, m * mass, length * radius, random(0, 0.9));
   }
+
   problem.room(Vec3::Zero(), length * Vec3(2, 4, 2));
   problem.world.forces = {{Drag{linear * mass / time, 0, length / time * Vec3(0.5, 0, -0.25)}}};
   problem.options.duration = 3 * time;
@@ -277,6 +303,7 @@ TEST(LinearDrag, InOtherUnitsAllIsTheSameToTheLastBit) {
     EXPECT_NEAR(unbooked(problem, first), 0, 2e-9);  // of 96 J, measured: 1.04e-9
     EXPECT_NEAR(residual(problem, first), 0, 0.2);   // in a crowd
     EXPECT_LT(first.tally.max_overlap, 1e-8);        // in a crowd; measured: 1.7e-9
+
     for (const auto& [length, time, mass] :
          {std::tuple(256.0, 1.0, 1.0), {1.0, 256.0, 1.0}, {1.0, 0x1p-10, 1.0}, {0x1p-20, 0x1p10, 0x1p-30}}) {
       const Outcome again = run(in_units(length, time, mass, linear, 7));

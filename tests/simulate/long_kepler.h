@@ -16,12 +16,15 @@ class LongKepler {
     const Real3 r = x.cast<Real>(), u = v.cast<Real>(), h = r.cross(u);
     const Real energy = u.squaredNorm() / 2 - mu_ / r.norm();
     a_ = -mu_ / (2 * energy);  // negative: a hyperbola
+
     const Real3 e = u.cross(h) / mu_ - r / r.norm();
     e_ = e.norm();
     ahead_ = e_ > 0 ? Real3(e / e_) : Real3(r / r.norm());
     aside_ = h.cross(ahead_) / h.norm();
     short_ = h.norm() / std::sqrt(std::abs(2 * energy));
     rate_ = std::sqrt(mu_ / std::abs(a_ * a_ * a_));
+
+    // Where it is at the start.
     const Real s = r.dot(u) / std::sqrt(mu_ * std::abs(a_));  // e sin E, or e sinh H
     if (a_ > 0) {
       const Real anomaly = std::atan2(r.dot(aside_) / short_, r.dot(ahead_) / a_ + e_);
@@ -48,6 +51,7 @@ class LongKepler {
       along = a_ * (std::cosh(anomaly) - e_);
       across = short_ * std::sinh(anomaly);
     }
+
     return (along * ahead_ + across * aside_).template cast<double>();
   }
 

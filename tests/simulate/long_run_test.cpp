@@ -26,10 +26,12 @@ TEST(Clock, ABallInABoxIsOnItsPathAfterADay) {
   Problem problem;
   const Vec3 max(1, 1.1, 0.9), x(0.3, 0.4, 0.55), v(1.1, 0.9723, -1.0391);
   const double r = 0.1;
+
   problem.room({0, 0, 0}, max);
   problem.ball(x, v, 1, r, 1);
   problem.options.duration = 1e5;
   problem.options.record_collisions = false;
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   double worst = 0;
   for (double t = 1; t <= 1e5; t *= 10) {
@@ -40,6 +42,7 @@ TEST(Clock, ABallInABoxIsOnItsPathAfterADay) {
     }
     EXPECT_LT(worst, 1e-13 * t) << t;
   }
+
   EXPECT_NEAR(static_cast<double>(simulator->tally().body_fixed), 3.9e5, 0.2e5);
   EXPECT_LT(worst, 1e-11);  // m; measured: 4.5e-12 after 393,976 impacts
 }
@@ -50,12 +53,14 @@ TEST(Clock, AMillionSecondsAreKeptToo) {
   const Vec3 x(30, 40, 50), v(1.1, 0.7, -0.3);
   problem.ball(x, v, 1, 0.1, 1);
   problem.options.duration = 1e6;
+
   const Outcome run = run_exact(problem);
   double worst = 0;
   for (int k = 0; k < 3; ++k) {
     const long double expected = folded(0.1, 100 - static_cast<long double>(0.1), x[k], v[k], 1e6L);
     worst = std::max(worst, static_cast<double>(std::abs(run.end.position[0][k] - expected)));
   }
+
   EXPECT_LT(worst, 2e-10);  // m; measured: 1.0e-10, what 99.9 m is rounded to, 11,000 times
 }
 
@@ -66,22 +71,27 @@ double way_off_after_reversal(double collisions_a_ball, uint64_t seed) {
   Problem problem;
   const double side = std::cbrt(125 / 0.3);  // m; diameter 1 m
   problem.room({0, 0, 0}, Vec3::Constant(side));
+
   for (int i = 0; i < 125; ++i) {
     const Vec3 cell(i % 5, i / 5 % 5, i / 25);
     const Vec3 shift(random(-0.2, 0.2), random(-0.2, 0.2), random(-0.2, 0.2));
     const Vec3 v(random(-1, 1), random(-1, 1), random(-1, 1));
     problem.ball((cell + Vec3::Constant(0.5)) * (side / 5) + shift, v, 1, 0.5, 1);
   }
+
   problem.options.duration = 1000;
   const auto there = make_exact_simulator(problem.world, problem.initial, problem.options);
   double time = 0;
   while (static_cast<double>(there->tally().body_body) * 2 / 125 < collisions_a_ball) go_to(*there, time += 1.0 / 64);
+
+  // Back again.
   Problem turned = problem;
   turned.initial = there->state();
   turned.initial.time = 0;
   for (Vec3& v : turned.initial.velocity) v = -v;
   turned.options.duration = time;
   const State back = run_exact(turned).end;
+
   double worst = 0;
   for (size_t i = 0; i < 125; ++i) worst = std::max(worst, (back.position[i] - problem.initial.position[i]).norm());
   return worst;

@@ -32,12 +32,15 @@ void bring(ExactParts& parts, Mode mode) {
       return parts.flat.add(0, {2, 0, Vec3(0, 1, 0), false, {}, 0});
     case Mode::fresh:
       return parts.group.join(0);
+
     case Mode::held:
       parts.group.join(0);
       return parts.modes.hold(0);
+
     case Mode::stepped:
       parts.group.join(0);
       return parts.modes.step(0);
+
     default:
       return;
   }
@@ -81,11 +84,14 @@ TEST(Modes, CountWhatThingsPressOnAsAtRest) {
   ExactParts parts(two_on_a_floor());
   bring(parts, Mode::settling);
   EXPECT_EQ(resting(parts), 1u);
+
   parts.group.join(0);  // a step has yet to find what presses on it
   EXPECT_EQ(resting(parts), 0u);
+
   parts.modes.hold(0);
   parts.modes.press(0, true);
   EXPECT_EQ(resting(parts), 1u);
+
   parts.modes.step(0);
   EXPECT_EQ(resting(parts), 1u);
   parts.modes.fall_asleep(0);
@@ -155,6 +161,7 @@ TEST(Modes, OfABodyThatMergesArePartAndFlyingBefore) {
     p.world.mass[1] = 2;
     ExactParts parts(p);
     bring(parts, mode);
+
     parts.merging.merge(0, 1, parts.bodies.touch_at(0, p.initial.position[0], 1, p.initial.position[1], 0));
     EXPECT_EQ(parts.bodies.mode(0), Mode::part);
     EXPECT_EQ(parts.bodies.mode(1), Mode::flying);

@@ -32,6 +32,7 @@ TEST(MovingThings, ABallBetweenAWallAtRestAndOneThatClosesInHasTheSpeedsOfTheClo
     double v = v0, t = length / (v0 + u), gap = length - u * t;
     problem.options.duration = u > 0 ? 0.987 * length / u : 100;
     if (u < 0) problem.options.duration = 20;
+
     vector<double> times, speeds;
     while (t < problem.options.duration) {
       v += 2 * u;
@@ -44,12 +45,14 @@ TEST(MovingThings, ABallBetweenAWallAtRestAndOneThatClosesInHasTheSpeedsOfTheClo
       t += back + next;
       gap = gap - u * (back + next);
     }
+
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), times.size()) << u;
     for (size_t k = 0; k < times.size(); ++k) {
       EXPECT_NEAR(run.collisions[k].time, times[k], 1e-13 * times[k]) << u << ' ' << k;
       EXPECT_NEAR(run.collisions[k].energy_lost, 0, 1e-13) << k;
     }
+
     EXPECT_NEAR(std::abs(run.end.velocity[0].x()), speeds.back(), 1e-13 * speeds.back());
     expect_balanced(problem, run, speeds.back() * speeds.back(), std::to_string(u));
     EXPECT_NEAR(run.tally.work, speeds.back() * speeds.back() - v0 * v0, 1e-12 * speeds.back() * speeds.back());
@@ -62,20 +65,24 @@ TEST(MovingThings, ABatDrivesABallByTheSpeedOfTheirApproach) {
     problem.options.duration = 1;
     const double e = 0.5, mass = 0.145;
     problem.ball({30, 0, 0}, {-40, 0, 0}, mass, 0.25, e);
+
     if (kind == 0) problem.plane({0, 0, 0}, {1, 0, 0});
     if (kind == 1) problem.wall({0, 0, 0}, {1, 0, 0}, 2, 2);
     if (kind == 2) problem.obstacle({-0.5, 0, 0}, Volume::sphere(0.5));
     if (kind == 3) problem.obstacle({-0.5, 0, 0}, Volume::cylinder(0.5, 1));
     if (kind == 4) problem.obstacle({-0.5, 0, 0}, Volume::box({1, 2, 2}));
     problem.move(1, {{0, forever, {20, 0, 0}}});
+
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), 1u) << kind;
+
     const Collision& hit = run.collisions[0];
     EXPECT_NEAR(hit.time, 29.75 / 60, 1e-15) << kind;
     EXPECT_NEAR(hit.approach_speed, 60, 1e-13);
     EXPECT_NEAR(hit.separation_speed, 30, 1e-13);
     EXPECT_NEAR(hit.impulse, mass * 90, 1e-13);
     EXPECT_NEAR(hit.energy_lost, 0.5 * mass * (60 * 60 - 30 * 30), 1e-11);
+
     EXPECT_NEAR(run.end.velocity[0].x(), 20 + e * 60, 1e-13) << kind;
     EXPECT_NEAR(run.tally.work, mass * 90 * 20, 1e-11) << kind;
     expect_balanced(problem, run, 1e3, std::to_string(kind));
@@ -120,6 +127,7 @@ TEST(MovingThings, ATableThatFallsAwayLeavesItsBallBehind) {
   problem.ball({0, 0.5, 0}, {0, 0, 0}, 2, 0.5, 0.25);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.move(1, {{1, 2, {0, -2, 0}}});
+
   const Outcome run = run_exact(problem);
   ASSERT_FALSE(run.collisions.empty());
   EXPECT_NEAR(run.collisions[0].time, 1 + 4 / g_n, 1e-15) << "it falls g t^2 / 2, the table 2 t";
@@ -178,15 +186,18 @@ TEST(MovingThings, AFloorThatHasMovedAllTheTimeIsNoEventForAPileOnIt) {
   problem.ball({5, 0.5, 0}, u, 1, 0.5, 0.5);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.move(4, {{0, forever, u}});
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 20);
   EXPECT_LT(simulator->effort().events, 100u);
+
   const Outcome run = run_exact(problem);
   EXPECT_TRUE(run.all.empty());
   for (Entity i = 0; i < 4; ++i) {
     EXPECT_LT((run.end.position[i] - problem.initial.position[i] - 20 * u).norm(), 1e-13);
     EXPECT_LT((run.end.velocity[i] - u).norm(), 1e-15);
   }
+
   EXPECT_NEAR(run.tally.work, 7 * g_n * 10, 1e-11) << "the weights times the height";
   expect_balanced(problem, run, 700);
 }
@@ -199,11 +210,13 @@ TEST(MovingThings, AFloorThatStartsAndStopsUnderAPileDoesTheWorkOfItsEnergy) {
     for (int k = 0; k < 3; ++k) problem.body(Volume::box({1, 1, 1}), {0, 0.5 + k, 0}, {0, 0, 0}, 1 + k, e);
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.move(3, {{1, 3, {0, 0.5, 0}}, {4, 5, {0, -0.25, 0}}});
+
     const Outcome run = run_exact(problem);
     for (Entity i = 0; i < 3; ++i) {
       EXPECT_NEAR(run.end.position[i].y(), 0.75 + 0.5 + i, 1e-9) << e;
       EXPECT_LT(run.end.velocity[i].norm(), 1e-9) << e;
     }
+
     EXPECT_NEAR(residual(problem, run), 0, 1e-6) << e;
     EXPECT_NEAR(run.tally.work - run.tally.energy_lost, 6 * g_n * 0.75, 1e-6) << e;
   }
@@ -213,12 +226,14 @@ TEST(MovingThings, ASleepingPileWakesWhereItsFloorStarts) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
   problem.options.duration = 3;
+
   for (int k = 0; k < 2; ++k) problem.ball({1.0 * k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0);
   problem.ball({0.5, 0.5 + std::sqrt(0.75), 0}, {0, 0, 0}, 1, 0.5, 0);
   problem.obstacle({0.5, -0.5, 0}, Volume::box({2, 1, 2}));
   problem.wall({-0.5, 0.5, 0}, {1, 0, 0}, 2, 2);
   problem.wall({1.5, 0.5, 0}, {-1, 0, 0}, 2, 2);
   problem.move(5, {{2, forever, {0, -20, 0}}});  // it is gone at once
+
   const Outcome run = run_exact(problem);
   for (Entity i = 0; i < 2; ++i)
     EXPECT_NEAR(run.end.position[i].y(), 0.5 - 0.5 * g_n, 1e-9) << "it falls freely for a second";
@@ -254,6 +269,7 @@ TEST(MovingThings, ABodyInACornerHasNoRoomBetweenAllThreeThings) {
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.obstacle({-1, 0.45, 0}, Volume::sphere(0.3));
   problem.move(3, {{0, forever, {1, 0, 0}}});
+
   const string error = error_of(problem);
   EXPECT_NE(error.find("body 0 has no room left between body 1, body 2 and body 3: end or slow their `motion`"),
             string::npos)

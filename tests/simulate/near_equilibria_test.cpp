@@ -8,7 +8,7 @@
 
 #include "geometry/contact_time.h"
 #include "physics/force_law.h"
-#include "simulate/build.h"
+#include "simulate/ties.h"
 
 namespace carom {
 namespace {
@@ -151,17 +151,6 @@ TEST(NearEquilibria, ALadderSlidesDownInTime) {
     }
 }
 
-/// The period of a pendulum (s) by the arithmetic-geometric mean.
-double period_of(double length, double angle) {
-  double a = 1, b = std::cos(angle / 2);
-  for (int k = 0; k < 8; ++k) {
-    const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return 2 * M_PI * std::sqrt(length / pull) / a;
-}
-
 TEST(NearEquilibria, SmallSwingsKeepTheirAmplitudeAndPeriod) {
   struct Swing {
     double length, radius, amplitude;  // m
@@ -175,8 +164,10 @@ TEST(NearEquilibria, SmallSwingsKeepTheirAmplitudeAndPeriod) {
       problem.ball({swing.amplitude, -swing.length * std::cos(angle), 0}, {0, 0, 0}, 1, swing.radius);
       problem.world.strings.push_back({0, no_entity, Vec3::Zero(), problem.initial.position[0].norm()});
       problem.world.strings.back().rod = rod;
-      const double whole = period_of(swing.length, angle), bound = 1e-16 * swing.length / swing.amplitude + 1e-11;
+
+      const double whole = period(swing.length, angle, pull), bound = 1e-16 * swing.length / swing.amplitude + 1e-11;
       problem.options.duration = 10.25 * whole;
+
       const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
       go_to(*simulator, 10 * whole);
       EXPECT_LT(std::abs(simulator->state().position[0].x() / swing.amplitude - 1), 20 * bound) << swing.amplitude;
@@ -194,6 +185,7 @@ TEST(FastFrames, ADumbbellTurnsAsAtRest) {
     problem.world.strings.push_back({0, 1, Vec3::Zero(), 1});
     problem.world.strings.back().rod = true;
     problem.options.duration = 5;
+
     const State end = run_exact(problem).end;
     const double c = std::cos(7.5), s = std::sin(7.5);
     const double bound = speed == 0 ? 1e-12 : 4e-15 * speed;  // measured: 1e-13, 5e-13, 1.5e-10

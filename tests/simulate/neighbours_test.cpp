@@ -28,14 +28,17 @@ TEST(NearOnADiagonal, HasAllThatMayTouch) {
   constexpr Entity bodies = 3000;
   World world;
   vector<Vec3> x;
+
   for (Entity i = 0; i < bodies; ++i) {
     world.mass.push_back(1);
     world.radius.push_back(0.1);
     world.restitution.push_back(1);
     x.push_back(0.12 * i * Vec3::Ones());
   }
+
   Neighbours neighbours(world);
   neighbours.start(x);
+
   for (int round = 0; round < 2; ++round)
     for (Entity i = 1; i + 1 < bodies; ++i) {
       const span<const Entity> list = neighbours.bodies(i);
@@ -51,15 +54,18 @@ TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
     constexpr Entity bodies = 400;
     World world;
     vector<Vec3> x;
+
     for (Entity i = 0; i < bodies; ++i) {
       world.mass.push_back(1);
       world.radius.push_back(random(0.3, 0.5));
       world.restitution.push_back(1);
       x.push_back(in_cube(random, 3.5));
     }
+
     Neighbours neighbours(world);
     neighbours.start(x);
     for (Entity i = 0; i < bodies; ++i) neighbours.hold(i, x[i], reach);
+
     for (Entity i = 0; i < bodies; ++i) {
       const span<const Entity> list = neighbours.bodies(i);
       for (Entity j = 0; j < bodies; ++j) {
@@ -81,25 +87,31 @@ TEST_P(Near, HasAllThatMayTouch) {
   Random random;
   World world;
   vector<Vec3> x;
+
   for (Entity i = 0; i < bodies; ++i) {
     world.mass.push_back(1);
     world.radius.push_back(how.scale * 0.1 * std::pow(how.radii, random(0, 1)));
     world.restitution.push_back(1);
     x.push_back(how.scale * (how.from + in_cube(random, how.half)));
   }
+
   for (int k = 0; k < 20; ++k) {
     const Vec3 normal = in_cube(random, 1).normalized();
     world.planes.push_back({how.scale * (how.from - random(0.2, 1) * how.half * normal), normal, 1.0});
   }
+
   Neighbours neighbours(world);
   neighbours.start(x);
   int renewed = 0;
+
   for (int round = 0; round < 60; ++round) {
     for (Entity i = 0; i < bodies; ++i) {
       x[i] += how.scale * in_cube(random, 0.1 * how.half);
       if (random(0, 1) < 0.01) x[i] = how.scale * (how.from + in_cube(random, 100 * how.half));
       if ((x[i] - neighbours.center(i)).norm() <= neighbours.room(i)) continue;
+
       ++renewed;
+      // Those it did not know are told.
       const span<const Entity> before = neighbours.bodies(i);
       const std::set<Entity> known(before.begin(), before.end());
       const span<const Entity> came = neighbours.renew(i, x[i], how.scale * in_cube(random, 1));
@@ -109,7 +121,9 @@ TEST_P(Near, HasAllThatMayTouch) {
       EXPECT_LE((x[i] - neighbours.center(i)).norm(), neighbours.room(i));
       if (random(0, 1) < 0.05) neighbours.shrink(i, x[i]);
     }
+
     if (round % 10 != 9) continue;
+    // No two may touch that are not on each other's lists.
     for (Entity i = 0; i < bodies; ++i) {
       const span<const Entity> list = neighbours.bodies(i);
       const std::set<Entity> known(list.begin(), list.end());
@@ -124,6 +138,7 @@ TEST_P(Near, HasAllThatMayTouch) {
           EXPECT_FALSE(known.contains(j)) << i << " and " << j;
         }
       }
+
       const span<const Entity> surfaces = neighbours.surfaces(i);
       for (Entity k = 0; k < world.planes.size(); ++k) {
         const Plane& plane = world.planes[k];
@@ -134,6 +149,7 @@ TEST_P(Near, HasAllThatMayTouch) {
       }
     }
   }
+
   EXPECT_GT(renewed, 500);
 }
 
@@ -152,20 +168,24 @@ struct First {
 
 TEST(Tournament, FindsTheFirstOfManyAndOfEqualTimesTheOneBefore) {
   Random random;
+
   for (const uint32_t entries : {1u, 7u, 8u, 9u, 64u, 65u, 700u}) {
     vector<double> time(entries, std::numeric_limits<double>::infinity());
     vector<int> rank(entries);
     for (int& r : rank) r = static_cast<int>(random(0, 5));
     Tournament<First> queue(entries, First{&rank});
     EXPECT_EQ(queue.first(), Tournament<First>::none);
+
     for (int step = 0; step < 3000; ++step) {
       const auto i = static_cast<uint32_t>(random(0, entries));
       rank[i] = static_cast<int>(random(0, 1000)) * 1000 + static_cast<int>(i);  // no two alike
       time[i] = random(0, 1) < 0.2 ? std::numeric_limits<double>::infinity() : std::floor(random(0, 9));
       queue.update(i, time[i]);
+
       uint32_t first = 0;
       for (uint32_t k = 1; k < entries; ++k)
         if (time[k] < time[first] || (time[k] == time[first] && rank[k] < rank[first])) first = k;
+
       EXPECT_EQ(queue.first_time(), time[first]);
       if (time[first] < std::numeric_limits<double>::infinity()) {
         ASSERT_EQ(queue.first(), first);

@@ -81,6 +81,7 @@ KnownEnd impact_oscillator(double w, double wall, double e, double x, double tim
       const double now = phase + w * (time - t);
       return {{amplitude * std::cos(now), 0, 0}, {-amplitude * w * std::sin(now), 0, 0}};
     }
+
     const double speed = e * amplitude * w * std::sin(down);
     t = until;
     amplitude = std::sqrt(wall * wall + speed / w * speed / w);
@@ -101,11 +102,13 @@ TEST(Order, IsTheMethodsForAnOscillatorThatStrikesAWall) {
 KnownEnd drag_bounce(double k, double g, double e, double h, const vector<double>& impacts, double time) {
   double y = h, v = 0, t = 0;
   const double vt = -g / k;
+
   const auto fly = [&](double length) {
     const double fade = std::exp(-k * length);
     y += vt * length + (v - vt) * (1 - fade) / k;
     v = vt + (v - vt) * fade;
   };
+
   for (const double impact : impacts) {
     if (impact > time) break;
     fly(impact - t);
@@ -113,6 +116,7 @@ KnownEnd drag_bounce(double k, double g, double e, double h, const vector<double
     y = 0;
     v *= -e;
   }
+
   fly(time - t);
   return {{0, y, 0}, {0, v, 0}};
 }
@@ -122,13 +126,16 @@ TEST(Order, IsTheMethodsForABallThatBouncesInAThickMedium) {
   const nlohmann::json& bounce = reference["cases"][1];
   Problem problem;
   const double mass = 3, k = bounce["k"], e = bounce["e"], h = bounce["h"], g = reference["g"];
+
   problem.world.gravity = {0, -g, 0};
   problem.ball({0, h + 0.25, 0}, {0, 0, 0}, mass, 0.25, e);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.world.forces = {{Drag{k * mass, 0, Vec3::Zero()}}};
   problem.options.duration = 2.2;  // between the third and the fourth impact
+
   vector<double> impacts;
   for (int n = 0; n < 3; ++n) impacts.push_back(bounce["impacts"][n]["t"]);
+
   KnownEnd known_end = drag_bounce(k, g, e, h, impacts, 2.2);
   known_end.x.y() += 0.25;
   expect_orders(problem, known_end, 100, "1.01, 2.00, 4.03");

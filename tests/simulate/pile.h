@@ -14,22 +14,26 @@ inline Problem loose_pile(int side, int layers, double duration) {
   Problem problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);
   const double pitch = 1.15, width = side * pitch;
+
   uint64_t state = 12345;
   const auto off = [&] {
     state = state * 6364136223846793005ull + 1442695040888963407ull;
     return 0.1 * (static_cast<double>(state >> 11) * 0x1p-53 - 0.5);
   };
+
   for (int k = 0; k < layers; ++k)
     for (int i = 0; i < side; ++i)
       for (int j = 0; j < side; ++j) {
         const double x = off(), y = off(), z = off();
         problem.ball({(i + 0.5) * pitch + x, 0.6 + 1.2 * k + y, (j + 0.5) * pitch + z}, Vec3::Zero(), 1, 0.5, 0.5);
       }
+
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.plane({0, 0, 0}, {1, 0, 0});
   problem.plane({width, 0, 0}, {-1, 0, 0});
   problem.plane({0, 0, 0}, {0, 0, 1});
   problem.plane({0, 0, width}, {0, 0, -1});
+
   problem.options.duration = duration;
   problem.options.record_collisions = false;
   return problem;
@@ -63,7 +67,9 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
                                 int gliders = 0) {
   const World& world = problem.world;
   const Entity n = world.body_count(), floor = n;
+
   vector<Vec3> first;
+  // Nothing moves any more.
   for (double t : times) {
     go_to(simulator, t);
     const State& state = simulator.state();
@@ -78,14 +84,18 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
       }
     }
   }
+
   const State& state = simulator.state();
   double deepest = 0;
   for (Entity a = 0; a < n; ++a) {
     for (Entity b = 0; b < a; ++b) deepest = std::max(deepest, 1 - (state.position[a] - state.position[b]).norm());
     for (const Plane& p : world.planes) deepest = std::max(deepest, 0.5 - (state.position[a] - p.point).dot(p.normal));
   }
+
   EXPECT_LT(deepest, 1e-9);
   EXPECT_LT(simulator.tally().max_overlap, deepest_ever);
+
+  // The forces balance the weights.
   vector<Vec3> held(n, world.gravity);
   double on_floor = 0;
   for (const ContactForce& c : simulator.contacts()) {
@@ -99,10 +109,12 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
     held[c.a] -= c.force * normal;
     held[c.b] += c.force * normal;
   }
+
   double worst = 0;
   for (const Vec3& a : held) worst = std::max(worst, a.norm());
   EXPECT_LT(worst, unbalanced * 9.80665);
   EXPECT_NEAR(on_floor / (n * 9.80665), 1, unbalanced);
+
   EXPECT_EQ(simulator.tally().resting, n);
   std::printf("deepest overlap %.2g m, forces off by %.2g g, floor force by %.2g of the weight\n", deepest,
               worst / 9.80665, on_floor / (n * 9.80665) - 1);

@@ -32,6 +32,7 @@ TEST(Pile, GainsHardlyAnyEnergyAsItSettles) {
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+
     double least = std::numeric_limits<double>::infinity();
     for (double t = 0; t <= 20; t += 0.0625) {
       go_to(*simulator, t);

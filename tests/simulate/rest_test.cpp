@@ -22,6 +22,7 @@ struct Press {
 void expect_rest(const Problem& problem, const vector<Press>& forces, const vector<double>& times, const string& what,
                  double tolerance) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+
   vector<Vec3> first;
   for (double t : times) {
     go_to(*simulator, t);
@@ -34,8 +35,10 @@ void expect_rest(const Problem& problem, const vector<Press>& forces, const vect
     if (first.empty()) first = simulator->state().position;
     EXPECT_EQ(simulator->state().position, first) << what << " at " << t;
   }
+
   EXPECT_EQ(simulator->tally().resting, problem.world.body_count()) << what;
   EXPECT_LE(simulator->tally().max_overlap, 1e-9 * problem.world.radius[0]) << what;
+
   const double before =
       kinetic_energy(problem.world, problem.initial) + potential_energy(problem.world, problem.initial);
   const double after = potential_energy(problem.world, simulator->state());
@@ -127,8 +130,10 @@ TEST(Rest, ASmallBodyBouncesOnALargeOneInContactAsByItself) {
     problem.ball({0.5, 1 + r, 0}, {0, 0, 0}, 1e-3, r, 0);
     problem.ball({-0.5, 1 + 31 * r, 0}, {0, 0, 0}, 1e-3, r, 0.5);
     problem.world.restitution[0] = 0.5;
+
     const Outcome run = run_exact(problem);
     ASSERT_FALSE(run.collisions.empty()) << r;
+
     const Collision& first = run.collisions.front();
     EXPECT_NEAR(first.approach_speed, std::sqrt(2 * g_n * 30 * r), 1e-9) << r;
     EXPECT_NEAR(first.separation_speed, 0.5 * first.approach_speed, 1e-9) << r;
@@ -205,6 +210,7 @@ TEST(Rest, AnElasticHopBelowRoundingIsNone) {
     const double under = by_a_ball ? 1 : 0, along = by_a_ball ? 0 : 1;
     problem.ball({0, under + 0.5, 0}, {along, 1e-11, 0}, 1, 0.5, 1);  // by 5e-25 m
     if (by_a_ball) problem.ball({0, 0.5, 0}, Vec3::Zero(), 1, 0.5, 1);
+
     problem.options.duration = 1;
     problem.options.max_collisions = 10;
     const Outcome run = run_exact(problem);
@@ -238,6 +244,7 @@ Problem gliding(int kind, double speed, bool forced_far_away) {
   problem.plane({0, 0, 0}, {0, 1, 0});
   const Vec3 v(speed, 0, 0);
   const double e = 0.5;
+
   if (kind == 0) {
     problem.body(Volume::box({1, 1, 1}), {0, 0.5, 0}, v, 2, e);
     problem.body(Volume::box({0.5, 0.5, 0.5}), {0, 1.25, 0}, v, 1, e);
@@ -249,10 +256,12 @@ Problem gliding(int kind, double speed, bool forced_far_away) {
     problem.ball({0, 1.5, 0}, v, 1, 0.5, e);
     problem.body(Volume::box({1, 1, 1}), {0, 2.5, 0}, v, 1, e);
   }
+
   if (forced_far_away) {
     const Entity far = problem.ball({0, 0.5, 100}, Vec3::Zero(), 1, 0.5, e);
     problem.world.forces.push_back({UniformForce{Vec3(0, 0, 1e6)}, 0, never, {far}});
   }
+
   problem.options.duration = 2;
   return problem;
 }
@@ -279,6 +288,7 @@ TEST(Rest, AStruckBodyWakes) {
   groove.ball({0, 0.25 * std::sqrt(2.0), 0}, {0, 0, 0}, 1, 0.25, 0);
   expect_wakes(groove, 0, {0, 0.25 * std::sqrt(2.0), -0.375}, {0, 0, 2}, "groove");
   expect_wakes(pyramid(), 3, {0, 1.3, -0.625}, {0, 0, 2}, "pyramid");
+
   Problem boxes;
   boxes.world.gravity = Vec3(0, -g_n, 0);
   boxes.plane({0, 0, 0}, {0, 1, 0});

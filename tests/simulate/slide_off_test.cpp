@@ -39,15 +39,18 @@ Leaving leaving(double s, double v0) {
 void expect_leaves(const Problem& problem, const Leaving& expected, double start, const Vec3& center,
                    const string& what) {
   constexpr double late = 1e-8;  // s; measured: contacts() is right to within 5e-10
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, start + expected.time - late);
   EXPECT_EQ(simulator->contacts().size(), 1u) << what;
   go_to(*simulator, start + expected.time + late);
   EXPECT_EQ(simulator->contacts().size(), 0u) << what;
+
   const double sine = std::sqrt(1 - expected.c * expected.c), t = late;
   const Vec3 v(expected.speed * expected.c, -expected.speed * sine, 0), down(0, -g_n, 0);
   const Vec3 x = center + Vec3(expected.x, expected.y, 0) + t * v + 0.5 * t * t * down;
   const State& state = simulator->state();
+
   EXPECT_LT((state.position[0] - x).norm(), 2e-10) << what;              // m; measured: 1.1e-10
   EXPECT_LT((state.velocity[0] - (v + t * down)).norm(), 1e-8) << what;  // m/s; measured: 6.3e-9
   EXPECT_TRUE(simulator->collisions().empty()) << what;
@@ -71,10 +74,12 @@ Problem balls_off_balls(int balls, bool other) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
   problem.options.duration = 0.8;
+
   for (int k = 0; k < balls; ++k) {
     problem.obstacle({0, 0, 100.0 * k}, Volume::sphere(0.5));
     problem.ball({0, 0.75, 100.0 * k}, {0.1, 0, 0}, 1, 0.25, 0);
   }
+
   if (other) {  // a heap that is too large for constrained motion, and a heavy body that slides
     problem.obstacle({1000, 0, 0}, Volume::box({5, 0.5, 5}));
     for (int k = 0; k < 27; ++k)
@@ -82,6 +87,7 @@ Problem balls_off_balls(int balls, bool other) {
     problem.obstacle({2000, 0, 0}, Volume::sphere(5));
     problem.ball({2000, 15, 0}, {1, 0, 0}, 1e6, 10, 0);
   }
+
   return problem;
 }
 

@@ -83,8 +83,10 @@ TEST(SlowImpacts, LadenCartsBounceAsEmptyOnes) {
         for (const double x : {-size, size})
           if (laden) problem.ball({x, 1.05 * size, 0}, {x < 0 ? v : 0, 0, 0}, 1e-6, 0.05 * size, e);
         problem.plane({0, 0, 0}, {0, 1, 0});
+
         problem.options.duration = 1.5 * size / v;
         const State end = run_exact(problem).end;
+
         EXPECT_NEAR(end.velocity[0].x() / v, (1 - e) / 2, 1e-9) << size << " " << e << " " << laden;
         EXPECT_NEAR(end.velocity[1].x() / v, (1 + e) / 2, 1e-9) << size << " " << e << " " << laden;
       }
@@ -98,11 +100,13 @@ Problem marbles(Track track, double v, double e) {
   Problem problem;
   problem.world.gravity = Vec3(0, -weight, 0);
   problem.options.duration = 3 * r / v;
+
   double height = r;
   if (track == Track::rails) height = 0.008;
   if (track == Track::groove) height = r * std::sqrt(2.0);
   problem.ball({-2 * r, height, 0}, {v, 0, 0}, 0.01, r, e);
   problem.ball({2 * r, height, 0}, {0, 0, 0}, 0.01, r, e);
+
   switch (track) {
     case Track::plane:
       problem.plane({0, 0, 0}, {0, 1, 0});
@@ -113,10 +117,12 @@ Problem marbles(Track track, double v, double e) {
     case Track::box:
       problem.obstacle({0, -0.05, 0}, Volume::box({1, 0.1, 1}));
       break;
+
     case Track::table:
       problem.body(Volume::box({1, 0.1, 1}), {0, -0.05, 0}, {0, 0, 0}, 10, 0.5);
       problem.plane({0, -0.1, 0}, {0, 1, 0});
       break;
+
     case Track::rails:
       for (const double z : {-1.0, 1.0}) problem.wall({0, -0.5, 0.006 * z}, {0, 0, z}, 1, 1, {0, 1, 0});
       break;
@@ -124,6 +130,7 @@ Problem marbles(Track track, double v, double e) {
       for (const double z : {-1.0, 1.0}) problem.plane({0, 0, 0}, {0, 1, z});
       break;
   }
+
   return problem;
 }
 
@@ -187,6 +194,7 @@ TEST(SlowImpacts, WhatIsFarAwayOrWithoutStrengthChangesNoBitOfFreeFall) {
     beside_a_wall.wall({1e4, 0, 0}, {1, 0, 0}, 5, 5);
     in_no_wind.world.forces.push_back({UniformAcceleration{Vec3::Zero()}});
     above_a_globe.obstacle({0, -1e5, 0}, Volume::sphere(0.5));
+
     const Outcome first = run_exact(alone);
     impacts += first.collisions.size();
     for (const Problem* other : {&above_a_plane, &beside_a_wall, &in_no_wind, &above_a_globe}) {
@@ -196,6 +204,7 @@ TEST(SlowImpacts, WhatIsFarAwayOrWithoutStrengthChangesNoBitOfFreeFall) {
       EXPECT_EQ(run.collisions.size(), first.collisions.size()) << seed;
     }
   }
+
   EXPECT_GT(impacts, 1000u);
 }
 
@@ -226,6 +235,7 @@ TEST(MassRatios, AHeavyBallFallsOnALightOneOfAnyMass) {
     problem.options.duration = 2;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     const Outcome run = run_to_end(*simulator, 2);
+
     EXPECT_NEAR(static_cast<double>(run.collisions.size()), 393, 1) << light << " " << heavy;
     EXPECT_LT((run.end.position[0] - Vec3(0, 0.1, 0)).norm(), 1e-15) << light << " " << heavy;
     EXPECT_LT((run.end.position[1] - Vec3(0, 0.3, 0)).norm(), 1e-15) << light << " " << heavy;
@@ -245,8 +255,10 @@ TEST(MassRatios, LightBodiesBesideHeavyOnesPressWithTheirOwnWeight) {
   problem.ball({0, 0.3, 0}, {0, 0, 0}, 3e-50, 0.1, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.options.duration = 1;
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 1);
+
   const Entity floor = 3;
   for (const ContactForce& contact : simulator->contacts()) {
     const double carried = contact.b == floor ? (contact.a == 0 ? 4e-50 : 1) : 3e-50;  // kg
@@ -328,14 +340,17 @@ TEST(Losses, OfALightCylinderUnderAFallingBoxAreThoseOfEachImpact) {
       problem.plane({0, 0, 0}, {0, 1, 0});
       problem.world.restitution[1] = 0;
       problem.options.duration = 1;
+
       const Outcome run = run_exact(problem);
       const double start = energy(problem, problem.initial);
       double lost = run.tally.taken_up.energy;
+
       for (const Collision& met : run.all) {
         EXPECT_GE(met.energy_lost, 0) << up << " " << e;
         EXPECT_LE(met.energy_lost, start) << up << " " << e;
         lost += met.energy_lost;
       }
+
       EXPECT_NEAR(lost / run.tally.energy_lost, 1, 1e-12) << up << " " << e;
     }
 }
@@ -348,11 +363,13 @@ TEST(Losses, OfARodThatOthersMoveBackAreNone) {
     problem.world.gravity = Vec3::Zero();
     problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.1, e);
     problem.world.impulse = {Vec3(1, 1, -0.2)};
+
     const Vec3 slanted = Vec3(0.8, 0.5, 0.33).normalized();
     problem.world.strings.push_back({0, no_entity, Vec3(-1, 0, 0), 1, 0, true});
     problem.world.strings.push_back({0, no_entity, Vec3(0, -1, 0), 1, 0, false});
     problem.world.strings.push_back({0, no_entity, -slanted, 1, 0, true});
     problem.options.duration = 0.1;
+
     const Outcome run = run_exact(problem);
     ASSERT_GE(run.all.size(), 2u);
     double lost = run.tally.taken_up.energy;
@@ -360,6 +377,7 @@ TEST(Losses, OfARodThatOthersMoveBackAreNone) {
       EXPECT_GE(met.energy_lost, 0);
       lost += met.energy_lost;
     }
+
     EXPECT_NEAR(lost, 0.5 * 2.04, 1e-12);  // m v^2 / 2: the three directions hold the ball
     EXPECT_LT(run.end.velocity[0].norm(), 1e-12);
   }

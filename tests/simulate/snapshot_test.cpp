@@ -47,6 +47,7 @@ TEST(Snapshot, OfACrowdInSlabsIsTheSameByAnyNumberOfThreads) {
   const auto simulator = maker(problem)();
   go_to(*simulator, 1.5);
   const string bytes = simulator->save();
+
   string later;
   for (const int threads : {1, 2}) {
     problem.options.threads = threads;
@@ -87,13 +88,16 @@ TEST(Snapshot, GoesOnWithConstrainedMotionOverAGlobe) {
 TEST(Snapshot, GoesOnWithBallsInAMovingTroughOfRoundThings) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
+
   std::mt19937_64 random(5);
   for (int k = 0; k < 7; ++k)
     problem.ball({0.3 * k - 1 + 1e-3 * static_cast<double>(random() % 100), 2.5 + 0.7 * k, 0.01 * k}, Vec3::Zero(),
                  1 + k % 3, 0.25, 0.3);
+
   for (int k = -2; k <= 2; ++k) problem.obstacle({0.9 * k, 0.2 * k * k, 0}, Volume::sphere(0.75));
   problem.plane({0, 0, -0.6}, {0, 0, 1});
   problem.plane({0, 0, 0.6}, {0, 0, -1});
+
   const Entity first = problem.world.body_count() + 2;
   for (int k = 0; k < 5; ++k) problem.move(first + k, {{1, 2, {0.3, 0.1, 0}}, {3, 4, {-0.3, -0.1, 0}}});
   problem.options.duration = 6;
@@ -110,8 +114,10 @@ Problem cradle(double e) {
     const Entity ball = problem.ball(at, Vec3::Zero(), 1, 0.05, e);
     problem.world.strings.push_back({ball, no_entity, Vec3(x, 0, 0), (at - Vec3(x, 0, 0)).norm()});
   }
+
   const Entity loose = problem.ball({2, -0.5, 0}, {1, 0, 0.5}, 1, 0.05, e);
   problem.world.strings.push_back({loose, no_entity, Vec3(2, 0, 0), 1, 0.5});
+
   problem.options.duration = 6;
   return recorded(problem);
 }
@@ -158,10 +164,12 @@ TEST(Snapshot, GoesOnWithPathsByEveryMethodUnderEveryForce) {
       {{Spring{Vec3(0, 0.1, 0), 3, 0, 0}, 0.5, 4, {1, 2, 7}}},
       {{Spring{Vec3(0, 0.1, 0), 3, 0.4, 0.2}, 0.5, 4}},
       {{Attractor{Vec3(5, 0, 0), 2, 0}, 0, 3, {0, 1, 2, 3}}, {UniformForce{Vec3(0.5, 0, 0)}, 1, 4}}};
+
   for (const vector<Force>& forces : cases)
     for (const Integrator integrator : {Integrator::dop853, Integrator::rk4, Integrator::verlet, Integrator::euler})
       for (const bool closed_forms : {true, false}) {
         if (!closed_forms && integrator != Integrator::dop853) continue;
+
         Problem problem = forced(integrator, closed_forms);
         problem.world.forces = forces;
         // The second one is taken out of the world.
@@ -199,6 +207,7 @@ TEST(Snapshot, GoesOnWithTheBooksProgram) {
       options.record_paths = options.record_collisions = records;
       options.stop_collisions = 60;
       if (records) options.watch = problem.options.watch;
+
       const MakeSimulator make = [&] { return make_book_simulator(problem.world, problem.initial, options); };
       expect_same_when_restored(make, times_until(5, 33), 12);
     }

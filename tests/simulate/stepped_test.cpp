@@ -37,6 +37,7 @@ TEST(Forces, LinearDragInThreeDimensionsIsTheReferences) {
     problem.world.gravity = {0, 0, -params["g"].get<double>()};
     problem.ball(vec3(params["p0"]), vec3(params["v0"]), 2);
     problem.world.forces = {{Drag{2 * c["k"].get<double>(), 0, Vec3::Zero()}}};
+
     for (const nlohmann::json& state : c["states"]) {
       problem.options.duration = state["t"];
       const Outcome got = run(problem, 0.002);
@@ -81,8 +82,10 @@ TEST(Forces, BouncesInAMediumAreTheReferences) {
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.world.forces = {{Drag{3 * c["k"].get<double>(), 0, Vec3::Zero()}}};
     problem.options.duration = 3.2;
+
     expect_impacts(problem, c["impacts"], 0.001, 1e-10);
   }
+
   const nlohmann::json quadratic = carom::reference("forces")["quadratic_drag_bounce_1d"];
   for (const nlohmann::json& c : quadratic["cases"]) {
     Problem problem;
@@ -92,6 +95,7 @@ TEST(Forces, BouncesInAMediumAreTheReferences) {
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.world.forces = {{Drag{0, 3 * g / (vt * vt), Vec3::Zero()}}};
     problem.options.duration = 2.3;
+
     expect_impacts(problem, c["impacts"], 0.001, 1e-8);
   }
 }
@@ -161,9 +165,11 @@ void expect_quiet(const Problem& problem, double step, const char* what) {
   for (const Integrator method : {Integrator::euler, Integrator::verlet, Integrator::rk4}) {
     const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, step, method));
     go_to(*simulator, problem.options.duration);
+
     const State& end = simulator->state();
     EXPECT_LT(kinetic_energy(problem.world, end), 1e-20) << what << " " << step;
     EXPECT_EQ(simulator->tally().resting, problem.world.body_count()) << what << " " << step;
+
     for (Entity a = 0; a < problem.world.body_count(); ++a) {
       const double d = 2 * problem.world.radius[a];
       for (Entity b = 0; b < a; ++b)
@@ -204,6 +210,7 @@ TEST(Rest, ABallIsPressedIntoACornerByASpringOrByTheWind) {
       problem.world.forces = {{Drag{3, 0.5, {5, 4, -3}}}};
     else
       problem.world.forces = {{Spring{{2, 2, -2}, 50, 0, 1}}};
+
     problem.options.duration = 10;
     expect_quiet(problem, 0.001, wind ? "wind" : "spring");
     expect_quiet(problem, 0.01, wind ? "wind" : "spring");
@@ -214,12 +221,14 @@ TEST(Outputs, ChangeNothing) {
   const Problem problem = loose_pile(3, 3, 2);
   const auto once = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   go_to(*once, 2);
+
   const auto often = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   for (int k = 0; k <= 777; ++k) {
     go_to(*often, 2.0 * k / 777);
     often->state();
     often->contacts();
   }
+
   EXPECT_EQ(once->state().position, often->state().position);
   EXPECT_EQ(once->state().velocity, often->state().velocity);
   EXPECT_EQ(once->tally().energy_lost, often->tally().energy_lost);
@@ -232,19 +241,23 @@ TEST(Outputs, RequestedTwiceAreTheSame) {
   Problem problem = loose_pile(3, 3, 2);
   problem.ball({-3, 0.5, 0}, {1, 0, 0}, 1, 0.5, 0.5);
   problem.world.forces = {{Drag{0.1, 0.01, Vec3::Zero()}, 0.1}};
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   for (const double time : {0.0, 0.123, 0.777, 1.5, 2.0}) {
     go_to(*simulator, time);
+
     const Tally before = simulator->tally();
     const State first = simulator->state();
     const auto forces = simulator->contacts();
     const vector<ContactForce> requested(forces.begin(), forces.end());
     const State& second = simulator->state();
     const auto again = simulator->contacts();
+
     EXPECT_EQ(first.position, second.position) << time;
     EXPECT_EQ(first.velocity, second.velocity) << time;
     ASSERT_EQ(requested.size(), again.size()) << time;
     for (size_t k = 0; k < requested.size(); ++k) EXPECT_EQ(requested[k].force, again[k].force) << time;
+
     EXPECT_EQ(before.energy_lost, simulator->tally().energy_lost) << time;
     EXPECT_EQ(before.work, simulator->tally().work) << time;
   }
@@ -257,13 +270,16 @@ TEST(Sampling, ASleepingBodyStaysUntilItIsStruck) {
   problem.ball({1, 0.5, 0}, {0, 0, 0}, 1, 0.5);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.options.duration = 2;
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, 1));
   simulator->advance_to(0.25);
+
   for (const double time : {0.3, 0.4, 0.49}) {  // they meet at 0.5 s, each ball moves at 2 m/s for half of the step
     simulator->advance_to(time);
     EXPECT_EQ(simulator->state().position[1].x(), 1) << time;
     EXPECT_EQ(simulator->state().velocity[1].x(), 0) << time;
   }
+
   simulator->advance_to(0.75);
   EXPECT_NEAR(simulator->state().position[1].x(), 1.5, 1e-12);
 }

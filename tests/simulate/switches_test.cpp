@@ -94,14 +94,17 @@ TEST(Switches, OfForcesAtTheInstantOfAnyOtherEventAreTaken) {
                         }),
                 1e-9)
           << time;
+
       EXPECT_LT(nearest(problem, time,
                         [&](Problem& p, double at) {
                           p.world.forces.push_back({across, at / 2, at});
                         }),
                 1e-8)
           << time;
+
       tried += 2;
     }
+
   EXPECT_GT(tried, 80u);
 }
 
@@ -150,16 +153,20 @@ TEST(Switches, OnBodiesInContactShowTheForcesFromThatInstantOn) {
       problem.world.gravity = Vec3(0, -10, 0);
       problem.plane({0, 0, 0}, {0, 1, 0});
       problem.obstacle({4, 1, 0}, Volume::sphere(1));
+
       problem.ball({0, 0.5, 0}, Vec3::Zero(), 1, 0.5, 0);
       problem.ball({4, 2.5, 0}, Vec3::Zero(), 1, 0.5, 0);
       problem.ball({4, 3.5, 0}, Vec3::Zero(), 2, 0.5, 0);
       problem.ball({8, 2, 0}, Vec3::Zero(), 1, 0.5, 0);
       problem.world.strings.push_back({3, no_entity, {8, 4, 0}, 2});
+
       const UniformForce down{Vec3(0, -4, 0)};
       problem.world.forces.push_back({down, starts ? 1.0 : 0.0, starts ? forever : 1.0});
       problem.options.duration = duration;
+
       const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
       go_to(*simulator, 1);
+
       const double each = starts ? 4 : 0;
       EXPECT_NEAR(force_between(*simulator, 0, 4), 10 + each, 1e-13) << duration << starts;
       EXPECT_NEAR(force_between(*simulator, 1, 5), 30 + 2 * each, 1e-13) << duration << starts;

@@ -24,15 +24,18 @@ void expect_case(const nlohmann::json& reference_case, const nlohmann::json& p, 
     problem.ball(vec3(p["p1"]), vec3(p["v1"]), p["m1"], p["R1"], e);
     problem.ball(vec3(p["p2"]), vec3(p["v2"]), p["m2"], p["R2"], e);
     problem.options.duration = 4;
+
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), 1u) << "e = " << e;
     const Collision& c = run.collisions[0];
     const string what = "e = " + std::to_string(e);
+
     EXPECT_NEAR(c.time / r["t_contact"].get<double>(), 1, tight) << what;
     EXPECT_NEAR(c.impulse / r["impulse"].get<double>(), 1, tight) << what;
     EXPECT_NEAR(c.approach_speed / r["approach_speed"].get<double>(), 1, tight) << what;
     EXPECT_NEAR(c.energy_lost, -r["dKE"].get<double>(), tight * r["KE_before"].get<double>()) << what;
     expect_close(c.normal, vec3(r["normal_1to2"]), tight, what + " normal");
+
     for (const auto& s : r["states"]) {
       const auto again = make_exact_simulator(problem.world, problem.initial, problem.options);
       again->advance_to(s["t"]);
@@ -60,6 +63,7 @@ TEST(TwoBalls, WhatTheyHaveInCommonTakesNoDigitsOfTheirNormal) {
     const auto meet = [&](const Vec3& gravity, const Vec3& common) {
       Problem problem;
       problem.world.gravity = gravity;
+
       const Vec3 x(1000.75, 0.375, 0.25), w(-0x1p-13, 0, 0);
       if (boxes) {
         problem.body(Volume::sphere(0.5), {0, 0, 0}, common, 2, 0.5);
@@ -68,12 +72,15 @@ TEST(TwoBalls, WhatTheyHaveInCommonTakesNoDigitsOfTheirNormal) {
         problem.ball({0, 0, 0}, common, 2, 0.5, 0.5);
         problem.ball(x, common + w, 3, 0.5, 0.5);
       }
+
       problem.options.duration = 1.2e7;
       const Outcome run = run_exact(problem);
       EXPECT_EQ(run.collisions.size(), 1u);
       return run.collisions.empty() ? Collision{} : run.collisions[0];
     };
+
     const Collision alone = meet(Vec3::Zero(), Vec3::Zero());
+    // In other frames and other falls.
     for (const auto& [gravity, common] : {std::pair(Vec3(0, -1e-3, 0), Vec3(0, 0, 0)),
                                           {Vec3(0, 0, 0), Vec3(8192, 0, 1024)},
                                           {Vec3(1e-4, 2e-4, -1e-3), Vec3(-512, 64, 1024)}}) {
@@ -100,6 +107,7 @@ TEST(TwoBalls, GrazingHitsAreNeverMissed) {
     const double b = r["impact_parameter"];
     problem.ball({0, 0, 0}, {1, 0, 0});
     problem.ball({4, b, 0}, {0, 0, 0});
+
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), 1u) << "b = " << b;
     EXPECT_NEAR(run.collisions[0].time / r["t_contact"].get<double>(), 1, 4e-16) << "b = " << b;

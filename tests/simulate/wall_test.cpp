@@ -60,17 +60,21 @@ TEST(Wall, EveryParabolaMeetsTheRectangleWhereADenseMarchDoes) {
     seed = seed * 6364136223846793005ull + 1442695040888963407ull;
     return low + (high - low) * static_cast<double>(seed >> 11) * 0x1p-53;
   };
+
   int hits = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     Problem problem;
+
     problem.world.gravity = Vec3(0, trial % 3 == 0 ? 0.0 : -uniform(0.1, 20), 0);
     const Vec3 normal(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
     problem.wall({uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}, normal, uniform(0.2, 3), uniform(0.2, 3),
                  {0.3, 1, -0.2});
+
     const double radius = uniform(0.05, 0.6);
     const Vec3 x(uniform(-3, 3), uniform(-3, 3), uniform(-3, 3));
     const Vec3 v = Vec3(uniform(-2, 2), uniform(-2, 2), uniform(-2, 2)) - x;
     problem.ball(x, v, 1, radius);
+
     const Wall& wall = problem.world.walls[0];
     const auto distance = [&](double t) {
       const Vec3 p = x + t * v + 0.5 * t * t * problem.world.gravity - wall.center;
@@ -78,11 +82,14 @@ TEST(Wall, EveryParabolaMeetsTheRectangleWhereADenseMarchDoes) {
       const double w = std::max(std::abs(p.dot(wall.up)) - wall.half_height, 0.0);
       return std::sqrt(u * u + w * w + std::pow(p.dot(wall.normal), 2));
     };
+
     if (distance(0) < radius) continue;
+    // The march.
     problem.options.duration = 3;
     double march = -1;
     for (int step = 1; step <= 30000 && march < 0; ++step)
       if (distance(step * 1e-4) < radius) march = step * 1e-4;
+
     const Outcome run = run_exact(problem);
     if (march >= 0) {
       ++hits;
@@ -93,6 +100,7 @@ TEST(Wall, EveryParabolaMeetsTheRectangleWhereADenseMarchDoes) {
       EXPECT_NEAR(distance(run.collisions[0].time), radius, 1e-12) << "trial " << trial;
     }
   }
+
   EXPECT_GT(hits, 400);
 }
 

@@ -81,13 +81,16 @@ inline Balls lattice(int cells) {
 inline vector<ContactConstraint> contacts_of(const Balls& balls) {
   using Cell = array<int64_t, 3>;
   const double reach = 1 + balls.near;
+
   const auto cell_of = [&](const Vec3& x) {
     return Cell{static_cast<int64_t>(std::floor(x.x() / reach)), static_cast<int64_t>(std::floor(x.y() / reach)),
                 static_cast<int64_t>(std::floor(x.z() / reach))};
   };
+
   vector<std::pair<Cell, uint32_t>> cells;
   for (uint32_t i = 0; i < balls.center.size(); ++i) cells.emplace_back(cell_of(balls.center[i]), i);
   std::ranges::sort(cells);
+
   vector<ContactConstraint> contacts;
   for (uint32_t i = 0; i < balls.center.size(); ++i) {
     const Vec3& x = balls.center[i];
@@ -97,6 +100,7 @@ inline vector<ContactConstraint> contacts_of(const Balls& balls) {
       if (balls.high[axis] - x[axis] <= 0.5 + balls.near)
         contacts.push_back({i, ContactConstraint::fixed, Vec3::Unit(axis)});
     }
+
     const Cell here = cell_of(x);
     for (int step = 0; step < 27; ++step) {
       const Cell there{here[0] + step / 9 - 1, here[1] + step / 3 % 3 - 1, here[2] + step % 3 - 1};
@@ -107,6 +111,7 @@ inline vector<ContactConstraint> contacts_of(const Balls& balls) {
       }
     }
   }
+
   return contacts;
 }
 
@@ -114,16 +119,20 @@ inline vector<ContactConstraint> contacts_of(const Balls& balls) {
 inline Balls packing(int n, uint64_t seed) {
   Balls balls;
   Draw draw(seed);
+
   const double edge = std::cbrt(n * 3.14159265358979 / 6 / 0.66);
+
   balls.low = Vec3::Zero();
   balls.high = Vec3::Constant(edge);
   for (int i = 0; i < n; ++i) {
     const double x = draw(0.5, edge - 0.5), y = draw(0.5, edge - 0.5), z = draw(0.5, edge - 0.5);
     balls.center.push_back(Vec3(x, y, z));
   }
+
   balls.near = 0;
   for (int pass = 0; pass < 400; ++pass) {
     vector<Vec3> push(balls.center.size(), Vec3::Zero());
+
     for (const ContactConstraint& c : contacts_of(balls)) {
       const Vec3& x = balls.center[c.a];
       if (c.b == ContactConstraint::fixed) {
@@ -135,8 +144,10 @@ inline Balls packing(int n, uint64_t seed) {
         push[c.b] -= 0.25 * gap * c.normal;
       }
     }
+
     for (size_t i = 0; i < push.size(); ++i) balls.center[i] += push[i];
   }
+
   balls.near = 0.01;
   return balls;
 }
@@ -152,9 +163,12 @@ inline Case loaded(const string& name, const Balls& balls, Load load, double dec
          {},
          {},
          contacts_of(balls)};
+
   Draw draw(seed);
+
   for (size_t i = 0; i < balls.center.size(); ++i) {
     c.inverse_mass.push_back(std::pow(10.0, draw(0, decades)));
+
     Vec3 u(0, 0, load == Load::impact ? 0 : -9.81);
     const double chance = draw(0, 1), size = draw(0, 1);
     const Vec3 way = draw.direction();
@@ -162,6 +176,7 @@ inline Case loaded(const string& name, const Balls& balls, Load load, double dec
     if (load == Load::impact) u = 1.7 * size * way;
     c.motion.push_back(u);
   }
+
   return c;
 }
 

@@ -99,6 +99,7 @@ TEST(ContactProblem, SmallProblemsAreExactWhateverTheMasses) {
         held += expect_exact(loaded("row of " + std::to_string(n), row(n), load, decades));
         held += expect_exact(loaded("stack of " + std::to_string(n), stack(n), load, decades));
       }
+
       held += expect_exact(loaded("lattice of 4", lattice(1), load, decades));
       held += expect_exact(loaded("lattice of 32", lattice(2), load, decades));
       held += expect_exact(loaded("packing of 12", packing(12, 3), load, decades));
@@ -138,6 +139,7 @@ TEST(ContactProblem, BothMethodsFindTheSameMotion) {
     for (const double decades : {0.0, 3.0, 6.0})
       for (const Balls& balls : {stack(50), lattice(2), packing(60, 7)}) {
         const Case c = loaded("", balls, load, decades);
+
         ContactIsland island;
         island.inverse_mass = c.inverse_mass;
         island.free = c.motion;
@@ -147,11 +149,14 @@ TEST(ContactProblem, BothMethodsFindTheSameMotion) {
           r.b = contact.b;
           r.normal = contact.normal;
         }
+
         island.scale();
+
         ContactSolution one, other;
         DualActiveSet method;
         EXPECT_TRUE(method.solve(island, one).judgement.within_slack);
         EXPECT_TRUE(ContactInteriorPoint(island).solve(other).within_slack);
+
         for (size_t i = 0; i < one.motion.size(); ++i)
           EXPECT_NEAR(one.motion[i].hi, other.motion[i].hi, 1e-14);  // of a greatest of 1; measured: 1e-16
       }
@@ -176,7 +181,9 @@ TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   const Case given = loaded("", packing(30, 2), Load::push, 3);
   Case p = given, reversed = given, beside = given;
   std::ranges::reverse(reversed.contacts);
+
   const auto n = static_cast<uint32_t>(given.motion.size());
+  // The other island: the same, far heavier and faster.
   for (size_t i = 0; i < n; ++i) {
     beside.inverse_mass.push_back(1e9 * given.inverse_mass[i]);
     beside.motion.push_back(1e9 * given.motion[i]);
@@ -186,9 +193,11 @@ TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
     if (c.b != fixed) c.b += n;
     beside.contacts.push_back(c);
   }
+
   solve_case(p);
   solve_case(reversed);
   solve_case(beside);
+
   EXPECT_LE(difference(p.motion, reversed.motion), 1e-15);  // measured: 0
   for (size_t i = 0; i < n; ++i) EXPECT_EQ(p.motion[i], beside.motion[i]);
 }
@@ -198,16 +207,20 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
   for (const Load load : loads)
     for (const double decades : {0.0, 6.0}) {
       const Case given = loaded("", packing(40, 6), load, decades);
+
       ContactSolver solver;
       Case first = given;
       EXPECT_TRUE(solver.solve({first.inverse_mass, first.motion, first.contacts}).solved());
+
       for (size_t away = 0; away < given.contacts.size(); away += 11) {
         Case without = given;
         without.contacts.erase(without.contacts.begin() + static_cast<ptrdiff_t>(away));
+
         Case cold = without, again = given;
         EXPECT_TRUE(solver.solve({without.inverse_mass, without.motion, without.contacts}).solved());
         solve_case(cold);
         EXPECT_LE(difference(cold.motion, without.motion), 1e-14);  // measured: 2e-16
+
         EXPECT_TRUE(solver.solve({again.inverse_mass, again.motion, again.contacts}).solved());
         EXPECT_LE(difference(first.motion, again.motion), 1e-14);
       }

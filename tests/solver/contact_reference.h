@@ -37,6 +37,25 @@ struct Reference {
   }
 };
 
+/// What a unit impulse along one row changes of the rate of another.
+inline Quad product(const vector<double>& inverse_mass, const ContactConstraint& p, const ContactConstraint& q) {
+  Quad shared = 0, along = 0;
+  if (p.a == q.a) shared += inverse_mass[p.a];
+  if (p.b == q.b && p.b != fixed) shared += inverse_mass[p.b];
+  if (p.b == q.a) shared -= inverse_mass[q.a];
+  if (p.a == q.b) shared -= inverse_mass[p.a];
+  for (int k = 0; k < 3; ++k) along += Quad(p.normal[k]) * q.normal[k];
+  return shared * along;
+}
+
+/// By how much the gap of a row opens faster than it should.
+inline Quad rate(const vector<Quad>& u, const ContactConstraint& c) {
+  Quad sum = -Quad(c.target);
+  for (size_t k = 0; k < 3; ++k)
+    sum += Quad(c.normal[static_cast<int>(k)]) * ((c.b == fixed ? Quad(0) : u[3 * c.b + k]) - u[3 * c.a + k]);
+  return sum;
+}
+
 /// `contacts`: with the forces of a solution; those above 0 press.
 inline Reference reference(const vector<double>& inverse_mass, const vector<Vec3>& free,
                            const vector<ContactConstraint>& contacts) {
@@ -44,35 +63,24 @@ inline Reference reference(const vector<double>& inverse_mass, const vector<Vec3
   for (const ContactConstraint& c : contacts)
     if (c.force > 0) rows.push_back(&c);
   const size_t m = rows.size();
-  const auto product = [&](const ContactConstraint& p, const ContactConstraint& q) {
-    Quad shared = 0, along = 0;
-    if (p.a == q.a) shared += inverse_mass[p.a];
-    if (p.b == q.b && p.b != fixed) shared += inverse_mass[p.b];
-    if (p.b == q.a) shared -= inverse_mass[q.a];
-    if (p.a == q.b) shared -= inverse_mass[p.a];
-    for (int k = 0; k < 3; ++k) along += Quad(p.normal[k]) * q.normal[k];
-    return shared * along;
-  };
-  const auto rate = [&](const vector<Quad>& u, const ContactConstraint& c) {
-    Quad sum = -Quad(c.target);
-    for (size_t k = 0; k < 3; ++k)
-      sum += Quad(c.normal[static_cast<int>(k)]) * ((c.b == fixed ? Quad(0) : u[3 * c.b + k]) - u[3 * c.a + k]);
-    return sum;
-  };
+
   Reference result;
   for (const Vec3& u : free)
     for (int k = 0; k < 3; ++k) result.motion.push_back(u[k]);
   vector<Quad> factor(m * m, 0), scale(m), force(m, 0);
   vector<char> spanned(m, 0);  // by rows before it
-  for (size_t i = 0; i < m; ++i) scale[i] = 1 / square_root(product(*rows[i], *rows[i]));
+
+  // Cholesky's factors of the scaled equations, without the rows that those before them span.
+  for (size_t i = 0; i < m; ++i) scale[i] = 1 / square_root(product(inverse_mass, *rows[i], *rows[i]));
   for (size_t i = 0; i < m; ++i)
     for (size_t j = 0; j <= i; ++j) {
       if (spanned[j]) continue;
-      Quad sum = scale[i] * scale[j] * product(*rows[i], *rows[j]);
+      Quad sum = scale[i] * scale[j] * product(inverse_mass, *rows[i], *rows[j]);
       for (size_t k = 0; k < j; ++k) sum -= factor[i * m + k] * factor[j * m + k];
       spanned[j] = j == i && sum < 1e-28;
       if (!spanned[j]) factor[i * m + j] = j < i ? sum / factor[j * m + j] : square_root(sum);
     }
+
   // Once for the value, twice for what ill-conditioned factors leave.
   for (int pass = 0; pass < 3; ++pass) {
     vector<Quad> x(m, 0);
@@ -82,11 +90,13 @@ inline Reference reference(const vector<double>& inverse_mass, const vector<Vec3
       for (size_t k = 0; k < i; ++k) x[i] -= factor[i * m + k] * x[k];
       x[i] /= factor[i * m + i];
     }
+
     for (size_t i = m; i-- > 0;) {
       if (spanned[i]) continue;
       for (size_t k = i + 1; k < m; ++k) x[i] -= factor[k * m + i] * x[k];
       x[i] /= factor[i * m + i];
       force[i] += x[i];
+
       const ContactConstraint& c = *rows[i];
       for (size_t k = 0; k < 3; ++k) {
         const Quad push = x[i] * scale[i] * Quad(c.normal[static_cast<int>(k)]);
@@ -95,16 +105,19 @@ inline Reference reference(const vector<double>& inverse_mass, const vector<Vec3
       }
     }
   }
+
   Quad least = 0, most = 0, violated = 0, speed = 0;
   for (const Quad x : force) {
     least = std::min(least, x);
     most = std::max(most, x);
   }
   for (const Vec3& u : free) speed = std::max(speed, Quad(u.norm()));
+
   for (const ContactConstraint& c : contacts) {
     speed = std::max(speed, Quad(std::abs(c.target)));
     violated = std::max(violated, -rate(result.motion, c));
   }
+
   result.holds = least >= -1e-13 * most && violated <= 1e-14 * speed;
   return result;
 }

@@ -105,6 +105,7 @@ TEST(LeastForces, OfASlabOnBallsAreTheSameOnAll) {
       slab.contacts.push_back({0, k, Vec3(0, -1, 0)});
       slab.contacts.push_back({k, immovable, Vec3(0, -1, 0)});
     }
+
     const vector<double> forces = slab.forces();
     for (uint32_t k = 0; k < balls; ++k) {
       EXPECT_NEAR(forces[2 * k], 80.0 / balls, 1e-12) << balls;

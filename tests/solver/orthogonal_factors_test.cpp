@@ -18,6 +18,7 @@ TEST(OrthogonalFactors, StayOrthogonalThroughAThousandChanges) {
   factors.reset(n);
   vector<vector<double>> rows;
   vector<double> d(n), v(n), column(n);
+
   for (int change = 0; change < 1000; ++change) {
     const bool more = rows.empty() || (rows.size() < n - 1 && draw(0, 1) < 0.5);
     if (more) {
@@ -28,13 +29,16 @@ TEST(OrthogonalFactors, StayOrthogonalThroughAThousandChanges) {
       if (factors.tail(d.data()) < 1e-6) continue;
       factors.append(d.data());
       rows.push_back(row);
+
     } else {
       const auto place = static_cast<size_t>(draw(0, static_cast<double>(rows.size())));
       factors.remove(place, d.data());
       rows.erase(rows.begin() + static_cast<ptrdiff_t>(place));
     }
+
     ASSERT_EQ(factors.rank(), rows.size());
   }
+
   // Q Q^T v = v; and an added row leaves nothing in the tail.
   for (size_t k = 0; k < n; ++k) v[k] = draw(-1, 1);
   factors.to_q(v.data(), d.data());
@@ -44,6 +48,7 @@ TEST(OrthogonalFactors, StayOrthogonalThroughAThousandChanges) {
     factors.to_q(row.data(), d.data());
     EXPECT_LT(factors.tail(d.data()), 1e-13);
   }
+
   // J (Q1 R^-T d) = d.
   vector<double> rhs(n, 0.0);
   for (size_t k = 0; k < rows.size(); ++k) rhs[k] = d[k] = draw(-1, 1);

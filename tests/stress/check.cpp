@@ -24,7 +24,9 @@ string names_of(Entity a, Entity b) {
 double coefficient(const World& world, Entity a, Entity b) {
   for (auto p = world.pairs.rbegin(); p != world.pairs.rend(); ++p)
     if ((p->a_first == a && p->b_first == b) || (p->a_first == b && p->b_first == a)) return p->value;
+
   const double e1 = world.restitution[a], m1 = world.mass[a];
+  // A fixed thing without a coefficient of its own has the body's.
   double e2 = e1, m2 = 0;
   if (world.is_body(b)) {
     e2 = world.restitution[b];
@@ -35,6 +37,7 @@ double coefficient(const World& world, Entity a, Entity b) {
                              : world.obstacle(b).restitution)
              .value_or(e1);
   }
+
   switch (world.combine) {
     case Combine::average:
       return (e1 + e2) / 2;
@@ -44,6 +47,7 @@ double coefficient(const World& world, Entity a, Entity b) {
       return std::max(e1, e2);
     case Combine::product:
       return e1 * e2;
+
     case Combine::geometric_mean:
       return std::sqrt(e1 * e2);
     case Combine::mass_weighted:
@@ -64,20 +68,25 @@ class Check {
     if (first_.too_slow)
       return fail("takes more than " + text(patience_) + " s of CPU time, " + std::to_string(first_.records.size()) +
                   " records so far");
+
     verdict_.collisions = first_.tally.collisions();
     verdict_.crowds = first_.tally.stepped_contact > 0;
     if (!first_.error.empty()) return stop();
+
     times_ = sample_times(scene_, first_.records);
     seen_ = watch(scene_, times_, 10 * patience_);
     same("with more outputs", seen_);
     if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
     if (!finite()) return;
+
     paths_ = make_unique<Paths>(scene_, times_, seen_, first_.records, in_contact());
     for (string& overlap : paths_->overlaps()) fail(std::move(overlap));
+
     energy();
     rows();
     momentum();
     for (const Collision& c : first_.records) record(c);
+
     if (scene_.seed % 8 == 0) same("run again", watch(scene_, {}, patience_));
     scaling();
     axes();
@@ -100,6 +109,7 @@ class Check {
     }
     if (!scene_.may_stop || (!lively && first_.error.find("clock") != string::npos))
       return fail("error: " + first_.error);
+
     verdict_.stopped = true;
     double end = 0;
     size_t count = 0;
@@ -108,6 +118,7 @@ class Check {
       end = c.time;
     }
     if (!(end > 0)) return;
+
     RandomScene shorter = scene_;
     shorter.may_stop = false;
     shorter.options.max_collisions = 0;
@@ -140,15 +151,18 @@ class Check {
       const long double kinetic = 0.5L * m * s.velocity[i].cast<long double>().squaredNorm();
       const long double potential = -m * world_.gravity.cast<long double>().dot(s.position[i].cast<long double>());
       sum += kinetic + potential;
+
       for (const Force& f : world_.forces) {
         if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::ranges::count(f.on, i))) continue;
         sum -= (per_mass(f) ? world_.mass[i] : 1) * value(f).cast<long double>().dot(s.position[i].cast<long double>());
       }
+
       double pull = world_.gravity.cwiseAbs().dot(s.position[i].cwiseAbs());
       for (const Force& f : world_.forces)
         pull += value(f).cwiseAbs().dot(s.position[i].cwiseAbs()) / (per_mass(f) ? 1 : world_.mass[i]);
       all += static_cast<double>(kinetic) + static_cast<double>(m) * pull;
     }
+
     size = std::max(size, all);
     return sum;
   }
@@ -197,15 +211,18 @@ class Check {
     if (world_.fixed_count() > 0 || !world_.forces.empty()) return;
     Long3 start = Long3::Zero(), end = Long3::Zero();
     long double size = 0, all = 0;
+
     for (Entity i = 0; i < world_.body_count(); ++i) {
       start += world_.mass[i] * first_.start.velocity[i].cast<long double>();
       end += mass(first_.end, i) * first_.end.velocity[i].cast<long double>();
       size += world_.mass[i] * first_.start.velocity[i].norm() + mass(first_.end, i) * first_.end.velocity[i].norm();
       all += world_.mass[i];
     }
+
     const Long3 given = all * scene_.options.duration * world_.gravity.cast<long double>();
     size += given.norm();
     for (const Collision& c : first_.records) size += 0.01L * c.impulse;
+
     const long double off = (end - start - given).norm();
     if (!(off <= 1e-14L * size)) fail("momentum: off by " + text(static_cast<double>(off / size)) + " of its size");
   }
@@ -228,6 +245,7 @@ class Check {
     if (c.approach_speed < 0) fail(what + "they separate at " + text(-c.approach_speed) + " m/s");
     if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + "its normal has length 1 + " + text(c.normal.norm() - 1));
     if (scene_.options.merge && c.kind == CollisionKind::merge) return;
+
     if (!scene_.options.merge) {
       const double e = coefficient(world_, c.a, c.b);
       if (std::abs(c.restitution - e) > 4e-16 * e)
@@ -239,19 +257,24 @@ class Check {
           std::abs(c.separation_speed - e * c.approach_speed) > 1e-15 * c.approach_speed)
         fail(what + "separates at " + text(c.separation_speed) + " after " + text(c.approach_speed));
     }
+
     if (c.restitution <= 1 && c.energy_lost < 0)
       fail(what + "makes energy: " + text(-c.energy_lost) + " J at " + text(c.approach_speed) + " m/s");
+
     if (scene_.options.merge) return;
+    // Where they are at that instant, if there is a state of it.
     const auto at = std::lower_bound(times_.begin(), times_.end(), c.time);
     if (at == times_.end() || *at != c.time) return;
     const State& s = seen_.seen[static_cast<size_t>(at - times_.begin())];
     const bool body = world_.is_body(c.b);
     const Vec3 xb = body ? s.position[c.b] : fixed_position(world_, c.b, {c.time, 0});
+
     const double distance =
         static_cast<double>(gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb.cast<long double>()));
     const double tick = std::nextafter(c.time, 1e300) - c.time;
     const Vec3 vb = body ? s.velocity[c.b] : fixed_velocity(world_, c.b, {c.time, 0});
     const double speed = s.velocity[c.a].norm() + vb.norm() + c.approach_speed;
+
     // Collisions that end together, by a collapse or as struck bodies pass them on, are in one place within a billionth
     // of a radius.
     double place = c.separation_speed == 0 ? 1e-9 * world_.radius[c.a] : 0;
@@ -280,10 +303,12 @@ class Check {
     const Vec3 vb = world_.is_body(c.b) ? seen_.start.velocity[c.b] : fixed_velocity(world_, c.b, {c.time, 0});
     const double speed = seen_.start.velocity[c.a].norm() + vb.norm();
     if (!(next > c.time * (1 + 1e-6)) || c.time == 0 || c.approach_speed < 1e-2 * speed) return;
+
     RandomScene other = turned(scene_);
     other.options.duration = std::min(other.options.duration, next);
     const Watched run = watch(other, {}, patience_);
     const double slack = 10 * paths_->rounding(c.a, c.b) / c.approach_speed + 1e-12 * c.time;
+
     if (run.records.empty())
       fail("with its axes turned nothing meets, else " + names_of(c.a, c.b) + " at t = " + text(c.time));
     else if (run.records[0].a != c.a || run.records[0].b != c.b || std::abs(run.records[0].time - c.time) > slack)

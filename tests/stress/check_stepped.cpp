@@ -17,14 +17,14 @@ namespace {
 constexpr double deepest = 1e-8;    // of the smaller radius, in crowds, and
 constexpr double most_gain = 1e-6;  // of the energy; measured: below 1e-7 in 1,371 scenes
 
-struct Observed {
+struct Sampled {
   vector<State> states;
   Tally tally;
 };
 
-Observed run(const RandomScene& scene, const ExactOptions& options, int instants) {
+Sampled run(const RandomScene& scene, const ExactOptions& options, int instants) {
   const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
-  Observed seen;
+  Sampled seen;
   simulator->advance_to(0);
   seen.states.push_back(simulator->state());
   for (int k = 1; k <= instants; ++k) {
@@ -45,6 +45,7 @@ long double energy(const World& world, const State& s, long double& size) {
     sum += part;
     size += std::abs(part);
   };
+
   for (Entity i = 0; i < world.body_count(); ++i) {
     const long double m = world.mass[i];
     const Long3 x = s.position[i].cast<long double>();
@@ -63,6 +64,7 @@ long double energy(const World& world, const State& s, long double& size) {
 Verdict check_stepped(const RandomScene& scene) {
   Verdict verdict;
   const World& world = scene.world;
+
   ExactOptions options;
   options.integrator = static_cast<Integrator>(scene.seed / 13 % 3);
   options.duration = scene.options.duration;
@@ -70,12 +72,14 @@ Verdict check_stepped(const RandomScene& scene) {
   options.step = options.duration / steps;
   options.max_collisions = scene.options.max_collisions;
   options.record_collisions = false;
+
   const string what =
       "in " + std::to_string(steps) + " steps by method " + std::to_string(static_cast<int>(options.integrator)) + ": ";
   const auto fail = [&](const string& why) {
     if (verdict.violations.size() < 12) verdict.violations.push_back(what + why);
   };
-  Observed once, often;
+
+  Sampled once, often;
   try {
     once = run(scene, options, 1);
     often = run(scene, options, 23);
@@ -85,10 +89,13 @@ Verdict check_stepped(const RandomScene& scene) {
     if (!scene.may_stop && !so_many) fail(error.what());
     return verdict;
   }
+
   verdict.collisions = once.tally.collisions();
   const State &start = once.states.front(), &end = once.states.back();
   if (end.position != often.states.back().position || end.velocity != often.states.back().velocity)
     fail("outputs change where it ends");
+
+  // All bodies are somewhere, and none overlap.
   const bool lively = std::ranges::any_of(world.restitution, [](double e) { return e > 1; });
   for (const State& s : often.states)
     for (Entity a = 0; a < world.body_count(); ++a) {
@@ -96,6 +103,7 @@ Verdict check_stepped(const RandomScene& scene) {
         fail("body " + std::to_string(a) + " is nowhere at t = " + text(s.time));
         return verdict;
       }
+
       for (Entity b = a + 1; b < world.body_count() + world.fixed_count(); ++b) {
         const bool body = world.is_body(b);
         const Vec3 xb = body ? s.position[b] : fixed_position(world, b, {s.time, 0});
@@ -107,9 +115,12 @@ Verdict check_stepped(const RandomScene& scene) {
                " of a radius at t = " + text(s.time));
       }
     }
+
+  // The energy, except by Euler's method, which keeps none.
   if (lively || options.integrator == Integrator::euler) return verdict;
   long double before, after;
   const long double first = energy(world, start, before), last = energy(world, end, after);
+
   const double size = static_cast<double>(before + after) + once.tally.energy_lost + std::abs(once.tally.work);
   if (static_cast<double>(last - first) > once.tally.work + most_gain * size)
     fail("gains " + text(static_cast<double>(last - first) - once.tally.work) + " J of " + text(size));

@@ -15,17 +15,20 @@ namespace {
 void gas(Maker& m) {
   m.room(2);
   m.gravity(0.5);
+
   for (int k = m.whole(0, 2); k > 0; --k)
     m.plane(m.within({-1, -1.6, -1}, {1, -1.4, 1}), m.within({-1, 1, -1}, {1, 1, 1}));
   for (int k = m.whole(0, 3); k > 0; --k)
     m.wall(m.somewhere(1.5), m.chance(0.3) ? Vec3::UnitY() : m.direction(), {0.11, 0.3, 1}, m.uniform(0.1, 2),
            m.uniform(0.1, 2));
+
   const double e = m.restitution();
   const bool spread = m.chance(0.3), still = m.chance(0.3), heavy = m.chance(0.3);
   for (int k = m.whole(1, 40); k > 0; --k)
     m.fit(2, Volume::sphere(spread ? m.spread(1e-3, 0.5) : m.uniform(0.05, 0.3)),
           still && m.chance(0.5) ? Vec3(Vec3::Zero()) : m.somewhere(3), heavy ? m.spread(1e-2, 1e4) : m.uniform(0.5, 2),
           e);
+
   m.scene.options.duration = m.uniform(0.2, 2);
   m.scene.may_stop = m.scene.world.gravity.isZero() && e == 1;
   if (!m.scene.world.gravity.isZero() && e < 1)
@@ -59,6 +62,7 @@ void grazing(Maker& m) {
     const Vec3 axis = m.direction(), side = axis.cross(m.direction()).normalized(), w = m.uniform(1, 20) * axis;
     const Vec3 meet = m.somewhere(30), drift = m.somewhere(2);
     const double time = 0.5 * duration;
+
     const Vec3 xa = meet - drift * time, xb = meet + (a + b) * (1 + by) * side - (drift - w) * time;
     if (!m.is_free(xa, Volume::sphere(a))) continue;
     m.body(xa, drift, Volume::sphere(a), m.spread(1e-2, 1e2), e);
@@ -75,11 +79,13 @@ void walls(Maker& m) {
   for (int k = 0; k < count; ++k)
     m.wall(m.somewhere(2), m.chance(0.3) ? Vec3(Vec3::Unit(m.whole(0, 2))) : m.direction(), {0.31, 0.7, 0.2},
            m.uniform(0.05, 3), m.uniform(0.05, 3));
+
   for (int k = m.whole(1, 8); k > 0; --k) {
     const Wall& w = m.scene.world.walls[static_cast<size_t>(m.whole(0, count - 1))];
     const double radius = m.spread(1e-3, 0.5);
     const auto along = [&] { return m.chance(0.4) ? m.any({-1, 1}) : m.uniform(-1.1, 1.1); };
     const Vec3 target = w.center + w.half_width * along() * w.right + w.half_height * along() * w.up;
+
     const Vec3 v = m.uniform(0.1, 10) * m.direction();
     const Vec3 x = target + (m.chance(0.5) ? 1.2 : 0.2) * m.somewhere(radius) - v * m.uniform(0.2, 1);
     if (m.is_free(x, Volume::sphere(radius))) m.body(x, v, Volume::sphere(radius), m.uniform(0.1, 2), e);
@@ -91,6 +97,7 @@ void walls(Maker& m) {
 void volumes(Maker& m) {
   m.gravity(0.4);
   const bool room = m.chance(0.7);
+
   if (room) m.room(2);
   const double e = m.restitution();
   for (int k = m.whole(0, 4); k > 0; --k) m.obstacle(m.somewhere(1.5), m.any_volume(m.uniform(0.1, 0.6), 0.33));
@@ -98,6 +105,7 @@ void volumes(Maker& m) {
     m.wall(m.somewhere(1.5), m.chance(0.5) ? Vec3(Vec3::Unit(m.whole(0, 2))) : m.direction(), {0.31, 0.7, 0.2},
            m.uniform(0.1, 2), m.uniform(0.1, 2));
   if (m.chance(0.3)) m.plane(m.within({-1, -1.6, -1}, {1, -1.4, 1}), m.within({-1, 1, -1}, {1, 1, 1}));
+
   for (int k = m.whole(1, 14); k > 0; --k)
     m.fit(2, m.any_volume(m.uniform(0.05, 0.4), 0.3), m.somewhere(m.chance(0.2) ? 0 : 3), m.uniform(0.5, 2), e);
   m.scene.options.duration = m.uniform(0.2, 1.5);
@@ -163,8 +171,10 @@ void cradles(Maker& m) {
   const int row = m.whole(2, 8), strikers = m.whole(0, 3);
   const bool equal = m.chance(0.6), across = m.chance(0.3);
   const double spacing = 2 * radius * (m.chance(0.7) ? 1 : 1 + m.spread(1e-15, 1e-3));
+
   for (int k = 0; k < row; ++k)
     m.body({spacing * k, 0, 0}, Vec3::Zero(), Volume::sphere(radius), equal ? 1 : m.spread(0.01, 100), e);
+
   for (int k = 0; k < strikers; ++k) {
     const double side = k % 2 == 0 ? -1 : 1;
     const Vec3 x = across ? Vec3(spacing * m.uniform(0, row), radius * (4 + 3 * k), 0)
@@ -172,10 +182,12 @@ void cradles(Maker& m) {
     const Vec3 v = across ? Vec3(0, -speed, 0) : Vec3(-side * speed, 0, 0);
     if (m.is_free(x, Volume::sphere(radius))) m.body(x, v, Volume::sphere(radius), equal ? 1 : m.spread(0.01, 100), e);
   }
+
   if (m.chance(0.2)) {
     m.plane({-40 * radius, 0, 0}, Vec3::UnitX());
     m.plane({40 * radius, 0, 0}, -Vec3::UnitX());
   }
+
   const double pull = m.scene.world.gravity.norm();  // to 1e9 m
   m.scene.options.duration = std::min({1e6, 60 * radius / speed, pull > 0 ? std::sqrt(2e9 / pull) : 1e6});
 }
@@ -192,12 +204,16 @@ void heaps(Maker& m) {
   } else {
     m.room(m.any({1, 1.5}));
   }
+
   if (m.chance(0.3)) m.obstacle(m.within({-0.5, -1, -0.5}, {0.5, 0, 0.5}), m.any_volume(m.uniform(0.1, 0.4), 0.4));
+
   const double e = m.any({0, 0.3, 0.5, 0.8}), spheres = m.chance(0.7) ? 1 : 0.3, size = m.uniform(0.08, 0.3);
   const bool equal = m.chance(0.4);
+
   for (int k = m.whole(2, 40); k > 0; --k)
     m.fit(1, m.any_volume(equal ? size : size * m.uniform(0.3, 1), spheres), m.somewhere(1),
           equal ? 1 : m.spread(0.1, 10), e);
+
   m.scene.options.duration = m.uniform(0.5, 2);
   m.scene.options.max_collisions = 0;
 }
@@ -241,6 +257,7 @@ void hammers(Maker& m) {
            m.spread(1e-7, 1e7), e);
     x += 2 * radius + m.spread(1e-4, 1);
   }
+
   m.scene.options.duration = m.spread(0.1, 100);
   m.scene.may_stop = true;
 }

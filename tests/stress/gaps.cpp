@@ -50,10 +50,12 @@ Real volumes(const Long3& d, const Volume& a, const Volume& b) {
     return d.norm() - (static_cast<Real>(a.half.x()) + b.half.x());
   if (a.shape == Shape::sphere && b.shape == Shape::box) return sphere_and_box(d, a.half.x(), b.half);
   if (a.shape == Shape::sphere) return sphere_and_cylinder(d, a.half.x(), b.half);
+
   if (a.shape == Shape::cylinder && b.shape == Shape::cylinder)
     return joined(level(d) - (static_cast<Real>(a.half.x()) + b.half.x()),
                   std::abs(d.y()) - (static_cast<Real>(a.half.y()) + b.half.y()));
   if (a.shape == Shape::cylinder) return box_and_cylinder(d, b.half, a.half);
+
   Real gap[3];
   for (int k = 0; k < 3; ++k) gap[k] = std::abs(d[k]) - (static_cast<Real>(a.half[k]) + b.half[k]);
   return joined(joined(gap[0], gap[1]), gap[2]);

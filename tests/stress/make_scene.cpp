@@ -94,12 +94,14 @@ bool Maker::is_free(const Vec3& x, const Volume& volume) {
   World& world = scene.world;
   const Long3 at = x.cast<long double>();
   const double margin = 1e-6 * volume.reach();
+
   bool free = true;
   for (Entity e = 0; free && e < me + 1 + world.fixed_count(); ++e) {
     if (e == me) continue;
     const Vec3 other = e < me ? scene.initial.position[e] : world.fixed_position(e);
     free = gap(world, me, at, e, other.cast<long double>()) > margin;
   }
+
   world.mass.pop_back();
   world.radius.pop_back();
   world.volume.pop_back();
@@ -144,6 +146,7 @@ double Maker::restitution() {
 void Maker::rules() {
   World& world = scene.world;
   if (chance(0.5)) world.combine = static_cast<Combine>(whole(0, 6));
+
   const auto own = [&](auto& things) {
     for (auto& thing : things)
       if (chance(0.2)) thing.restitution = restitution();
@@ -151,6 +154,7 @@ void Maker::rules() {
   own(world.planes);
   own(world.walls);
   own(world.obstacles);
+
   const int all = static_cast<int>(world.body_count() + world.fixed_count());
   if (all < 2 || world.body_count() == 0 || !chance(0.3)) return;
   for (int k = whole(1, 3); k > 0; --k) {
@@ -175,6 +179,7 @@ void Maker::motions(World& world, double duration, double speed) {
       windows.push_back({from, until, speed * uniform(0, 1) * along});
       from = chance(0.3) ? until : until + duration * uniform(0.01, 0.3);
     }
+
     world.motions.resize(world.fixed_count());
     world.motions[e - world.body_count()] = legs_of(windows);
   }
@@ -188,13 +193,16 @@ void Maker::forces(double duration, double acceleration) {
     const double mass = world.mass.empty() ? 1 : world.mass[0];
     const double from = chance(0.5) ? 0 : duration * uniform(0, 1);
     const double until = chance(0.6) ? from + duration * uniform(0.01, 0.7) : std::numeric_limits<double>::infinity();
+
     if (per_mass)
       world.forces.push_back({UniformAcceleration{value}, from, until});
     else
       world.forces.push_back({UniformForce{mass * value}, from, until});
+
     for (Entity i = 0; i < world.body_count(); ++i)
       if (chance(0.4)) world.forces.back().on.push_back(i);
   }
+
   if (!chance(0.5)) return;
   for (Entity i = 0; i < world.body_count(); ++i)
     world.impulse.push_back(chance(0.5) ? Vec3(world.mass[i] * somewhere(1)) : Vec3(Vec3::Zero()));

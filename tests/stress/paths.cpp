@@ -33,16 +33,19 @@ Paths::Paths(const RandomScene& scene, const vector<double>& times, const Watche
   for (const Collision& c : records)
     for (Entity i : {c.a, c.b})
       if (world.is_body(i)) recorded_[i].push_back(c.time);
+
   for (Entity i = 0; i < world.body_count(); ++i) {
     double extent = extent_of(scene.initial.position[i]) + world.radius[i];
     for (const State& s : seen.seen) extent = std::max(extent, extent_of(s.position[i]) + world.radius[i]);
     extent_.push_back(extent);
   }
+
   const auto farthest = [&](Entity e) {
     double most = extent_of(world.fixed_position(e));
     for (const double t : times) most = std::max(most, extent_of(fixed_position(world, e, {t, 0})));
     return most;
   };
+
   Entity e = world.body_count();
   for (size_t k = 0; k < world.planes.size(); ++k) extent_.push_back(farthest(e++));
   for (const Wall& w : world.walls) extent_.push_back(farthest(e++) + w.half_width + w.half_height);
@@ -98,20 +101,25 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
   const bool body = world.is_body(b);
   const Long3 xa = pa.x.cast<long double>(), va = pa.v.cast<long double>(), aa = pa.a.cast<long double>();
   const Long3 xb = pb.x.cast<long double>(), vb = pb.v.cast<long double>(), ab = pb.a.cast<long double>();
+
   const double speed =
       std::max((pa.v - pb.v).norm(), ((pa.v - pb.v) + length * (pa.a - pb.a)).norm());  // it is greatest at an end
   if (body || world.is_obstacle(b)) {
     const double reach = world.radius[a] + (body ? world.radius[b] : world.obstacle(b).volume.reach());
     if ((pa.x - pb.x).norm() - reach > speed * length) return 1;
   }
+
   const auto at = [&](double t) { return static_cast<double>(gap(world, a, on(xa, va, aa, t), b, on(xb, vb, ab, t))); };
+
   struct Span {
     double from, to, at_from, at_to, least;
     bool operator<(const Span& other) const { return least > other.least; }
   };
+
   const auto span = [&](double from, double to, double at_from, double at_to) {
     return Span{from, to, at_from, at_to, 0.5 * (at_from + at_to - speed * (to - from))};
   };
+
   const double tolerance = allowed(a, b);
   double least = at(0);
   vector<Span> spans;
@@ -119,6 +127,7 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
   least = std::min(least, end);
   spans.push_back(span(0, length, least, end));
   spans.back().at_from = at(0);
+
   for (int evaluations = 0; evaluations < most_evaluations && !spans.empty() && spans.front().least < -tolerance;
        ++evaluations) {
     std::pop_heap(spans.begin(), spans.end());
@@ -126,7 +135,9 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
     spans.pop_back();
     const double middle = 0.5 * (s.from + s.to), there = at(middle);
     least = std::min(least, there);
+
     if (least < -tolerance) break;
+    // The span is cut in two.
     spans.push_back(span(s.from, middle, s.at_from, there));
     std::push_heap(spans.begin(), spans.end());
     spans.push_back(span(middle, s.to, there, s.at_to));
@@ -140,6 +151,7 @@ vector<string> Paths::overlaps() const {
   std::set<std::pair<Entity, Entity>> known;
   World world = scene_.world;
   const Entity bodies = world.body_count(), all = bodies + world.fixed_count();
+
   for (size_t k = 0; k + 1 < times_.size(); ++k) {
     const State& s = seen_.seen[k];
     if (!s.part_of.empty()) {
@@ -147,9 +159,11 @@ vector<string> Paths::overlaps() const {
       world.radius = s.radius;
       if (!world.volume.empty()) world.volume = s.volume;
     }
+
     const auto gone = [&](Entity e) { return e < bodies && !s.part_of.empty() && s.part_of[e] != e; };
     const vector<Path> paths = between(k);
     const double length = times_[k + 1] - times_[k];
+
     for (Entity a = 0; a < bodies; ++a) {
       if (gone(a)) continue;
       for (Entity b = a + 1; b < all; ++b) {
@@ -157,6 +171,7 @@ vector<string> Paths::overlaps() const {
         const Path there = b < bodies ? paths[b]
                                       : Path{fixed_position(world, b, {times_[k], 0}),
                                              fixed_velocity(world, b, {times_[k], 0}), Vec3::Zero(), true};
+
         const bool dense = paths[a].known && there.known;
         double least;
         if (dense) {
@@ -165,6 +180,7 @@ vector<string> Paths::overlaps() const {
           least = static_cast<double>(gap(world, a, paths[a].x.cast<long double>(), b, there.x.cast<long double>()));
         }
         if (least >= -allowed(a, b)) continue;
+
         known.insert({a, b});
         char text[200];
         std::snprintf(text, sizeof text, "%u and %u overlap by %.6g m (allowed: %.2g) %s t = %.17g and %.17g", a, b,

@@ -18,30 +18,40 @@ struct Motion {
   bool merge = false;
 };
 
+/// f for each vector of a scene: places, velocities and directions. Sizes of volumes are left to the caller.
+template <typename F>
+void each_vector(World& world, State& state, const F& f) {
+  for (auto* list : {&state.position, &state.velocity, &world.impulse})
+    for (Vec3& v : *list) f(v);
+  f(world.gravity);
+
+  for (Plane& p : world.planes) f(p.point), f(p.normal);
+  for (Wall& w : world.walls)
+    for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) f(*v);
+  for (Obstacle& o : world.obstacles) f(o.center);
+  for (WorldRegion& r : world.regions) f(r.position), f(r.normal);
+  for (String& s : world.strings) f(s.anchor);
+  for (vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) f(leg.velocity), f(leg.start), f(leg.start_low);
+
+  for (Force& force : world.forces) {
+    if (auto* uniform = std::get_if<UniformForce>(&force.law)) f(uniform->force);
+    if (auto* even = std::get_if<UniformAcceleration>(&force.law)) f(even->value);
+    if (auto* drag = std::get_if<Drag>(&force.law)) f(drag->wind);
+    if (auto* spring = std::get_if<Spring>(&force.law)) f(spring->anchor);
+    if (auto* attractor = std::get_if<Attractor>(&force.law)) f(attractor->center);
+  }
+}
+
+/// A mirror leaves right x up = normal no longer.
+inline void right_walls(World& world) {
+  for (Wall& w : world.walls) w.right = -w.right;
+}
+
 /// The scene mirrored across this axis.
 inline Motion mirrored(Motion m, int axis) {
-  const auto flip = [&](Vec3& v) { v[axis] = -v[axis]; };
-  World& world = m.world;
-  for (auto* list : {&m.initial.position, &m.initial.velocity, &world.impulse})
-    for (Vec3& v : *list) flip(v);
-  flip(world.gravity);
-  for (Plane& p : world.planes) flip(p.point), flip(p.normal);
-  for (Obstacle& o : world.obstacles) flip(o.center);
-  for (WorldRegion& r : world.regions) flip(r.position), flip(r.normal);
-  for (String& s : world.strings) flip(s.anchor);
-  for (Wall& w : world.walls) {
-    for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
-    w.right = -w.right;  // right x up = normal
-  }
-  for (vector<MotionLeg>& legs : world.motions)
-    for (MotionLeg& leg : legs) flip(leg.velocity), flip(leg.start), flip(leg.start_low);
-  for (Force& f : world.forces) {
-    if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
-    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) flip(even->value);
-    if (auto* drag = std::get_if<Drag>(&f.law)) flip(drag->wind);
-    if (auto* spring = std::get_if<Spring>(&f.law)) flip(spring->anchor);
-    if (auto* attractor = std::get_if<Attractor>(&f.law)) flip(attractor->center);
-  }
+  each_vector(m.world, m.initial, [&](Vec3& v) { v[axis] = -v[axis]; });
+  right_walls(m.world);
   return m;
 }
 
@@ -50,24 +60,10 @@ struct Units {
   int length, time, mass;
 };
 
-inline Motion scaled(Motion m, const Units& units) {
-  const double l = std::ldexp(1, units.length), t = std::ldexp(1, units.time), kg = std::ldexp(1, units.mass);
-  World& world = m.world;
-  for (Vec3& x : m.initial.position) x *= l;
-  for (Vec3& v : m.initial.velocity) v *= l / t;
-  for (Vec3& p : world.impulse) p *= kg * l / t;
-  for (double& x : world.mass) x *= kg;
-  for (double& r : world.radius) r *= l;
-  for (Volume& v : world.volume) v.half *= l;
-  world.gravity *= l / (t * t);
-  for (Plane& p : world.planes) p.point *= l;
-  for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
-  for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
-  for (String& s : world.strings) s.anchor *= l, s.length *= l;
-  for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
-  for (vector<MotionLeg>& legs : world.motions)
-    for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
-  for (Force& f : world.forces) {
+inline constexpr Units all_units[] = {{20, 0, 0}, {0, -12, 0}, {0, 0, 30}, {-30, 7, -24}};
+
+inline void scale(vector<Force>& forces, double l, double t, double kg) {
+  for (Force& f : forces) {
     f.from *= t;
     f.until *= t;
     if (auto* uniform = std::get_if<UniformForce>(&f.law)) uniform->force *= kg * l / (t * t);
@@ -77,6 +73,7 @@ inline Motion scaled(Motion m, const Units& units) {
       drag->quadratic *= kg / l;
       drag->wind *= l / t;
     }
+
     if (auto* spring = std::get_if<Spring>(&f.law)) {
       spring->anchor *= l;
       spring->stiffness *= kg / (t * t);
@@ -89,8 +86,34 @@ inline Motion scaled(Motion m, const Units& units) {
       attractor->softening *= l;
     }
   }
-  m.duration *= t;
-  m.rest_speed *= l / t;
+}
+
+/// A world, its state, and more numbers of its run.
+inline void scale(World& world, State& state, double& duration, double& rest_speed, const Units& units) {
+  const double l = std::ldexp(1, units.length), t = std::ldexp(1, units.time), kg = std::ldexp(1, units.mass);
+  for (Vec3& x : state.position) x *= l;
+  for (Vec3& v : state.velocity) v *= l / t;
+  for (Vec3& p : world.impulse) p *= kg * l / t;
+  for (double& x : world.mass) x *= kg;
+  for (double& r : world.radius) r *= l;
+  for (Volume& v : world.volume) v.half *= l;
+  world.gravity *= l / (t * t);
+
+  for (Plane& p : world.planes) p.point *= l;
+  for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
+  for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
+  for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
+  for (String& s : world.strings) s.anchor *= l, s.length *= l;
+  for (vector<MotionLeg>& legs : world.motions)
+    for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
+
+  scale(world.forces, l, t, kg);
+  duration *= t;
+  rest_speed *= l / t;
+}
+
+inline Motion scaled(Motion m, const Units& units) {
+  scale(m.world, m.initial, m.duration, m.rest_speed, units);
   return m;
 }
 
@@ -100,6 +123,26 @@ struct Observed {
   double energy_lost = 0;  // J
   string error;
 };
+
+inline Observed run(const Motion& motion, ExactOptions options = {}) {
+  options.duration = motion.duration;
+  options.rest_speed = motion.rest_speed;
+  options.merge = motion.merge;
+  options.record_collisions = false;
+
+  Observed seen;
+  try {
+    const auto simulator = make_exact_simulator(motion.world, motion.initial, options);
+    do simulator->advance_to(motion.duration);
+    while (simulator->time() < motion.duration);
+    seen.end = simulator->state();
+    seen.collisions = simulator->tally().collisions();
+    seen.energy_lost = simulator->tally().energy_lost;
+  } catch (const SimulationError& error) {
+    seen.error = error.what();
+  }
+  return seen;
+}
 
 /// -0 equals 0. So does a number below 1e-290, to which speeds fall impact by impact and where doubles lose digits.
 inline bool same(const Vec3& a, const Vec3& b) {
@@ -111,8 +154,7 @@ inline bool same(const Vec3& a, const Vec3& b) {
 
 /// The first difference of two runs in a bit; empty: none. `back` transforms b's vectors to those of a.
 template <typename Position, typename Velocity>
-inline string difference(const Observed& a, const Observed& b, double lost, const Position& back_x,
-                         const Velocity& back_v) {
+string difference(const Observed& a, const Observed& b, double lost, const Position& back_x, const Velocity& back_v) {
   if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
   if (!a.error.empty()) return {};
   if (a.collisions != b.collisions)
@@ -123,15 +165,32 @@ inline string difference(const Observed& a, const Observed& b, double lost, cons
   return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
 }
 
+/// b: of the mirrored scene.
+inline string mirror_difference(const Observed& a, const Observed& b, int axis) {
+  const auto flip = [&](Vec3 v) {
+    v[axis] = -v[axis];
+    return v;
+  };
+  return difference(a, b, 1, flip, flip);
+}
+
+/// b: of the scene in these units.
+inline string unit_difference(const Observed& a, const Observed& b, const Units& units) {
+  const double l = std::ldexp(1, -units.length), t = std::ldexp(1, -units.time), m = std::ldexp(1, -units.mass);
+  return difference(
+      a, b, m * l * l / (t * t), [&](const Vec3& x) { return Vec3(x * l); },
+      [&](const Vec3& v) { return Vec3(v * (l / t)); });
+}
+
 /// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. Fixed
-/// things of neither move. first:
-/// whether this one's bodies come first.
+/// things of neither move. `first`: this one's bodies come first.
 inline Motion together(const Motion& motion, Motion other, bool first) {
   const Vec3 away(1024, 512, -2048);
   for (Vec3& x : other.initial.position) x += away;
   for (Obstacle& o : other.world.obstacles) o.center += away;
   for (Wall& w : other.world.walls) w.center += away;
   for (String& s : other.world.strings) s.anchor += away;
+
   const Motion &one = first ? motion : other, &two = first ? other : motion;
   Motion both = motion;
   World& world = both.world;
@@ -139,6 +198,7 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
     to = a;
     to.insert(to.end(), b.begin(), b.end());
   };
+
   join(world.mass, one.world.mass, two.world.mass);
   join(world.radius, one.world.radius, two.world.radius);
   join(world.restitution, one.world.restitution, two.world.restitution);
@@ -147,11 +207,15 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   join(world.obstacles, one.world.obstacles, two.world.obstacles);
   join(world.walls, one.world.walls, two.world.walls);
   join(world.strings, one.world.strings, two.world.strings);
+
+  // The second one's bodies have other numbers.
   for (size_t k = one.world.strings.size(); k < world.strings.size(); ++k) {
     String& s = world.strings[k];
     s.body += one.world.body_count();
     if (s.other != no_entity) s.other += one.world.body_count();
   }
+
+  // Lists that only one of them may have.
   const bool shapes = !one.world.volume.empty() || !two.world.volume.empty();
   const bool impulses = !one.world.impulse.empty() || !two.world.impulse.empty();
   world.volume.clear();

@@ -7,6 +7,7 @@
 #include "physics/world.h"
 #include "std.h"
 #include "stress/digits.h"
+#include "stress/seen_otherwise.h"
 
 namespace carom::stress {
 
@@ -29,6 +30,7 @@ Watched watch(const RandomScene& scene, const vector<double>& times, double pati
     run.records.insert(run.records.end(), simulator->collisions().begin(), simulator->collisions().end());
     for (const PathPiece& piece : simulator->paths()) run.pieces[piece.body].push_back({piece.from, piece.kicked});
   };
+
   try {
     ExactOptions options = scene.options;
     options.record_paths = !times.empty();
@@ -36,6 +38,7 @@ Watched watch(const RandomScene& scene, const vector<double>& times, double pati
     simulator = make_exact_simulator(scene.world, scene.initial, options);
     keep();
     run.start = simulator->state();
+
     const auto go_to = [&](double time) {
       do {
         simulator->advance_to(time);
@@ -43,11 +46,13 @@ Watched watch(const RandomScene& scene, const vector<double>& times, double pati
         run.too_slow = static_cast<double>(std::clock() - begin) > patience * CLOCKS_PER_SEC;
       } while (simulator->time() < time && !run.too_slow);
     };
+
     for (const double t : times) {
       go_to(t);
       if (run.too_slow) return run;
       run.seen.push_back(simulator->state());
     }
+
     go_to(scene.options.duration);
     run.end = simulator->state();
     run.tally = simulator->tally();
@@ -62,20 +67,24 @@ vector<double> sample_times(const RandomScene& scene, const vector<Collision>& r
   const double duration = scene.options.duration;
   vector<double> times;
   for (int k = 1; k <= looks; ++k) times.push_back(duration * k / looks);
+
   const auto about = [&](double t) {
     if (t > 0) times.push_back(std::nextafter(t, 0));
     times.push_back(t);
     times.push_back(std::nextafter(t, duration));
   };
+
   const size_t stride = records.size() / most_collisions_sampled + 1;
   for (size_t k = 0; k < records.size(); ++k)
     if (k < most_collisions_sampled / 2 || k % stride == 0) about(records[k].time);
+
   for (const Force& f : scene.world.forces)
     for (const double t : {f.from, f.until})
       if (t > 0 && t < duration) about(t);
   for (const vector<MotionLeg>& legs : scene.world.motions)
     for (const MotionLeg& leg : legs)
       if (leg.from > 0 && leg.from < duration) about(leg.from);
+
   times.erase(std::remove_if(times.begin(), times.end(), [&](double t) { return !(t >= 0 && t <= duration); }),
               times.end());
   std::ranges::sort(times);
@@ -84,52 +93,18 @@ vector<double> sample_times(const RandomScene& scene, const vector<Collision>& r
 }
 
 RandomScene scaled(RandomScene scene, int length, int time, int mass) {
-  const double l = std::ldexp(1, length), t = std::ldexp(1, time), m = std::ldexp(1, mass);
-  World& world = scene.world;
-  for (double& x : world.mass) x *= m;
-  for (double& x : world.radius) x *= l;
-  for (Volume& v : world.volume) v.half *= l;
-  for (Vec3& p : world.impulse) p *= m * l / t;
-  for (Plane& p : world.planes) p.point *= l;
-  for (Wall& w : world.walls) {
-    w.center *= l;
-    w.half_width *= l;
-    w.half_height *= l;
-  }
-  for (Obstacle& o : world.obstacles) {
-    o.center *= l;
-    o.volume.half *= l;
-  }
-  for (WorldRegion& r : world.regions) {
-    r.position *= l;
-    r.volume.half *= l;
-  }
-  for (Force& f : world.forces) {
-    value(f) *= (per_mass(f) ? 1 : m) * l / (t * t);
-    f.from *= t;
-    f.until *= t;
-  }
-  for (vector<MotionLeg>& legs : world.motions)
-    for (MotionLeg& leg : legs) {
-      leg.from *= t;
-      leg.velocity *= l / t;
-      leg.start *= l;
-      leg.start_low *= l;
-    }
-  world.gravity *= l / (t * t);
-  for (Vec3& x : scene.initial.position) x *= l;
-  for (Vec3& v : scene.initial.velocity) v *= l / t;
-  scene.options.duration *= t;
-  scene.options.rest_speed *= l / t;
+  scale(scene.world, scene.initial, scene.options.duration, scene.options.rest_speed, {length, time, mass});
   return scene;
 }
 
 string difference(const Watched& a, const Watched& b, int length, int time, int mass) {
   if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
   const double l = std::ldexp(1, -length), t = std::ldexp(1, -time), m = std::ldexp(1, -mass), v = l / t;
+
   const auto vectors = [](const Vec3& p, const Vec3& q) {
     return same(p.x(), q.x()) && same(p.y(), q.y()) && same(p.z(), q.z());
   };
+
   const size_t n = std::min(a.records.size(), b.records.size());
   for (size_t k = 0; k < n; ++k) {
     const Collision &c = a.records[k], &d = b.records[k];
@@ -137,16 +112,20 @@ string difference(const Watched& a, const Watched& b, int length, int time, int 
         !vectors(c.position, d.position * l) || !same(c.approach_speed, d.approach_speed * v) ||
         !same(c.separation_speed, d.separation_speed * v) || !same(c.impulse, d.impulse * m * v) ||
         !same(c.energy_lost, d.energy_lost * m * v * v))
+
       return "record " + std::to_string(k) + " of " + std::to_string(n) + ", at t = " + text(c.time) + " and " +
              text(d.time * t) + " between " + std::to_string(c.a) + " and " + std::to_string(c.b) + " or " +
              std::to_string(d.a) + " and " + std::to_string(d.b);
   }
+
   if (a.records.size() != b.records.size())
     return std::to_string(a.records.size()) + " records and " + std::to_string(b.records.size());
   if (!a.error.empty()) return {};
+
   for (size_t i = 0; i < a.end.position.size(); ++i)
     if (!vectors(a.end.position[i], b.end.position[i] * l) || !vectors(a.end.velocity[i], b.end.velocity[i] * v))
       return "body " + std::to_string(i) + " at the end, though all records are the same";
+
   if (!same(a.tally.energy_lost, b.tally.energy_lost * m * v * v)) return "energy lost";
   if (a.tally.resting != b.tally.resting) return "bodies at rest";
   return {};
@@ -158,28 +137,12 @@ RandomScene turned(RandomScene scene) {
   const auto note_shape = [&](const Volume& v) { cylinders = cylinders || v.shape == Shape::cylinder; };
   for (const Volume& v : world.volume) note_shape(v);
   for (const Obstacle& o : world.obstacles) note_shape(o.volume);
+
   const auto turn = [&](Vec3& v) { v = cylinders ? Vec3(v.z(), v.y(), v.x()) : Vec3(v.z(), v.x(), v.y()); };
+  each_vector(world, scene.initial, turn);
   for (Volume& v : world.volume) turn(v.half);
-  for (Vec3& p : world.impulse) turn(p);
-  for (Plane& p : world.planes) {
-    turn(p.point);
-    turn(p.normal);
-  }
-  for (Wall& w : world.walls) {
-    for (Vec3* v : {&w.center, &w.normal, &w.right, &w.up}) turn(*v);
-    if (cylinders) w.right = -w.right;  // a mirror: right x up = normal no longer
-  }
-  for (Obstacle& o : world.obstacles) {
-    turn(o.center);
-    turn(o.volume.half);
-  }
-  for (vector<MotionLeg>& legs : world.motions)
-    for (MotionLeg& leg : legs)
-      for (Vec3* v : {&leg.velocity, &leg.start, &leg.start_low}) turn(*v);
-  for (Force& f : world.forces) turn(value(f));
-  turn(world.gravity);
-  for (Vec3& x : scene.initial.position) turn(x);
-  for (Vec3& v : scene.initial.velocity) turn(v);
+  for (Obstacle& o : world.obstacles) turn(o.volume.half);
+  if (cylinders) right_walls(world);
   return scene;
 }
 

@@ -91,6 +91,7 @@ string fixed(const World& world) {
            motion(world, e) + "}\n";
     ++e;
   }
+
   if (!world.walls.empty()) out += "walls:\n";
   for (const Wall& w : world.walls) {
     out += "  " + name(world, e) + ": {center: " + text(w.center) + ", normal: " + text(w.normal) +
@@ -98,6 +99,7 @@ string fixed(const World& world) {
            text(w.restitution) + motion(world, e) + "}\n";
     ++e;
   }
+
   if (!world.obstacles.empty()) out += "obstacles:\n";
   for (const Obstacle& o : world.obstacles) {
     out += "  " + name(world, e) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) +
@@ -138,6 +140,7 @@ string regions(const World& world) {
                       : "none") +
            "}\n";
   }
+
   return out;
 }
 

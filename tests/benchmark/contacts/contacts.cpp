@@ -46,6 +46,8 @@ void measure(const string& family, const Case& given, Totals& totals) {
   Certificate certificate, warm_certificate;
   Case c = given;
   const double cold = seconds_of(solver, c, certificate);
+
+  // Against the reference, where that is affordable.
   const auto presses = [](const ContactConstraint& contact) { return contact.force > 0; };
   string error;
   if (static_cast<size_t>(std::ranges::count_if(c.contacts, presses)) <= most_for_reference) {
@@ -57,6 +59,8 @@ void measure(const string& family, const Case& given, Totals& totals) {
       ++totals.compared;
     }
   }
+
+  // Once more without one of the contacts that press, and with it again.
   string warm;
   const auto middle = static_cast<ptrdiff_t>(c.contacts.size() / 2);
   const auto away = std::find_if(c.contacts.begin() + middle, c.contacts.end(), presses);
@@ -67,6 +71,7 @@ void measure(const string& family, const Case& given, Totals& totals) {
     warm = fmt::format("{:.2e}", seconds_of(solver, again, warm_certificate));
     if (!warm_certificate.solved()) ++totals.unsolved;
   }
+
   fmt::print("{},\"{}\",{},{},{},{:.1e},{},{:.2e},{}\n", family, given.name, given.motion.size(), given.contacts.size(),
              verdicts[static_cast<int>(certificate.verdict)], certificate.change, error, cold, warm);
   ++totals.cases;
@@ -86,6 +91,8 @@ void small(Totals& totals) {
       measure("small", loaded("packing of 12", packing(12, 1), load, decades), totals);
       measure("small", loaded("packing of 50", packing(50, 1), load, decades), totals);
     }
+
+  // Contacts that are nearly alike.
   for (int k = 2; k <= 12; ++k) {
     const double angle = std::pow(10.0, -k);
     for (const bool squeezed : {false, true}) measure("small", wedge(angle, squeezed), totals);

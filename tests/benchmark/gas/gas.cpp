@@ -59,8 +59,7 @@ double peak_bytes() {
   return 1024 * static_cast<double>(usage.ru_maxrss);
 }
 
-Result run(const Gas& gas) {
-  const double before = peak_bytes();
+void fill(const Gas& gas, World& world, State& start) {
   std::mt19937_64 bits(7);
   const auto unit = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
   const auto normal = [&] {
@@ -68,11 +67,11 @@ Result run(const Gas& gas) {
     for (int k = 0; k < 12; ++k) sum += unit();
     return sum;
   };
+
   const double pitch = std::cbrt(4 / gas.density), side = pitch * gas.cells;
-  World world;
-  State start;
   const Vec3 middle = Vec3::Constant(side / 2);
   constexpr double large = 15;
+
   const auto put = [&](const Vec3& x, const Vec3& v, double radius) {
     world.mass.push_back(8 * radius * radius * radius);
     world.radius.push_back(radius);
@@ -80,9 +79,12 @@ Result run(const Gas& gas) {
     start.position.push_back(x);
     start.velocity.push_back(v);
   };
+
   const size_t balls = moving(gas);
   for (auto* values : {&world.mass, &world.radius, &world.restitution}) values->reserve(balls + 1);
   for (auto* values : {&start.position, &start.velocity}) values->reserve(balls + 1);
+
+  // A close packing of spheres, with a hole for the large one.
   if (gas.large) put(middle, Vec3::Zero(), large);
   for (int z = 0; z < gas.cells; ++z)
     for (int y = 0; y < gas.cells; ++y)
@@ -93,22 +95,35 @@ Result run(const Gas& gas) {
           if (start.position.size() == gas.most || (gas.large && (at - middle).norm() < large + 0.5)) continue;
           put(at, Vec3(vx, vy, vz), 0.5);
         }
+
   if (gas.shuffled)
     for (size_t i = start.position.size() - 1; i > 0; --i)
       std::swap(start.position[i], start.position[bits() % (i + 1)]);
   for (size_t i = 0; i < gas.still; ++i) put(Vec3(-1000 - 2 * static_cast<double>(i), 0, 0), Vec3::Zero(), 0.5);
+
   world.gravity = Vec3(0, -gas.gravity, 0);
   for (int k = 0; k < 3; ++k) {
     world.planes.push_back({Vec3::Zero(), Vec3::Unit(k), 1.0});
     world.planes.push_back({Vec3::Constant(side), -Vec3::Unit(k), 1.0});
   }
+}
+
+Result run(const Gas& gas) {
+  const double before = peak_bytes();
+  const size_t balls = moving(gas);
+  World world;
+  State start;
+  fill(gas, world, start);
+
   ExactOptions options;
   options.duration = 1e9;
   options.record_collisions = false;
   const auto simulator = make_exact_simulator(world, start, options);
+
   const auto go_on = [&](double a_ball) {
     const uint64_t until =
         simulator->tally().collisions() + static_cast<uint64_t>(a_ball * 0.5 * static_cast<double>(balls));
+
     // By Enskog's rate of collisions, until there are enough of them.
     const double packed = gas.density * 3.14159265358979 / 6;
     const double rate = 0.5 * gas.density * 3.14159265358979 * 1.6 * 1.414 * (1 - packed / 2) / std::pow(1 - packed, 3);
@@ -117,10 +132,12 @@ Result run(const Gas& gas) {
       while (simulator->time() < to) simulator->advance_to(to);
     }
   };
+
   go_on(std::min(4.0, gas.collisions));
   const uint64_t first = simulator->tally().collisions();
   const double from = cpu_seconds();
   go_on(gas.collisions);
+
   Result result{};
   result.seconds = cpu_seconds() - from;
   result.all = simulator->tally().collisions();
@@ -139,10 +156,12 @@ Result run_apart(const Gas& gas) {
     const Result result = run(gas);
     _exit(write(ends[1], &result, sizeof(result)) == sizeof(result) ? 0 : 1);
   }
+
   close(ends[1]);
   Result result{};
   if (read(ends[0], &result, sizeof(result)) != sizeof(result)) std::abort();
   close(ends[0]);
+
   waitpid(child, nullptr, 0);
   return result;
 }
@@ -159,6 +178,7 @@ void measure(const Gas& gas) {
 
 int table() {
   fmt::print("gas,balls,density,collisions,cpu_us_per_collision,bytes_per_ball,hash\n");
+
   measure({.name = "plain", .cells = 1, .most = 1, .collisions = 100'000});
   for (const int cells : {1, 2, 4, 7, 14, 30, 63})
     measure({.name = "plain",
@@ -168,8 +188,10 @@ int table() {
                            : cells < 30 ? 40.0
                            : cells < 63 ? 8.0
                                         : 3.0});
+
   for (const double density : {0.01, 0.03, 0.1, 0.3, 0.8, 1.0})
     measure({.name = "plain", .cells = 14, .density = density});
+
   measure({.name = "ten", .cells = 2, .most = 10, .collisions = 20'000});
   measure({.name = "ten of 10000", .cells = 2, .most = 10, .still = 9990, .collisions = 20'000});
   measure({.name = "gravity", .cells = 14, .gravity = 0.04, .collisions = 40});

@@ -21,8 +21,10 @@ class Box2dWorld : public PeerWorld {
     fixture.friction = 0;
     fixture.restitution = static_cast<float>(common_restitution(scene));
     fixture.restitutionThreshold = 0;
+
     b2BodyDef fixed;
     b2Body* ground = world_.CreateBody(&fixed);
+
     for (const Plane& plane : scene.world.planes) {
       const double half_length = 50;  // m
       const Vec3 middle = plane.point - b2_polygonRadius * plane.normal;
@@ -32,18 +34,22 @@ class Box2dWorld : public PeerWorld {
       fixture.shape = &line;
       ground->CreateFixture(&fixture);
     }
+
     for (std::size_t i = 0; i < scene.world.mass.size(); ++i) {
       b2BodyDef ball;
       ball.type = b2_dynamicBody;
       ball.position = flat(scene.initial.position[i]);
       ball.linearVelocity = flat(scene.initial.velocity[i]);
       ball.fixedRotation = true;
+
       b2CircleShape circle;
       circle.m_radius = static_cast<float>(scene.world.radius[i]);
       fixture.shape = &circle;
       fixture.density = 1;
+
       b2Body* body = world_.CreateBody(&ball);
       body->CreateFixture(&fixture);
+
       b2MassData mass{static_cast<float>(scene.world.mass[i]), {0, 0}, 0};
       body->SetMassData(&mass);
       bodies_.push_back(body);

@@ -37,10 +37,12 @@ class BulletWorld : public PeerWorld {
     solver.m_linearSlop = 0;
     solver.m_numIterations = 20;
     solver.m_solverMode &= ~SOLVER_USE_WARMSTARTING;
+
     const double e = std::sqrt(common_restitution(scene));  // a pair's is the product
     for (const Plane& plane : scene.world.planes)
       add(std::make_unique<btStaticPlaneShape>(bullet_vector(plane.normal), plane.point.dot(plane.normal)), 0,
           Vec3::Zero(), Vec3::Zero(), e);
+
     first_ = bodies_.size();
     for (std::size_t i = 0; i < scene.world.mass.size(); ++i)
       add(std::make_unique<btSphereShape>(scene.world.radius[i]), scene.world.mass[i], scene.initial.position[i],
@@ -70,10 +72,12 @@ class BulletWorld : public PeerWorld {
     info.m_startWorldTransform.setOrigin(bullet_vector(x));
     info.m_friction = 0;
     info.m_restitution = e;
+
     auto body = std::make_unique<btRigidBody>(info);
     body->setLinearVelocity(bullet_vector(v));
     body->setActivationState(DISABLE_DEACTIVATION);
     body->setContactProcessingThreshold(0);
+
     world_.addRigidBody(body.get());
     shapes_.push_back(std::move(shape));
     bodies_.push_back(std::move(body));

@@ -21,11 +21,13 @@ class LammpsWorld : public PeerWorld {
     lammps_ = lammps_open_no_mpi(static_cast<int>(words.size()), const_cast<char**>(words.data()), nullptr);
     const World& world = scene.world;
     const double radius = world.radius.front(), mass = world.mass.front();  // of all
+
     const SoftContact contact = contact_of(common_restitution(scene), true, step, balls_);
     Vec3 low = scene.initial.position.front(), high = low;
     for (const Vec3& x : scene.initial.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
     low -= Vec3::Constant(2 * radius);
     high += Vec3::Constant(2 * radius);
+
     execute("units si");
     execute("atom_style sphere");
     execute("atom_modify map array");
@@ -34,11 +36,13 @@ class LammpsWorld : public PeerWorld {
     execute("comm_modify vel yes");
     execute(fmt::format("region all block {} {} {} {} {} {}", low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
     execute("create_box 1 all");
+
     std::vector<int> type(balls_, 1);
     std::vector<double> x, v;
     for (const Vec3& p : scene.initial.position) x.insert(x.end(), p.begin(), p.end());
     for (const Vec3& p : scene.initial.velocity) v.insert(v.end(), p.begin(), p.end());
     lammps_create_atoms(lammps_, static_cast<int>(balls_), nullptr, type.data(), x.data(), v.data(), nullptr, 0);
+
     execute(fmt::format("set type 1 diameter {}", 2 * radius));
     execute(fmt::format("set type 1 mass {}", mass));
     execute(fmt::format("neighbor {} bin", 0.4 * radius));
@@ -46,6 +50,7 @@ class LammpsWorld : public PeerWorld {
     // A pair's reduced mass is half a ball's.
     execute(fmt::format("pair_style gran/hooke {} 0 {} 0 0 0", contact.stiffness * mass / 2, contact.damping));
     execute("pair_coeff * *");
+
     int walls = 0;
     for (const Plane& plane : world.planes) {
       int axis = 0;
@@ -55,6 +60,7 @@ class LammpsWorld : public PeerWorld {
       execute(fmt::format("fix wall{} all wall/gran hooke {} 0 {} 0 0 0 {}plane {}", ++walls, contact.stiffness * mass,
                           contact.damping, "xyz"[axis], sides));
     }
+
     const Vec3& g = world.gravity;
     if (g.norm() > 0) execute(fmt::format("fix gravity all gravity {} vector {} {} {}", g.norm(), g.x(), g.y(), g.z()));
     execute("fix move all nve");

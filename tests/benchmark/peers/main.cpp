@@ -51,6 +51,7 @@ void measure_all(std::vector<Row>& rows) {
         row.result.outcome = Outcome::stopped;
         continue;
       }
+
       const double step = row.steps_per_s == 0 ? row.what->sample_interval : 1.0 / row.steps_per_s;
       const Result result = measure(*row.peer, *row.what, step);
       if (round == 0) {
@@ -59,6 +60,7 @@ void measure_all(std::vector<Row>& rows) {
           fmt::print(stderr, "{}, {}, step 1/{} s: {:.3g} s of CPU\n", row.what->name, row.peer->name,
                      std::lround(1 / step), result.cpu);
       }
+
       cpu[i].push_back(result.cpu);
       row.result.cpu = median(cpu[i]);
       ++row.runs;
@@ -71,10 +73,12 @@ int run(const std::string& name) {
     fmt::print(stderr, "no case begins with \"{}\"\n", name);
     return 2;
   }
+
   std::vector<Peer> peers = all_peers();
   for (const Peer& peer : peers)
     if (peer.version.empty()) fmt::print(stderr, "{}: not installed\n", peer.name);
   std::erase_if(peers, [](const Peer& peer) { return peer.version.empty(); });
+
   std::vector<Row> rows = rows_of(peers, cases);
   measure_all(rows);
   write_report(rows);

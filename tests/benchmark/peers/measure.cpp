@@ -35,11 +35,13 @@ double deepest_overlap(const World& world, const State& state) {
   std::vector<std::size_t> order(x.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return x[i].x() < x[j].x(); });
+
   double deepest = 0;
   for (std::size_t m = 0; m < order.size(); ++m) {
     const std::size_t i = order[m];
     for (const Plane& plane : world.planes)
       deepest = std::max(deepest, 1 - (x[i] - plane.point).dot(plane.normal) / world.radius[i]);
+
     for (std::size_t n = m + 1; n < order.size() && x[order[n]].x() - x[i].x() < widest; ++n) {
       const std::size_t j = order[n];
       const double sum = world.radius[i] + world.radius[j];
@@ -90,16 +92,19 @@ bool run_sampled(PeerWorld& motion, const Case& what, double step, const Truth& 
   const int samples = static_cast<int>(std::lround(what.end / sample_interval));
   std::vector<Vec3> before = state.velocity, true_before = before;
   double given = 0, true_given = 0;
+
   for (int k = 1; k <= samples; ++k) {
     const double from = cpu_seconds();
     motion.advance(static_cast<int>(std::lround(sample_interval / step)));
     motion.read(state);
     result.cpu += cpu_seconds() - from;
     result.reached = state.time = k * sample_interval;
+
     result.end_overlap = deepest_overlap(world, state);
     result.overlap = std::max(result.overlap, result.end_overlap);
     for (std::size_t m = 0; m < settling_times.size(); ++m)
       if (std::abs(state.time - settling_times[m]) < sample_interval / 2) result.until[m] = result.cpu;
+
     if (truth) {
       const State& right = truth(state.time);
       if (state.time < what.horizon + sample_interval / 2)
@@ -110,6 +115,7 @@ bool run_sampled(PeerWorld& motion, const Case& what, double step, const Truth& 
       true_before = right.velocity;
       result.exchange = given / true_given;
     }
+
     if (result.cpu > what.budget) return k == samples;
   }
   return true;
@@ -122,22 +128,27 @@ Result run(const Peer& peer, const Case& what, double step) {
     result.outcome = Outcome::beyond;
     return result;
   }
+
   result.until.fill(none);
   const World& world = what.scene.world;
   const Truth truth = what.truth ? what.truth(what.scene) : Truth{};
   State state = what.scene.initial;
+
   result.outcome = run_sampled(*motion, what, step, truth, result, state) ? Outcome::done : Outcome::stopped;
   result.kinetic = kinetic_energy(world, state);
   result.collisions = motion->collisions();
   result.hash = hash_of(state);
+
   if (world.gravity.norm() > 0) result.exchange = none;  // changes momentum too
   if (!truth) result.position_error = none;
   result.velocity_error = result.energy_error = none;
+
   if (truth) {
     const State& right = truth(result.reached);
     result.energy_error = std::abs(energy(world, state) - energy(world, right)) / energy(world, what.scene.initial);
     if (what.horizon >= what.end) result.velocity_error = largest_difference(state.velocity, right.velocity);
   }
+
   if (result.cpu < 0.05) result.cpu = cpu_of_short_run(peer, what, step);
   return result;
 }
@@ -157,6 +168,7 @@ Result measure(const Peer& peer, const Case& what, double step) {
     }
     _exit(write(ends[1], &result, sizeof(result)) == sizeof(result) ? 0 : 1);
   }
+
   close(ends[1]);
   Result result;
   if (read(ends[0], &result, sizeof(result)) != sizeof(result)) result = {};  // the peer ended the process

@@ -37,11 +37,13 @@ std::string model_text(const Scene& scene, double step) {
       "<default><geom condim='1' solref='{} {}' solimp='0.99 0.99 0.001'/></default><worldbody>",
       step, g.x(), g.y(), g.z(), 8 * balls + 100, 8 * balls + 100, 20000 * balls + 1'000'000, -contact.stiffness,
       -contact.damping);
+
   for (const Plane& plane : scene.world.planes) {
     const Vec3 &x = plane.point, &n = plane.normal;
     text += fmt::format("<geom type='plane' size='1 1 1' pos='{} {} {}' zaxis='{} {} {}'/>", x.x(), x.y(), x.z(), n.x(),
                         n.y(), n.z());
   }
+
   for (std::size_t i = 0; i < balls; ++i)
     text += fmt::format(
         "<body><joint type='slide' axis='1 0 0'/><joint type='slide' axis='0 1 0'/><joint type='slide' axis='0 0 1'/>"
@@ -55,7 +57,9 @@ class MujocoWorld : public PeerWorld {
   MujocoWorld(const Scene& scene, double step) {
     mju_user_error = give_up;  // the default handler waits for a key, and both write MUJOCO_LOG.TXT
     mju_user_warning = warn;
+
     const std::string text = model_text(scene, step);
+    // A file in memory.
     auto files = std::make_unique<mjVFS>();
     mj_defaultVFS(files.get());
     mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(text.size()));
@@ -64,6 +68,7 @@ class MujocoWorld : public PeerWorld {
     model_ = mj_loadXML("scene.xml", files.get(), error, sizeof(error));
     mj_deleteFileVFS(files.get(), "scene.xml");
     if (model_ == nullptr) throw std::runtime_error(error);
+
     data_ = mj_makeData(model_);
     for (std::size_t i = 0; i < scene.world.mass.size(); ++i)
       for (int k = 0; k < 3; ++k) {

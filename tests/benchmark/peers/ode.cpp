@@ -20,21 +20,25 @@ class OdeWorld : public PeerWorld {
     space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
     planes_ = dSimpleSpaceCreate(nullptr);
     contacts_ = dJointGroupCreate(0);
+
     const Vec3& g = scene.world.gravity;
     dWorldSetGravity(world_, g.x(), g.y(), g.z());
     dWorldSetCFM(world_, 0);
     dWorldSetContactSurfaceLayer(world_, 0);
     dWorldSetAutoDisableFlag(world_, 0);
     dWorldSetQuickStepNumIterations(world_, 20);
+
     for (const Plane& plane : scene.world.planes) {
       const Vec3& n = plane.normal;
       dCreatePlane(planes_, n.x(), n.y(), n.z(), n.dot(plane.point));
     }
+
     for (std::size_t i = 0; i < scene.world.mass.size(); ++i) {
       const Vec3 &x = scene.initial.position[i], &v = scene.initial.velocity[i];
       const dBodyID body = dBodyCreate(world_);
       dMass mass;
       dMassSetSphereTotal(&mass, scene.world.mass[i], scene.world.radius[i]);
+
       dBodySetMass(body, &mass);
       dBodySetPosition(body, x.x(), x.y(), x.z());
       dBodySetLinearVel(body, v.x(), v.y(), v.z());

@@ -7,6 +7,7 @@
 namespace carom {
 
 std::vector<Peer> all_peers() {
+  // A peer that is not installed has a name only.
   return {
       carom_exact(),
 #ifdef CAROM_PEER_BULLET
@@ -14,6 +15,7 @@ std::vector<Peer> all_peers() {
 #else
       {"Bullet", ""},
 #endif
+
 #ifdef CAROM_PEER_ODE
       ode(),
 #else
@@ -24,6 +26,7 @@ std::vector<Peer> all_peers() {
 #else
       {"MuJoCo", ""},
 #endif
+
 #ifdef CAROM_PEER_LAMMPS
       lammps(),
 #else

@@ -46,11 +46,13 @@ void write_csv(OutputFile& file, const std::vector<Row>& rows) {
         "cpu_until_5_s", "cpu_until_10_s", "collisions",  "hash"})
     line.text(head);
   line.end();
+
   for (const Row& row : rows) {
     const Result& r = row.result;
     line.text(row.peer->name).text(row.peer->version).text(row.what->name).count(row.what->scene.world.mass.size());
     line.number(row.steps_per_s == 0 ? std::nan("") : 1.0 / row.steps_per_s).text(name_of(r.outcome));
     line.count(static_cast<std::uint64_t>(row.runs)).number(r.reached);
+
     if (r.reached > 0) {
       line.number(r.cpu).number(r.outcome == Outcome::done ? r.cpu / exact_of(rows, row).result.cpu : std::nan(""));
       for (double value : {r.position_error, r.velocity_error, r.energy_error, r.overlap, r.end_overlap, r.exchange,
@@ -59,6 +61,7 @@ void write_csv(OutputFile& file, const std::vector<Row>& rows) {
     } else {
       for (int k = 0; k < 12; ++k) line.text("");
     }
+
     if (r.collisions > 0)
       line.count(r.collisions).text(fmt::format("{:016x}", r.hash));
     else
@@ -114,6 +117,7 @@ std::string cell_of(const std::vector<Row>& rows, const Column& column, const Ro
   const Peer& peer = *row.peer;
   const Row* shown = row_at(rows, row.peer, column.what, row.steps_per_s);
   const bool over_budget = shown->result.outcome == Outcome::stopped;
+
   std::string step;
   for (int finer : peer.steps_per_s) {
     const Row* other = row_at(rows, row.peer, column.what, finer);
@@ -121,6 +125,7 @@ std::string cell_of(const std::vector<Row>& rows, const Column& column, const Ro
     shown = other;
     step = fmt::format(" at 1/{}", finer);
   }
+
   if (shown->result.outcome == Outcome::stopped) return fmt::format("> {} s", shown->what->budget);
   if (shown->result.outcome != Outcome::done) return "–";
   return column.cell(shown->result, exact_of(rows, *shown).result) + step;
@@ -133,16 +138,19 @@ std::string table(const std::vector<Row>& rows, const std::vector<Column>& colum
     return std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.what->name == column.what; });
   });
   if (there.empty()) return "";
+
   std::string text = "| | step, s |", line = "| --- | --- |";
   for (const Column& column : there) {
     text += " " + column.head + " |";
     line += " --- |";
   }
   text += "\n" + line + "\n";
+
   for (const Row& row : rows) {
     if (row.what != rows.front().what) break;  // the other cases have the same peers and steps
     const Peer& peer = *row.peer;
     if (row.steps_per_s != peer.usual && row.steps_per_s != peer.steps_per_s.back()) continue;
+
     std::string cells;
     bool some = false;
     for (const Column& column : there) {
@@ -150,6 +158,7 @@ std::string table(const std::vector<Row>& rows, const std::vector<Column>& colum
       some = some || cell != "–";
       cells += " " + cell + " |";
     }
+
     if (!some) continue;
     text += fmt::format("| {} | {} |{}\n", peer.name, row.steps_per_s == 0 ? "–" : fmt::format("1/{}", row.steps_per_s),
                         cells);
@@ -167,6 +176,7 @@ std::string tables_of(const std::vector<Row>& rows) {
                                        {"cradle_gap", "row with gaps: error, m", position},
                                        {"cradle", "row that touches: error, m/s", number(&Result::velocity_error)},
                                        {"cradle", "CPU", cpu_time}});
+
   const std::string many = table(rows, {{"gas_1000", "gas: error, m", position},
                                         {"gas_1000", "overlap", overlap},
                                         {"gas_1000", "exchange", number(&Result::exchange)},
@@ -175,6 +185,7 @@ std::string tables_of(const std::vector<Row>& rows) {
                                         {"settling", "pile: overlap", overlap},
                                         {"settling", "J left", number(&Result::kinetic)},
                                         {"settling", "CPU", cpu_time}});
+
   return few.empty() || many.empty() ? few + many : few + "\n" + many;
 }
 

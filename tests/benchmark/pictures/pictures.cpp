@@ -46,10 +46,12 @@ Scene cloud(int balls) {
   uint64_t seed = 7;
   const Color palette[] = {{0.90, 0.30, 0.26}, {0.20, 0.55, 0.85}, {0.95, 0.75, 0.25}, {0.35, 0.70, 0.45}};
   const auto cells = static_cast<int>(std::ceil(std::cbrt(balls)));
+
   for (int i = 0; i < balls; ++i) {
     // One in each cell of a grid, so that they do not overlap.
     const double side = 2.0 / cells, room = std::max(side - 2 * radius, 0.0);
     const auto along = [&](int k) { return k * side + radius + room * noise(seed); };
+
     scene.initial.position.emplace_back(along(i % cells) - 1, along(i / cells % cells), along(i / cells / cells) - 1);
     scene.initial.velocity.push_back(Vec3::Zero());
     scene.world.mass.push_back(1);
@@ -57,6 +59,7 @@ Scene cloud(int balls) {
     scene.world.restitution.push_back(1);
     scene.roster.bodies.push_back({"b" + std::to_string(i), static_cast<Entity>(i), 1, false, palette[i % 4]});
   }
+
   scene.world.planes.push_back({Vec3::Zero(), Vec3(0, 1, 0), {}});
   scene.roster.fixed.push_back({"floor", {0.82, 0.80, 0.76}, true});
   Camera camera;
@@ -80,6 +83,7 @@ Cost cost_of(int balls) {
   State state = scene.initial;
   PngEncoder png;
   vector<double> draws, writes;
+
   renderer.draw(state);
   for (int i = 0; i < 15; ++i) {
     move(state, i);
@@ -91,6 +95,7 @@ Cost cost_of(int balls) {
     draws.push_back(drawn - start);
     writes.push_back(processor_ms() - drawn);
   }
+
   const auto median = [](vector<double>& times) {
     std::nth_element(times.begin(), times.begin() + 7, times.end());
     return times[7];
@@ -109,6 +114,7 @@ string json_of(const Scene& scene) {
   const auto color = [&](const Color& c) { return triple(linear(c)); };
   const Camera camera = camera_of(scene);
   const KeyLight light = default_light(view_of(camera, picture));
+
   nlohmann::json json = {{"size", {picture.width, picture.height}},
                          {"eye", triple(camera.eye)},
                          {"target", triple(camera.target)},
@@ -116,6 +122,7 @@ string json_of(const Scene& scene) {
                          {"towards_light", triple(light.towards)},
                          {"light", triple(light.radiance)},
                          {"floor", color(scene.roster.fixed[0].color)}};
+
   for (size_t i = 0; i < scene.world.radius.size(); ++i)
     json["balls"].push_back(
         {triple(scene.initial.position[i]), scene.world.radius[i], color(scene.roster.bodies[i].color)});
@@ -155,9 +162,11 @@ int run(int argc, char** argv) {
       if (argc == 1) print_row(balls);
     return 0;
   }
+
   if (argc != 3 && argc != 5) return 2;
   const Scene scene = cloud(std::max(1, std::atoi(argv[1])));
   const string what = argv[2];
+
   if (what.ends_with(".json")) {
     std::ofstream(what) << json_of(scene);
   } else if (what.ends_with(".png")) {

@@ -127,6 +127,7 @@ void run_all(bool exact) {
       for (const Vec3& x : simulator->state().position) fmt::print("x {} {} {}\n", x.x(), x.y(), x.z());
     }
   }
+
   const int layers = exact ? 6 : 5;
   Problem pile = loose_pile(3, layers, exact ? 15 : 25);
   for (int other = 0; other < 3; ++other) {
@@ -154,6 +155,7 @@ string difference(const vector<string>& usual, const vector<string>& other) {
   if (usual.size() != other.size()) return "*";
   double farthest = 0;
   bool rests = true;
+
   for (size_t k = 0; k < usual.size(); ++k) {
     Vec3 p, q;
     if (std::sscanf(usual[k].c_str(), "x %lf %lf %lf", &p.x(), &p.y(), &p.z()) == 3 &&
@@ -175,6 +177,7 @@ int compare_all(const string& program) {
     const auto effect = [&](const char* factor) {
       return difference(usual, lines_of(program, engine, name + "=" + factor));
     };
+
     const string larger = effect("4"), smaller = effect("0.25");
     fmt::print("{},{},{}\n", name, larger, smaller);
     std::fflush(stdout);

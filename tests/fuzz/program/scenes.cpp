@@ -40,11 +40,13 @@ Line try_scene(uint64_t seed) {
   } catch (const SceneError&) {
     return line;
   }
+
   const Outcome outcome = simulate(*scene, patience);
   line.accepted = true;
   line.stopped = !outcome.stopped.empty();
   line.violated = !outcome.violations.empty();
   std::snprintf(line.engine, sizeof line.engine, "%s", outcome.engine.c_str());
+
   if (line.violated) {
     string text = "\nseed " + std::to_string(seed) + " (" + made.scene.family + ", " + outcome.engine + "):\n";
     for (const string& violation : outcome.violations) text += "  " + violation + "\n";
@@ -78,6 +80,8 @@ struct Counts {
 int run(uint64_t scenes, uint64_t first) {
   std::map<string, Counts> by_engine;
   uint64_t refused = 0, crashed = 0, violated = 0;
+
+  // A process for a thousand scenes, so that one that crashes takes only the rest of them along.
   const uint64_t end = first + scenes;
   for (uint64_t seed = first; seed < end;) {
     int ends[2];
@@ -92,6 +96,7 @@ int run(uint64_t scenes, uint64_t first) {
       }
       _exit(0);
     }
+
     close(ends[1]);
     for (Line line; read(ends[0], &line, sizeof line) == sizeof line; ++seed) {
       if (!line.accepted) {
@@ -104,9 +109,11 @@ int run(uint64_t scenes, uint64_t first) {
       counts.violated += line.violated;
       violated += line.violated;
     }
+
     close(ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
+
     if (!WIFSIGNALED(status) && WEXITSTATUS(status) == 0) continue;
     std::printf("\nseed %llu: it %s\n---8<---\n%s--->8---\n", static_cast<unsigned long long>(seed),
                 !WIFSIGNALED(status)          ? "throws what it must not"
@@ -116,6 +123,7 @@ int run(uint64_t scenes, uint64_t first) {
     ++crashed;
     ++seed;
   }
+
   std::printf("\n%-10s %9s %9s %9s\n", "engine", "scenes", "stopped", "violated");
   for (const auto& [engine, counts] : by_engine)
     std::printf("%-10s %9llu %9llu %9llu\n", engine.c_str(), static_cast<unsigned long long>(counts.run),

@@ -14,6 +14,7 @@ int main(int count, char** arguments) {
     for (const Target& target : targets()) std::puts(target.name);
     return 0;
   }
+
   const std::filesystem::path folder = arguments[1];
   for (const Target& target : targets()) {
     std::filesystem::create_directories(folder / target.name);
@@ -22,6 +23,7 @@ int main(int count, char** arguments) {
       std::ofstream(folder / target.name / ("seed" + std::to_string(number++)), std::ios::binary) << seed;
     std::ofstream(folder / (string(target.name) + ".longest")) << target.longest << "\n";
   }
+
   std::ofstream dictionary(folder / "words.dict");
   for (const string& word : words()) {
     dictionary << '"';

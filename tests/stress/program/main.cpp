@@ -50,14 +50,17 @@ Counts& counts_of(Shared& shared, uint64_t seed) {
     shared.current[worker] = seed;
     itimerval limit{{0, 0}, {hang, 0}};
     setitimer(ITIMER_VIRTUAL, &limit, nullptr);
+
     const RandomScene scene = make_scene(seed);
     Verdict verdict = check(scene);
     for (string& violation : check_stepped(scene).violations) verdict.violations.push_back(std::move(violation));
+
     Counts& counts = counts_of(shared, seed);
     ++counts.scenes;
     counts.collisions += verdict.collisions;
     counts.stopped += verdict.stopped;
     counts.crowds += verdict.crowds;
+
     if (verdict.violations.empty()) continue;
     ++counts.violated;
     report(scene, verdict.violations);
@@ -76,30 +79,36 @@ int run(uint64_t scenes, uint64_t first) {
   void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) return 1;
   Shared& shared = *new (memory) Shared{};
+
   shared.next = first;
   const uint64_t end = first + scenes;
   array<pid_t, workers> children;
   for (size_t k = 0; k < workers; ++k) children[k] = start(shared, k, end);
+
   const auto done = [&] {
     uint64_t sum = 0;
     for (const Counts& c : shared.family) sum += c.scenes;
     return sum;
   };
+
   const auto failed = [&] {
     uint64_t sum = 0;
     for (const Counts& c : shared.family) sum += c.violated;
     return sum;
   };
+
   std::time_t reported = std::time(nullptr);
   for (int running = workers; running > 0;) {
     int status;
     const pid_t child = waitpid(-1, &status, WNOHANG);
+
     for (size_t k = 0; child > 0 && k < workers; ++k) {
       if (children[k] != child) continue;
       if (!WIFSIGNALED(status)) {
         --running;
         continue;
       }
+
       const uint64_t seed = shared.current[k];
       ++counts_of(shared, seed).scenes;
       ++counts_of(shared, seed).violated;
@@ -107,7 +116,9 @@ int run(uint64_t scenes, uint64_t first) {
              {WTERMSIG(status) == SIGVTALRM ? "it hangs" : string("it crashes: ") + strsignal(WTERMSIG(status))});
       children[k] = start(shared, k, end);
     }
+
     if (child > 0) continue;
+
     const timespec nap{0, 50'000'000};
     nanosleep(&nap, nullptr);
     if (std::time(nullptr) - reported < 10) continue;
@@ -115,6 +126,7 @@ int run(uint64_t scenes, uint64_t first) {
     std::fprintf(stderr, "%llu of %llu scenes, %llu violated\n", static_cast<unsigned long long>(done()),
                  static_cast<unsigned long long>(scenes), static_cast<unsigned long long>(failed()));
   }
+
   std::printf("\n%-10s %9s %9s %9s %9s %12s\n", "family", "scenes", "violated", "stopped", "crowds", "collisions");
   for (size_t k = 0; k < family_names().size(); ++k) {
     const Counts& c = shared.family[k];
@@ -122,6 +134,7 @@ int run(uint64_t scenes, uint64_t first) {
                 static_cast<unsigned long long>(c.violated), static_cast<unsigned long long>(c.stopped),
                 static_cast<unsigned long long>(c.crowds), static_cast<unsigned long long>(c.collisions));
   }
+
   std::printf("%llu scenes, %llu violated\n", static_cast<unsigned long long>(done()),
               static_cast<unsigned long long>(failed()));
   return failed() == 0 ? 0 : 1;
