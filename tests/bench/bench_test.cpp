@@ -11,6 +11,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/simulator.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -56,6 +57,7 @@ double order_of(const vector<BenchRow>& rows, double Differences::*error) {
 // A spring and impacts. measured: position 0.99, 2.00, 4.00; energy 0.98, 2.00, 5.02: rk4's amplitude is of one order
 // more.
 TEST(Bench, ErrorsFallByTheOrderOfTheMethod) {
+  SLOW_WITH_SANITIZERS();
   const BenchResult result = bench(scene_of("bumper"), 0x1p-6, 0x1p-10);
   EXPECT_EQ(result.reference.engine, Engine::exact);  // sines
   EXPECT_FALSE(result.chaotic);
@@ -71,6 +73,7 @@ TEST(Bench, ErrorsFallByTheOrderOfTheMethod) {
 
 // measured: dop853 7.6e-12 m; rk4 4.01
 TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
+  SLOW_WITH_SANITIZERS();
   const BenchResult result = bench(scene_of("comet", {"forces.0.attractor.softening=0.1"}), 0x1p-5, 0x1p-8);
   EXPECT_EQ(result.reference.engine, Engine::stepped);
   const auto own = rows_of(result, Engine::stepped, Integrator::dop853);
@@ -86,6 +89,7 @@ TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
 
 // Under linear drag the exact engine has exponentials, the stepped one polynomials.
 TEST(Bench, TheExactEngineIsItsOwnReferenceAndItsErrorEstimated) {
+  SLOW_WITH_SANITIZERS();
   const BenchResult result = bench(scene_of("raindrops"), 0x1p-6, 0x1p-10);
   EXPECT_EQ(result.reference.engine, Engine::exact);
   ASSERT_EQ(result.witnesses.size(), 4u);  // dop853 by steps, euler, verlet, rk4
@@ -206,6 +210,7 @@ TEST(Bench, ResultsAreTheSameEachTime) {
 }
 
 TEST(Bench, StepsThatCostMoreThanTheBudgetAreLeftOut) {
+  NOT_WITH_SANITIZERS();
   const BenchResult result = bench(scene_of("bumper"), 0x1p-4, 0x1p-14, 0.05);
   EXPECT_LT(result.cpu_s, 0.5);
   EXPECT_FALSE(result.left_out.empty());

@@ -7,6 +7,7 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -100,6 +101,7 @@ TEST(BenchCommand, WritesATableAPlotAndAManifest) {
 }
 
 TEST(BenchCommand, OfACrowdHasACurveOfQualities) {
+  SLOW_WITH_SANITIZERS();
   const Workplace here;
   here.write("heap.yaml", R"(scene: 1
 seed: 1

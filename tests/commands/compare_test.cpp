@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "commands/program.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -222,6 +223,7 @@ TEST(CompareCommand, JsonHasTheSameContent) {
 }
 
 TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
+  SLOW_WITH_SANITIZERS();
   const Workplace here;
   here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
                                      "output: {video: {fps: 10, size: [64, 48]}}\n"));

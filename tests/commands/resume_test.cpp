@@ -5,6 +5,7 @@
 #include <random>
 
 #include "commands/program.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -21,6 +22,7 @@ const string pile =
     "flights: true, frames: {fps: 2, size: [64, 36]}}\n";
 
 TEST(ResumedRun, KilledAtTwentyRandomInstantsHasTheBytesOfOneThatWasNot) {
+  SLOW_WITH_SANITIZERS();
   const Workplace here;
   here.write("pile.yaml", pile);
   ASSERT_EQ(here.carom({"run", "pile.yaml", "-o", "whole"}).code, 0);
@@ -78,6 +80,7 @@ TEST(ResumedRun, IsReplacedWhenItsSceneFileIsEdited) {
 }
 
 TEST(ResumedRun, KeepsWhatItHasWhereFilesCannotBeOpened) {
+  NOT_WITH_SANITIZERS();
   const Workplace here;
   ASSERT_EQ(stop_pile(here).code, 143);
   for (int files = 5; files < 12; ++files)
@@ -88,6 +91,7 @@ TEST(ResumedRun, KeepsWhatItHasWhereFilesCannotBeOpened) {
 }
 
 TEST(ResumedRun, IsTakenUpByASweep) {
+  SLOW_WITH_SANITIZERS();
   const Workplace here;
   here.write("pile.yaml", pile);
   const vector<string> sweep = {"sweep", "pile.yaml", "--grid", "restitution=0.1,0.3", "--only", "energy"};

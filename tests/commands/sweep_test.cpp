@@ -8,6 +8,7 @@
 
 #include "commands/program.h"
 #include "scene/scene.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -560,6 +561,7 @@ output: {energy: {every: 0.1}}
 }
 
 TEST(Sweep, InterruptedIsResumedByTheSameCommand) {
+  SLOW_WITH_SANITIZERS();
   const Workplace here;
   prepare(here, "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.position.z: {from: 0, to: 0.2, count: 401}}\n");
   const Finished stopped = here.interrupted({"sweep", "offsets.yaml", "--progress", "none"},
@@ -586,6 +588,7 @@ TEST(Gather, PartsHaveTheBytesOfTheWhole) {
 }
 
 TEST(Gather, KilledPartIsMissedAndRepeated) {
+  SLOW_WITH_SANITIZERS();
   const Workplace here;
   prepare(here, "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.position.z: {from: 0, to: 0.2, count: 301}}\n");
   here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});

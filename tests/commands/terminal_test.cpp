@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "commands/program.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -68,6 +69,7 @@ TEST_F(OnATerminal, BarIsClearedBeforeTheResult) {
 }
 
 TEST_F(OnATerminal, BarOfASweepShowsCountRateAndTimeLeft) {
+  SLOW_WITH_SANITIZERS();
   here.write("a.yaml", two_balls());
   const Finished sweep = here.shell(
       "TERM=xterm script -qec 'stty cols 100; $CAROM sweep a.yaml --grid balls.red.mass=1:2:600 -j 1 --color never' "

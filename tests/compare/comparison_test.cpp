@@ -10,6 +10,7 @@
 #include "compare/number_look.h"
 #include "compare/outcomes.h"
 #include "compare/scenarios.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -321,6 +322,7 @@ TEST_F(ComparisonOfSix, AWideTrajectoryGivesTheSame) {
 }
 
 TEST_F(ComparisonOfSix, ManyRunsAreStreamed) {
+  SLOW_WITH_SANITIZERS();
   vector<ComparedRun> many;
   for (int i = 0; i < 2100; ++i)
     many.push_back({"r" + std::to_string(i),

@@ -14,6 +14,7 @@
 #include "files/open_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -150,6 +151,7 @@ string without_descriptors(const function<void()>& action) {
 }
 
 TEST(Folder, AFileThatCannotBeOpenedIsNoMissingFile) {
+  NOT_WITH_SANITIZERS();
   TempFolder temp;
   run(small_scene(), temp / "run");
   const Descriptor folder = open_folder(AT_FDCWD, temp / "run", true);

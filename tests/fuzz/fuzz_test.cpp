@@ -3,6 +3,7 @@
 
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::fuzz {
@@ -22,12 +23,14 @@ class AnyBytes : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(AnyBytes, OfSeedsKeepGuarantees) {
+  SLOW_WITH_SANITIZERS("simulators");
   const vector<string> seeds = target().seeds();
   EXPECT_FALSE(seeds.empty());
   for (const string& seed : seeds) run(seed);
 }
 
 TEST_P(AnyBytes, KeepGuarantees) {
+  SLOW_WITH_SANITIZERS("simulators");
   const vector<string> seeds = target().seeds(), all_words = words();
   Mutator mutator(1, seeds, all_words);
   // A mesh's reader is a process, a simulation takes milliseconds.

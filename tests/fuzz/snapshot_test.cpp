@@ -8,12 +8,14 @@
 #include "run/engine.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::fuzz {
 namespace {
 
 TEST(SnapshotOfAnyScene, GoesOnWithTheSameBits) {
+  SLOW_WITH_SANITIZERS();
   int run = 0;
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const MemoryFile file(make_any_scene(seed).yaml());

@@ -4,6 +4,7 @@
 
 #include "geometry/conservative_advancement.h"
 #include "physics/world.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "volumes_by_hand.h"
 
@@ -81,6 +82,7 @@ Path random_path(const World& world, Sampler& random, bool curved, double& horiz
 }
 
 TEST(TimeOfImpact, NoContactIsMissedAndNoneInvented) {
+  SLOW_WITH_SANITIZERS();
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds)
       for (bool curved : {false, true}) {
@@ -105,6 +107,7 @@ TEST(TimeOfImpact, NoContactIsMissedAndNoneInvented) {
 }
 
 TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
+  SLOW_WITH_SANITIZERS();
   // After its first contact a pair is pressed together and bounces, with restitutions down to 1e-4, over faces, edges
   // and rims.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
@@ -160,6 +163,7 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
 }
 
 TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
+  SLOW_WITH_SANITIZERS();
   // The small part of the position resolves times that the large part is too coarse for.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
@@ -188,6 +192,7 @@ TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
 }
 
 TEST(ConservativeAdvancement, AGapSmallerThanThePositionsResolveIsMet) {
+  SLOW_WITH_SANITIZERS();
   // A ball on its way to a cylinder's rim, 1.5e-16 m from it: its position does not change before the gap is closed.
   World world;
   world.mass = {1, 1};
@@ -201,6 +206,7 @@ TEST(ConservativeAdvancement, AGapSmallerThanThePositionsResolveIsMet) {
 }
 
 TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTheFaceBeyond) {
+  SLOW_WITH_SANITIZERS();
   // A ball that touches a box's edge leaves it with the edge's own curvature. The gap grows with the third power of
   // time, and the ball dips below the box and comes back to its bottom.
   for (const double pull : {0.5, 1.0, 3.0})
@@ -227,6 +233,7 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
 }
 
 TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingLater) {
+  SLOW_WITH_SANITIZERS();
   // A cylinder's side touches a box's edge, except for rounding, and approaches it no faster than rounding. The plane
   // through the edge lies a while ahead, and the surface has left it by then.
   World world;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 
 namespace carom {
 namespace {
@@ -46,6 +47,7 @@ double first_sample(const FadingDistance& f, double horizon) {
 }
 
 TEST(FadingDescent, MissesNoneAndInventsNone) {
+  SLOW_WITH_SANITIZERS();
   Random random;
   int found = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -69,6 +71,7 @@ TEST(FadingDescent, MissesNoneAndInventsNone) {
 }
 
 TEST(FadingDescent, FromContactIsWhereItComesBack) {
+  SLOW_WITH_SANITIZERS();
   // Thrown up at 1 m/s under a pull of 10 m/s^2 and drag: down again before 0.2 s, the sooner the stronger drag is.
   double last = 0.2;
   for (const double fade : {1e-6, 0.1, 1.0, 10.0, 1000.0}) {

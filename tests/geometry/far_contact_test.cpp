@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "volumes_by_hand.h"
 
@@ -72,6 +73,7 @@ struct Throw {
 };
 
 TEST(FarContact, SmallSpheresMeetToTheRoundingOfTheWay) {
+  SLOW_WITH_SANITIZERS();
   Sampler random(7);
   int hits = 0, misses = 0;
   double worst = 0, deepest = 0;  // in units of the way's rounding
@@ -96,6 +98,7 @@ TEST(FarContact, SmallSpheresMeetToTheRoundingOfTheWay) {
 }
 
 TEST(FarContact, ASmallBallMeetsAWallsEdgesAndCornersToTheRoundingOfTheWay) {
+  SLOW_WITH_SANITIZERS();
   Sampler random(8);
   const Wall wall{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, 1, {}};
   int edges = 0, corners = 0;

@@ -27,6 +27,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/book.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -153,6 +154,7 @@ string shortened(string command) {
 }
 
 TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
+  SLOW_WITH_SANITIZERS();
   const Clone clone;
   int run = 0, compared = 0;
 
@@ -279,6 +281,7 @@ BenchResult bench(const string& scene, double longest, double shortest) {
 
 // All except the times, which depend on the machine, to the given digits.
 TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
+  SLOW_WITH_SANITIZERS();
   const BenchResult result = bench("raindrops.yaml", 0x1p-4, 0x1p-10);
   const std::regex line(
       R"(\| (exact|euler|verlet|rk4) \| (?:1/(\d+) s)? ?\| \S+ ms \| (\S+) m \| (\S+) m/s \| (\S+) J \|)");
@@ -304,6 +307,7 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
 }
 
 TEST(ReadmeBench, DeviationsAreMeasured) {
+  SLOW_WITH_SANITIZERS();
   const BenchResult result = bench("gas_in_a_room.yaml", 0x1p-4, 0x1p-4);
   ASSERT_TRUE(result.chaotic);
   EXPECT_NEAR(result.rows[1].deviation.value, stated("and steps of 1/16 s it is "), 0.05);

@@ -12,6 +12,7 @@
 
 #include "render/colored_meshes.h"
 #include "render/mesh_folder.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -221,6 +222,7 @@ TEST(ReadMesh, WhatTakesTooLongIsEnded) {
 }
 
 TEST(ReadMesh, TooLittleMemoryIsReported) {
+  NOT_WITH_SANITIZERS();
   const MeshFolder folder;
   string text;
   for (int i = 0; i < 150'000; ++i) text += "v " + std::to_string(i) + " 0 0\n";
@@ -232,6 +234,7 @@ TEST(ReadMesh, TooLittleMemoryIsReported) {
 
 // By the robustness notes one in a few thousand crashes the reader, or hangs it; each must end in a mesh or a text.
 TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
+  SLOW_WITH_SANITIZERS();
   const MeshFolder folder;
   MeshLimits limits;
   limits.seconds = 2;

@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "render/outlines.h"
 #include "scene/scene.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -39,6 +40,7 @@ int wrong_pixels(const Image& image, const vector<Point>& hull) {
 }
 
 TEST(Solid, ItsOutlineIsTheHullOfItsCornersToAPixel) {
+  SLOW_WITH_SANITIZERS();
   const Size size{400, 300};
   for (const Volume& volume : {Volume::box(Vec3(1.2, 0.8, 2)), Volume::cylinder(0.7, 1.1), Volume::cylinder(0.1, 0.3)})
     for (const Vec3& center : {Vec3(0, 0, 0), Vec3(1.5, -0.7, 0.4), Vec3(3.2, 2.0, 0)})

@@ -10,6 +10,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/long_kepler.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -53,6 +54,7 @@ void attract(Scene& scene, double mu, double softening) {
 }
 
 TEST(Accuracy, OfOrbitsIsTheRequestedTolerance) {
+  SLOW_WITH_SANITIZERS();
   for (const double e : {0.0, 0.5, 0.9, 0.99, 0.999})
     for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
       Scene scene = scene_of(stepped(20 * M_PI + 1, tolerance));
@@ -131,6 +133,7 @@ Scene crowd(double duration, double tolerance) {
 }
 
 TEST(Accuracy, OfChaosEndsAndIsReported) {
+  SLOW_WITH_SANITIZERS();
   const Scene scene = crowd(60, 1e-6);
   EngineChoice engine = choose_engine(scene);
   settle_steps(scene, engine, no_stop_check);
@@ -144,6 +147,7 @@ TEST(Accuracy, OfChaosEndsAndIsReported) {
 
 // Its disturbance is large long before the first eighth of the run is over.
 TEST(Accuracy, FindsChaosThatIsOverEarlyInARun) {
+  SLOW_WITH_SANITIZERS();
   const double lyapunov_time = growth_of(crowd(60, 1e-6), crowd(60, 1e-6).simulate, {}, no_stop_check).lyapunov_time;
   const Scene scene = crowd(1000, 1e-6);
   const Growth growth = growth_of(scene, scene.simulate, {}, no_stop_check);
@@ -153,6 +157,7 @@ TEST(Accuracy, FindsChaosThatIsOverEarlyInARun) {
 }
 
 TEST(Accuracy, DoesNotCallOrbitsChaotic) {
+  SLOW_WITH_SANITIZERS();
   for (const double e : {0.0, 0.9, 0.999}) {
     Scene scene = scene_of(stepped(200 * M_PI, 1e-6));
     add_ball(scene, {1 + e, 0, 0}, {0, std::sqrt((1 - e) / (1 + e)), 0}, 1e-3);
@@ -162,6 +167,7 @@ TEST(Accuracy, DoesNotCallOrbitsChaotic) {
 }
 
 TEST(Accuracy, OfStiffForcesIsFoundToo) {
+  SLOW_WITH_SANITIZERS();
   Scene scene = scene_of(stepped(1, 1e-6, Integrator::rk4));
   add_ball(scene, {1, 0, 0}, {0, 0, 0}, 0.1);
   scene.world.forces = {{Drag{0, 1e4, {0, 3, 0}}}};  // longer steps throw the ball to infinity

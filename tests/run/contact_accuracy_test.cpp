@@ -8,6 +8,7 @@
 
 #include "run/accuracy.h"
 #include "run/contact_scenes.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -22,6 +23,7 @@ class ContactAccuracy : public ::testing::TestWithParam<uint64_t> {};
 
 // Measured: 1.9 times at most. tests/long/ has 200 such scenes.
 TEST_P(ContactAccuracy, OfARandomSceneIsContainedInWhatIsStated) {
+  SLOW_WITH_SANITIZERS();
   const optional<SceneWithTruth> of = ContactScenes(GetParam()).make();
   ASSERT_TRUE(of);
   EXPECT_LT(of->error(), 10 * stated_error(of->scene)) << of->what;
@@ -45,6 +47,7 @@ Scene ball_over_a_globe(double at, double beside) {
 // A ball that bounces on the top of another one goes away from it e-fold in 0.3 s. Its places from the doubles of the
 // scene, by 60 decimals: those of the runs are off by 5.7e-4 m and by 1.1e-7 m. Stated: 0.051 m and 2.3e-5 m.
 TEST(ContactAccuracy, OfABallBesideTheTopOfAFarBallHasTheRoundingOfPlaces) {
+  SLOW_WITH_SANITIZERS();
   const Scene far = ball_over_a_globe(1e6, 1e-8), near = ball_over_a_globe(1e3, 1e-9);
   const auto simulator = make_simulator(far);
   while (simulator->time() < 6) simulator->advance_to(6);
@@ -77,6 +80,7 @@ Scene conical(double down, double out, double duration) {
 
 // Small speeds along the string that count as rounding shorten it. Measured: 1.0 times.
 TEST(ContactAccuracy, OfAConicalPendulumContainsTheErrorsOfAllSteps) {
+  SLOW_WITH_SANITIZERS();
   for (const auto& [down, duration] : {std::pair(0.8, 500.0), std::pair(0.2, 100.0)}) {
     const double out = std::sqrt(1 - down * down), angle = duration * std::sqrt(9.75 / down);
     const SceneWithTruth of{
@@ -88,6 +92,7 @@ TEST(ContactAccuracy, OfAConicalPendulumContainsTheErrorsOfAllSteps) {
 }
 
 TEST(ContactAccuracy, OfIslandsWithAToleranceIsThatOfSmallerSteps) {
+  SLOW_WITH_SANITIZERS();
   Scene scene = conical(0.8, 0.6, 50);
   scene.simulate.tolerance = 1e-9;
   EngineChoice engine = choose_engine(scene);

@@ -13,6 +13,7 @@
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "simulate/exact.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/scene.h"
 
@@ -92,6 +93,7 @@ void expect_same_states(const World& world, double duration, const Record& run, 
 class EverySceneAgain : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "funnel", "pi_to_six_digits", "pile_at_rest");
   const Scene scene = scene_named(GetParam());
   const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
   expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 500);
@@ -142,6 +144,7 @@ TEST(SceneAgain, OfTheBookHasTheStateAfterTheCollisionThatEndsIt) {
 class RandomSceneAgain : public ::testing::TestWithParam<size_t> {};
 
 TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
+  SLOW_WITH_SANITIZERS("heaps");
   const size_t families = stress::family_names().size();
   for (uint64_t k = 0; k < 12; ++k) {
     stress::RandomScene scene = stress::make_scene(GetParam() + families * k);

@@ -18,6 +18,7 @@
 #include "run/stages.h"
 #include "scene/engines.h"
 #include "scene/output_kinds.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/scene.h"
 
@@ -175,6 +176,7 @@ Scene with_outputs(Scene scene, const vector<string>& outputs) {
 class EverySceneGoesOn : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneGoesOn, WithTheSameFiles) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "brick_wall", "funnel", "pile_at_rest", "piston");
   Scene scene = scene_named(GetParam());
   // They take long.
   if (GetParam() == "funnel") scene.simulate.duration = 0.5;

@@ -6,6 +6,7 @@
 
 #include "run/engine.h"
 #include "run/run_testing.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/scene.h"
 
@@ -28,6 +29,7 @@ vector<WatchedQuantity> watch_all(Entity bodies) {
 class EverySceneRestored : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRestored, GoesOnWithTheSameBits) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "brick_wall", "funnel", "pile_at_rest", "piston");
   const Scene scene = scene_named(GetParam());
   std::mt19937_64 random(1);
   // They take long.
@@ -45,6 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneRestored, ::testing::ValuesIn(scene_n
 class RandomSceneRestored : public ::testing::TestWithParam<size_t> {};
 
 TEST_P(RandomSceneRestored, GoesOnWithTheSameBits) {
+  SLOW_WITH_SANITIZERS("gas", "heaps");
   const size_t families = stress::family_names().size();
   for (uint64_t k = 0; k < 24; ++k) {
     stress::RandomScene scene = stress::make_scene(GetParam() + families * k);

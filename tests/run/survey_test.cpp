@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "run/engine.h"
 #include "run/run_testing.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -73,6 +74,7 @@ const string marble_run =
     "0]}\nplanes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 4}\n";
 
 TEST(Survey, AMarbleRunIsInViewToItsEndWithWhatTheMarbleMeets) {
+  SLOW_WITH_SANITIZERS();
   const RunPlace place;
   const Scene scene = place.scene(marble_run + "output: {video: true}\n");
   const Camera camera = surveyed(scene);

@@ -5,6 +5,7 @@
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -231,6 +232,7 @@ output: {trajectory: {every: 0.1, layout: wide}, collisions: true, energy: true,
 )";
 
 TEST(MutatedScenes, AreScenesOrErrors) {
+  SLOW_WITH_SANITIZERS();
   ASSERT_EQ(errors_of(everything), "");
   const string path = write_file("");
   const string pieces[] = {": ",
@@ -311,6 +313,7 @@ TEST(MutatedScenes, AreScenesOrErrors) {
 }
 
 TEST(MutatedScenes, SettingsAreScenesOrErrorsToo) {
+  SLOW_WITH_SANITIZERS();
   const string path = write_file(everything);
   const string paths[] = {"balls.red.position.z",
                           "simulate.duration",

@@ -17,6 +17,7 @@
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "scene/variations.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -150,6 +151,7 @@ std::set<size_t> explained(const string& errors) {
 }
 
 TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
+  SLOW_WITH_SANITIZERS();
   Validator validator("scene");
   const string file = validator.folder() + "/scene.yaml";
   std::ofstream(validator.folder() + "/box.stl") << "a mesh";

@@ -2,6 +2,7 @@
 #include "scene/sweep.h"
 
 #include "scene/scenes_in_text.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -229,6 +230,7 @@ TEST(SweepErrors, AreAllShownWithPlaceAndRemedy) {
 }
 
 TEST(SweepErrors, NameWhatNoSweepCanBe) {
+  SLOW_WITH_SANITIZERS();
   const auto has = [](const string& text, const string& part) {
     EXPECT_NE(sweep_errors(text).find(part), string::npos) << sweep_errors(text);
   };

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -69,6 +70,7 @@ class Agreement : public ::testing::TestWithParam<string> {
 
 // Between impacts these two methods are exact under constant forces.
 TEST_P(Agreement, OfExactAndSteppedWithinRoundingOrAtTheOrderOfTheMethod) {
+  SLOW_WITH_SANITIZERS();
   const Scene scene = load(GetParam());
   const State exact = exact_end(scene);
   const bool curved = varying_force(scene.world) != nullptr;
@@ -92,6 +94,7 @@ TEST_P(Agreement, OfExactAndSteppedWithinRoundingOrAtTheOrderOfTheMethod) {
 }
 
 TEST_P(Agreement, OfExactAndEulersStepsAtFirstOrder) {
+  SLOW_WITH_SANITIZERS();
   const Scene scene = load(GetParam());
   const State exact = exact_end(scene);
   const Far coarse = far(stepped_end(scene, Integrator::euler, 0.002), exact);

@@ -10,6 +10,7 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -26,6 +27,7 @@ TEST_P(EveryScene, HasATitle) {
 }
 
 TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "funnel", "pile_at_rest");
   const Played run = play(GetParam());
   for (size_t i = 0; i < run.end.position.size(); ++i) {
     EXPECT_TRUE(run.end.position[i].allFinite() && run.end.velocity[i].allFinite()) << run.scene.roster.name(i);
@@ -52,6 +54,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
 }
 
 TEST_P(EveryScene, ShowsSomething) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "funnel", "pile_at_rest");
   const Scene scene = load(GetParam());
   if (!scene.output.pictures()) return;
   ASSERT_TRUE(scene.camera) << "pictures without a camera";

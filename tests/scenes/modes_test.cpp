@@ -6,6 +6,7 @@
 #include "run/engine.h"
 #include "scenes/play.h"
 #include "simulate/loop/exact_simulator.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -21,6 +22,7 @@ ModeChanges::Counts changes_in(const string& name) {
 }
 
 TEST(ModesOfScenes, NoOtherTransitionHappens) {
+  SLOW_WITH_SANITIZERS();
   ModeChanges::Counts all{};
   for (const string& name : scene_names()) {
     const ModeChanges::Counts changes = changes_in(name);

@@ -5,6 +5,7 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/seen_otherwise.h"
 
@@ -33,6 +34,7 @@ class Otherwise : public ::testing::TestWithParam<string> {
 };
 
 TEST_P(Otherwise, MirroredItMovesMirrored) {
+  SLOW_WITH_SANITIZERS();
   const Motion motion = motion_of(GetParam());
   const Observed seen = run(motion);
   for (int axis = 0; axis < 3; ++axis)
@@ -40,6 +42,7 @@ TEST_P(Otherwise, MirroredItMovesMirrored) {
 }
 
 TEST_P(Otherwise, InOtherUnitsItHasTheSameBits) {
+  SLOW_WITH_SANITIZERS();
   const Motion motion = motion_of(GetParam());
   const Observed seen = run(motion);
   for (const stress::Units& units : stress::all_units)
@@ -70,6 +73,7 @@ Motion neighbour() {
 }
 
 TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
+  SLOW_WITH_SANITIZERS();
   const Motion motion = motion_of(GetParam());
   if (!motion.world.pairs.empty() || motion.merge) return;  // these depend on the numbers of bodies
   const Vec3 away(1024, 512, -2048);

@@ -9,6 +9,7 @@
 #include "scene/load.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -55,6 +56,7 @@ TEST(Piston, ItsWorkIsTheGrowthOfTheEnergy) {
 }
 
 TEST(Piston, HeatsTheGasByTheAdiabat) {
+  SLOW_WITH_SANITIZERS();
   constexpr int seeds = 12;
   double sum = 0, squares = 0;
   for (int seed = 1; seed <= seeds; ++seed) {

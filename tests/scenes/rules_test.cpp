@@ -10,6 +10,7 @@
 
 #include "run/run_scene.h"
 #include "scenes/play.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -34,6 +35,7 @@ double measured(const string& name, const string& measure) {
 }
 
 TEST(Cars, AreStruckWhenAndAsFastAsStated) {
+  SLOW_WITH_SANITIZERS();
   const Played run = play("cars");
   const Collision& hit = run.collisions.front();
   const double c = 0.1, v = 20 - c * 20, first = 1.2 * 9000 / 10200 * v;
@@ -45,11 +47,13 @@ TEST(Cars, AreStruckWhenAndAsFastAsStated) {
 }
 
 TEST(Cars, ArePushedIntoTheCrossing) {
+  SLOW_WITH_SANITIZERS();
   EXPECT_EQ(measured("cars", "cars_in_crossing"), 6);
   EXPECT_NEAR(measured("cars", "first_hit_s"), stated("cars", "log(1 - c 20 m / v) / c ="), 1e-14);
 }
 
 TEST(MarbleRun, BringsAllMarblesIntoTheCup) {
+  SLOW_WITH_SANITIZERS();
   const double tilt = 12 * std::numbers::pi / 180, fall = 0.25 - 0.39 * std::tan(tilt) - 0.04 / std::cos(tilt);
   const Played run = play("marble_run");
   EXPECT_NEAR(run.collisions.front().time, std::sqrt(2 * fall / g_n), 1e-14);
@@ -68,6 +72,7 @@ TEST(BowlingShot, MeetsTheFirstPinWhenStated) {
 }
 
 TEST(Funnel, LetsAllBallsThrough) {
+  SLOW_WITH_SANITIZERS();
   EXPECT_EQ(measured("funnel", "through"), 500);
 }
 
@@ -87,6 +92,7 @@ TEST(Planets, FollowKeplersLaws) {
 }
 
 TEST(BrickWall, LosesSixBricks) {
+  SLOW_WITH_SANITIZERS();
   EXPECT_NEAR(measured("brick_wall", "first_hit_s"), 2.3 / 12, 1e-15);
   EXPECT_NEAR(stated("brick_wall", "0.05 m) / v ="), 2.3 / 12, 1e-14);
   EXPECT_EQ(measured("brick_wall", "knocked_out"), 6);

@@ -6,6 +6,7 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -83,6 +84,7 @@ TEST(Pyramid, HasTheForcesOfStatics) {
 }
 
 TEST(PileAtRest, PressesWithItsWeight) {
+  SLOW_WITH_SANITIZERS();
   const Played run = play("pile_at_rest");
   EXPECT_EQ(run.tally.resting, 40u);
   double floor = 0;

@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -84,6 +85,7 @@ TEST(Collapse, OfManyBallsInARowAgainstAWall) {
 // A row that is driven against a wall collapses, by an estimate, from ln(4 / (1 - e)) / (1 - e) balls on
 // (data/references/chains_cradle_stack.json).
 TEST(Collapse, OfARowComesWithManyBallsAndNotWithFew) {
+  SLOW_WITH_SANITIZERS();
   const auto all = reference("chains_cradle_stack")["n_ball_collapse_estimates"];
   const double e = number(all[0]["e"]), estimate = all[0]["N_min_formula_ln4"];
   for (const double share : {0.5, 2.0}) {

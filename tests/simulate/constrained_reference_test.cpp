@@ -10,6 +10,7 @@
 #include "simulate/build.h"
 #include "simulate/constrained_reference.h"
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -111,6 +112,7 @@ ConstrainedReference random_island(size_t n, uint64_t seed) {
 }
 
 TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsFollowIt) {
+  SLOW_WITH_SANITIZERS();
   Errors worst;
 
   size_t openings = 0, islands = 0;
@@ -155,6 +157,7 @@ ConstrainedReference train(size_t n, double push) {
 }
 
 TEST(ConstrainedReference, TrainsArePushedOverAHumpAndComeApartOnTheFarSide) {
+  SLOW_WITH_SANITIZERS();
   Errors worst;
   for (const size_t n : {2, 3, 5, 9, 17}) {
     for (const double push : {4.0, 10.0}) {
@@ -173,6 +176,7 @@ TEST(ConstrainedReference, TrainsArePushedOverAHumpAndComeApartOnTheFarSide) {
 }
 
 TEST(ConstrainedReference, HalvedStepsOfItMakeNoDifference) {
+  SLOW_WITH_SANITIZERS();
   ConstrainedReference island = random_island(8, 8001), cars = train(3, 10);
   for (ConstrainedReference* of : {&island, &cars}) {
     const auto one = of->follow(0.15, 1.0 / 128), two = of->follow(one.time, 1.0 / 256);

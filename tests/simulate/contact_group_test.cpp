@@ -7,6 +7,7 @@
 #include "simulate/exact.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -22,6 +23,7 @@ unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrator me
 }
 
 TEST(ContactGroup, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
+  SLOW_WITH_SANITIZERS();
   for (const auto& [side, layers] : {std::pair(2, 8), std::pair(3, 10), std::pair(4, 4), std::pair(5, 5)})
     for (const auto& [method, step] :
          {std::pair(Integrator::euler, 0.01), std::pair(Integrator::verlet, 0.01), std::pair(Integrator::rk4, 0.01)}) {
@@ -53,6 +55,7 @@ TEST(ContactGroup, OfARowThatIsPushedIsNotPutToRest) {
 }
 
 TEST(ContactGroup, GainsNoEnergyAsItSettles) {
+  SLOW_WITH_SANITIZERS();
   for (const int side : {3, 5}) {
     const Problem problem = loose_pile(side, 6, 10);
     const auto simulator = stepped(problem, 0.01);
@@ -77,6 +80,7 @@ TEST(ContactGroup, GainsNoEnergyAsItSettles) {
 }
 
 TEST(ContactGroup, HardlyOverlapsWhileItFalls) {
+  SLOW_WITH_SANITIZERS();
   const Problem problem = loose_pile(7, 7, 3);
   const auto simulator = stepped(problem, 0.01);
   go_to(*simulator, 3);
@@ -97,6 +101,7 @@ TEST(ContactGroup, GivesItsForcesWhileItStillMoves) {
 
 // Bodies far away change the order in which neighbours are found.
 TEST(ContactGroup, MovesToTheSameBitsWhateverIsFarAway) {
+  SLOW_WITH_SANITIZERS();
   const Problem alone = loose_pile(4, 4, 3);
   Problem others = alone;
   for (int k = 0; k < 500; ++k)

@@ -10,6 +10,7 @@
 #include "simulate/exact_parts.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -352,6 +353,7 @@ Problem wide_pile(int threads, double sign) {
 }
 
 TEST(CrowdMotion, HasTheSameBitsByAnyNumberOfThreadsAndMirrored) {
+  SLOW_WITH_SANITIZERS();
   vector<State> ends;
   for (const auto& [threads, sign] : {std::pair{1, 1}, std::pair{2, 1}, std::pair{4, 1}, std::pair{3, -1}}) {
     const Problem problem = wide_pile(threads, sign);

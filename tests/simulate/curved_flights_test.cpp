@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/path/curved_flights.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -101,6 +102,7 @@ TEST(CurvedFlights, ThroughASmallAttractorKeepTheEnergyThatTheyLeaveWith) {
 
 // Drag takes energy without impacts, at a rising rate.
 TEST(CurvedFlights, OfElasticBallsThatDragBrakesEndOnTheFloor) {
+  SLOW_WITH_SANITIZERS();
   for (const Force& force : {Force{Drag{10, 0, Vec3::Zero()}}, Force{Drag{10, 0.1, Vec3::Zero()}},
                              Force{Spring{Vec3(0, 0.1, 0), 100, 0, 10}}}) {
     Problem problem;
@@ -126,6 +128,7 @@ const vector<Vec3> lines = {Vec3(1, 0, 0), Vec3(0.6, 0.8, 0), Vec3(-1, 2, 2) / 3
 // A push k (l - |s|) turns round at the anchor, s = 0. Between two passages it is an oscillation about l: from rest at
 // s0 to the anchor it takes acos(-l / (s0 - l)) / sqrt(k). measured: 2e-8 m, 5e-10 of the energy
 TEST(CurvedFlights, ThroughTheAnchorOfASpringWithARestLengthAreOscillationsPutTogether) {
+  SLOW_WITH_SANITIZERS();
   for (const Vec3& line : lines)
     for (const Vec3& anchor : {Vec3(0, 0, 0), Vec3(3, -1, 2)})
       for (const auto& [stiffness, length, start] : {std::tuple(10.0, 0.5, 1.5), std::tuple(1e6, 1.0, 2.5)}) {
@@ -225,6 +228,7 @@ Problem cradle(int balls, double stiffness, double damping) {
 }
 
 TEST(CurvedFlights, OfACradleOnSpringsMakeNoEnergy) {
+  SLOW_WITH_SANITIZERS();
   for (const int balls : {3, 7, 12})
     for (const double stiffness : {1e3, 1e5})
       for (const double damping : {0.0, 100.0}) {
@@ -246,6 +250,7 @@ TEST(CurvedFlights, OfACradleOnSpringsMakeNoEnergy) {
 }
 
 TEST(CurvedFlights, OfACradleInStepsOfAMethodMakeNoEnergyEither) {
+  SLOW_WITH_SANITIZERS();
   for (const int balls : {3, 7})
     for (const double stiffness : {1e3, 1e5})
       for (const double damping : {0.0, 100.0})

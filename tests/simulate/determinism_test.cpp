@@ -7,6 +7,7 @@
 #include "simulate/build.h"
 #include "simulate/exact.h"
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -56,6 +57,7 @@ TEST(Determinism, TheBooksLoopHasTheSameBitsInEveryBuild) {
 }
 
 TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
+  SLOW_WITH_SANITIZERS();
   Problem problem = lattice(0.5, 9);
   problem.world.forces = {{Drag{0.1, 0.05, {0.5, 0, 0}}}};
 

@@ -7,6 +7,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -207,6 +208,7 @@ Problem heap() {
 // Time stepping depends on speeds, so the motion differs. The balance of work and momentum does not: measured 1e-10,
 // and 2e-4 where bodies are struck off their support within a step.
 TEST(Galilean, AHeapOnAMovingFloorReceivesItsWork) {
+  SLOW_WITH_SANITIZERS();
   for (const Vec3& u : {Vec3(0, 0.5, 0), Vec3(0.3, -0.7, 0.2), Vec3(-12, 3, 1)}) {
     const Problem problem = moving(heap(), u);
     const Outcome run = run_exact(problem);

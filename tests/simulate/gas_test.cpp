@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -64,6 +65,7 @@ TEST(Gas, EnergyStaysAndNothingOverlapsOverManyCollisions) {
 }
 
 TEST(Gas, NoContactIsMissed) {
+  SLOW_WITH_SANITIZERS();
   for (bool mixed : {false, true}) {
     Problem problem = gas(5, 0.4, 0.9, mixed);
     problem.world.gravity = Vec3(0, -0.5, 0.1);

@@ -11,6 +11,7 @@
 #include "simulate/pile.h"
 #include "simulate/random.h"
 #include "simulate/references.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -296,6 +297,7 @@ Problem in_units(double length, double time, double mass, double linear, int see
 }
 
 TEST(LinearDrag, InOtherUnitsAllIsTheSameToTheLastBit) {
+  SLOW_WITH_SANITIZERS();
   for (const double linear : {0.5, 50.0}) {
     const Problem problem = in_units(1, 1, 1, linear, 7);
     const Outcome first = run(problem);

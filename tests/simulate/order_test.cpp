@@ -7,6 +7,7 @@
 #include "simulate/build.h"
 #include "simulate/exact.h"
 #include "simulate/references.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -90,6 +91,7 @@ KnownEnd impact_oscillator(double w, double wall, double e, double x, double tim
 }
 
 TEST(Order, IsTheMethodsForAnOscillatorThatStrikesAWall) {
+  SLOW_WITH_SANITIZERS();
   Problem problem;
   problem.ball({1, 0, 0}, {0, 0, 0}, 2, 0.1, 0.9);
   problem.plane({-0.6, 0, 0}, {1, 0, 0});
@@ -122,6 +124,7 @@ KnownEnd drag_bounce(double k, double g, double e, double h, const vector<double
 }
 
 TEST(Order, IsTheMethodsForABallThatBouncesInAThickMedium) {
+  SLOW_WITH_SANITIZERS();
   const nlohmann::json reference = carom::reference("forces")["linear_drag_bounce"];
   const nlohmann::json& bounce = reference["cases"][1];
   Problem problem;
@@ -147,6 +150,7 @@ KnownEnd finest(const Problem& problem, double steps) {
 }
 
 TEST(Order, IsTheMethodsForABallOnADampedSpringAmongWalls) {
+  SLOW_WITH_SANITIZERS();
   Problem problem;
   problem.world.gravity = {0, -9.80665, 0};
   problem.ball({0.8, 0.6, 0.1}, {0.5, 1, -0.7}, 0.7, 0.15, 0.8);
@@ -157,6 +161,7 @@ TEST(Order, IsTheMethodsForABallOnADampedSpringAmongWalls) {
 }
 
 TEST(Order, IsTheMethodsForTwoBallsThatMeetInTheWind) {
+  SLOW_WITH_SANITIZERS();
   Problem problem;
   problem.world.gravity = {0, -9.80665, 0};
   problem.ball({-1, 0.5, 0}, {3, 2, 0.1}, 0.4, 0.2, 0.7);

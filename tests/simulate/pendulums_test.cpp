@@ -6,12 +6,14 @@
 
 #include "numerics/polynomial.h"
 #include "simulate/ties.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
 namespace {
 
 TEST(Strings, APendulumReturnsAfterThePeriodOfTheEllipticIntegral) {
+  SLOW_WITH_SANITIZERS();
   for (const bool rod : {false, true})
     for (const double angle : {0.01, 0.7, 1.5, M_PI / 2, 3.0}) {
       if (!rod && angle > M_PI / 2) continue;

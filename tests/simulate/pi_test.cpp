@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "simulate/build.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -22,6 +23,7 @@ Tally heavy_against_wall(double ratio, double duration) {
 }
 
 TEST(PiBilliard, CollisionsCountTheDigitsOfPi) {
+  SLOW_WITH_SANITIZERS();
   const uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159, 3141592};
   for (int k = 0; k < 7; ++k)
     EXPECT_EQ(heavy_against_wall(std::pow(100.0, k), 1e6).collisions(), digits[k]) << "mass ratio 100^" << k;
@@ -30,6 +32,7 @@ TEST(PiBilliard, CollisionsCountTheDigitsOfPi) {
 // Where pi / theta is a whole number the last wedge's side is parallel to the line: no collision. By Niven's theorem
 // that is so at the mass ratios 1/3, 1 and 3 only.
 TEST(PiBilliard, ALineAlongAWedgesSideDoesNotCrossIt) {
+  SLOW_WITH_SANITIZERS();
   EXPECT_EQ(heavy_against_wall(1.0 / 3, 1e6).collisions(), 2u);
   EXPECT_EQ(heavy_against_wall(1, 1e6).collisions(), 3u);
   EXPECT_EQ(heavy_against_wall(3, 1e6).collisions(), 5u);
@@ -37,6 +40,7 @@ TEST(PiBilliard, ALineAlongAWedgesSideDoesNotCrossIt) {
 
 // A thousandth of an angle decides on one more collision, with the heavy ball already far away.
 TEST(PiBilliard, AThousandthOfAnAngleDecidesBetweenNeighbours) {
+  SLOW_WITH_SANITIZERS();
   for (int n : {5, 7, 10, 100, 1000, 10000, 100000, 1000000}) {
     for (long double side : {-1e-3L, 1e-3L}) {
       const long double cot = 1 / std::tan(3.14159265358979323846264338327950288L / (n + side));
@@ -60,6 +64,7 @@ Problem squeezed(double room, double e) {
 
 // A million collisions in 1e-3 of 1e7 s.
 TEST(StandingClock, EndsARunWithAdviceForItsRestitution) {
+  SLOW_WITH_SANITIZERS();
   const string what = "bodies collide so often that the clock stands still ";
   const auto ends = [&](const Problem& problem) {
     const string error = error_of(problem);
@@ -71,6 +76,7 @@ TEST(StandingClock, EndsARunWithAdviceForItsRestitution) {
 
 // An elastic ball without room stops, and that is counted.
 TEST(StandingClock, DoesNotEndARunWithoutRoom) {
+  SLOW_WITH_SANITIZERS();
   const Outcome run = run_exact(squeezed(0, 1));
   EXPECT_EQ(run.end.velocity[0], Vec3(0, 0, 0));
   EXPECT_EQ(run.tally.shared.without_room, 1u);

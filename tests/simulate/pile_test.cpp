@@ -1,17 +1,20 @@
 // A pile jams, and then it is at rest: no motion at all, all forces in balance.
 #include "simulate/pile.h"
 #include "physics/world.h"
+#include "slow_with_sanitizers.h"
 
 namespace carom {
 namespace {
 
 TEST(Pile, OfNinetyBallsComesToRest) {
+  SLOW_WITH_SANITIZERS();
   const Problem problem = loose_pile(3, 10, 1000);
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   expect_pile_at_rest(problem, *simulator, {900, 950, 1000}, 1e-9, 1e-9, 0, 1);
 }
 
 TEST(Pile, OfThreeHundredBallsComesToRestBySweeps) {
+  SLOW_WITH_SANITIZERS();
   const Problem problem = loose_pile(5, 12, 60);
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   expect_pile_at_rest(problem, *simulator, {50, 60}, 1e-9, 1e-9, 0, 1);
@@ -29,6 +32,7 @@ TEST(Pile, AWokenPileComesToRestAgain) {
 
 /// Errors of a crowd may raise the energy, by less than 5e-5 of it.
 TEST(Pile, GainsHardlyAnyEnergyAsItSettles) {
+  SLOW_WITH_SANITIZERS();
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulate/regions.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -191,6 +192,7 @@ TEST(Removal, InAPileKeepsTheBooks) {
 }
 
 TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
+  SLOW_WITH_SANITIZERS();
   // 20000 points in a cube of edge 2, with velocities of standard deviation 1 in each direction: A v / (4 V) of them
   // hit an area A of a wall in a second. In so short a time none comes to it twice.
   Problem problem;

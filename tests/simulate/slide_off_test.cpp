@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -92,6 +93,7 @@ Problem balls_off_balls(int balls, bool other) {
 }
 
 TEST(SlideOff, NeitherNumberNorWhatHappensFarAwayChangesAnyBit) {
+  SLOW_WITH_SANITIZERS();
   const Outcome one = run_exact(balls_off_balls(1, false));
   for (const int balls : {2, 17, 200}) {
     for (const bool other : {false, true}) {

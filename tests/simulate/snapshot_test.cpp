@@ -7,6 +7,7 @@
 #include "physics/archive.h"
 #include "physics/world.h"
 #include "simulate/pile.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -30,6 +31,7 @@ vector<double> times_until(double end, int count) {
 }
 
 TEST(Snapshot, OfAPileGoesOnWithTheSameBitsFromItsFallToItsSleep) {
+  SLOW_WITH_SANITIZERS();
   for (const int threads : {1, 2}) {
     Problem problem = recorded(loose_pile(4, 19, 60));
     problem.options.threads = threads;
@@ -38,11 +40,13 @@ TEST(Snapshot, OfAPileGoesOnWithTheSameBitsFromItsFallToItsSleep) {
 }
 
 TEST(Snapshot, OfAThousandBallsGoesOnAsTheyBecomeACrowd) {
+  SLOW_WITH_SANITIZERS();
   const Problem problem = loose_pile(8, 16, 4);
   expect_same_when_restored(maker(problem), {0.2, 0.8, 1.2, 1.5, 1.8}, 3);
 }
 
 TEST(Snapshot, OfACrowdInSlabsIsTheSameByAnyNumberOfThreads) {
+  SLOW_WITH_SANITIZERS();
   Problem problem = loose_pile(8, 32, 4);
   const auto simulator = maker(problem)();
   go_to(*simulator, 1.5);
@@ -156,6 +160,7 @@ Problem forced(Integrator integrator, bool closed_forms) {
 }
 
 TEST(Snapshot, GoesOnWithPathsByEveryMethodUnderEveryForce) {
+  SLOW_WITH_SANITIZERS();
   const vector<vector<Force>> cases = {
       {},
       {{Drag{0.3, 0, Vec3(0.1, 0, 0)}, 0, 2}},

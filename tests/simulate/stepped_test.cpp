@@ -11,6 +11,7 @@
 #include "simulate/build.h"
 #include "simulate/pile.h"
 #include "simulate/references.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -182,6 +183,7 @@ void expect_quiet(const Problem& problem, double step, const char* what) {
 }
 
 TEST(Rest, AColumnOfTwentyBallsStands) {
+  SLOW_WITH_SANITIZERS();
   Problem problem;
   problem.world.gravity = {0, -9.80665, 0};
   for (int k = 0; k < 20; ++k) problem.ball({0, 0.5 + k, 0}, {0, 0, 0}, 1 + k % 3, 0.5, 0.5);
@@ -192,6 +194,7 @@ TEST(Rest, AColumnOfTwentyBallsStands) {
 }
 
 TEST(Rest, AColumnOfTwentyBallsThatFallsApartFromOneAnotherComesToStand) {
+  SLOW_WITH_SANITIZERS();
   Problem problem;
   problem.world.gravity = {0, -9.80665, 0};
   for (int k = 0; k < 20; ++k) problem.ball({0, 0.6 + 1.1 * k, 0}, {0, 0, 0}, 1, 0.5, 0.5);
@@ -218,6 +221,7 @@ TEST(Rest, ABallIsPressedIntoACornerByASpringOrByTheWind) {
 }
 
 TEST(Outputs, ChangeNothing) {
+  SLOW_WITH_SANITIZERS();
   const Problem problem = loose_pile(3, 3, 2);
   const auto once = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   go_to(*once, 2);

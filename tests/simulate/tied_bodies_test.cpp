@@ -7,6 +7,7 @@
 
 #include "simulate/random.h"
 #include "simulate/ties.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -102,6 +103,7 @@ Tied cradle(double angle, bool vee, int lifted = 1) {
 }
 
 TEST(Strings, TheCradleOfSevenSwingsWithThePeriodOfOnePendulum) {
+  SLOW_WITH_SANITIZERS();
   for (const bool vee : {false, true}) {
     const double angle = 0.5, whole = period(1, angle);
     Tied problem = cradle(angle, vee);
@@ -125,6 +127,7 @@ TEST(Strings, TheCradleOfSevenSwingsWithThePeriodOfOnePendulum) {
 }
 
 TEST(Strings, AsManyBallsOfACradleRiseAsAreLifted) {
+  SLOW_WITH_SANITIZERS();
   for (int lifted = 2; lifted <= 6; ++lifted) {
     const double angle = 0.5, whole = period(1, angle);
     Tied problem = cradle(angle, false, lifted);
@@ -214,6 +217,7 @@ class ChainReference {
 };
 
 TEST(Strings, AChainMovesAsLagrangesEquationsOfItsAnglesSay) {
+  SLOW_WITH_SANITIZERS();
   for (const bool rod : {false, true})
     for (const int n : {2, 3, 5, 10}) {
       Tied problem;

@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -55,6 +56,7 @@ TEST(Wall, BallsThatPassOverAndAroundDoNotTouch) {
 // However a ball comes, it meets the wall where its distance to the rectangle first falls to the radius: a dense march
 // along the same parabola finds the same time, and no contact where there is none.
 TEST(Wall, EveryParabolaMeetsTheRectangleWhereADenseMarchDoes) {
+  SLOW_WITH_SANITIZERS();
   uint64_t seed = 1;
   const auto uniform = [&](double low, double high) {
     seed = seed * 6364136223846793005ull + 1442695040888963407ull;

@@ -1,5 +1,6 @@
 // Contact, solved: against closed forms, against quadruple precision, against itself in other units and orders.
 #include "solver/contact_problem.h"
+#include "slow_with_sanitizers.h"
 
 #include <gtest/gtest.h>
 
@@ -164,6 +165,7 @@ TEST(ContactProblem, BothMethodsFindTheSameMotion) {
 
 /// Powers of two in mass, length and time.
 TEST(ContactProblem, OtherUnitsGiveTheSameBits) {
+  SLOW_WITH_SANITIZERS();
   for (const Load load : loads)
     for (const Balls& balls : {row(20), lattice(2), packing(60, 9)})
       for (const double decades : {0.0, 6.0}) {
@@ -229,6 +231,7 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
 
 // One method keeps factors, the other does not. Factors of earlier problems must not be used.
 TEST(ContactProblem, AWarmStartAfterProblemsOfOtherSizesFindsTheSame) {
+  SLOW_WITH_SANITIZERS();
   for (const Load load : loads) {
     ContactSolver solver;
     for (const int balls : {40, 300, 300, 12, 300, 40}) {

@@ -10,6 +10,7 @@
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/exact.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/make_scene.h"
 #include "stress/seen_otherwise.h"
@@ -106,12 +107,14 @@ bool follows(Way way, int drive) {
 class Metamorphic : public ::testing::TestWithParam<Way> {};
 
 TEST_P(Metamorphic, AMirroredSceneMovesMirroredToTheBit) {
+  SLOW_WITH_SANITIZERS();
   for (uint64_t seed = 0; seed < seeds(GetParam()); ++seed)
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_EQ(mirror_difference(of_seed(seed), GetParam(), axis), "") << "seed " << seed << ", axis " << axis;
 }
 
 TEST_P(Metamorphic, OtherUnitsGiveTheSameBits) {
+  SLOW_WITH_SANITIZERS();
   for (uint64_t seed = 0; seed < seeds(GetParam()); ++seed)
     for (const Units& units : all_units)
       EXPECT_EQ(unit_difference(of_seed(seed), GetParam(), units), "")

@@ -1,6 +1,7 @@
 // The fast part of the stress run (the long one: ./dev stress).
 #include <gtest/gtest.h>
 
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/check.h"
 
@@ -12,6 +13,7 @@ constexpr int groups = 13, scenes_per_group = 24;
 class RandomScenes : public ::testing::TestWithParam<int> {};
 
 TEST_P(RandomScenes, HoldEveryInvariant) {
+  SLOW_WITH_SANITIZERS("gas", "forces", "heaps");
   for (int k = 0; k < scenes_per_group; ++k) {
     const RandomScene scene = make_scene(static_cast<uint64_t>(GetParam() + groups * k));
     for (const string& violation : check(scene).violations)
@@ -20,6 +22,7 @@ TEST_P(RandomScenes, HoldEveryInvariant) {
 }
 
 TEST_P(RandomScenes, HoldInStepsToo) {
+  SLOW_WITH_SANITIZERS();
   for (int k = 0; k < 4 * scenes_per_group; ++k) {
     const RandomScene scene = make_scene(static_cast<uint64_t>(GetParam() + groups * k));
     for (const string& violation : check_stepped(scene).violations)
@@ -28,6 +31,7 @@ TEST_P(RandomScenes, HoldInStepsToo) {
 }
 
 TEST_P(RandomScenes, HoldEveryInvariantWhereFixedThingsMove) {
+  SLOW_WITH_SANITIZERS("gas", "forces", "heaps");
   for (int k = 0; k < scenes_per_group; ++k) {
     const RandomScene scene = with_motions(make_scene(static_cast<uint64_t>(GetParam() + groups * k)));
     if (!scene.world.moves()) continue;
@@ -43,6 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups),
                          [](const auto& group) { return string(family_names()[static_cast<size_t>(group.param)]); });
 
 TEST(RareCoincidences, HoldEveryInvariant) {
+  SLOW_WITH_SANITIZERS("gas", "forces", "heaps");
   // Seeds of rare coincidences:
   // - gaps and impacts that are simultaneous within rounding
   // - boxes that come apart at an edge as one of them is struck
@@ -58,6 +63,7 @@ TEST(RareCoincidences, HoldEveryInvariant) {
 }
 
 TEST(RareCoincidences, HoldInStepsToo) {
+  SLOW_WITH_SANITIZERS();
   // Seeds of rare coincidences in steps:
   // - clusters that dissolve before they move
   // - islands whose bodies are struck from two sides at once, go far in a step, or stop short of one another

@@ -1,0 +1,39 @@
+#pragma once
+// Marks of tests that the build with sanitizers leaves out. There a test without a mark has a minute
+// (tests/CMakeLists.txt).
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <initializer_list>
+
+#include "std.h"
+
+namespace carom::testing {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool with_sanitizers = true;
+#elif defined(__has_feature)
+inline constexpr bool with_sanitizers = __has_feature(address_sanitizer);
+#else
+inline constexpr bool with_sanitizers = false;
+#endif
+
+/// Whether the running test is left out. `words`: parts of the names of the parameters that are slow; none: all are.
+/// With SLOW_TOO in the environment none is left out.
+inline bool is_left_out(std::initializer_list<string_view> words) {
+  if (!with_sanitizers || std::getenv("SLOW_TOO") != nullptr) return false;
+  const string_view name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const auto is_in_name = [&](string_view word) { return name.find(word) != string_view::npos; };
+  return words.size() == 0 || std::ranges::any_of(words, is_in_name);
+}
+
+}  // namespace carom::testing
+
+/// The first line of a test that takes more than some 20 s with sanitizers. In brackets: words of the slow parameters.
+#define SLOW_WITH_SANITIZERS(...) \
+  if (carom::testing::is_left_out({__VA_ARGS__})) GTEST_SKIP() << "slow with sanitizers"
+
+/// The first line of a test of limits (of memory, open files and time), which sanitizers exceed by themselves.
+#define NOT_WITH_SANITIZERS() \
+  if (carom::testing::with_sanitizers) GTEST_SKIP() << "sanitizers exceed its limits"
