@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -110,66 +110,42 @@ TEST(Obstacles, AreNumberedAfterPlanesAndWalls) {
 }
 
 TEST(BodyErrors, VolumeIsMissingOrThereTwice) {
-  EXPECT_EQ(errors_of(start + "bodies: {a: {mass: 1, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:10: error: body `a` has no `radius` and no `cylinder` and no `box` and no `fit`\n"
-            "   3 | bodies: {a: {mass: 1, position: [0, 0, 0]}}\n"
-            "     |          ^\n"
-            "     = expected `radius`: a number above 0 in m\n"
-            "     = or `cylinder`: a map of keys\n"
-            "     = or `box`: [x, y, z], three numbers above 0 in m\n"
-            "     = or `fit`: sphere, cylinder or box\n");
-  EXPECT_EQ(errors_of(start + "bodies: {a: {mass: 1, box: [1, 1, 1], radius: 3, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:39: error: body `a` has both `box` and `radius`\n"
-            "   3 | bodies: {a: {mass: 1, box: [1, 1, 1], radius: 3, position: [0, 0, 0]}}\n"
-            "     |                                       ^~~~~~\n"
-            "     = remove one of them\n");
+  EXPECT_EQ(in_parts(errors_of(start + "bodies: {a: {mass: 1, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:10 a", "body `a` has no `radius` and no `cylinder` and no `box` and no `fit`",
+                    "expected `radius`: a number above 0 in m\n"
+                    "or `cylinder`: a map of keys\n"
+                    "or `box`: [x, y, z], three numbers above 0 in m\n"
+                    "or `fit`: sphere, cylinder or box"}}));
+  EXPECT_EQ(in_parts(errors_of(start + "bodies: {a: {mass: 1, box: [1, 1, 1], radius: 3, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:39 radius", "body `a` has both `box` and `radius`", "remove one of them"}}));
 }
 
 TEST(BodyErrors, EdgesAndHeightsAreAboveZero) {
-  EXPECT_EQ(errors_of(start + "bodies: {a: {mass: 1, box: [1, 0, 1], position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:32: error: a number of `box` is 0\n"
-            "   3 | bodies: {a: {mass: 1, box: [1, 0, 1], position: [0, 0, 0]}}\n"
-            "     |                                ^\n"
-            "     = expected a number above 0 in m\n");
-  EXPECT_EQ(errors_of(start + "obstacles: {a: {cylinder: {radius: 1}, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:17: error: `cylinder` has no `height`\n"
-            "   3 | obstacles: {a: {cylinder: {radius: 1}, position: [0, 0, 0]}}\n"
-            "     |                 ^~~~~~~~\n"
-            "     = expected `height`: a number above 0 in m\n");
+  EXPECT_EQ(in_parts(errors_of(start + "bodies: {a: {mass: 1, box: [1, 0, 1], position: [0, 0, 0]}}\n")),
+            (Parts{{"3:32 0", "a number of `box` is 0", "expected a number above 0 in m"}}));
+  EXPECT_EQ(in_parts(errors_of(start + "obstacles: {a: {cylinder: {radius: 1}, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:17 cylinder", "`cylinder` has no `height`", "expected `height`: a number above 0 in m"}}));
   EXPECT_NE(errors_of(start + "defaults: {body: {cylinder: {radius: 1}}}\n").find("has no `height`"), string::npos);
 }
 
 TEST(BodyErrors, ObstaclesHaveNoMass) {
   EXPECT_EQ(
-      errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"),
-      "scene.yaml:3:17: error: unknown key `mass` in obstacle `a`\n"
-      "   3 | obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"
-      "     |                 ^~~~\n"
-      "     = `mass` is a key of `ball` or `body`\n"
-      "     = expected radius, cylinder, box, mesh, fit, position, motion, restitution, color, visible or repeat\n");
+      in_parts(errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n")),
+      (Parts{{"3:17 mass", "unknown key `mass` in obstacle `a`",
+              "`mass` is a key of `ball` or `body`\n"
+              "expected radius, cylinder, box, mesh, fit, position, motion, restitution, color, visible or repeat"}}));
 }
 
 TEST(Overlaps, OfEveryVolumeWithEveryOtherAreErrors) {
-  EXPECT_EQ(errors_of(start + "balls: {b: {mass: 1, radius: 0.5, position: [1.25, 0, 0]}}\n"
-                              "bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
-                              "planes: {floor: {point: [0, -0.5, 0], normal: [0, 1, 0]}}\n"
-                              "obstacles: {pile: {box: [4, 1, 1], position: [0, 0.75, 0]}}\n"),
-            "scene.yaml:3:45: error: `b` overlaps `pile` by 0.25 m at the start\n"
-            "   3 | balls: {b: {mass: 1, radius: 0.5, position: [1.25, 0, 0]}}\n"
-            "     |                                             ^\n"
-            "     = expected bodies apart, or just touching\n"
-            "scene.yaml:4:53: error: `crate` overlaps `b` by 0.25 m at the start\n"
-            "   4 | bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
-            "     |                                                     ^\n"
-            "     = expected bodies apart, or just touching\n"
-            "scene.yaml:4:53: error: `crate` overlaps `floor` by 0.5 m at the start\n"
-            "   4 | bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
-            "     |                                                     ^\n"
-            "     = expected bodies apart, or just touching\n"
-            "scene.yaml:4:53: error: `crate` overlaps `pile` by 0.75 m at the start\n"
-            "   4 | bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
-            "     |                                                     ^\n"
-            "     = expected bodies apart, or just touching\n");
+  EXPECT_EQ(
+      in_parts(errors_of(start + "balls: {b: {mass: 1, radius: 0.5, position: [1.25, 0, 0]}}\n"
+                                 "bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
+                                 "planes: {floor: {point: [0, -0.5, 0], normal: [0, 1, 0]}}\n"
+                                 "obstacles: {pile: {box: [4, 1, 1], position: [0, 0.75, 0]}}\n")),
+      (Parts{{"3:45 [", "`b` overlaps `pile` by 0.25 m at the start", "expected bodies apart, or just touching"},
+             {"4:53 [", "`crate` overlaps `b` by 0.25 m at the start", "expected bodies apart, or just touching"},
+             {"4:53 [", "`crate` overlaps `floor` by 0.5 m at the start", "expected bodies apart, or just touching"},
+             {"4:53 [", "`crate` overlaps `pile` by 0.75 m at the start", "expected bodies apart, or just touching"}}));
 }
 
 TEST(Overlaps, BodyWhollyInsideAnObstacleIsOne) {
@@ -318,35 +294,25 @@ TEST(Meshes, WithMaterialsBesideThemAreNotCopied) {
 }
 
 TEST(MeshErrors, NameTheFileAndWhatIsWrongWithIt) {
-  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: torn.stl, fit: box, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:29: error: the mesh `torn.stl` cannot be used: it ends within a triangle\n"
-            "   3 | bodies: {a: {mass: 1, mesh: torn.stl, fit: box, position: [0, 0, 0]}}\n"
-            "     |                             ^~~~~~~~\n"
-            "     = expected a file of triangles with finite vertices\n");
-  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:29: error: the mesh `flat.stl` is flat: its tightest box has no volume\n"
-            "   3 | bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"
-            "     |                             ^~~~~~~~\n"
-            "     = expected a mesh with width, height and depth\n");
+  EXPECT_EQ(in_parts(mesh_errors(start + "bodies: {a: {mass: 1, mesh: torn.stl, fit: box, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:29 torn.stl", "the mesh `torn.stl` cannot be used: it ends within a triangle",
+                    "expected a file of triangles with finite vertices"}}));
+  EXPECT_EQ(in_parts(mesh_errors(start + "bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:29 flat.stl", "the mesh `flat.stl` is flat: its tightest box has no volume",
+                    "expected a mesh with width, height and depth"}}));
 
-  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n", {}),
-            "scene.yaml:3:29: error: the mesh `pin.stl` cannot be used: there is no reader of meshes here\n"
-            "   3 | bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n"
-            "     |                             ^~~~~~~\n"
-            "     = expected a file of triangles with finite vertices\n");
+  EXPECT_EQ(in_parts(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n", {})),
+            (Parts{{"3:29 pin.stl", "the mesh `pin.stl` cannot be used: there is no reader of meshes here",
+                    "expected a file of triangles with finite vertices"}}));
 }
 
 TEST(MeshErrors, FitAndMeshNeedOneAnother) {
-  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:10: error: body `a` has a `mesh` but no volume\n"
-            "   3 | bodies: {a: {mass: 1, mesh: pin.stl, position: [0, 0, 0]}}\n"
-            "     |          ^\n"
-            "     = expected `fit`: sphere, cylinder or box, the tightest one around the mesh\n");
-  EXPECT_EQ(errors_of(start + "obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:17: error: obstacle `a` has `fit` but no `mesh`\n"
-            "   3 | obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"
-            "     |                 ^~~\n"
-            "     = expected `mesh`: the path of a file, relative to the folder of the scene\n");
+  EXPECT_EQ(in_parts(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:10 a", "body `a` has a `mesh` but no volume",
+                    "expected `fit`: sphere, cylinder or box, the tightest one around the mesh"}}));
+  EXPECT_EQ(in_parts(errors_of(start + "obstacles: {a: {fit: box, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:17 fit", "obstacle `a` has `fit` but no `mesh`",
+                    "expected `mesh`: the path of a file, relative to the folder of the scene"}}));
 }
 
 }  // namespace

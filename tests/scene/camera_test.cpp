@@ -1,8 +1,8 @@
 // The camera of a scene: still, framing the motion, going with bodies, on a path; and what no camera can be.
 #include <gtest/gtest.h>
 
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -112,14 +112,12 @@ TEST(CameraErrors, KeysThatDoNotGoTogetherAreRefused) {
 }
 
 TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
-  EXPECT_EQ(errors_of(start + "camera: {fov: 30}\n"),
-            "scene.yaml:3:1: error: `camera` has no `eye` and no `fit` and no `path` and no `follow`\n"
-            "   3 | camera: {fov: 30}\n"
-            "     | ^~~~~~\n"
-            "     = expected `eye`: [x, y, z], three numbers in m\n"
-            "     = or `fit`: motion\n"
-            "     = or `path`: a list\n"
-            "     = or `follow`: a name\n");
+  EXPECT_EQ(in_parts(errors_of(start + "camera: {fov: 30}\n")),
+            (Parts{{"3:1 camera", "`camera` has no `eye` and no `fit` and no `path` and no `follow`",
+                    "expected `eye`: [x, y, z], three numbers in m\n"
+                    "or `fit`: motion\n"
+                    "or `path`: a list\n"
+                    "or `follow`: a name"}}));
   EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), string::npos);
   EXPECT_EQ(error_of("{eye: [0, 0, 5]}"), "`camera` has `eye` but no `target`");
 }
@@ -149,12 +147,10 @@ TEST(CameraErrors, KeyframesAreInOrderAndHaveALineOfSight) {
 
 TEST(CameraErrors, APathThatTurnsThePictureOverIsRefusedWhereItDoes) {
   // From the front to the back right over the target, and right through it.
-  EXPECT_EQ(errors_of(bodies + "camera:\n  path:\n    - {at: 0, eye: [0, 4, 4], target: [0, 0, 0]}\n"
-                               "    - {at: 2, eye: [0, 4, -4], target: [0, 0, 0]}\n"),
-            "scene.yaml:11:7: error: on the way to this keyframe, at 1 s, the camera looks along its up direction\n"
-            "  11 |     - {at: 2, eye: [0, 4, -4], target: [0, 0, 0]}\n"
-            "     |       ^\n"
-            "     = the picture would turn over: expected a keyframe between the two, beside that direction\n");
+  EXPECT_EQ(in_parts(errors_of(bodies + "camera:\n  path:\n    - {at: 0, eye: [0, 4, 4], target: [0, 0, 0]}\n"
+                                        "    - {at: 2, eye: [0, 4, -4], target: [0, 0, 0]}\n")),
+            (Parts{{"11:7 {", "on the way to this keyframe, at 1 s, the camera looks along its up direction",
+                    "the picture would turn over: expected a keyframe between the two, beside that direction"}}));
   EXPECT_EQ(
       error_of("{path: [{at: 0, eye: [0, 0, 4], target: [0, 0, 0]}, {at: 1, eye: [0, 0, -4], target: [0, 0, 0]}]}"),
       "on the way to this keyframe, at 0.5 s, the camera looks along its up direction");

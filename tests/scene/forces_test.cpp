@@ -1,7 +1,7 @@
 // Forces, and the engines that support them.
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -40,62 +40,40 @@ TEST(Forces, OnAGroupWithoutMembersActOnNobody) {
 }
 
 TEST(ForceErrors, NamesThatMeanNothingOrNothingThatMoves) {
-  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"),
-            "scene.yaml:8:31: error: nothing is named `rde`\n"
-            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
-            "     |                               ^~~\n"
-            "     = did you mean `red`?\n"
-            "scene.yaml:8:36: error: `floor` is a fixed thing: no force acts on it\n"
-            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
-            "     |                                    ^~~~~\n"
-            "     = expected balls, bodies, groups or members (gas.3)\n"
-            "scene.yaml:8:43: error: the group `gas` has no member `3`\n"
-            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
-            "     |                                           ^~~~~\n"
-            "     = expected gas.0 to gas.2\n"
-            "scene.yaml:8:50: error: nothing is named `pot`\n"
-            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
-            "     |                                                  ^~~\n"
-            "     = expected a ball, body, group or member (gas.3)\n"
-            "     = there are `red`, `blue`, `gas` and `none`\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n")),
+            (Parts{{"8:31 rde", "nothing is named `rde`", "did you mean `red`?"},
+                   {"8:36 floor", "`floor` is a fixed thing: no force acts on it",
+                    "expected balls, bodies, groups or members (gas.3)"},
+                   {"8:43 gas.3", "the group `gas` has no member `3`", "expected gas.0 to gas.2"},
+                   {"8:50 pot", "nothing is named `pot`",
+                    "expected a ball, body, group or member (gas.3)\n"
+                    "there are `red`, `blue`, `gas` and `none`"}}));
 
-  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: []}\n"),
-            "scene.yaml:8:30: error: `on` has 0 entries\n"
-            "   8 |   - {uniform: [1, 0, 0], on: []}\n"
-            "     |                              ^\n"
-            "     = expected a list of names, such as [red, gas.3]\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: []}\n")),
+            (Parts{{"8:30 [", "`on` has 0 entries", "expected a list of names, such as [red, gas.3]"}}));
 }
 
 TEST(ForceErrors, UntilComesAfterFrom) {
-  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: 2, until: 2}\n"),
-            "scene.yaml:8:42: error: `until` is 2 but `from` is 2\n"
-            "   8 |   - {uniform: [1, 0, 0], from: 2, until: 2}\n"
-            "     |                                          ^\n"
-            "     = expected from < until\n");
-  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: -1}\n"),
-            "scene.yaml:8:32: error: `from` is -1\n"
-            "   8 |   - {uniform: [1, 0, 0], from: -1}\n"
-            "     |                                ^~\n"
-            "     = expected a number of at least 0 in s\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: 2, until: 2}\n")),
+            (Parts{{"8:42 2", "`until` is 2 but `from` is 2", "expected from < until"}}));
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: -1}\n")),
+            (Parts{{"8:32 -1", "`from` is -1", "expected a number of at least 0 in s"}}));
 }
 
 TEST(ForceErrors, OneKindEach) {
-  EXPECT_EQ(errors_of(things + "forces:\n  - {from: 2}\n"),
-            "scene.yaml:8:5: error: this entry of `forces` has no `uniform` and no `acceleration` and no `drag` and no "
-            "`spring` and no `attractor`\n"
-            "   8 |   - {from: 2}\n"
-            "     |     ^\n"
-            "     = expected `uniform`: [x, y, z], three numbers in N\n"
-            "     = or `acceleration`: [x, y, z], three numbers in m/s^2\n"
-            "     = or `drag`: a map of keys\n"
-            "     = or `spring`: a map of keys\n"
-            "     = or `attractor`: a map of keys\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {from: 2}\n")),
+            (Parts{{"8:5 {",
+                    "this entry of `forces` has no `uniform` and no `acceleration` and no `drag` and no `spring` and "
+                    "no `attractor`",
+                    "expected `uniform`: [x, y, z], three numbers in N\n"
+                    "or `acceleration`: [x, y, z], three numbers in m/s^2\n"
+                    "or `drag`: a map of keys\n"
+                    "or `spring`: a map of keys\n"
+                    "or `attractor`: a map of keys"}}));
 
-  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"),
-            "scene.yaml:8:26: error: this entry of `forces` has both `uniform` and `acceleration`\n"
-            "   8 |   - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"
-            "     |                          ^~~~~~~~~~~~\n"
-            "     = remove one of them\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n")),
+            (Parts{{"8:26 acceleration", "this entry of `forces` has both `uniform` and `acceleration`",
+                    "remove one of them"}}));
 }
 
 TEST(Forces, OfEveryKindHaveTheirFigures) {
@@ -126,72 +104,46 @@ TEST(Forces, ThatDoNothingAreLeftOut) {
 }
 
 TEST(ForceErrors, OfWhatTheyAreMadeOf) {
-  EXPECT_EQ(errors_of(things + "forces:\n  - {drag: {wind: [1, 0, 0]}}\n"),
-            "scene.yaml:8:6: error: `drag` has no `linear` and no `quadratic`\n"
-            "   8 |   - {drag: {wind: [1, 0, 0]}}\n"
-            "     |      ^~~~\n"
-            "     = expected `linear` (kg/s), `quadratic` (kg/m) or both\n");
-  EXPECT_EQ(errors_of(things + "forces:\n  - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n"),
-            "scene.yaml:8:45: error: `stiffness` is -1\n"
-            "   8 |   - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n"
-            "     |                                             ^~\n"
-            "     = expected a number of at least 0 in N/m\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {drag: {wind: [1, 0, 0]}}\n")),
+            (Parts{{"8:6 drag", "`drag` has no `linear` and no `quadratic`",
+                    "expected `linear` (kg/s), `quadratic` (kg/m) or both"}}));
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n")),
+            (Parts{{"8:45 -1", "`stiffness` is -1", "expected a number of at least 0 in N/m"}}));
 
-  EXPECT_EQ(errors_of(things + "forces:\n  - {attractor: {center: [1, 0, 0]}}\n"),
-            "scene.yaml:8:6: error: `attractor` has no `strength`\n"
-            "   8 |   - {attractor: {center: [1, 0, 0]}}\n"
-            "     |      ^~~~~~~~~\n"
-            "     = expected `strength`: a number in m^3/s^2\n");
+  EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {attractor: {center: [1, 0, 0]}}\n")),
+            (Parts{{"8:6 attractor", "`attractor` has no `strength`", "expected `strength`: a number in m^3/s^2"}}));
 }
 
 TEST(Engines, HaveTheForcesThatTheyCanFollow) {
   const string one = "scene: 1\nballs: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
-  EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, engine: exact}\n"),
-            "scene.yaml:4:33: error: under quadratic `drag` paths have no closed form, which `engine: exact` follows\n"
-            "   4 | simulate: {duration: 1, engine: exact}\n"
-            "     |                                 ^~~~~\n"
-            "     = expected `engine: stepped`, or `auto`\n");
+  EXPECT_EQ(in_parts(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, engine: exact}\n")),
+            (Parts{{"4:33 exact", "under quadratic `drag` paths have no closed form, which `engine: exact` follows",
+                    "expected `engine: stepped`, or `auto`"}}));
   EXPECT_EQ(load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, engine: exact}\n").simulate.engine,
             Engine::exact);
   EXPECT_TRUE(load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n")
                   .simulate.contact.merge);
 
-  EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, contact: merge}\n"),
-            "scene.yaml:4:34: error: `contact: merge` is for parabolas and linear drag, not for `drag`\n"
-            "   4 | simulate: {duration: 1, contact: merge}\n"
-            "     |                                  ^~~~~\n"
-            "     = expected `contact: bounce`\n");
-  EXPECT_EQ(errors_of(one + "simulate: {duration: 1, engine: stepped, contact: merge}\n"),
-            "scene.yaml:3:51: error: `engine: stepped` has no `contact: merge`\n"
-            "   3 | simulate: {duration: 1, engine: stepped, contact: merge}\n"
-            "     |                                                   ^~~~~\n"
-            "     = expected `contact: bounce`\n");
+  EXPECT_EQ(in_parts(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, contact: merge}\n")),
+            (Parts{{"4:34 merge", "`contact: merge` is for parabolas and linear drag, not for `drag`",
+                    "expected `contact: bounce`"}}));
+  EXPECT_EQ(in_parts(errors_of(one + "simulate: {duration: 1, engine: stepped, contact: merge}\n")),
+            (Parts{{"3:51 merge", "`engine: stepped` has no `contact: merge`", "expected `contact: bounce`"}}));
   EXPECT_EQ(load_text(one + "simulate: {duration: 1, engine: stepped, integrator: verlet}\n").simulate.integrator,
             Integrator::verlet);
 }
 
 TEST(BookEngine, RefusesWhatTheChaptersListingsDoNotHave) {
-  EXPECT_EQ(errors_of("scene: 1\n"
-                      "bodies: {a: {mass: 1, box: [1, 1, 1], position: [0, 0, 0]}}\n"
-                      "obstacles: {o: {radius: 1, position: [9, 0, 0]}}\n"
-                      "forces: [{uniform: [1, 0, 0]}]\n"
-                      "simulate: {duration: 1, engine: book, contact: merge}\n"),
-            "scene.yaml:3:1: error: `engine: book` has no obstacles\n"
-            "   3 | obstacles: {o: {radius: 1, position: [9, 0, 0]}}\n"
-            "     | ^~~~~~~~~\n"
-            "     = expected `engine: exact`\n"
-            "scene.yaml:4:1: error: `engine: book` has no forces other than gravity\n"
-            "   4 | forces: [{uniform: [1, 0, 0]}]\n"
-            "     | ^~~~~~\n"
-            "     = expected `engine: exact`\n"
-            "scene.yaml:5:33: error: `engine: book` has no cylinders and boxes: its bodies are spheres\n"
-            "   5 | simulate: {duration: 1, engine: book, contact: merge}\n"
-            "     |                                 ^~~~\n"
-            "     = expected `engine: exact`\n"
-            "scene.yaml:5:48: error: `engine: book` has no `contact: merge`\n"
-            "   5 | simulate: {duration: 1, engine: book, contact: merge}\n"
-            "     |                                                ^~~~~\n"
-            "     = expected `engine: exact`\n");
+  EXPECT_EQ(in_parts(errors_of("scene: 1\n"
+                               "bodies: {a: {mass: 1, box: [1, 1, 1], position: [0, 0, 0]}}\n"
+                               "obstacles: {o: {radius: 1, position: [9, 0, 0]}}\n"
+                               "forces: [{uniform: [1, 0, 0]}]\n"
+                               "simulate: {duration: 1, engine: book, contact: merge}\n")),
+            (Parts{{"3:1 obstacles", "`engine: book` has no obstacles", "expected `engine: exact`"},
+                   {"4:1 forces", "`engine: book` has no forces other than gravity", "expected `engine: exact`"},
+                   {"5:33 book", "`engine: book` has no cylinders and boxes: its bodies are spheres",
+                    "expected `engine: exact`"},
+                   {"5:48 merge", "`engine: book` has no `contact: merge`", "expected `engine: exact`"}}));
 }
 
 TEST(Requests, ContactsAndMerging) {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/random.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -65,12 +65,9 @@ TEST(Groups, LieWhollyInsideWithoutOverlap) {
 TEST(Groups, ExactlyFullBoxesAreFilled) {
   // 0.3 / 0.1 is 2.9999999999999996 in doubles; a box of three diameters still holds 27.
   EXPECT_LT(greatest_overlap(load_text(group("lattice", "27", 0.05, 0.3))), 1e-12);
-  EXPECT_EQ(errors_of(group("lattice", "28", 0.05, 0.3)),
-            "scene.yaml:4:16: error: 28 balls of radius 0.05 do not fit into the box of `gas`\n"
-            "   4 |   gas: {count: 28, ball: {mass: 1, radius: 0.050000}, in: {min: [0, 0, 0], max: [0.300000, "
-            "0.300000,...\n"
-            "     |                ^~\n"
-            "     = 27 would fit as a lattice; `arrange: hexagonal` packs closer\n");
+  EXPECT_EQ(in_parts(errors_of(group("lattice", "28", 0.05, 0.3))),
+            (Parts{{"4:16 28", "28 balls of radius 0.05 do not fit into the box of `gas`",
+                    "27 would fit as a lattice; `arrange: hexagonal` packs closer"}}));
   EXPECT_EQ(load_text(group("random", "1", 0.5, 1)).initial.position[0], Vec3(0.5, 0.5, 0.5));
 }
 
@@ -221,22 +218,15 @@ TEST(Groups, NeedNoBallWhereDefaultsHaveAllOfIt) {
                               "{min: [= i, 0, 0], max: [= i + 1, 1, 1]}}}\n"),
             "");
   // What is missing is named.
-  EXPECT_EQ(errors_of(start + "defaults: {ball: {mass: 2}}\n" + gas),
-            "scene.yaml:4:10: error: `ball` has no `radius`\n"
-            "   4 | groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n"
-            "     |          ^~~\n"
-            "     = expected `radius`: a number above 0 in m\n");
+  EXPECT_EQ(in_parts(errors_of(start + "defaults: {ball: {mass: 2}}\n" + gas)),
+            (Parts{{"4:10 gas", "`ball` has no `radius`", "expected `radius`: a number above 0 in m"}}));
   EXPECT_NE(errors_of(start + gas).find("group `gas` has no `ball`"), string::npos);
 }
 
 TEST(Groups, ABallThatComesFromTheDefaultsIsWholeToo) {
   const string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
-  EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups),
-            "scene.yaml:4:10: error: `ball` has no `radius`\n"
-            "   4 | " +
-                groups +
-                "     |          ^~~\n"
-                "     = expected `radius`: a number above 0 in m\n");
+  EXPECT_EQ(in_parts(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups)),
+            (Parts{{"4:10 gas", "`ball` has no `radius`", "expected `radius`: a number above 0 in m"}}));
   EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}, ball: {radius: 1}}\n" + groups), "");
 }
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -99,28 +99,22 @@ TEST(LoadScene, SizesHaveNames) {
 
   EXPECT_EQ(load_text(start + "output: {sheet: true}\n").output.sheet->size, nullopt);
   EXPECT_EQ(
-      errors_of(start + "output: {frames: {size: 1080}}\n"),
-      "scene.yaml:3:25: error: `size` is `1080`\n"
-      "   3 | output: {frames: {size: 1080}}\n"
-      "     |                         ^~~~\n"
-      "     = did you mean `1080p`?\n"
-      "     = expected [width, height], two whole numbers from 16 to 16384 in pixels, or 720p, 1080p, 4k or square\n");
+      in_parts(errors_of(start + "output: {frames: {size: 1080}}\n")),
+      (Parts{
+          {"3:25 1080", "`size` is `1080`",
+           "did you mean `1080p`?\n"
+           "expected [width, height], two whole numbers from 16 to 16384 in pixels, or 720p, 1080p, 4k or square"}}));
 }
 
 TEST(LoadScene, ASheetThatCannotBeMadeNeedsAnotherSize) {
-  EXPECT_EQ(errors_of(start + "output: {sheet: {size: [64, 64]}}\n"),
-            "scene.yaml:3:24: error: a contact sheet of 4 x 3 pictures in 64 x 64 pixels: each would have 6 x 10\n"
-            "   3 | output: {sheet: {size: [64, 64]}}\n"
-            "     |                        ^\n"
-            "     = expected a `size` of at least [168, 128], or fewer columns or rows\n");
+  EXPECT_EQ(in_parts(errors_of(start + "output: {sheet: {size: [64, 64]}}\n")),
+            (Parts{{"3:24 [", "a contact sheet of 4 x 3 pictures in 64 x 64 pixels: each would have 6 x 10",
+                    "expected a `size` of at least [168, 128], or fewer columns or rows"}}));
   EXPECT_EQ(errors_of(start + "output: {sheet: {size: [168, 128]}}\n"), "");
-  EXPECT_EQ(
-      errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: true}\n"),
-      "scene.yaml:3:46: error: a contact sheet of 4 x 3 pictures would have 1920 x 1443872 pixels\n"
-      "   3 | output: {frames: {size: [16, 16384]}, sheet: true}\n"
-      "     |                                              ^~~~\n"
-      "     = expected a `size` of the sheet, such as [1920, 1080]: without one, its pictures have the shape of 16 "
-      "x 16384\n");
+  EXPECT_EQ(in_parts(errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: true}\n")),
+            (Parts{{"3:46 true", "a contact sheet of 4 x 3 pictures would have 1920 x 1443872 pixels",
+                    "expected a `size` of the sheet, such as [1920, 1080]: without one, its pictures have the shape of "
+                    "16 x 16384"}}));
 
   EXPECT_EQ(errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: {size: [1920, 1080]}}\n"), "");
   EXPECT_NE(errors_of(start + "output: {sheet: {size: [16384, 16384]}}\n").find("at most 100000000 pixels in all"),
@@ -129,11 +123,9 @@ TEST(LoadScene, ASheetThatCannotBeMadeNeedsAnotherSize) {
 
 TEST(LoadScene, TheEndOfAFilmsNameIsItsFormat) {
   EXPECT_EQ(
-      errors_of(start + "output: {video: {file: x.avi}}\n"),
-      "scene.yaml:3:24: error: `x.avi` is not a name for a video\n"
-      "   3 | output: {video: {file: x.avi}}\n"
-      "     |                        ^~~~~\n"
-      "     = expected a plain file name that ends in .mp4, .gif or .webp, such as animation.mp4, without folders\n");
+      in_parts(errors_of(start + "output: {video: {file: x.avi}}\n")),
+      (Parts{{"3:24 x.avi", "`x.avi` is not a name for a video",
+              "expected a plain file name that ends in .mp4, .gif or .webp, such as animation.mp4, without folders"}}));
   for (const char* file : {"x.mp4", "x.gif", "x.webp"})
     EXPECT_EQ(load_text(start + "output: {video: {file: " + file + "}}\n").output.video->file, file);
 }
@@ -149,12 +141,10 @@ TEST(LoadScene, AGifHasARateThatItCanKeep) {
               string::npos)
         << fps;
 
-  EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: 30}}\n"),
-            "scene.yaml:3:36: error: a GIF cannot show 30 pictures a second\n"
-            "   3 | output: {video: {file: x.gif, fps: 30}}\n"
-            "     |                                    ^~\n"
-            "     = expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
-            "second, at least 2\n");
+  EXPECT_EQ(in_parts(errors_of(start + "output: {video: {file: x.gif, fps: 30}}\n")),
+            (Parts{{"3:36 30", "a GIF cannot show 30 pictures a second",
+                    "expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of "
+                    "a second, at least 2"}}));
 
   for (const string fps : {"foo", "100/3"}) {
     const string errors = errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n");
@@ -176,13 +166,10 @@ TEST(LoadScene, AGifWithoutARateOfItsOwnHasTheHighestUpToThatOfFrames) {
 
 TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
   const string text = start + "output: {video: {fps: 30}}\n", file = "output.video.file=x.gif";
-  EXPECT_EQ(
-      errors_with(text, file),
-      "scene.yaml:3:23: error: a GIF cannot show 30 pictures a second\n"
-      "   3 | output: {video: {fps: 30}}\n"
-      "     |                       ^~\n"
-      "     = expected --set output.video.fps=25, or another 100/n: a GIF shows each picture for whole hundredths "
-      "of a second, at least 2\n");
+  EXPECT_EQ(in_parts(errors_with(text, file)),
+            (Parts{{"3:23 30", "a GIF cannot show 30 pictures a second",
+                    "expected --set output.video.fps=25, or another 100/n: a GIF shows each picture for whole "
+                    "hundredths of a second, at least 2"}}));
   LoadOptions options;
   options.set = {file, "output.video.fps=25"};
   EXPECT_EQ(errors_of(text, options), "");
@@ -190,36 +177,26 @@ TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
 
 TEST(LoadScene, AFilmHasASizeAndARateThatItsFormatCanHold) {
   const auto error = [](const string& video) { return errors_of(start + "output: {video: {" + video + "}}\n"); };
-  EXPECT_EQ(error("size: [16384, 16384]"),
-            "scene.yaml:3:24: error: an MP4 of 16384 x 16384 pixels\n"
-            "   3 | output: {video: {size: [16384, 16384]}}\n"
-            "     |                        ^\n"
-            "     = expected fewer pixels, such as [16384, 16128]: ffmpeg takes (width + 128) x (height + 128) up to "
-            "268435455\n");
+  EXPECT_EQ(in_parts(error("size: [16384, 16384]")), (Parts{{"3:24 [", "an MP4 of 16384 x 16384 pixels",
+                                                             "expected fewer pixels, such as [16384, 16128]: ffmpeg "
+                                                             "takes (width + 128) x (height + 128) up to 268435455"}}));
   EXPECT_EQ(error("size: [16384, 16128]"), "");
   EXPECT_NE(error("size: [16384, 16130]"), "");
 
-  EXPECT_EQ(error("file: x.webp, size: [16384, 1024]"),
-            "scene.yaml:3:38: error: a WebP of 16384 x 1024 pixels\n"
-            "   3 | output: {video: {file: x.webp, size: [16384, 1024]}}\n"
-            "     |                                      ^\n"
-            "     = expected at most 16382 pixels a side, the limit of this format, or a `file` ending in .mp4\n");
+  EXPECT_EQ(in_parts(error("file: x.webp, size: [16384, 1024]")),
+            (Parts{{"3:38 [", "a WebP of 16384 x 1024 pixels",
+                    "expected at most 16382 pixels a side, the limit of this format, or a `file` ending in .mp4"}}));
   EXPECT_EQ(error("file: x.webp, size: [16382, 1024]"), "");
-  EXPECT_EQ(error("file: x.webp, fps: 1001"),
-            "scene.yaml:3:37: error: a WebP of 1001 pictures a second\n"
-            "   3 | output: {video: {file: x.webp, fps: 1001}}\n"
-            "     |                                     ^~~~\n"
-            "     = expected a number from 0.00006 to 1000: a WebP shows a picture for 1 to 16777215 thousandths of a "
-            "second\n");
+  EXPECT_EQ(in_parts(error("file: x.webp, fps: 1001")),
+            (Parts{{"3:37 1001", "a WebP of 1001 pictures a second",
+                    "expected a number from 0.00006 to 1000: a WebP shows a picture for 1 to 16777215 thousandths of a "
+                    "second"}}));
   EXPECT_EQ(error("file: x.webp, fps: 1000"), "");
 
   EXPECT_EQ(error("file: x.webp, fps: 6e-5"), "");
-  EXPECT_EQ(error("fps: 1e-9"),
-            "scene.yaml:3:23: error: an MP4 of 1e-09 pictures a second\n"
-            "   3 | output: {video: {fps: 1e-9}}\n"
-            "     |                       ^~~~\n"
-            "     = expected a number from 0.00001 to 1000000: an MP4 shows a picture for a millionth of a second to "
-            "100000 s\n");
+  EXPECT_EQ(in_parts(error("fps: 1e-9")), (Parts{{"3:23 1e-9", "an MP4 of 1e-09 pictures a second",
+                                                  "expected a number from 0.00001 to 1000000: an MP4 shows a picture "
+                                                  "for a millionth of a second to 100000 s"}}));
   EXPECT_EQ(error("fps: 1e-5"), "");
 }
 
@@ -437,24 +414,17 @@ TEST(LoadScene, BallsBehindAPlaneAndInAWallAreRefused) {
 TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
   const string gas =
       "groups: {gas: {count: 1e12, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [1, 1, 1]}}}\n";
-  EXPECT_EQ(errors_of(start + gas),
-            "scene.yaml:3:23: error: the scene has more than 4000000000 bodies; the limit is 2000000\n"
-            "   3 | " +
-                gas +
-                "     |                       ^~~~\n"
-                "     = expected a smaller `count`, or --force if this machine has the memory\n");
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n"),
-            "scene.yaml:3:24: error: the run would write 60000001 pictures; the limit is 100000\n"
-            "   3 | output: {frames: {fps: 60}}\n"
-            "     |                        ^~\n"
-            "     = expected a lower `fps` or a shorter duration, or --force to allow it\n");
+  EXPECT_EQ(in_parts(errors_of(start + gas)),
+            (Parts{{"3:23 1e12", "the scene has more than 4000000000 bodies; the limit is 2000000",
+                    "expected a smaller `count`, or --force if this machine has the memory"}}));
+  EXPECT_EQ(in_parts(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n")),
+            (Parts{{"3:24 60", "the run would write 60000001 pictures; the limit is 100000",
+                    "expected a lower `fps` or a shorter duration, or --force to allow it"}}));
 
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\nballs: {a: {mass: 1, radius: 1, position: [0, 0, "
-                      "0]}}\noutput: {trajectory: {every: 1e-3}}\n"),
-            "scene.yaml:4:30: error: the run would write 1000000001 rows of trajectory.csv; the limit is 200000000\n"
-            "   4 | output: {trajectory: {every: 1e-3}}\n"
-            "     |                              ^~~~\n"
-            "     = expected a longer `every`, a shorter duration or fewer bodies, or --force to allow it\n");
+  EXPECT_EQ(in_parts(errors_of("scene: 1\nsimulate: {duration: 1e6}\nballs: {a: {mass: 1, radius: 1, position: [0, 0, "
+                               "0]}}\noutput: {trajectory: {every: 1e-3}}\n")),
+            (Parts{{"4:30 1e-3", "the run would write 1000000001 rows of trajectory.csv; the limit is 200000000",
+                    "expected a longer `every`, a shorter duration or fewer bodies, or --force to allow it"}}));
 
   LoadOptions force;
   force.budget.enforced = false;

@@ -1,7 +1,7 @@
 // Fixed things that move: their windows, and what is wrong with some.
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -51,11 +51,9 @@ TEST(Motions, WithoutVelocityAreNone) {
 }
 
 TEST(MotionErrors, NameThePlaceAndTheRemedy) {
-  EXPECT_EQ(errors_of(with("[{until: 2, velocity: [0, 1, 0]}, {from: 1, velocity: [0, 1, 0]}]")),
-            "scene.yaml:5:97: error: this window starts at 1 s, but the one before it ends at 2 s\n"
-            "   5 | ...[0, 1, 0], motion: [{until: 2, velocity: [0, 1, 0]}, {from: 1, velocity: [0, 1, 0]}]}\n"
-            "     |                                                                ^\n"
-            "     = expected windows in order that do not overlap, each with `until` except the last\n");
+  EXPECT_EQ(in_parts(errors_of(with("[{until: 2, velocity: [0, 1, 0]}, {from: 1, velocity: [0, 1, 0]}]"))),
+            (Parts{{"5:97 1", "this window starts at 1 s, but the one before it ends at 2 s",
+                    "expected windows in order that do not overlap, each with `until` except the last"}}));
   EXPECT_EQ(first_error("[{velocity: [0, 1, 0]}, {from: 1, velocity: [0, 1, 0]}]"),
             "scene.yaml:5:87: error: this window starts at 1 s, but the one before it never ends");
   EXPECT_EQ(first_error("[{from: 1, until: 1, velocity: [0, 1, 0]}]"),

@@ -1,7 +1,7 @@
 // Regions, and the ends of runs.
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -94,14 +94,12 @@ string of_region(const string& region) {
 }
 
 TEST(RegionErrors, OneShapeEach) {
-  EXPECT_EQ(errors_of(things + simulate + "regions: {pocket: {position: [0, 0, 0]}}\n"),
-            "scene.yaml:6:11: error: region `pocket` has no `radius` and no `cylinder` and no `box` and no `plane`\n"
-            "   6 | regions: {pocket: {position: [0, 0, 0]}}\n"
-            "     |           ^~~~~~\n"
-            "     = expected `radius`: a number above 0 in m\n"
-            "     = or `cylinder`: a map of keys\n"
-            "     = or `box`: [x, y, z], three numbers above 0 in m\n"
-            "     = or `plane`: a map of keys\n");
+  EXPECT_EQ(in_parts(errors_of(things + simulate + "regions: {pocket: {position: [0, 0, 0]}}\n")),
+            (Parts{{"6:11 pocket", "region `pocket` has no `radius` and no `cylinder` and no `box` and no `plane`",
+                    "expected `radius`: a number above 0 in m\n"
+                    "or `cylinder`: a map of keys\n"
+                    "or `box`: [x, y, z], three numbers above 0 in m\n"
+                    "or `plane`: a map of keys"}}));
   EXPECT_EQ(of_region("{radius: 1, box: [1, 1, 1], position: [0, 0, 0]}"),
             "scene.yaml:6:31: error: region `pocket` has both `radius` and `box`\n");
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 1, 0]}, position: [0, 0, 0]}"),
@@ -136,11 +134,9 @@ TEST(RegionErrors, OfNamesAndActions) {
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], action: kill}"),
             "scene.yaml:6:60: error: `action` is `kill`\n");
 
-  EXPECT_EQ(errors_of(things + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n"),
-            "scene.yaml:6:11: error: the name `red` is taken\n"
-            "   6 | regions: {red: {radius: 1, position: [0, 0, 0]}}\n"
-            "     |           ^~~\n"
-            "     = names of bodies, groups, fixed things, strings, the room and regions are unique in a scene\n");
+  EXPECT_EQ(in_parts(errors_of(things + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n")),
+            (Parts{{"6:11 red", "the name `red` is taken",
+                    "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene"}}));
 }
 
 TEST(StopErrors, NameWhatIsWrong) {
@@ -150,27 +146,15 @@ TEST(StopErrors, NameWhatIsWrong) {
                      "regions: {pocket: {radius: 1, position: [0, 0, 0]}}\n");
   };
 
-  EXPECT_EQ(of("[{region: pokcet}]"),
-            "scene.yaml:2:41: error: no region is named `pokcet`\n"
-            "   2 | simulate: {duration: 1, stop: [{region: pokcet}]}\n"
-            "     |                                         ^~~~~~\n"
-            "     = did you mean `pocket`?\n");
-  EXPECT_EQ(of("[{collisions: 0}]"),
-            "scene.yaml:2:45: error: `collisions` is 0\n"
-            "   2 | simulate: {duration: 1, stop: [{collisions: 0}]}\n"
-            "     |                                             ^\n"
-            "     = expected a whole number of at least 1\n");
+  EXPECT_EQ(in_parts(of("[{region: pokcet}]")),
+            (Parts{{"2:41 pokcet", "no region is named `pokcet`", "did you mean `pocket`?"}}));
+  EXPECT_EQ(in_parts(of("[{collisions: 0}]")),
+            (Parts{{"2:45 0", "`collisions` is 0", "expected a whole number of at least 1"}}));
 
-  EXPECT_EQ(of("[]"),
-            "scene.yaml:2:31: error: `stop` has no entries\n"
-            "   2 | simulate: {duration: 1, stop: []}\n"
-            "     |                               ^\n"
-            "     = expected at least one\n");
-  EXPECT_EQ(of("[sleep]"),
-            "scene.yaml:2:32: error: `sleep` is no entry of `stop`\n"
-            "   2 | simulate: {duration: 1, stop: [sleep]}\n"
-            "     |                                ^~~~~\n"
-            "     = expected rest, or a map of collisions or region\n");
+  EXPECT_EQ(in_parts(of("[]")), (Parts{{"2:31 [", "`stop` has no entries", "expected at least one"}}));
+  EXPECT_EQ(
+      in_parts(of("[sleep]")),
+      (Parts{{"2:32 sleep", "`sleep` is no entry of `stop`", "expected rest, or a map of collisions or region"}}));
 
   for (const char* stop : {"[{collisions: -1}]", "[{collisions: 1.5}]", "rest", "[{collisions: 1, region: pocket}]",
                            "[{}]", "[{rest: true}]", "[[rest]]", "{collisions: 1}", "[~]", "[{region: [pocket]}]"})
@@ -178,12 +162,10 @@ TEST(StopErrors, NameWhatIsWrong) {
 }
 
 TEST(StopErrors, TheBooksEngineRemovesNothing) {
-  EXPECT_EQ(errors_of(start.substr(0, 9) + "simulate: {duration: 1, engine: book}\n"
-                                           "regions: {drain: {radius: 1, position: [0, 0, 0], action: remove}}\n"),
-            "scene.yaml:3:1: error: `engine: book` has no regions with `action: remove`\n"
-            "   3 | regions: {drain: {radius: 1, position: [0, 0, 0], action: remove}}\n"
-            "     | ^~~~~~~\n"
-            "     = expected `engine: exact`\n");
+  EXPECT_EQ(
+      in_parts(errors_of(start.substr(0, 9) + "simulate: {duration: 1, engine: book}\n"
+                                              "regions: {drain: {radius: 1, position: [0, 0, 0], action: remove}}\n")),
+      (Parts{{"3:1 regions", "`engine: book` has no regions with `action: remove`", "expected `engine: exact`"}}));
 }
 
 }  // namespace

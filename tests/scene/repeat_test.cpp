@@ -212,13 +212,11 @@ TEST(RepeatErrors, OfMembersAreReportedOnce) {
 
 TEST(RepeatErrors, OfOneLineAreOneErrorWithTheNumberOfMembers) {
   const string things = start + "balls:\n  row: {repeat: 30, mass: 1, radius: 0.1, position: [= i, 0, 0]}\n";
-  EXPECT_EQ(errors_of(things + "strings:\n  s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n"),
-            "scene.yaml:6:40: error: nothing is named `bob.0`\n"
-            "   6 |   s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n"
-            "     |                                        ^~~~~~~~~\n"
-            "     = in 30 members, of which this is the first\n"
-            "     = expected a ball, body, group or member (gas.3)\n"
-            "     = there is `row`\n");
+  EXPECT_EQ(in_parts(errors_of(things + "strings:\n  s: {repeat: 30, from: 'row.{i}', to: 'bob.{i}'}\n")),
+            (Parts{{"6:40 'bob.{i}'", "nothing is named `bob.0`",
+                    "in 30 members, of which this is the first\n"
+                    "expected a ball, body, group or member (gas.3)\n"
+                    "there is `row`"}}));
   // Two wrong places of one thing are two errors; a force and a region are repeated, too.
   EXPECT_EQ(marked_errors(things + "forces: [{repeat: 9, uniform: [1, 0, 0], on: [x], from: -1}]\n"),
             (Marked{{"x", "nothing is named `x`"}, {"-1", "`from` is -1"}}));

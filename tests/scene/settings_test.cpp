@@ -1,7 +1,7 @@
 // --set path=value.
 #include "physics/world.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -82,11 +82,8 @@ TEST(Settings, SeedOptionOverrulesTheFile) {
 }
 
 TEST(Settings, OfWhatTheSceneLacksAreOneErrorEach) {
-  EXPECT_EQ(errors_with(two, "forces.0.visible=false"),
-            "--set forces.0.visible=false: error: `forces` has no entry `0`\n"
-            "     | forces.0.visible=false\n"
-            "     |        ^\n"
-            "     = it has none: set all of `forces`\n");
+  EXPECT_EQ(in_parts(errors_with(two, "forces.0.visible=false")),
+            (Parts{{"--set:8 0", "`forces` has no entry `0`", "it has none: set all of `forces`"}}));
   const string forces = two + "forces: [{uniform: [1, 0, 0]}]\n";
   EXPECT_NE(errors_with(forces, "forces.1.from=1").find("     = its only entry is 0\n"), string::npos);
   for (const string set : {"walls.w.center.x=1", "camera.path.0.at=1", "trails.on.0=red"}) {
@@ -96,52 +93,30 @@ TEST(Settings, OfWhatTheSceneLacksAreOneErrorEach) {
 }
 
 TEST(Settings, ErrorsPointIntoTheOption) {
-  EXPECT_EQ(errors_with(two, "balls.red.position.z=abc"),
-            "--set balls.red.position.z=abc: error: `abc` is not a number\n"
-            "     | balls.red.position.z=abc\n"
-            "     |                      ^~~\n"
-            "     = expected a number in m\n");
-  EXPECT_EQ(errors_with(two, "balls.rde.mass=3"),
-            "--set balls.rde.mass=3: error: there is no ball `rde`\n"
-            "     | balls.rde.mass=3\n"
-            "     |       ^~~\n"
-            "     = did you mean `red`?\n");
+  EXPECT_EQ(in_parts(errors_with(two, "balls.red.position.z=abc")),
+            (Parts{{"--set:22 abc", "`abc` is not a number", "expected a number in m"}}));
+  EXPECT_EQ(in_parts(errors_with(two, "balls.rde.mass=3")),
+            (Parts{{"--set:7 rde", "there is no ball `rde`", "did you mean `red`?"}}));
 
-  EXPECT_EQ(errors_with(two, "simulate.durration=3"),
-            "--set simulate.durration=3: error: unknown key `durration` in `simulate`\n"
-            "     | simulate.durration=3\n"
-            "     |          ^~~~~~~~~\n"
-            "     = did you mean `duration`?\n");
-  EXPECT_EQ(errors_with(two, "balls.red.position.w=3"),
-            "--set balls.red.position.w=3: error: `position` has no `w`\n"
-            "     | balls.red.position.w=3\n"
-            "     |                    ^\n"
-            "     = expected x, y or z\n");
+  EXPECT_EQ(in_parts(errors_with(two, "simulate.durration=3")),
+            (Parts{{"--set:10 durration", "unknown key `durration` in `simulate`", "did you mean `duration`?"}}));
+  EXPECT_EQ(in_parts(errors_with(two, "balls.red.position.w=3")),
+            (Parts{{"--set:20 w", "`position` has no `w`", "expected x, y or z"}}));
 
-  EXPECT_EQ(errors_with(two, "simulate.duration.x=3"),
-            "--set simulate.duration.x=3: error: `duration` has no parts\n"
-            "     | simulate.duration.x=3\n"
-            "     |                   ^\n"
-            "     = end the path before it\n");
-  EXPECT_EQ(errors_with(two, "simulate.duration"),
-            "--set simulate.duration: error: this sets nothing\n"
-            "     | simulate.duration\n"
-            "     | ^~~~~~~~~~~~~~~~~\n"
-            "     = expected path=value, such as simulate.duration=2\n");
+  EXPECT_EQ(in_parts(errors_with(two, "simulate.duration.x=3")),
+            (Parts{{"--set:19 x", "`duration` has no parts", "end the path before it"}}));
+  EXPECT_EQ(
+      in_parts(errors_with(two, "simulate.duration")),
+      (Parts{{"--set:1 simulate.duration", "this sets nothing", "expected path=value, such as simulate.duration=2"}}));
 
-  EXPECT_EQ(errors_with(two, "simulate.duration=-2"),
-            "--set simulate.duration=-2: error: `duration` is -2\n"
-            "     | simulate.duration=-2\n"
-            "     |                   ^~\n"
-            "     = expected a number of at least 0 in s\n");
+  EXPECT_EQ(in_parts(errors_with(two, "simulate.duration=-2")),
+            (Parts{{"--set:19 -2", "`duration` is -2", "expected a number of at least 0 in s"}}));
 }
 
 TEST(Settings, OverlapMadeByAnOptionPointsAtIt) {
-  EXPECT_EQ(errors_with(two, "balls.blue.position.x=0.1"),
-            "--set balls.blue.position.x=0.1: error: `blue` overlaps `red` by 0.1 m at the start\n"
-            "     | balls.blue.position.x=0.1\n"
-            "     |                       ^~~\n"
-            "     = expected bodies apart, or just touching\n");
+  EXPECT_EQ(in_parts(errors_with(two, "balls.blue.position.x=0.1")),
+            (Parts{{"--set:23 0.1", "`blue` overlaps `red` by 0.1 m at the start",
+                    "expected bodies apart, or just touching"}}));
 }
 
 }  // namespace

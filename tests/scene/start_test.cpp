@@ -1,8 +1,8 @@
 // `start`: bodies that begin as a former run had them, and groups that list their balls.
 #include "physics/world.h"
 #include "scene/former_state.h"
+#include "scene/marked_errors.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -114,41 +114,33 @@ TEST(Start, CountsWindowsFromItsOwnTimeAndSaysSo) {
 }
 
 TEST(StartErrors, OfBodiesThatAreGone) {
-  EXPECT_EQ(
-      errors_of(with_balls("balls: {red: {position: [0, 5, 0]}, blue: {position: [0, 7, 0]}}\n"),
-                with_run({"red", "blue"}, {1})),
-      "scene.yaml:4:1: error: at 2 s of the run `blue` is gone: merged into another body, or removed by a region\n"
-      "   4 | start: {run: first}\n"
-      "     | ^~~~~\n"
-      "     = expected a scene without bodies that are gone, or an earlier `at`\n");
+  EXPECT_EQ(in_parts(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}, blue: {position: [0, 7, 0]}}\n"),
+                               with_run({"red", "blue"}, {1}))),
+            (Parts{{"4:1 start", "at 2 s of the run `blue` is gone: merged into another body, or removed by a region",
+                    "expected a scene without bodies that are gone, or an earlier `at`"}}));
 }
 
 TEST(StartErrors, OfARunWithoutTheSceneBodies) {
-  EXPECT_EQ(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\n"), with_run({"Red", "b"})),
-            "scene.yaml:4:1: error: the run has none of the bodies of this scene\n"
-            "   4 | start: {run: first}\n"
-            "     | ^~~~~\n"
-            "     = bodies match by their names; the run has `Red` and `b`\n");
+  EXPECT_EQ(in_parts(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\n"), with_run({"Red", "b"}))),
+            (Parts{{"4:1 start", "the run has none of the bodies of this scene",
+                    "bodies match by their names; the run has `Red` and `b`"}}));
 }
 
 TEST(StartErrors, OfGroupsOfAnotherSize) {
-  EXPECT_EQ(errors_of(with_balls("groups:\n  gas:\n    count: 3\n    in: {min: [0, 7, 0], max: [1, 8, 1]}\n"
-                                 "    ball: {mass: 1, radius: 0.1}\n"
-                                 "balls: {red: {position: [0, 5, 0]}}\n"),
-                      with_run({"gas.0", "gas.1", "red"})),
-            "scene.yaml:7:12: error: `gas` has 3 balls, and the run has 2\n"
-            "   7 |     count: 3\n"
-            "     |            ^\n"
-            "     = expected `count`: 2, or another name, which the run does not have\n");
+  EXPECT_EQ(in_parts(errors_of(with_balls("groups:\n  gas:\n    count: 3\n    in: {min: [0, 7, 0], max: [1, 8, 1]}\n"
+                                          "    ball: {mass: 1, radius: 0.1}\n"
+                                          "balls: {red: {position: [0, 5, 0]}}\n"),
+                               with_run({"gas.0", "gas.1", "red"}))),
+            (Parts{{"7:12 3", "`gas` has 3 balls, and the run has 2",
+                    "expected `count`: 2, or another name, which the run does not have"}}));
 }
 
 TEST(StartErrors, OfStringsWithoutALength) {
-  EXPECT_EQ(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\nstrings: {s: {from: [0, 9, 0], to: red}}\n"),
-                      with_run({"red"})),
-            "scene.yaml:6:11: error: `s` has no `length`, and its ends begin where a former run had them\n"
-            "   6 | strings: {s: {from: [0, 9, 0], to: red}}\n"
-            "     |           ^\n"
-            "     = expected `length`: that of scene.yaml in the folder of the former run\n");
+  EXPECT_EQ(
+      in_parts(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\nstrings: {s: {from: [0, 9, 0], to: red}}\n"),
+                         with_run({"red"}))),
+      (Parts{{"6:11 s", "`s` has no `length`, and its ends begin where a former run had them",
+              "expected `length`: that of scene.yaml in the folder of the former run"}}));
 }
 
 TEST(Start, OfTautStringsAllowsTheErrorsOfTheirPaths) {
@@ -159,23 +151,19 @@ TEST(Start, OfTautStringsAllowsTheErrorsOfTheirPaths) {
 }
 
 TEST(StartErrors, OfOverlapsAreAtTheStart) {
-  EXPECT_EQ(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\nobstacles:\n"
-                                 "  post: {radius: 0.5, position: [0.1, 1, 0]}\n"),
-                      with_run({"red"})),
-            "scene.yaml:4:1: error: `red` overlaps `post` by 0.5 m at the start\n"
-            "   4 | start: {run: first}\n"
-            "     | ^~~~~\n"
-            "     = expected bodies apart, or just touching\n");
+  EXPECT_EQ(
+      in_parts(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\nobstacles:\n"
+                                    "  post: {radius: 0.5, position: [0.1, 1, 0]}\n"),
+                         with_run({"red"}))),
+      (Parts{{"4:1 start", "`red` overlaps `post` by 0.5 m at the start", "expected bodies apart, or just touching"}}));
 }
 
 TEST(StartErrors, OfSettingsThatItReplaces) {
   LoadOptions options = with_run({"red"});
   options.set = {"balls.red.velocity.y=4"};
-  EXPECT_EQ(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\n"), options),
-            "--set balls.red.velocity.y=4: error: `velocity` of `red` has no effect: `start` takes its place\n"
-            "     | balls.red.velocity.y=4\n"
-            "     |           ^~~~~~~~\n"
-            "     = expected no such setting of a body that begins as the former run had it\n");
+  EXPECT_EQ(in_parts(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}}\n"), options)),
+            (Parts{{"--set:11 velocity", "`velocity` of `red` has no effect: `start` takes its place",
+                    "expected no such setting of a body that begins as the former run had it"}}));
 }
 
 TEST(StartErrors, OfTheReaderStandAtTheRunOrTheTime) {
@@ -185,10 +173,8 @@ TEST(StartErrors, OfTheReaderStandAtTheRunOrTheTime) {
       throw StartError("it is lost", "find it", of_time);
     };
     const string errors = errors_of(start + "start:\n  run: first\n  at: 3\n", options);
-    EXPECT_EQ(errors, of_time ? "scene.yaml:5:7: error: the run `first` cannot be used: it is lost\n"
-                                "   5 |   at: 3\n     |       ^\n     = find it\n"
-                              : "scene.yaml:4:8: error: the run `first` cannot be used: it is lost\n"
-                                "   4 |   run: first\n     |        ^~~~~\n     = find it\n");
+    EXPECT_EQ(in_parts(errors),
+              (Parts{{of_time ? "5:7 3" : "4:8 first", "the run `first` cannot be used: it is lost", "find it"}}));
   }
 }
 

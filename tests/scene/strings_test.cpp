@@ -1,9 +1,9 @@
 // Strings and rods: their ends, lengths and names, and what is wrong with some.
 #include "physics/world.h"
 #include "scene/engines.h"
+#include "scene/marked_errors.h"
 #include "scene/motion_text.h"
 #include "scene/scene.h"
-#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -126,11 +126,9 @@ TEST(Strings, HaveFlights) {
 }
 
 TEST(StringErrors, NameThePlaceAndTheRemedy) {
-  EXPECT_EQ(errors_of(with("{from: [0, 4, 0], to: red, length: 2.5}")),
-            "scene.yaml:8:41: error: `s` is 2.5 m long, but its ends are 3 m apart at time 0\n"
-            "   8 |   s: {from: [0, 4, 0], to: red, length: 2.5}\n"
-            "     |                                         ^~~\n"
-            "     = expected a length of at least that distance; without `length` it is the distance\n");
+  EXPECT_EQ(in_parts(errors_of(with("{from: [0, 4, 0], to: red, length: 2.5}"))),
+            (Parts{{"8:41 2.5", "`s` is 2.5 m long, but its ends are 3 m apart at time 0",
+                    "expected a length of at least that distance; without `length` it is the distance"}}));
   EXPECT_EQ(first_error("{from: [0, 4, 0], to: red, length: 3.5, rod: true}"),
             "scene.yaml:8:41: error: `s` is 3.5 m long, but its ends are 3 m apart at time 0");
   EXPECT_EQ(remedy("{from: [0, 4, 0], to: red, length: 3.5, rod: true}"),
@@ -158,11 +156,9 @@ TEST(StringErrors, OfRodsWithVelocitiesAlongThem) {
                      more + "}}\n" + simulate);
   };
 
-  EXPECT_EQ(error_of("velocity: [5, 0, 2]", ", rod: true"),
-            "scene.yaml:5:38: error: the ends of `bar` part at 3 m/s at time 0\n"
-            "   5 | strings: {bar: {from: b, to: a, rod: true}}\n"
-            "     |                                      ^~~~\n"
-            "     = a rod keeps its length: expected velocities across it, such as the same at both ends\n");
+  EXPECT_EQ(in_parts(error_of("velocity: [5, 0, 2]", ", rod: true")),
+            (Parts{{"5:38 true", "the ends of `bar` part at 3 m/s at time 0",
+                    "a rod keeps its length: expected velocities across it, such as the same at both ends"}}));
   EXPECT_NE(error_of("velocity: [-5, 0, 2]", ", rod: true").find("`bar` approach at 3 m/s"), string::npos);
   EXPECT_EQ(error_of("velocity: [4, -3, 2]", ", rod: true"), "");
   EXPECT_EQ(error_of("velocity: [0, 0, 2]", ", rod: true"), "");

@@ -1,7 +1,7 @@
 // Sweep files and their runs.
 #include "scene/sweep.h"
 
-#include "scene/scenes_in_text.h"
+#include "scene/marked_errors.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"
 
@@ -214,19 +214,11 @@ TEST(SweepFile, IdsDoNotDependOnHowManyThereAre) {
 }
 
 TEST(SweepErrors, AreAllShownWithPlaceAndRemedy) {
-  EXPECT_EQ(sweep_errors("sweep: 1\nbase: base.yaml\ngrd: {a: [1]}\nzip: {a: [1, 2], b: [3]}\nrepeat: {seeds: 0}\n"),
-            "falls.yaml:3:1: error: unknown key `grd` in the sweep\n"
-            "   3 | grd: {a: [1]}\n"
-            "     | ^~~\n"
-            "     = did you mean `grid`?\n"
-            "falls.yaml:4:18: error: `b` has 1 value, `a` has 2\n"
-            "   4 | zip: {a: [1, 2], b: [3]}\n"
-            "     |                  ^\n"
-            "     = expected as many for each path: they vary in step\n"
-            "falls.yaml:5:17: error: `seeds` is 0\n"
-            "   5 | repeat: {seeds: 0}\n"
-            "     |                 ^\n"
-            "     = expected a whole number from 1 to 1000000\n");
+  EXPECT_EQ(in_parts(sweep_errors(
+                "sweep: 1\nbase: base.yaml\ngrd: {a: [1]}\nzip: {a: [1, 2], b: [3]}\nrepeat: {seeds: 0}\n")),
+            (Parts{{"3:1 grd", "unknown key `grd` in the sweep", "did you mean `grid`?"},
+                   {"4:18 b", "`b` has 1 value, `a` has 2", "expected as many for each path: they vary in step"},
+                   {"5:17 0", "`seeds` is 0", "expected a whole number from 1 to 1000000"}}));
 }
 
 TEST(SweepErrors, NameWhatNoSweepCanBe) {
