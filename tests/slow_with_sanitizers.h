@@ -9,7 +9,7 @@
 
 #include "std.h"
 
-namespace carom::testing {
+namespace carom {
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool with_sanitizers = true;
@@ -28,12 +28,12 @@ inline bool is_left_out(std::initializer_list<string_view> words) {
   return words.size() == 0 || std::ranges::any_of(words, is_in_name);
 }
 
-}  // namespace carom::testing
+}  // namespace carom
 
 /// The first line of a test that takes more than some 20 s with sanitizers. In brackets: words of the slow parameters.
 #define SLOW_WITH_SANITIZERS(...) \
-  if (carom::testing::is_left_out({__VA_ARGS__})) GTEST_SKIP() << "slow with sanitizers"
+  if (carom::is_left_out({__VA_ARGS__})) GTEST_SKIP() << "slow with sanitizers"
 
 /// The first line of a test of limits (of memory, open files and time), which sanitizers exceed by themselves.
 #define NOT_WITH_SANITIZERS() \
-  if (carom::testing::with_sanitizers) GTEST_SKIP() << "sanitizers exceed its limits"
+  if (carom::with_sanitizers) GTEST_SKIP() << "sanitizers exceed its limits"
