@@ -107,13 +107,14 @@ std::map<string, Rule> read_table() {
     } else if (!line.starts_with("|")) {
       inside = false;
     } else if (inside && !line.starts_with("| ---")) {
-      const size_t second = line.find('|', 1), third = line.find('|', second + 1), last = line.find('|', third + 1);
+      const size_t second = line.find('|', 1);
+      const size_t third = line.find('|', second + 1);
+      const size_t last = line.find('|', third + 1);
       const Rule rule =
           read_rule(line.substr(second + 1, third - second - 1), line.substr(third + 1, last - third - 1));
+
       for (string folder : split(line.substr(1, second - 1), ',')) {
-        if (folder.ends_with('/')) {
-          folder.pop_back();
-        }
+        if (folder.ends_with('/')) folder.pop_back();
         table[folder] = rule;
       }
     }

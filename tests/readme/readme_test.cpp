@@ -153,6 +153,17 @@ string shortened(string command) {
   return command.substr(0, command.find(" | man "));
 }
 
+/// Runs the program's commands in a block of a page, and returns how many there are.
+int run_commands(const Clone& clone, const Page& page, const PageBlock& block) {
+  int run = 0;
+  for (const string& command : lines_of(block.text)) {
+    if (!is_of_the_program(command)) continue;
+    EXPECT_EQ(clone.run(shortened(command)), 0) << page.path << ": " << command << "\n" << clone.err();
+    ++run;
+  }
+  return run;
+}
+
 TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
   SLOW_WITH_SANITIZERS();
   const Clone clone;
@@ -162,12 +173,9 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
     bool printed = false;  // by a command of this page
     for (const PageBlock& block : page.blocks()) {
       if (block.language == "sh") {
-        for (const string& command : lines_of(block.text)) {
-          if (!is_of_the_program(command)) continue;
-          EXPECT_EQ(clone.run(shortened(command)), 0) << page.path << ": " << command << "\n" << clone.err();
-          printed = true;
-          ++run;
-        }
+        const int commands = run_commands(clone, page, block);
+        printed |= commands > 0;
+        run += commands;
       } else if (block.language == "text") {
         ASSERT_TRUE(printed) << page.path << " shows what no command has printed: " << block.text;
         EXPECT_TRUE(shows(block.text, clone.out())) << page.path << " shows\n" << block.text << "not\n" << clone.out();
@@ -179,6 +187,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
   EXPECT_EQ(run, 32);
   EXPECT_EQ(compared, 2);
 
+  // What the commands have left.
   for (const char* file :
        {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
         "two_bowling_balls/still_1.25s.png", "half/collisions.csv", "two_bowling_balls.sweep/summary.csv",
@@ -497,7 +506,6 @@ TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
 
   const auto text = last("book_bowling_balls.yaml"), exact = last("two_bowling_balls.yaml"),
              printed = last("book_as_printed.yaml");
-
   EXPECT_NEAR(text.first.first_collision * 60, stated("collides in frame "), 1e-12);
   EXPECT_NEAR(text.first.first_collision - exact.first.first_collision, stated("in frame 86, "), 5e-7);
   EXPECT_NEAR(100 * text.first.max_overlap / 0.22, stated("late, overlapping by "), 0.05);

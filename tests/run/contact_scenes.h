@@ -40,18 +40,23 @@ class ContactScenes {
     gravity_ = Vec3(0, -9.75, 0);
 
     switch (kind_) {
+      // Hanging from a point.
       case 0:
         return pendulum(decades(-7, 0));
       case 1:
         return conical();
       case 2:
         return chain();
+
+      // Off something round.
       case 3:
         return off_a_globe();
       case 4:
         return off_a_ball();
       case 5:
         return train();
+
+      // Between flats, and from impact to impact.
       case 6:
         return ladder();
       default:

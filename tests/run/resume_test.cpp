@@ -338,8 +338,8 @@ TEST(Resume, IsOfTheMeshThatTheRunBeganWith) {
       "scene: 1\nroom: {min: [0, 0, 0], max: [1, 1, 1]}\ngravity: [0, -9.81, 0]\nrestitution: 0.9\n"
       "bodies: {b: {mass: 1, mesh: body.obj, fit: box, position: [0.5, 0.5, 0.5], velocity: [1, 0, 0.7]}}\n"
       "simulate: {duration: 2}\noutput: {collisions: true}\n";
-  RunByChecks run(place, place.scene(text));
 
+  RunByChecks run(place, place.scene(text));
   ASSERT_TRUE(run.stopped(300, 500, End::interrupt));
   RunByChecks edited(place, [&] {
     write_mesh(0.5);
@@ -350,8 +350,8 @@ TEST(Resume, IsOfTheMeshThatTheRunBeganWith) {
 
   // Edited while it was simulated.
   write_mesh(0.3);
-  const Scene before = place.scene(text);
 
+  const Scene before = place.scene(text);
   RunByChecks other(place, before);
   other.settings().simulator = [&](const Scene& of, Recording recording, const StepChoice& steps) {
     write_mesh(0.5);
@@ -437,8 +437,8 @@ TEST(Resume, OfRandomScenesHasTheSameFiles) {
   for (uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const RunPlace place;
-    const string text = stress::as_yaml(stress::make_scene(seed));
 
+    const string text = stress::as_yaml(stress::make_scene(seed));
     try {
       const Scene scene = place.scene(text);
       expect_to_go_on(with_outputs(scene, {"trajectory", "collisions", "energy", "contacts", "flights"}), random);

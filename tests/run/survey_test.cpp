@@ -81,6 +81,8 @@ TEST(Survey, AMarbleRunIsInViewToItsEndWithWhatTheMarbleMeets) {
   const double most = filled(scene, camera);
   EXPECT_LT(most, 1);
   EXPECT_GT(most, 0.8);
+
+  // Every corner of every step is in view.
   const CameraFrame view = view_of(camera, {1280, 720});
   for (const Obstacle& step : scene.world.obstacles)
     for (int corner = 0; corner < 8; ++corner) {

@@ -247,8 +247,8 @@ TEST(Meshes, OfTheResolvedSceneAreTheCopiesBesideIt) {
                       "balls: {b: {mass: 1, radius: 1, position: [9, 0, 0], mesh: pin.stl}}\n";
   std::filesystem::create_directories(test_folder() + "/sub");
   write_file("solid\n", "sub/pin.stl");
-  const Scene scene = load_with_meshes(text);
 
+  const Scene scene = load_with_meshes(text);
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].copy, "pin.stl");
   EXPECT_EQ(scene.meshes[1].copy, "pin-2.stl");

@@ -29,23 +29,24 @@ TEST(SceneErrors, KeyOfAnotherPlaceNamesWhereItBelongs) {
 }
 
 TEST(SceneErrors, WrongTypeNamesTheExpectedOne) {
-  EXPECT_EQ(errors_of("scene: 1\nballs:\n  red: {mass: [1], radius: big, position: 7}\nsimulate: {duration: 1}\n"),
-            "scene.yaml:3:15: error: `mass` is a list\n"
-            "   3 |   red: {mass: [1], radius: big, position: 7}\n"
-            "     |               ^\n"
-            "     = expected a number above 0 in kg\n"
-            "scene.yaml:3:28: error: `big` is not a number\n"
-            "   3 |   red: {mass: [1], radius: big, position: 7}\n"
-            "     |                            ^~~\n"
-            "     = expected a number above 0 in m\n"
-            "scene.yaml:3:43: error: `position` is `7`\n"
-            "   3 |   red: {mass: [1], radius: big, position: 7}\n"
-            "     |                                           ^\n"
-            "     = expected [x, y, z], three numbers in m\n");
+  EXPECT_EQ(
+      in_parts(errors_of("scene: 1\nballs:\n  red: {mass: [1], radius: big, position: 7}\nsimulate: {duration: 1}\n")),
+      (Parts{{"3:15 [", "`mass` is a list", "expected a number above 0 in kg"},
+             {"3:28 big", "`big` is not a number", "expected a number above 0 in m"},
+             {"3:43 7", "`position` is `7`", "expected [x, y, z], three numbers in m"}}));
 }
 
 TEST(SceneErrors, MissingValueStandsUnderTheThingThatLacksIt) {
-  EXPECT_EQ(errors_of("scene: 1\nballs:\n  red: {radius: 0.11}\nsimulate: {duration: }\n"),
+  const string scene = "scene: 1\nballs:\n  red: {radius: 0.11}\n";
+  EXPECT_EQ(in_parts(errors_of(scene + "simulate: {duration: }\n")),
+            (Parts{{"3:3 red", "ball `red` has no `mass` and no `density`",
+                    "expected `mass`: a number above 0 in kg\n"
+                    "or `density`: a number above 0 in kg/m^3"},
+                   {"3:3 red", "ball `red` has no `position`", "expected `position`: [x, y, z], three numbers in m"},
+                   {"4:12 duration", "`duration` has no value", "expected a number of at least 0 in s"}}));
+
+  // As it is printed: two errors of one line, the first with two remedies.
+  EXPECT_EQ(errors_of(scene + "simulate: {duration: 1}\n"),
             "scene.yaml:3:3: error: ball `red` has no `mass` and no `density`\n"
             "   3 |   red: {radius: 0.11}\n"
             "     |   ^~~\n"
@@ -54,11 +55,7 @@ TEST(SceneErrors, MissingValueStandsUnderTheThingThatLacksIt) {
             "scene.yaml:3:3: error: ball `red` has no `position`\n"
             "   3 |   red: {radius: 0.11}\n"
             "     |   ^~~\n"
-            "     = expected `position`: [x, y, z], three numbers in m\n"
-            "scene.yaml:4:12: error: `duration` has no value\n"
-            "   4 | simulate: {duration: }\n"
-            "     |            ^~~~~~~~\n"
-            "     = expected a number of at least 0 in s\n");
+            "     = expected `position`: [x, y, z], three numbers in m\n");
 }
 
 TEST(SceneErrors, MissingColonIsReported) {
@@ -142,11 +139,13 @@ TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {
   EXPECT_EQ(duration_error("-00.5"), "`-00.5` has a leading zero / write -0.5");
   EXPECT_EQ(duration_error("0x1F"), "`0x1F` is not a decimal number / " + wanted);
   EXPECT_EQ(duration_error("1_000"), "`1_000` is not a number / write 1000");
+
+  // Beyond the range of doubles.
   EXPECT_EQ(duration_error("1e999"),
             "`1e999` is too large for a double / " + wanted + "; the largest is about 1.8e308");
-
   EXPECT_EQ(duration_error("1e-999"),
             "`1e-999` is too small for a double / " + wanted + "; the smallest is about 5e-324");
+
   EXPECT_EQ(duration_error("1/30"), "`1/30` is not a number / " + wanted);
   EXPECT_EQ(duration_error("two"), "`two` is not a number / " + wanted);
   EXPECT_EQ(duration_error("-1"), "`duration` is -1 / " + wanted);
@@ -170,9 +169,9 @@ TEST(SceneErrors, CaretStandsRightAfterCharactersOfSeveralBytesAndCells) {
             "     |                      ^\n"
             "     = expected a number of at least 0 in s\n");
   EXPECT_EQ(errors_of(start + "background: \"\xE6\x97\xA5\", sed: 1\n").substr(0, 16), "scene.yaml:3:16:");
-  // Two characters of two cells each and one of one: column 6 of characters stands 7 cells from the left.
   EXPECT_EQ(errors_of(start + "{\xE6\x97\xA5\xE6\x9C\xAC: 1}\n").substr(0, 15), "scene.yaml:3:1:");
 
+  // Two characters of two cells each: 50 cells stand to the left of column 49.
   EXPECT_EQ(errors_of("{scene: 1, simulate: {duration: 1}, title: \xE6\x97\xA5\xE6\x9C\xAC\xC3\xA9, sed: 1}"),
             "scene.yaml:1:49: error: unknown key `sed` in the scene\n"
             "   1 | {scene: 1, simulate: {duration: 1}, title: \xE6\x97\xA5\xE6\x9C\xAC\xC3\xA9, sed: 1}\n"

@@ -49,14 +49,13 @@ TEST(Fields, DefaultsAreInTheirRange) {
     for (const Field& field : kind.fields) {
       if (field.initial.empty()) continue;
       const Node& node = initial_node(field);
+
       if (field.type == Type::number || field.type == Type::whole) {
         ASSERT_TRUE(as_number(&node)) << field.key;
         EXPECT_TRUE(contains(field.range, *as_number(&node))) << field.key;
-      }
-      if (field.type == Type::vector || field.type == Type::direction) {
+      } else if (field.type == Type::vector || field.type == Type::direction) {
         EXPECT_TRUE(as_vector(&node)) << field.key;
-      }
-      if (field.type == Type::color) {
+      } else if (field.type == Type::color) {
         EXPECT_TRUE(as_color(&node)) << field.key;
       }
     }

@@ -1,4 +1,6 @@
 // Balls made by rule, and the random numbers they are made with.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "physics/world.h"
@@ -10,23 +12,12 @@
 namespace carom {
 namespace {
 
+/// A group in a cube at the origin.
 string group(const string& arrange, const string& count, double radius, double edge, const string& more = "") {
-  const string corner = std::to_string(edge);
-  return string(start)
-      .append("groups:\n  gas: {count: ")
-      .append(count)
-      .append(", ball: {mass: 1, radius: ")
-      .append(std::to_string(radius))
-      .append("}, in: {min: [0, 0, 0], max: [")
-      .append(corner)
-      .append(", ")
-      .append(corner)
-      .append(", ")
-      .append(corner)
-      .append("]}, arrange: ")
-      .append(arrange)
-      .append(more)
-      .append("}\noutput: {}\n");
+  const string ball = fmt::format("{{mass: 1, radius: {:f}}}", radius);
+  const string cube = fmt::format("{{min: [0, 0, 0], max: [{0:f}, {0:f}, {0:f}]}}", edge);
+  return start + "groups:\n  gas: {count: " + count + ", ball: " + ball + ", in: " + cube + ", arrange: " + arrange +
+         more + "}\noutput: {}\n";
 }
 
 /// Greatest overlap of any two balls, relative to the sum of their radii, over all pairs.

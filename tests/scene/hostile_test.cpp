@@ -1,4 +1,5 @@
 // Any bytes give a Scene or a SceneError, soon, and no crash.
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include "physics/world.h"
@@ -21,15 +22,8 @@ string repeat(string_view part, int times) {
 string alias_bomb() {
   string text = "a0: &a0 [x]\n";
   for (int i = 1; i < 30; ++i) {
-    const string last = string("*a").append(std::to_string(i - 1));
-    text += string("a")
-                .append(std::to_string(i))
-                .append(": &a")
-                .append(std::to_string(i))
-                .append(" [")
-                .append(repeat(last + ", ", 9))
-                .append(last)
-                .append("]\n");
+    const string last = fmt::format("*a{}", i - 1);
+    text += fmt::format("a{0}: &a{0} [{1}{2}]\n", i, repeat(last + ", ", 9), last);
   }
   return text;
 }
@@ -231,69 +225,77 @@ background: '#112233'
 output: {trajectory: {every: 0.1, layout: wide}, collisions: true, energy: true, frames: {fps: 10, size: [64, 48], samples: 2}, video: {file: a.mp4, crf: 20}, sheet: {columns: 2, rows: 2}}
 )";
 
+/// What may stand between the characters of a scene.
+const vector<string> pieces = {": ",
+                               ", ",
+                               "{",
+                               "}",
+                               "[",
+                               "]",
+                               "\n",
+                               "  ",
+                               "- ",
+                               "#",
+                               "'",
+                               "\"",
+                               "|",
+                               ">",
+                               "&a ",
+                               "*a",
+                               "!!x ",
+                               "<<: ",
+                               "---\n",
+                               "...\n",
+                               "\t",
+                               "1e999",
+                               "-1",
+                               ".nan",
+                               "\xC3",
+                               "\xF0\x9F\x8E\xB1",
+                               "null",
+                               "~",
+                               "true",
+                               "? ",
+                               "0",
+                               "1e9",
+                               "9999999999999999999999",
+                               string(1, '\0'),
+                               "\\",
+                               "1e-300",
+                               "1e300"};
+
+/// `everything` with up to three changes.
+string mutated(Random& random) {
+  string text = everything;
+  const auto piece = [&] { return pieces[random.below(pieces.size())]; };
+
+  for (uint64_t changes = 1 + random.below(3); changes > 0; --changes) {
+    const uint64_t at = random.below(text.size());
+    const uint64_t kind = random.below(8);
+    const uint64_t length = std::min<uint64_t>(1 + random.below(12), text.size() - at);
+
+    if (kind == 0) text.erase(at, length);
+    if (kind == 1) text.insert(at, piece());
+    if (kind == 2) text[at] = static_cast<char>(random.below(256));
+    if (kind == 3) text.insert(random.below(text.size()), text.substr(at, length * 8));
+    if (kind == 4) text.replace(at, length, piece());
+    if (kind > 4 && text[at] >= '0' && text[at] <= '9') text[at] = static_cast<char>('0' + random.below(10));
+    if (text.empty()) text.assign(1, 'x');
+  }
+  return text;
+}
+
 TEST(MutatedScenes, AreScenesOrErrors) {
   SLOW_WITH_SANITIZERS();
   ASSERT_EQ(errors_of(everything), "");
   const string path = write_file("");
-  const string pieces[] = {": ",
-                           ", ",
-                           "{",
-                           "}",
-                           "[",
-                           "]",
-                           "\n",
-                           "  ",
-                           "- ",
-                           "#",
-                           "'",
-                           "\"",
-                           "|",
-                           ">",
-                           "&a ",
-                           "*a",
-                           "!!x ",
-                           "<<: ",
-                           "---\n",
-                           "...\n",
-                           "\t",
-                           "1e999",
-                           "-1",
-                           ".nan",
-                           "\xC3",
-                           "\xF0\x9F\x8E\xB1",
-                           "null",
-                           "~",
-                           "true",
-                           "? ",
-                           "0",
-                           "1e9",
-                           "9999999999999999999999",
-                           string(1, '\0'),
-                           "\\",
-                           "1e-300",
-                           "1e300"};
-
   LoadOptions options;
   options.budget.bodies = 10'000;  // mutated counts are to stay cheap
   Random random(1, "mutations");
   int scenes = 0, errors = 0;
 
   for (int round = 0; round < 4000; ++round) {
-    string text = everything;
-    const uint64_t changes = 1 + random.below(3);
-    for (uint64_t k = 0; k < changes; ++k) {
-      const uint64_t at = random.below(text.size());
-      const uint64_t kind = random.below(8);
-      const uint64_t length = std::min<uint64_t>(1 + random.below(12), text.size() - at);
-      if (kind == 0) text.erase(at, length);
-      if (kind == 1) text.insert(at, pieces[random.below(std::size(pieces))]);
-      if (kind == 2) text[at] = static_cast<char>(random.below(256));
-      if (kind == 3) text.insert(random.below(text.size()), text.substr(at, length * 8));
-      if (kind == 4) text.replace(at, length, pieces[random.below(std::size(pieces))]);
-      if (kind > 4 && text[at] >= '0' && text[at] <= '9') text[at] = static_cast<char>('0' + random.below(10));
-      if (text.empty()) text.assign(1, 'x');
-    }
-
+    const string text = mutated(random);
     std::ofstream(path, std::ios::binary) << text;
     try {
       const Scene scene = load_scene(path, options);
@@ -308,31 +310,33 @@ TEST(MutatedScenes, AreScenesOrErrors) {
 
   EXPECT_GT(scenes, 200);  // both kinds must be met for the test to mean anything
   EXPECT_GT(errors, 1000);
-
   std::filesystem::remove_all(test_folder());
 }
+
+/// The two sides of settings.
+const vector<string> mutated_paths = {"balls.red.position.z",
+                                      "simulate.duration",
+                                      "camera.fov",
+                                      "output.frames.fps",
+                                      "restitution.pairs.0.value",
+                                      "groups.gas.in.max.x",
+                                      "lights.ambient",
+                                      "x",
+                                      "",
+                                      "balls"};
+const vector<string> mutated_values = {"1",    "",     "[1, 2, 3]", "{a: b}", "{",         "'",    "*a",
+                                       "&a 1", "- x",  "a: b",      "\n",     "#fff",      "true", "~",
+                                       ",",    "\xFF", "\t",        "---",    "1\n---\n2", "=",    "1e999"};
 
 TEST(MutatedScenes, SettingsAreScenesOrErrorsToo) {
   SLOW_WITH_SANITIZERS();
   const string path = write_file(everything);
-  const string paths[] = {"balls.red.position.z",
-                          "simulate.duration",
-                          "camera.fov",
-                          "output.frames.fps",
-                          "restitution.pairs.0.value",
-                          "groups.gas.in.max.x",
-                          "lights.ambient",
-                          "x",
-                          "",
-                          "balls"};
-
-  const string values[] = {"1",    "",     "[1, 2, 3]", "{a: b}", "{",    "'",  "*a",  "&a 1",      "- x", "a: b", "\n",
-                           "#fff", "true", "~",         ",",      "\xFF", "\t", "---", "1\n---\n2", "=",   "1e999"};
-  for (const string& p : paths) {
-    for (const string& v : values) {
+  for (const string& p : mutated_paths) {
+    for (const string& v : mutated_values) {
       for (const char* equals : {"=", "", ".=", ".y="}) {
         LoadOptions options;
         options.set = {p + equals + v};
+
         try {
           load_scene(path, options);
         } catch (const SceneError& error) {

@@ -9,8 +9,7 @@
 namespace carom {
 namespace {
 
-TEST(LoadScene, FormatPageExampleIsReadWhole) {
-  const Scene scene = load_text(R"(# yaml-language-server: $schema=scene.schema.json
+const string page_example = R"(# yaml-language-server: $schema=scene.schema.json
 scene: 1                                  # kind of file and format version
 title: Two bowling balls meet near the origin
 gravity: [0, 0, 0]                        # m/s^2; default [0, -9.80665, 0]
@@ -30,8 +29,10 @@ output:
   energy: {every: 0.01}
   frames: {fps: 30, size: [1280, 720]}
   video: true
-)");
+)";
 
+TEST(LoadScene, FormatPageExampleIsReadWhole) {
+  const Scene scene = load_text(page_example);
   EXPECT_EQ(scene.title, "Two bowling balls meet near the origin");
   EXPECT_EQ(scene.seed, 0u);
   EXPECT_EQ(scene.world.gravity, Vec3(0, 0, 0));
@@ -43,11 +44,12 @@ output:
   EXPECT_EQ(scene.initial.velocity[1], Vec3(-2, 0, 0));
   EXPECT_EQ(scene.world.planes.size(), 1u);
   EXPECT_FALSE(scene.world.planes[0].restitution);
+
   EXPECT_EQ(scene.roster.name(0), "red");
   EXPECT_EQ(scene.roster.name(1), "blue");
-
   EXPECT_EQ(scene.roster.name(2), "lane");
   EXPECT_EQ(scene.roster.bodies[0].color.r, 220 / 255.0);  // crimson is #dc143c
+
   EXPECT_EQ(scene.simulate.engine, Engine::exact);
   EXPECT_EQ(scene.simulate.duration, 2);
   ASSERT_TRUE(scene.camera);
@@ -192,8 +194,8 @@ TEST(LoadScene, AFilmHasASizeAndARateThatItsFormatCanHold) {
                     "expected a number from 0.00006 to 1000: a WebP shows a picture for 1 to 16777215 thousandths of a "
                     "second"}}));
   EXPECT_EQ(error("file: x.webp, fps: 1000"), "");
-
   EXPECT_EQ(error("file: x.webp, fps: 6e-5"), "");
+
   EXPECT_EQ(in_parts(error("fps: 1e-9")), (Parts{{"3:23 1e-9", "an MP4 of 1e-09 pictures a second",
                                                   "expected a number from 0.00001 to 1000000: an MP4 shows a picture "
                                                   "for a millionth of a second to 100000 s"}}));
@@ -327,8 +329,9 @@ TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
   EXPECT_EQ(scene.world.pairs[1].a_count, 1u);
   EXPECT_EQ(scene.world.pairs[1].b_first, 8u);
   EXPECT_EQ(scene.world.pairs[2].b_first, 6u);
-
   EXPECT_EQ(scene.world.pairs[2].b_count, 6u);
+
+  // Names that are not there, and things that never meet.
   const string wrong = errors_of(things +
                                  "restitution: {pairs: [{between: [a, gsa], value: 1}, {between: [gas.5, room], "
                                  "value: 1}, {between: [room, room], value: 1}, {between: [a, a], value: 1}]}\n");
@@ -447,6 +450,8 @@ TEST(LoadScene, PicturesHaveLimits) {
             string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {size: [8, 20000]}}\n").find("from 16 to 16384"), string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {samples: 3}}\n").find("expected 1, 2, 4 or 8"), string::npos);
+
+  // Of windows, of the speed and of rows.
   EXPECT_NE(errors_of(start + "output: {frames: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
             string::npos);
   EXPECT_NE(errors_of(start + "output: {sheet: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
@@ -454,8 +459,8 @@ TEST(LoadScene, PicturesHaveLimits) {
   EXPECT_NE(errors_of(start + "output: {sheet: {from: 0.5, until: 0.25}}\n").find("`until` is 0.25 but `from` is 0.5"),
             string::npos);
   EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("`speed` is 0"), string::npos);
-
   EXPECT_NE(errors_of(start + "output: {sheet: {rows: 0}}\n").find("`rows` is 0"), string::npos);
+
   for (const char* file : {"../x.mp4", ".mp4", "-x.mp4", ".x.mp4", "x.avi", "a/b.mp4", "\"\"", "\"a\\nb.mp4\""}) {
     EXPECT_NE(errors_of(start + "output: {video: {file: " + file + "}}\n"), "") << file;
   }

@@ -23,6 +23,8 @@ inline Parts in_parts(const string& errors) {
       const bool of_setting = line.starts_with("--set");
       const size_t place = of_setting ? error : std::min(line.find(':') + 1, error);
       found.emplace_back(of_setting ? "--set:" : line.substr(place, error - place), line.substr(error + 9), "");
+
+      // Of no layout that an error has: an entry of its own, which no test expects.
     } else if (found.empty() || !line.starts_with(' ')) {
       found.emplace_back("", line, "");
     } else if (auto& [marked, message, remedies] = found.back(); line.starts_with("     = ")) {

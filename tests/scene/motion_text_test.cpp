@@ -45,35 +45,37 @@ TEST(MotionText, IsAsNumbersAreNotAsTheyAreWritten) {
   EXPECT_EQ(text_with("simulate.engine=stepped"), text_with(""));  // what auto takes under a spring with a rest length
 }
 
+/// Settings that change the motion, each in another way.
+const vector<const char*> of_the_motion = {"simulate.duration=3",
+                                           "simulate.step=0.01",
+                                           "simulate.tolerance=0.01",
+                                           "simulate.rest_speed=0.1",
+                                           "simulate.contact.quality=fast",
+                                           "simulate.max_collisions=9",
+                                           "simulate.integrator=euler",
+                                           "gravity=[0, -9, 0]",
+                                           "restitution.default=0.5",
+                                           "restitution.combine=minimum",
+                                           "balls.red.mass=3",
+                                           "balls.red.radius=0.4",
+                                           "balls.red.position.x=0.1",
+                                           "balls.red.velocity=[0, 0, 1]",
+                                           "balls.red.impulse.x=2",
+                                           "balls.red.restitution=0.25",
+                                           "bodies.crate.box=[1, 1, 0.5]",
+                                           "planes.floor.point.y=-1",
+                                           "planes.floor.normal=[1, 9, 0]",
+                                           "planes.floor.restitution=0.7",
+                                           "walls.side.center.x=6",
+                                           "walls.side.size=[2, 3]",
+                                           "walls.side.up=[0, 0, 1]",
+                                           "obstacles.post.position.x=9",
+                                           "obstacles.post.radius=0.3",
+                                           "obstacles.post.restitution=0.1"};
+
 TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
   vector<string> texts = {text_with("")};
-  for (const char* set : {"simulate.duration=3",
-                          "simulate.step=0.01",
-                          "simulate.tolerance=0.01",
-                          "simulate.rest_speed=0.1",
-                          "simulate.contact.quality=fast",
-                          "simulate.max_collisions=9",
-                          "simulate.integrator=euler",
-                          "gravity=[0, -9, 0]",
-                          "restitution.default=0.5",
-                          "restitution.combine=minimum",
-                          "balls.red.mass=3",
-                          "balls.red.radius=0.4",
-                          "balls.red.position.x=0.1",
-                          "balls.red.velocity=[0, 0, 1]",
-                          "balls.red.impulse.x=2",
-                          "balls.red.restitution=0.25",
-                          "bodies.crate.box=[1, 1, 0.5]",
-                          "planes.floor.point.y=-1",
-                          "planes.floor.normal=[1, 9, 0]",
-                          "planes.floor.restitution=0.7",
-                          "walls.side.center.x=6",
-                          "walls.side.size=[2, 3]",
-                          "walls.side.up=[0, 0, 1]",
-                          "obstacles.post.position.x=9",
-                          "obstacles.post.radius=0.3",
-                          "obstacles.post.restitution=0.1"})
-    texts.push_back(text_with(set));
+  for (const char* set : of_the_motion) texts.push_back(text_with(set));
 
   for (const auto& [from, to] : {std::pair("until: 1", "until: 1.5"), std::pair("[0, 0, 1]", "[0, 0, 2]"),
                                  std::pair("on: [red]", "on: [crate]"), std::pair("stiffness: 3", "stiffness: 4")}) {

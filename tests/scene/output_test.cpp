@@ -38,6 +38,7 @@ TEST(Outputs, HaveDefaultSettingsOfTheTableOfFields) {
     for (const auto& [key, value] : settings.items()) {
       const Field* field = find_field(kind_named(kind.name), key);
       ASSERT_NE(field, nullptr) << kind.name << " has no key " << key;
+
       if (field->initial.empty())
         EXPECT_TRUE(value.is_null()) << kind.name << "." << key;
       else if (value.is_string())

@@ -74,8 +74,8 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_NE(error_of("{balls}").find("`balls` holds several values"), string::npos);
   EXPECT_NE(error_of("{camera.fov}").find("this scene has no `camera`"), string::npos);
   EXPECT_NE(error_of("{balls.red.color}").find("`color` has no value in this scene"), string::npos);
-
   EXPECT_NE(error_of("{balls.red.mass.x}").find("`mass` has no part `x`"), string::npos);
+
   EXPECT_EQ(in_parts(error_of("{foo}")),
             (Parts{{"9:11 {foo}", "unknown key `foo` in the scene",
                     "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}"}}));
@@ -84,7 +84,6 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_EQ(in_parts(error_of("{}")),
             (Parts{{"9:11 {}", "there is no name between the braces",
                     "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}"}}));
-
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), string::npos);
 }
 

@@ -34,9 +34,9 @@ TEST(RegionKeys, MakeShapesOnBodies) {
   EXPECT_TRUE(regions[1].stops && !regions[1].removes);
   EXPECT_EQ(regions[2].volume, Volume::box({1, 2, 3}));
   EXPECT_TRUE(!regions[2].stops && regions[2].removes);
+
   EXPECT_EQ(regions[3].position, Vec3(0, -1, 0));
   EXPECT_EQ(regions[3].normal, Vec3(0, -1, 0));
-
   EXPECT_EQ(regions[3].on, (vector<Entity>{3}));
 }
 
@@ -100,12 +100,12 @@ TEST(RegionErrors, OneShapeEach) {
                     "or `cylinder`: a map of keys\n"
                     "or `box`: [x, y, z], three numbers above 0 in m\n"
                     "or `plane`: a map of keys"}}));
+
   EXPECT_EQ(of_region("{radius: 1, box: [1, 1, 1], position: [0, 0, 0]}"),
             "scene.yaml:6:31: error: region `pocket` has both `radius` and `box`\n");
   EXPECT_EQ(of_region("{plane: {point: [0, 0, 0], normal: [0, 1, 0]}, position: [0, 0, 0]}"),
             "scene.yaml:6:66: error: region `pocket` has both `plane` and `position`\n");
   EXPECT_EQ(of_region("{radius: 1}"), "scene.yaml:6:11: error: region `pocket` has no `position` and no `plane`\n");
-
   EXPECT_EQ(of_region("{}").substr(0, 52), "scene.yaml:6:11: error: region `pocket` has no `radi");
 }
 

@@ -27,8 +27,8 @@ TEST(Repeat, IsTheSceneWithItsMembersWrittenOut) {
       on += fmt::format("{}b{}", on.empty() ? "" : ", ", 4 * i + j);
     }
   }
-
   written += "  shot: {radius: 0.1, position: [0, 3, 0]}\nforces: [{drag: {linear: 0.1}, on: [" + on + "]}]\n";
+
   const Scene scene = load_text(bricks);
   EXPECT_EQ(motion_text(scene), motion_text(load_text(written)));
   EXPECT_EQ(scene.roster.name(0), "bricks.0");
@@ -49,8 +49,7 @@ TEST(Repeat, ResolvesToMembersThatRunAlike) {
   EXPECT_NE(scene.resolved.find("on: [bricks]"), string::npos);
 }
 
-TEST(Repeat, MakesMembersOfEveryKind) {
-  const Scene scene = load_text(start + R"(
+const string repeated_things = start + R"(
 let: {n: 2}
 planes: {sides: {repeat: 2, point: ['= 100 * (1 - 2 * i)', 0, 0], normal: ['= 2 * i - 1', 0, 0]}}
 balls: {row: {repeat: = n + 1, mass: = i + 1, radius: 0.1, position: [= i, 0, 0]}}
@@ -63,7 +62,10 @@ forces:
   - {repeat: 3, spring: {anchor: [= i, 1, 0], stiffness: = i + 1}, on: ['row.{i}']}
   - {uniform: [1, 0, 0], on: [gas.1, gas.0.2]}
 camera: {follow: row}
-)");
+)";
+
+TEST(Repeat, MakesMembersOfEveryKind) {
+  const Scene scene = load_text(repeated_things);
 
   ASSERT_EQ(scene.world.body_count(), 9u);
   EXPECT_EQ(scene.roster.name(2), "row.2");
@@ -191,10 +193,10 @@ TEST(RepeatErrors, OfOneHugeThingAreThoseOfNoOther) {
 
   string sines = "= sin(i)";
   for (int k = 0; k < 100; ++k) sines += " + sin(i)";
+
   const Marked slow =
       marked_errors(start + "balls:\n  v: {repeat: 500000, mass: 1, radius: 0.1, position:\n    [= i,\n    " + sines +
                     ", 0]}\n" + others);
-
   ASSERT_EQ(slow.size(), 1u);
   EXPECT_EQ(slow[0].second, "evaluating the expressions of so many members takes too long");
 }

@@ -16,8 +16,8 @@ void expect_same_things(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.world.impulse, b.world.impulse);
   EXPECT_EQ(a.world.gravity, b.world.gravity);
   EXPECT_EQ(a.world.combine, b.world.combine);
-  ASSERT_EQ(a.world.planes.size(), b.world.planes.size());
 
+  ASSERT_EQ(a.world.planes.size(), b.world.planes.size());
   for (size_t i = 0; i < a.world.planes.size(); ++i) {
     EXPECT_EQ(a.world.planes[i].point, b.world.planes[i].point);
     EXPECT_EQ(a.world.planes[i].normal, b.world.planes[i].normal);
@@ -47,12 +47,11 @@ void expect_same_things(const Scene& a, const Scene& b) {
 
   const auto same_volume = [](const Volume& v, const Volume& w) { return v.shape == w.shape && v.half == w.half; };
   ASSERT_EQ(a.world.volume.size(), b.world.volume.size());
-
   for (size_t i = 0; i < a.world.volume.size(); ++i) {
     EXPECT_TRUE(same_volume(a.world.volume[i], b.world.volume[i]));
   }
-  ASSERT_EQ(a.world.obstacles.size(), b.world.obstacles.size());
 
+  ASSERT_EQ(a.world.obstacles.size(), b.world.obstacles.size());
   for (size_t i = 0; i < a.world.obstacles.size(); ++i) {
     EXPECT_EQ(a.world.obstacles[i].center, b.world.obstacles[i].center);
     EXPECT_TRUE(same_volume(a.world.obstacles[i].volume, b.world.obstacles[i].volume));
@@ -77,7 +76,6 @@ bool same_color(const Color& x, const Color& y) {
 
 void expect_same_looks(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.roster.bodies.size(), b.roster.bodies.size());
-
   for (size_t i = 0; i < a.roster.bodies.size(); ++i) {
     EXPECT_EQ(a.roster.bodies[i].name, b.roster.bodies[i].name);
     EXPECT_EQ(a.roster.bodies[i].first, b.roster.bodies[i].first);
@@ -124,21 +122,21 @@ void expect_same_requests(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.simulate.contact.merge, b.simulate.contact.merge);
 
   EXPECT_EQ(a.output.contacts.has_value(), b.output.contacts.has_value());
-  ASSERT_EQ(a.output.trajectory.has_value(), b.output.trajectory.has_value());
 
+  ASSERT_EQ(a.output.trajectory.has_value(), b.output.trajectory.has_value());
   if (a.output.trajectory) {
     EXPECT_EQ(a.output.trajectory->every, b.output.trajectory->every);
     EXPECT_EQ(a.output.trajectory->wide, b.output.trajectory->wide);
   }
+
   EXPECT_EQ(a.output.collisions, b.output.collisions);
   ASSERT_EQ(a.output.energy.has_value(), b.output.energy.has_value());
-
   if (a.output.energy) {
     EXPECT_EQ(a.output.energy->every, b.output.energy->every);
   }
+
   ASSERT_EQ(a.output.frames.has_value(), b.output.frames.has_value());
   ASSERT_EQ(a.output.video.has_value(), b.output.video.has_value());
-
   if (a.output.video) {
     EXPECT_EQ(a.output.video->file, b.output.video->file);
     EXPECT_EQ(a.output.video->fps, b.output.video->fps);
@@ -171,37 +169,39 @@ void expect_stable(const string& text, const LoadOptions& options = {}) {
   EXPECT_EQ(scene.resolved, again.resolved);
 }
 
+const string brief =
+    "scene: 1\n"
+    "defaults: {ball: {mass: 10, radius: 0.11}}\n"
+    "balls:\n"
+    "  a: {position: [-1, 0, 0.025]}\n"
+    "  b: {density: 1e3, position: [1, 0, 0], color: tan}\n"
+    "walls: {w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1]}}\n"
+    "simulate: {duration: 2, engine: book}\n"
+    "output: {video: true}\n";
+
+const string brief_resolved =
+    "scene: 1\n"
+    "title: \"\"\n"
+    "seed: 0\n"
+    "gravity: [0, -9.80665, 0]\n"
+    "restitution: {default: 1, combine: average}\n"
+    "balls:\n"
+    "  a: {mass: 10, radius: 0.11, position: [-1, 0, 0.025], velocity: [0, 0, 0], restitution: 1, color: "
+    "\"#d1495b\"}\n"
+    "  b: {density: 1e3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
+    "walls:\n"
+    "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#9aa3ad\", visible: true}\n"
+    "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: {mode: bounce, "
+    "quality: normal}}\n"
+    "output:\n"
+    "  collisions: false\n"
+    "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1}\n";
+
 TEST(ResolvedScene, HasEveryDefaultWrittenOut) {
-  EXPECT_EQ(
-      load_text("scene: 1\n"
-                "defaults: {ball: {mass: 10, radius: 0.11}}\n"
-                "balls:\n"
-                "  a: {position: [-1, 0, 0.025]}\n"
-                "  b: {density: 1e3, position: [1, 0, 0], color: tan}\n"
-                "walls: {w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1]}}\n"
-                "simulate: {duration: 2, engine: book}\n"
-                "output: {video: true}\n")
-          .resolved,
-      "scene: 1\n"
-      "title: \"\"\n"
-      "seed: 0\n"
-      "gravity: [0, -9.80665, 0]\n"
-      "restitution: {default: 1, combine: average}\n"
-      "balls:\n"
-      "  a: {mass: 10, radius: 0.11, position: [-1, 0, 0.025], velocity: [0, 0, 0], restitution: 1, color: "
-      "\"#d1495b\"}\n"
-      "  b: {density: 1e3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
-      "walls:\n"
-      "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#9aa3ad\", visible: true}\n"
-      "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: {mode: bounce, "
-      "quality: normal}}\n"
-      "output:\n"
-      "  collisions: false\n"
-      "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1}\n");
+  EXPECT_EQ(load_text(brief).resolved, brief_resolved);
 }
 
-TEST(ResolvedScene, OfASceneWithEverythingMeansTheSame) {
-  expect_stable(R"(scene: 1
+const string with_everything = R"(scene: 1
 title: "quotes \" and \\ and \u00e9: all"
 seed: 18446744073709551615
 gravity: [0, -9.8, 1e-3]
@@ -240,7 +240,10 @@ camera: {eye: [0, 3, -5], target: [0, 0, 0], fov_axis: horizontal, far: 1e2}
 lights: {sun: {direction: [0, -1, 0.5], intensity: 2}, ambient: dimgray}
 background: '#112233'
 output: {trajectory: {layout: wide}, energy: true, contacts: true, frames: {fps: 10, size: [64, 48], until: 1}, video: {file: "b c.mp4", from: 0.25, speed: 0.5, size: 720p}, sheet: {size: square, from: 0.5, until: 1}}
-)");
+)";
+
+TEST(ResolvedScene, OfASceneWithEverythingMeansTheSame) {
+  expect_stable(with_everything);
 }
 
 TEST(ResolvedScene, HoldsWithoutOutputAndWithEmptyParts) {

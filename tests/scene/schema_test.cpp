@@ -84,67 +84,63 @@ struct Beyond {
   string why;
 };
 
-const vector<Beyond>& beyond_schemas() {
-  static const vector<Beyond> all = {
-      {"nothing is named", "which names there are"},
-      {"no number is named", "which names there are"},
-      {"there is no `", "which members there are"},
-      {"`repeat` in `defaults`", "defaults have the definition of their things"},
-      {"are fixed things, which never meet", "what a name stands for"},
-      {"does not meet itself", "two names against one another"},
-      {"is a fixed thing: no force acts on it", "what a name stands for"},
-      {"is a fixed thing: it has no trail", "what a name stands for"},
-      {"is a fixed thing: it enters no region", "what a name stands for"},
-      {"no region is named", "which names there are"},
-      {"no string is tied to it", "what a name stands for"},
-      {"a string has one at each end", "what a name stands for"},
-      {"is tied to itself", "two names against one another"},
-      {"but its ends are", "a length against where things are"},
-      {"m/s at time 0", "velocities against where things are"},
-      {"are at the same point at time 0", "a length against where things are"},
-      {"the scale of colours ends at", "two numbers against one another"},
-      {"has no meaning for groups", "two keys against one another"},
-      {"an MP4 has no transparency", "two keys against one another"},
-      {"the run has none of the bodies of this scene", "what a run holds"},
-      {"begin where a former run had them", "a default that a former run cannot give"},
-      {"and `count` is", "two keys against one another"},
-      {"is taken", "names of two kinds of things against one another"},
-      {"there is no file", "what files there are"},
-      {"at the start", "where things are"},
-      {"not fit into the box", "how many balls a box holds"},
-      {"has no volume", "two vectors against one another"},
-      {"is not above its min", "two vectors against one another"},
-      {"the camera's target is where its eye is", "two vectors against one another"},
-      {"the camera looks along its up direction", "vectors against one another"},
-      {"there is nothing to follow", "what a name stands for"},
-      {"not later than the keyframe before", "two numbers against one another"},
-      {"up is parallel to the normal", "two vectors against one another"},
-      {"is not beyond near", "two numbers against one another"},
-      {"as wide as the largest radius", "a width against the sizes of bodies"},
-      {"but the scene ends at", "two numbers against one another"},
-      {"but `from` is", "two numbers against one another"},
-      {"times the smallest size", "how far and how fast things are against how small they are"},
-      {"the limit is", "how much a run may write, which --force lifts"},
-      {"not for `strings`", "what an engine can do depends on forces, volumes and strings together"},
-      {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
-      {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
-      {"a contact sheet of", "how many pictures a size holds"},
-      {"a GIF cannot show", "the end of a name against a number"},
-      {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
-  };
+const vector<Beyond> beyond_schemas = {
+    {"nothing is named", "which names there are"},
+    {"no number is named", "which names there are"},
+    {"there is no `", "which members there are"},
+    {"`repeat` in `defaults`", "defaults have the definition of their things"},
+    {"are fixed things, which never meet", "what a name stands for"},
+    {"does not meet itself", "two names against one another"},
+    {"is a fixed thing: no force acts on it", "what a name stands for"},
+    {"is a fixed thing: it has no trail", "what a name stands for"},
+    {"is a fixed thing: it enters no region", "what a name stands for"},
+    {"no region is named", "which names there are"},
+    {"no string is tied to it", "what a name stands for"},
+    {"a string has one at each end", "what a name stands for"},
+    {"is tied to itself", "two names against one another"},
+    {"but its ends are", "a length against where things are"},
+    {"m/s at time 0", "velocities against where things are"},
+    {"are at the same point at time 0", "a length against where things are"},
+    {"the scale of colours ends at", "two numbers against one another"},
+    {"has no meaning for groups", "two keys against one another"},
+    {"an MP4 has no transparency", "two keys against one another"},
+    {"the run has none of the bodies of this scene", "what a run holds"},
+    {"begin where a former run had them", "a default that a former run cannot give"},
+    {"and `count` is", "two keys against one another"},
+    {"is taken", "names of two kinds of things against one another"},
+    {"there is no file", "what files there are"},
+    {"at the start", "where things are"},
+    {"not fit into the box", "how many balls a box holds"},
+    {"has no volume", "two vectors against one another"},
+    {"is not above its min", "two vectors against one another"},
+    {"the camera's target is where its eye is", "two vectors against one another"},
+    {"the camera looks along its up direction", "vectors against one another"},
+    {"there is nothing to follow", "what a name stands for"},
+    {"not later than the keyframe before", "two numbers against one another"},
+    {"up is parallel to the normal", "two vectors against one another"},
+    {"is not beyond near", "two numbers against one another"},
+    {"as wide as the largest radius", "a width against the sizes of bodies"},
+    {"but the scene ends at", "two numbers against one another"},
+    {"but `from` is", "two numbers against one another"},
+    {"times the smallest size", "how far and how fast things are against how small they are"},
+    {"the limit is", "how much a run may write, which --force lifts"},
+    {"not for `strings`", "what an engine can do depends on forces, volumes and strings together"},
+    {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
+    {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
+    {"a contact sheet of", "how many pictures a size holds"},
+    {"a GIF cannot show", "the end of a name against a number"},
+    {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
+};
 
-  return all;
-}
-
-/// The one of beyond_schemas() that explains each error; empty: another error is among them.
+/// The one of beyond_schemas that explains each error; empty: another error is among them.
 std::set<size_t> explained(const string& errors) {
   std::set<size_t> found;
   std::istringstream in(errors);
   for (string line; std::getline(in, line);) {
     if (line.find(": error: ") == string::npos) continue;
     size_t i = 0;
-    while (i < beyond_schemas().size() && line.find(beyond_schemas()[i].error) == string::npos) ++i;
-    if (i == beyond_schemas().size()) return {};
+    while (i < beyond_schemas.size() && line.find(beyond_schemas[i].error) == string::npos) ++i;
+    if (i == beyond_schemas.size()) return {};
     found.insert(i);
   }
   return found;
@@ -171,8 +167,8 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   std::future<vector<string>> validating = std::async(std::launch::async, [&] { return validator.run(); });
   vector<string> all_errors;
   for (const Variation& variation : variations) all_errors.push_back(loaded(file, variation.text));
-  const vector<string> verdicts = validating.get();
 
+  const vector<string> verdicts = validating.get();
   ASSERT_EQ(verdicts.size(), variations.size());
   std::set<size_t> used;
   size_t right = 0, differing = 0;
@@ -190,8 +186,8 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   EXPECT_EQ(differing, 0u) << "of " << variations.size();
   EXPECT_GT(right, 500u) << "of " << variations.size();
 
-  for (size_t i = 0; i < beyond_schemas().size(); ++i)
-    EXPECT_TRUE(used.contains(i)) << "no variation has: " << beyond_schemas()[i].error;
+  for (size_t i = 0; i < beyond_schemas.size(); ++i)
+    EXPECT_TRUE(used.contains(i)) << "no variation has: " << beyond_schemas[i].error;
   RecordProperty("variations", static_cast<int>(variations.size()));
 }
 
@@ -202,52 +198,52 @@ struct Written {
   string why = {};  // where they differ
 };
 
+const vector<Written> written_numbers = {
+    {"1", true, true},
+    {"+1.5e0", true, true},
+    {".5", true, true},
+    {"5.", true, true},
+    {"1e3", true, true},
+    {"1.e+3", true, true},
+    {"-0", true, true},
+    {"'1'", false, false},
+    {"1_000", false, false},
+    {"1 s", false, false},
+    {"1,5", false, false},
+    {"1:30", false, false},
+    {"~", false, false},
+    {"", false, false},
+    {"true", false, false},
+    {".inf", false, false},
+    {"-.inf", false, false},
+    {"1e999", false, false},
+    {"NaN", false, false},
+    {"0b1", false, false},
+    {".nan", false, false},
+    {"010", false, true, "YAML 1.2 reads 10, YAML 1.1 reads 8: the loader wants it said"},
+    {"0x10", false, true, "YAML reads 16: numbers of a scene are decimal"},
+    {"0o17", false, true, "YAML reads 15: numbers of a scene are decimal"},
+    {"1e-999", false, true, "YAML reads 0"},
+};
+
+const vector<Written> written_flags = {
+    {"true", true, true},
+    {"false", true, true},
+    {"yes", false, false},
+    {"on", false, false},
+    {"1", false, false},
+    {"'true'", false, false},
+    {"~", false, false},
+    {"True", false, true, "YAML reads true: the loader has one way to write it"},
+    {"FALSE", false, true, "YAML reads false: the loader has one way to write it"},
+};
+
 TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
-  const vector<Written> numbers = {
-      {"1", true, true},
-      {"+1.5e0", true, true},
-      {".5", true, true},
-      {"5.", true, true},
-      {"1e3", true, true},
-      {"1.e+3", true, true},
-      {"-0", true, true},
-      {"'1'", false, false},
-      {"1_000", false, false},
-      {"1 s", false, false},
-      {"1,5", false, false},
-      {"1:30", false, false},
-      {"~", false, false},
-      {"", false, false},
-      {"true", false, false},
-      {".inf", false, false},
-      {"-.inf", false, false},
-      {"1e999", false, false},
-      {"NaN", false, false},
-      {"0b1", false, false},
-      {".nan", false, false},
-      {"010", false, true, "YAML 1.2 reads 10, YAML 1.1 reads 8: the loader wants it said"},
-      {"0x10", false, true, "YAML reads 16: numbers of a scene are decimal"},
-      {"0o17", false, true, "YAML reads 15: numbers of a scene are decimal"},
-      {"1e-999", false, true, "YAML reads 0"},
-  };
-
-  const vector<Written> flags = {
-      {"true", true, true},
-      {"false", true, true},
-      {"yes", false, false},
-      {"on", false, false},
-      {"1", false, false},
-      {"'true'", false, false},
-      {"~", false, false},
-      {"True", false, true, "YAML reads true: the loader has one way to write it"},
-      {"FALSE", false, true, "YAML reads false: the loader has one way to write it"},
-  };
-
   Validator validator("scene");
   vector<std::pair<string, Written>> all;
-  for (const Written& number : numbers)
+  for (const Written& number : written_numbers)
     all.emplace_back("scene: 1\nsimulate: {duration: 1, rest_speed: " + number.text + "}\n", number);
-  for (const Written& flag : flags)
+  for (const Written& flag : written_flags)
     all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {collisions: " + flag.text + "}\n", flag);
   // A quoted number is no choice; a name may be anything that YAML reads as text.
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: 4}}\n",
@@ -264,8 +260,8 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
                    Written{"on", true, true});
   const string file = validator.folder() + "/scene.yaml";
   for (const auto& [text, written] : all) validator.add_yaml(text);
-  const vector<string> verdicts = validator.run();
 
+  const vector<string> verdicts = validator.run();
   ASSERT_EQ(verdicts.size(), all.size());
   for (size_t i = 0; i < all.size(); ++i) {
     const Written& written = all[i].second;
@@ -334,6 +330,7 @@ TEST(Schema, DescribesEveryField) {
         EXPECT_TRUE(schema.value("description", "").starts_with(field.doc)) << kind.name << "." << field.key;
         EXPECT_EQ(schema.contains("default"), !field.initial.empty()) << kind.name << "." << field.key;
         EXPECT_EQ(schema["examples"].size(), 1u) << kind.name << "." << field.key;
+
         if (!field.unit.empty()) {
           EXPECT_TRUE(schema["title"].get<string>().ends_with(fmt::format("({})", field.unit)));
         }

@@ -53,6 +53,7 @@ TEST(Settings, DensityReplacesMass) {
 TEST(Settings, AVolumeReplacesTheOneThereWas) {
   LoadOptions options;
   options.set = {"bodies.a.radius=2", "bodies.b.box.y=4", "forces.0.uniform.x=3", "forces.0.from=0.5"};
+
   const Scene scene = load_text(
       "scene: 1\n"
       "bodies:\n"
@@ -61,7 +62,6 @@ TEST(Settings, AVolumeReplacesTheOneThereWas) {
       "forces: [{uniform: [1, 0, 0]}]\n"
       "simulate: {duration: 1}\n",
       options);
-
   EXPECT_EQ(scene.world.volume[0].shape, Shape::sphere);
   EXPECT_EQ(scene.world.volume[1].half, Vec3(0.5, 2, 0.5));
   EXPECT_TRUE(scene.world.forces[0].law == ForceLaw(UniformForce{Vec3(3, 0, 0)}));

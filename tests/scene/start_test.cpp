@@ -15,16 +15,17 @@ LoadOptions with_run(const vector<string>& names, const vector<Entity>& gone = {
     FormerState former{names};
     former.file = "flights.bin";
     former.state.time = at.value_or(2);
+
     for (size_t i = 0; i < names.size(); ++i) {
       const auto x = static_cast<double>(i);
       former.state.position.emplace_back(x + 0.1, 0.3 * 3, 1e-7 * x);
       former.state.velocity.emplace_back(1 / 3.0, -x, 0);
       former.state.part_of.push_back(static_cast<Entity>(i));
     }
+
     for (const Entity i : gone) former.state.part_of[i] = no_entity;
     return former;
   };
-
   return options;
 }
 
@@ -215,21 +216,24 @@ TEST(ListedBalls, ReplaceTheRulesOfDefaults) {
   EXPECT_EQ(scene.initial.velocity[0], Vec3(0, 0, 0));
 }
 
+const string two_members = "members: [{position: [0, 0, 0]}, {position: [0, 0.15, 0]}]";
+
+/// Keys of a group of two balls, and a part of their error.
+const vector<std::pair<string, string>> wrong_members = {
+    {two_members, "`gas.1` overlaps `gas.0` by 0.05 m at the start"},
+    {two_members + ", in: {min: [0, 0, 0], max: [1, 1, 1]}", "has both `members` and `in`"},
+    {"arrange: lattice, " + two_members, "has both `arrange` and `members`"},
+    {"members: [{position: [0, 0, 0]}]", "`members` of `gas` has 1 entry, and `count` is 2"},
+    {"members: [{}, {position: [0, 0, 0]}]", "has no `position`"},
+    {"members: [{position: [0, 0, 0]}, {position: [1e25, 0, 0]}]", "`gas.1` is 1e+25 m from the origin"},
+    {"members: [{position: [0, 0, 0]}, {position: [1, 0, 0], velocity: [1e20, 0, 0]}]", "`gas.1` "},
+    {"speed: 1", "has no `in` and no `members`"}};
+
 TEST(ListedBalls, AreCheckedOneByOne) {
-  const string ball = "groups:\n  gas: {count: 2, ball: {mass: 1, radius: 0.1}, ";
-  const string two = "members: [{position: [0, 0, 0]}, {position: [0, 0.15, 0]}]";
-  for (const auto& [part, error] : vector<std::pair<string, string>>{
-           {two, "`gas.1` overlaps `gas.0` by 0.05 m at the start"},
-           {two + ", in: {min: [0, 0, 0], max: [1, 1, 1]}", "has both `members` and `in`"},
-           {"arrange: lattice, " + two, "has both `arrange` and `members`"},
-           {"members: [{position: [0, 0, 0]}]", "`members` of `gas` has 1 entry, and `count` is 2"},
-           {"members: [{}, {position: [0, 0, 0]}]", "has no `position`"},
-           {"members: [{position: [0, 0, 0]}, {position: [1e25, 0, 0]}]", "`gas.1` is 1e+25 m from the origin"},
-           {"members: [{position: [0, 0, 0]}, {position: [1, 0, 0], velocity: [1e20, 0, 0]}]", "`gas.1` "},
-           {"speed: 1", "has no `in` and no `members`"}})
-    EXPECT_NE(errors_of(start + ball + part + "}\n").find(error), string::npos)
-        << part << "\n"
-        << errors_of(start + ball + part + "}\n");
+  for (const auto& [part, error] : wrong_members) {
+    const string errors = errors_of(start + "groups:\n  gas: {count: 2, ball: {mass: 1, radius: 0.1}, " + part + "}\n");
+    EXPECT_NE(errors.find(error), string::npos) << part << "\n" << errors;
+  }
 }
 
 }  // namespace

@@ -50,15 +50,17 @@ TEST(Strings, TieBodiesAndPoints) {
   EXPECT_EQ(a.length, 3) << "the distance at time 0";
   EXPECT_EQ(a.restitution, 0.25);
   EXPECT_FALSE(a.rod);
+
   EXPECT_EQ(b.body, 0u) << "the lower number, in whichever order the file has them";
   EXPECT_EQ(b.other, 1u);
   EXPECT_EQ(b.length, 6);
   EXPECT_EQ(b.restitution, 0.5);
+
   EXPECT_EQ(c.body, 3u);
   EXPECT_EQ(c.other, 4u);
-
   EXPECT_EQ(c.length, (scene.initial.position[3] - scene.initial.position[4]).norm());
   EXPECT_TRUE(c.rod);
+
   // Five bodies, a plane and an obstacle come before them.
   ASSERT_TRUE(world.is_string(7) && world.is_string(9) && !world.is_string(6) && !world.is_string(10));
   EXPECT_EQ(scene.roster.name(7), "a");

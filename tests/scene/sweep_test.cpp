@@ -139,24 +139,20 @@ TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
   has("random: 5\nover: {a: {from: 1}}\n", "has no `to`");
   has("random: 5\nover: {a: [1, 2]}\n", "expected a map of keys");
   has("random: 5\nover: {}\n", "has no entries");
+
   has("random: 5\nover: {a: {from: 1, to: 2, count: 3}}\n", "unknown key `count`");
   has("random: 5\nover: {a: {from: 2, to: 2}}\n", "falls.yaml:4:25: error: no number lies between 2 and 2");
-
   has("random: 5\nover: {a: {from: 2, to: 1}}\n", "expected `from` below `to`");
   has("random: 5\nover: {a: {from: 0, to: 1, log: true}}\n", "0 has no logarithm");
   has("random: 5\nover: {seed: {from: 0.5, to: 7}}\n", "falls.yaml:4:21: error: `seed` takes whole numbers");
   has("random: 5\nover: {a: {from: 1, to: 1.00000000000000001}}\n", "no number lies between");
+
   has("random: 5\nover: {a: {from: 1, to: 1.000000000000001}}\n", "the numbers of `a` have more than 15 digits");
 
-  has(
-      "random: 1000000\nover: {" +
-          [] {
-            string all;
-            for (int k = 0; k < 11; ++k) all += (k > 0 ? ", a" : "a") + std::to_string(k) + ": {from: 1, to: 2}";
-            return all;
-          }() +
-          "}\n",
-      "expected at most 10000000 values in all");
+  // A million values of eleven paths.
+  string ranges;
+  for (int k = 0; k < 11; ++k) ranges += (k > 0 ? ", a" : "a") + std::to_string(k) + ": {from: 1, to: 2}";
+  has("random: 1000000\nover: {" + ranges + "}\n", "expected at most 10000000 values in all");
 
   has("random: 5\ngrid: {a: [1]}\nover: {a: {from: 1, to: 2}}\n", "`a` is varied twice");
   has("random: 1000\ngrid: {b: {from: 1, to: 1001, count: 1001}}\nover: {a: {from: 1, to: 2}}\n",
@@ -233,18 +229,21 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has(head + "grid: {a: {from: 1, to: 2, count: 3, step: 1}}\n", "has both `count` and `step`");
   has(head + "grid: {a: {from: 1, to: 2, count: 1}}\n", "a single value cannot have two ends");
   has(head + "grid: {a: {from: 1, to: 2, step: -1}}\n", "does not lead from 1 to 2");
+
   has(head + "grid: {a: [1]}\nzip: {a: [2]}\n", "`a` is varied twice");
   has(head + "grid: {a: [1]}\nruns: [{}]\n", "`grid` stands beside `runs`");
   has(head + "grid: {a: [1, 2]}\nskip: [{a: 3}]\n", "no run has these values");
-
   has(head + "grid: {a: [1, 2]}\nskip: [{a: [1, 2]}]\n", "every run is left out");
   has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`seed` is varied twice: here and by `repeat`");
   has(head + "grid: {a: {from: 1, to: 1000, count: 1000}, b: {from: 1, to: 1001, count: 1001}}\n",
       "more than 1000000 runs");
+
+  // More runs than 64 bits count.
   string many;
   for (int k = 0; k < 40; ++k) many += "  a" + std::to_string(k) + ": {from: 1, to: 1000000, count: 1000000}\n";
   has(head + "grid:\n" + many, "more than 1000000 runs");
   has(head + "zip:\n" + many, "1000000 values of 40 paths");
+
   has("sweep: 1\nbase: " + string(4000, 'b') + "\ngrid: {a: [1]}\n", "cannot be inspected (File name too long):");
   has("sweep: 1\ngrid: {a: [1]}\n", "the sweep has no `base`");
   has("scene: 1\nsimulate: {duration: 1}\n", "this is a scene, not a sweep");

@@ -63,16 +63,16 @@ class Varying {
         const bool is_first = visited_.insert(fmt::format("{}.{}", kind.name, key)).second;
         replace(node[key], field, here, !is_first);
         inside(node[key], field, here);
+
+        // Without it.
         node.erase(key);
         note("no " + here);
         node = kept;
-
       } else {
         for (const Json& value : {json_of_yaml(field.example), Json(nullptr)}) {
           node[key] = value;
           note(here + " too, " + value.dump());
         }
-
         node = kept;
       }
     }
@@ -88,11 +88,13 @@ class Varying {
   void inside(Json& value, const Field& field, const string& path) {
     const Kind* kind = held_kind(field);
     if (kind == nullptr) return;
-    const Json kept = value;
 
+    const Json kept = value;
     if (field.type == Type::named) {
       for (const auto& [name, entry] : kept.items()) {
         if (kind->also == nullptr || name != kind->also->key) map(value[name], *kind, path + "." + name + ".");
+
+        // By another name, which may be right.
         for (const string wrong : {"7up", "a b", "a.b", "-a", "", "ambient", "really_right-2", "red"}) {
           if (kept.contains(wrong)) continue;
           value.erase(name);
@@ -100,11 +102,11 @@ class Varying {
           note(path + ": " + name + " is called '" + wrong + "'");
           value = kept;
         }
+
         value[name] = nullptr;
         note(path + "." + name + " is null");
         value = kept;
       }
-
     } else if (field.type == Type::list) {
       for (size_t i = 0; i < kept.size(); ++i)
         if (value[i].is_object()) map(value[i], *kind, fmt::format("{}.{}.", path, i));
