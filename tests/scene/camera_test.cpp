@@ -17,11 +17,10 @@ CameraPlan plan_of(const string& camera) {
   return *load_text(bodies + "camera: " + camera + "\n").camera;
 }
 
-/// The first error's message.
+/// The first error's message; empty: there is none.
 string error_of(const string& camera) {
-  const string all = errors_of(bodies + "camera: " + camera + "\n");
-  const size_t from = all.find("error: ");
-  return from == string::npos ? all : all.substr(from + 7, all.find('\n', from) - from - 7);
+  const Marked errors = marked_errors(bodies + "camera: " + camera + "\n");
+  return errors.empty() ? "" : errors[0].second;
 }
 
 TEST(CameraPlan, FitOfTheMotionTakesAngleAndUp) {

@@ -122,10 +122,10 @@ TEST(SceneErrors, SecondDocumentIsAnError) {
 }
 
 string duration_error(const string& value) {
-  const string all = errors_of(string("scene: 1\nsimulate: {duration: ").append(value).append("}\n"));
-  const size_t message = all.find("error: ") + 7;
-  const size_t remedy = all.find("= ") + 2;
-  return all.substr(message, all.find('\n') - message) + " / " + all.substr(remedy, all.size() - remedy - 1);
+  const Parts errors = in_parts(errors_of("scene: 1\nsimulate: {duration: " + value + "}\n"));
+  EXPECT_EQ(errors.size(), 1u) << value;
+  const auto& [marked, message, remedy] = errors.at(0);
+  return message + " / " + remedy;
 }
 
 TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {

@@ -27,9 +27,9 @@ string first_error(const string& written) {
 }
 
 string remedy(const string& written) {
-  const string all = errors_of(with(written));
-  const size_t at = all.find("     = ");
-  return at == string::npos ? "" : all.substr(at + 7, all.size() - at - 8);
+  const Parts errors = in_parts(errors_of(with(written)));
+  EXPECT_EQ(errors.size(), 1u) << written;
+  return std::get<2>(errors.at(0));
 }
 
 TEST(Strings, TieBodiesAndPoints) {
