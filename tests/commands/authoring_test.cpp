@@ -27,7 +27,6 @@ TEST(New, WritesASceneThatRunsAsItIsAndTheSchemaBesideIt) {
 
   const Finished check = here.carom({"check", "first.yaml", "--json"});
   EXPECT_EQ(check.code, 0) << check.err;
-
   const Json scene = Json::parse(check.out)["scenes"][0];
   EXPECT_EQ(scene["camera"]["out_of_view"], 0);
   EXPECT_GT(scene["pictures"], 0);
@@ -139,6 +138,7 @@ TEST(New, RefusesWhatIsNoName) {
   EXPECT_EQ(here.carom({"new"}).code, 2);
   EXPECT_EQ(here.carom({"new", "a", "b"}).code, 2);
 
+  // A file stands where the folder would.
   here.write("file", "");
   const Finished under = here.carom({"new", "file/first"});
   EXPECT_EQ(under.code, 1);
@@ -158,6 +158,8 @@ TEST(Explain, PrintsAllOfAKeyByItsPath) {
             "  needed      one of mass and density, here or in `defaults`\n"
             "  excludes    density\n"
             "  stands at   balls.NAME.mass\n");
+
+  // The same by other paths to it.
   EXPECT_EQ(here.carom({"explain", "balls.mass"}).out, checked.out);
   EXPECT_EQ(here.carom({"explain", "balls.NAME.mass"}).out, checked.out);
 }

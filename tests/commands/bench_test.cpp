@@ -64,15 +64,16 @@ TEST(BenchCommand, WritesATableAPlotAndAManifest) {
 
   const auto files = here.files("output/balls.bench");
   ASSERT_EQ(files.size(), 5u);
-
   const auto table = table_of(files.at("bench.csv"));
   ASSERT_EQ(table.size(), 1u + 1 + 3 * 2 + 2);
 
+  // The columns that other programs rely on.
   const string contract =
       "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
       "collisions_missed,collisions_invented,result_hash,";
   EXPECT_TRUE(files.at("bench.csv").starts_with(contract));
 
+  // A row for each engine, integrator and step.
   vector<string> ways;
   for (size_t k = 1; k < table.size(); ++k) ways.push_back(table[k][0] + " " + table[k][1] + " " + table[k][2]);
   EXPECT_EQ(ways,

@@ -241,8 +241,8 @@ TEST(Check, NamesSizesAndMassesThatMakeARunSlow) {
       "  joint: {mass: 1e-12, radius: 0.01, position: [0.5, 0, 0]}\n"
       "strings:\n  s: {from: [0, 0, 0], to: joint}\n  t: {from: joint, to: bob}\nsimulate: {duration: 1e-6}\n";
   here.write("chain.yaml", scene);
-  const Finished check = here.carom({"check", "chain.yaml"});
 
+  const Finished check = here.carom({"check", "chain.yaml"});
   EXPECT_NE(check.out.find("  slow        the radius of bob is 2e-09 of the length of its string"), string::npos)
       << check.out;
   EXPECT_NE(check.out.find("the mass of joint is 1e-12 of the heaviest"), string::npos) << check.out;
@@ -294,7 +294,6 @@ TEST(Check, FirstCollisionIsTheOneThatTheRunWrites) {
                        check.at("first_collision").at("a").get<string>() + "," +
                        check.at("first_collision").at("b").get<string>() + ",";
   const size_t row = table.find('\n') + 1;
-
   EXPECT_NE(table.substr(row, table.find('\n', row) - row).find(names), string::npos) << names;
 }
 

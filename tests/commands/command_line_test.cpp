@@ -99,9 +99,9 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
             "xyz, gltf, "
             "flights, plots, not ``" +
                 end);
+
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),
             "carom run: --color takes auto, always, never, not `sometimes`" + end);
-
   EXPECT_EQ(complaint({"run", "a.yaml", "--progress", "bars"}),
             "carom run: --progress takes auto, bar, lines, none, not `bars`; did you mean `bar`?" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--force=yes"}), "carom run: --force takes no value" + end);

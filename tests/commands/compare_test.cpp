@@ -102,9 +102,11 @@ TEST(CompareCommand, IsUpToDateUntilARunOrTheRequestChanges) {
   EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "--force"}).code, 0);
   EXPECT_EQ(here.files("output"), before) << "the same bytes";
 
+  // Another request.
   ASSERT_EQ(here.carom({"compare", "runs/a", "runs/b", "--measures", "collisions"}).code, 0);
   EXPECT_NE(here.files("output"), before);
 
+  // A file that is missing.
   ASSERT_EQ(here.carom(words).code, 0);
   here.shell("rm output/comparison/summary.csv");
   EXPECT_NE(here.carom(words).out.find("wrote"), string::npos);
@@ -234,8 +236,8 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
                 .code,
             0);
   const vector<string> words = {"compare", "runs/first", "runs/longer", "runs/other", "--video"};
-  const Finished run = here.carom(words);
 
+  const Finished run = here.carom(words);
   ASSERT_EQ(run.code, 0) << run.err;
   const Finished probe = here.shell(
       "ffprobe -v error -count_packets -show_entries stream=width,height,r_frame_rate,nb_read_packets -of csv=p=0 "
@@ -244,10 +246,12 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
       << "1.5 s and the frame of 0, twice as often; three tiles of 64 x 48 in a square, two lines of 8 "
          "pixels and their margins above each";
 
+  // The same bytes again.
   const string film = here.read("output/comparison/comparison.mp4");
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer", "runs/other", "--video", "--force"}).code, 0);
   EXPECT_EQ(here.read("output/comparison/comparison.mp4"), film);
 
+  // A comparison without a film removes it.
   ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer"}).code, 0);
   EXPECT_FALSE(here.has("output/comparison/comparison.mp4"));
 }
@@ -323,8 +327,8 @@ TEST(CompareCommand, FilmMixesGifsAndNamesTheRemedyForOthers) {
   make("runs/gif", "output.video.file=film.gif");
   make("runs/webp", "output.video.file=film.webp");
   make("runs/slow", "output.video.speed=0.5");
-  const Finished run = here.carom({"compare", "runs/first", "runs/gif", "--video"});
 
+  const Finished run = here.carom({"compare", "runs/first", "runs/gif", "--video"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(here.shell("ffprobe -v error -count_packets -show_entries stream=width,nb_read_packets -of csv=p=0 "
                        "output/comparison/comparison.mp4")
@@ -371,9 +375,9 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
   const Workplace here;
   make_runs(here);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/aside", "--set", "balls.red.position.x=-1.5"}).code, 0);
+
   const Finished outcome = here.carom({"diff", "runs/a", "runs/b"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-
   EXPECT_EQ(outcome.out,
             "a and b\n"
             "  scenes      1 value differs\n"
@@ -389,7 +393,6 @@ TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
                        "--set balls.blue.mass=20")
                 .code,
             0);
-
   const Finished heavy = here.carom({"diff", "runs/a", "runs/heavy"});
   EXPECT_NE(heavy.out.find("differs: impulse_N_s"), string::npos) << heavy.out;
   EXPECT_EQ(heavy.out.find("they leave at"), string::npos) << heavy.out;
@@ -420,7 +423,6 @@ TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
   string row = here.read("run/summary.csv");
   row.erase(0, row.find('\n') + 1);
   for (int k = 0; k < 6; ++k) row.erase(0, row.find(',') + 1);
-
   const string count = row.substr(0, row.find(','));
   ASSERT_NE(here.read("run/collisions.csv").find(",rest,"), string::npos);
   const Json same = Json::parse(here.carom({"diff", "run", "same", "--json"}).out);

@@ -58,8 +58,8 @@ TEST(EditedScene, LeavesTouchedAndForeignFilesAlone) {
     here.shell(change);
     here.write("balls.yaml", balls_with_frames(4));
     const auto before = here.files("output");
-    const Finished run = here.carom({"run", "balls.yaml", "-q"});
 
+    const Finished run = here.carom({"run", "balls.yaml", "-q"});
     EXPECT_EQ(run.code, 2);
     EXPECT_EQ(run.err, "balls.yaml: the folder output/balls holds " + why +
                            "\n  write elsewhere with -o, or overwrite it with --force\n"
@@ -85,8 +85,8 @@ TEST(UneditedScene, LeavesTouchedFilesAlone) {
     here.carom(first);
     here.shell(change);
     const auto before = here.files("output");
-    const Finished run = here.carom({"run", "balls.yaml", "-q"});
 
+    const Finished run = here.carom({"run", "balls.yaml", "-q"});
     EXPECT_EQ(run.code, 2) << change;
     EXPECT_EQ(run.err, "balls.yaml: the folder output/balls holds " + why +
                            "\n  write elsewhere with -o, or overwrite it with --force\n"
@@ -171,6 +171,7 @@ TEST(UneditedSweep, LeavesTouchedFilesAlone) {
     EXPECT_TRUE(here.has(file));
   }
 
+  // Gathering leaves it alone, too.
   here.shell("echo mine >> sweep/summary.csv");
   const Finished gathered = here.carom({"gather", "sweep", "-q"});
   EXPECT_EQ(gathered.code, 2);
@@ -187,8 +188,8 @@ TEST(UneditedSweep, IsLeftAloneInACopyToo) {
   here.shell("mkdir copy; cp sweep/*.* copy; cp -r sweep/runs copy; echo mine >> copy/runs/r0002/energy.csv");
   const auto before = here.files("copy");
   const string held = "copy/runs/r0002 holds a run of this scene with a changed file, energy.csv";
-  const Finished again = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "copy", "-q"});
 
+  const Finished again = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "copy", "-q"});
   EXPECT_EQ(again.code, 2);
   EXPECT_NE(again.err.find(held), string::npos) << again.err;
 
@@ -218,8 +219,8 @@ TEST(UneditedComparison, LeavesTouchedFilesAlone) {
   ASSERT_EQ(here.carom(words).code, 0);
   const string table = here.read("both/summary.csv");
   here.shell("echo mine >> both/summary.csv");
-  const Finished again = here.carom(words);
 
+  const Finished again = here.carom(words);
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
             "carom: the folder both holds a comparison with a changed file, summary.csv\n"
@@ -257,7 +258,6 @@ TEST(Watch, RunsAtEachSaveHoweverItIsDone) {
       "await err waiting\n"
       "sed 's/duration: 1/duration: 0.25/' a.yaml > .tmp; mv .tmp a.yaml; await output/a/summary.csv exact,done,0.25,\n"
       "sed 's/duration: 0.25/duration: 0.5/' a.yaml > .tmp; cat .tmp > a.yaml; await output/a/summary.csv done,0.5,");
-
   EXPECT_EQ(run.code, 143) << run.err;
   EXPECT_NE(run.err.find("carom: waiting for changes of a.yaml and b.yaml; Ctrl-C ends\n"), string::npos);
   EXPECT_TRUE(run.err.ends_with("carom: interrupted\n")) << run.err;
@@ -315,10 +315,10 @@ TEST(Watch, OfARunThatIsDoneShowsATextureThatGoesMissing) {
              "scene: 1\nbodies: {pin: {mass: 1, mesh: pin.obj, fit: sphere, position: [0, 0, 0]}}\n"
              "simulate: {duration: 0.1}\noutput: {frames: {fps: 10, size: [32, 18]}}\n");
   here.write("b.yaml", two_balls());
+
   const Finished run = watched(here,
                                "await err waiting; cp -r output/a before\n"
                                "echo 'newmtl a\nmap_Kd none.png' > new; mv new pin.mtl; await err '1 error; not run'");
-
   EXPECT_EQ(run.code, 143) << run.err << run.out;
   EXPECT_NE(run.err.find("a.yaml:2:31: error: cannot read the mesh pin.obj: its texture none.png is not there\n"),
             string::npos)

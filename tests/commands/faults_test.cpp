@@ -74,15 +74,15 @@ TEST(HangingMesh, IsLeftAtTheFirstSignal) {
     mesh += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
     face += " " + std::to_string(k + 1);
   }
-
   here.write("star.obj", mesh + face + "\n");
+
   here.write("star.yaml",
              "scene: 1\nbodies: {a: {mass: 1, mesh: star.obj, fit: sphere, position: [0, 0, 0]}}\n"
              "simulate: {duration: 1}\n");
+
   const auto start = std::chrono::steady_clock::now();
   const Finished check = here.shell("timeout --foreground --preserve-status -s INT 1 \"$CAROM\" check star.yaml");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
   EXPECT_EQ(check.code, 130) << check.out << check.err;
   EXPECT_EQ(check.err, "carom: interrupted\n");
   EXPECT_LT(seconds, 5);
@@ -106,6 +106,7 @@ TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
     EXPECT_FALSE(here.has("out"));
   }
 
+  // Without the limit.
   EXPECT_EQ(here.carom({"compare", "a", "b", "-o", "out"}).code, 0);
 }
 
@@ -175,8 +176,8 @@ TEST(FullDisk, CountsTheRunsOfASweepThatAreMadeAndNotRun) {
               "[ -e \"$LOG\" ] || { echo > \"$LOG\"; PATH=${PATH#*:}; exec ffmpeg \"$@\"; }\n" + string(full_disk));
   setenv("LOG", here.path("log").c_str(), 1);
   const OwnPrograms programs(here);
-  const Finished run = here.carom({"sweep", "sweep.yaml", "-o", "out", "-j", "1", "--json", "--progress", "none"});
 
+  const Finished run = here.carom({"sweep", "sweep.yaml", "-o", "out", "-j", "1", "--json", "--progress", "none"});
   EXPECT_TRUE(run.err.starts_with("carom: cannot make the film out/runs/r0004/animation.mp4: ")) << run.err;
   EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy +
                                 "carom: sweep.yaml: 1 run made, 2 not run\n"))
@@ -195,9 +196,9 @@ TEST(FullDisk, EndsARunOfSeveralScenesWithOneError) {
     put_program(here, "ffmpeg", full_disk);
     setenv("LOG", here.path("log").c_str(), 1);
     const OwnPrograms programs(here);
+
     const Finished run =
         here.carom({"run", "a.yaml", "b.yaml", "c.yaml", "d.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
-
     EXPECT_EQ(run.code, 1);
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy)) << run.err;
     EXPECT_EQ(std::ranges::count(run.err, '\n'), 2) << run.err;

@@ -63,7 +63,6 @@ TEST(Interop, OnlyAddsThemWithDefaultSettings) {
   const auto files = here.files("output/balls");
   for (const char* name : {"animation.glb", "surfaces.vtp", "trajectory.pvd", "trajectory.xyz", "vtk/bodies_00000.vtp"})
     EXPECT_TRUE(files.contains(name)) << name;
-
   EXPECT_FALSE(files.contains("trajectory.csv"));
   const auto manifest = nlohmann::json::parse(here.read("output/balls/manifest.json"));
   EXPECT_EQ(manifest["outputs"]["gltf"]["fps"], 30);
@@ -71,7 +70,6 @@ TEST(Interop, OnlyAddsThemWithDefaultSettings) {
   // The run is up to date; a run without these files would remove them, so it needs --force.
   EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "vtk,xyz,gltf"}).out.find("up to date"), string::npos);
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).code, 2);
-
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--only", "energy", "--force", "-q"}).code, 0);
   EXPECT_EQ(here.files("output/balls").size(), 4U);
   EXPECT_FALSE(here.has("output/balls/vtk"));

@@ -68,7 +68,6 @@ TEST(JsonErrors, OfFoldersAndOptionsHaveTheSameMembers) {
     for (const char* member : {"file", "line", "column", "message", "remedy", "near"})
       EXPECT_TRUE(error.contains(member)) << command;
   }
-
   EXPECT_EQ(error_of(here, {"new", "a"}).at("file"), nullptr);
 }
 

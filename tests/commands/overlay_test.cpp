@@ -31,8 +31,8 @@ TEST(Overlay, RenderedFromFlightsHasTheBytesOfTheRun) {
   Words render = {"render", "a/run", "-o", "b/run"}, run = {"run", "balls.yaml", "-o", "c/run"};
   render.insert(render.end(), shown.begin(), shown.end());
   run.insert(run.end(), shown.begin(), shown.end());
-  const Finished rendered = here.carom(render);
 
+  const Finished rendered = here.carom(render);
   EXPECT_EQ(rendered.code, 0);
   EXPECT_EQ(rendered.err, "");
 
@@ -65,8 +65,8 @@ TEST(Overlay, ThatShowsCollisionsIsInTheRecordOfItsRun) {
     const vector<string> render = {"render", "a/run", "--set",   "camera={eye: [1, 1, 4], target: [1, 0, 0]}",
                                    "-o",     "b/run", "--force", "--progress",
                                    "none"};
-    const Finished rendered = here.carom(render);
 
+    const Finished rendered = here.carom(render);
     EXPECT_EQ(rendered.code, 0);
     EXPECT_EQ(rendered.err, "");
 

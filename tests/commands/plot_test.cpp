@@ -77,7 +77,6 @@ TEST(PlotRuns, KeepsTheOtherFilesAndLeavesTheRunUpToDate) {
   ASSERT_EQ(here.carom({"plot", "run"}).code, 0);
   const Files after = here.files("run");
   for (const auto& [name, bytes] : before) EXPECT_TRUE(name == "manifest.json" || after.at(name) == bytes) << name;
-
   EXPECT_EQ(after.size(), before.size() + 8);
   EXPECT_NE(here.carom({"run", "balls.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), string::npos);
@@ -94,18 +93,20 @@ TEST(PlotRuns, DrawsAgainWhatIsMissingOrForced) {
   here.carom({"run", "balls.yaml", "--set", "output.plots=true", "-o", "run"});
   const Files whole = here.files("run");
   here.write("run/plots/energy.svg", "something else");
-  const Finished refused = here.carom({"plot", "run"});
 
+  const Finished refused = here.carom({"plot", "run"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("holds a run of this scene with a changed file, plots/energy.svg"), string::npos)
       << refused.err;
 
+  // What is missing is drawn, and by force all.
   here.shell("rm run/plots/energy.svg");
   EXPECT_NE(here.carom({"plot", "run"}).out.find("wrote"), string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
   EXPECT_NE(here.carom({"plot", "run", "--force"}).out.find("wrote"), string::npos);
   EXPECT_EQ(without_manifest(here.files("run")), without_manifest(whole));
 
+  // Nothing is drawn from a table that has changed.
   here.write("run/energy.csv", "time_s\n");
   const Finished changed = here.carom({"plot", "run", "--force"});
   EXPECT_EQ(changed.code, 2);

@@ -68,10 +68,10 @@ int Workplace::start(const vector<string>& words) const {
   const bool placed = chdir(folder_.c_str()) == 0 && dup2(open("/dev/null", O_RDONLY), 0) == 0 &&
                       dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), 1) == 1 &&
                       dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), 2) == 2;
+
   vector<char*> argv;
   vector<string> copy = words;
   for (string& word : copy) argv.push_back(word.data());
-
   argv.push_back(nullptr);
   if (placed) execv(argv[0], argv.data());
   _exit(127);

@@ -44,6 +44,7 @@ TEST_P(Rendered, WithAnotherRateIsWhatARunWithThatRateWrites) {
   ASSERT_EQ(render.code, 0) << render.err;
   EXPECT_EQ(render.err, "");
 
+  // A run of the same scene has the same files.
   const Words run = {"run", "run/scene.yaml", "--set", "output.frames.fps=7", "--only", "frames,flights", "-o"};
   Words to = run;
   to.push_back("fresh");
@@ -78,8 +79,8 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
                      "--set", "title=From above", "--set", "balls.red.color=gold"};
   Words render = {"render", "run"};
   render.insert(render.end(), set.begin(), set.end());
-  const Finished done = here.carom(render);
 
+  const Finished done = here.carom(render);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("run: From above\n"), string::npos);
   EXPECT_NE(done.out.find("  wrote       run: animation.glb, manifest.json, scene.yaml, summary.csv, surfaces.vtp,\n"
@@ -87,6 +88,7 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
             string::npos)
       << done.out << "not collisions.csv, energy.csv and flights.bin, which stay";
 
+  // A run with these settings has the same.
   Words fresh = {"run", "balls.yaml", "-o", "fresh"};
   fresh.insert(fresh.end(), set.begin(), set.end());
   here.carom(fresh);
@@ -229,6 +231,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is not a folder");
   EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
 
+  // Flights that are cut or damaged.
   const string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
   const string changed = "run: flights.bin is missing or has changed";
   here.write("run/flights.bin", flights.substr(0, flights.size() - 1));
@@ -239,6 +242,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   here.write("run/flights.bin", damaged);
   EXPECT_EQ(refusal("run"), changed);
 
+  // A manifest that is cut, and another scene.
   here.write("run/flights.bin", flights);
   here.write("run/manifest.json", manifest.substr(0, 99));
   EXPECT_EQ(refusal("run"), "run: its manifest.json is damaged, or not written by carom");
@@ -338,10 +342,10 @@ TEST(Still, TakesCameraSizeAndFolder) {
   here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const Files before = here.files("run");
+
   const Words still = {
       "render", "run",      "--at", "0.3", "--set", "camera={follow: red}", "--set", "output.frames.size=[40, 20]",
       "-o",     "a/new one"};
-
   EXPECT_EQ(here.carom(still).out, "a/new one/still_0.3s.png\n");
   EXPECT_EQ(here.files("run"), before);
   EXPECT_EQ(pixels_of(here.read("a/new one/still_0.3s.png")).size(), 3u * 40 * 20);
@@ -412,6 +416,7 @@ TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
     EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), string::npos);
   }
 
+  // The next command clears up.
   EXPECT_EQ(here.carom({"render", "run", "--set", "output.frames.fps=3"}).code, 0);
   EXPECT_FALSE(here.has("run/.frames.part"));
 }
@@ -446,7 +451,6 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
 
       const size_t body = number.emplace(cells[1], number.size()).first->second;
       ASSERT_LE(6 * body + 6, message.size()) << scene << ", " << line;
-
       for (size_t k = 0; k < 6; ++k) EXPECT_EQ(message[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
     }
   }

@@ -23,7 +23,6 @@ TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
 
   const size_t residual = run.out.find(", residual "), next = run.out.find("\n  overlap");  // rounding, not quoted
   ASSERT_LT(residual, next) << run.out;
-
   const string until_time = run.out.substr(0, residual) + run.out.substr(next, run.out.find("  time ") - next);
   // They touch when their centres are 0.22 m apart: after 1.78 m at 4 m/s. Of 40 J, 1 - 0.9^2 is lost.
   EXPECT_EQ(until_time,
@@ -76,8 +75,8 @@ TEST(Run, FolderOfAnotherRunIsRefusedWithoutForce) {
   here.write("balls.yaml", two_balls());
   here.carom({"run", "balls.yaml"});
   const auto before = here.files("output");
-  const Finished other = here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11"});
 
+  const Finished other = here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11"});
   EXPECT_EQ(other.code, 2);
   EXPECT_EQ(other.out, "");
   EXPECT_EQ(other.err,
@@ -215,6 +214,7 @@ TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
   EXPECT_EQ(frames("plain"), 21u);
   EXPECT_EQ(sizes(here, "plain/frames/*"), "64,64\n");
 
+  // From a later time.
   ASSERT_EQ(here.carom({"run", "film.yaml", "--only", "frames", "-o", "late", "--set", "output.frames.from=0.5"}).code,
             0);
   EXPECT_EQ(frames("late"), 11u);
@@ -225,6 +225,7 @@ TEST(Run, PicturesThatTheSceneLacksLookLikeTheFilmWhateverElseIsSet) {
   // Four columns and three rows of 470 pixels each, and gaps of 8.
   EXPECT_EQ(sizes(here, "sheet/sheet.png"), "1920,1442\n") << "square pictures, as those of the film";
 
+  // In the shape of the film.
   const Finished flat =
       here.carom({"run", "film.yaml", "--only", "sheet", "-o", "flat", "--set", "output.video.size=[64, 32]"});
   EXPECT_EQ(flat.code, 0);
@@ -279,6 +280,7 @@ TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
   EXPECT_EQ(one[1]["status"], "failed");
   EXPECT_EQ(one[3]["status"], "up to date");
 
+  // With the same files.
   std::map<string, string> files[2] = {here.files("1"), here.files("3")};
   for (auto& some : files) std::erase_if(some, [](const auto& file) { return file.first.ends_with("manifest.json"); });
   EXPECT_GT(files[0].size(), 110u);
@@ -312,6 +314,7 @@ TEST(Run, OfASceneWithAMeshCanBeRepeatedFromItsFolderAlone) {
   EXPECT_EQ(here.read("deep/er/first/t.stl"), tetrahedron);
   EXPECT_EQ(here.shell("mv deep/er/first moved && rm -r scenes deep && $CAROM run moved/scene.yaml -o again").err, "");
 
+  // All but the manifests is the same.
   auto first = here.files("moved"), again = here.files("again");
   first.erase("manifest.json");
   again.erase("manifest.json");
@@ -326,8 +329,8 @@ TEST(Run, ScenesWithATornMeshAreWrong) {
              "scene: 1\n"
              "bodies: {t: {mass: 1, mesh: t.stl, fit: box, position: [0, 2, 0]}}\n"
              "simulate: {duration: 0.1}\n");
-  const Finished run = here.carom({"run", "fall.yaml"});
 
+  const Finished run = here.carom({"run", "fall.yaml"});
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(
       run.err,
@@ -434,8 +437,8 @@ TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   here.write("a.yaml", two_balls());
   here.write("b.yaml", two_balls());
   here.carom({"run", "b.yaml"});
-  const Finished run = here.carom({"run", "a.yaml", "b.yaml", "--json"});
 
+  const Finished run = here.carom({"run", "a.yaml", "b.yaml", "--json"});
   EXPECT_EQ(run.code, 0);
   const Json document = Json::parse(run.out);
   EXPECT_EQ(document.at("carom"), CAROM_VERSION);
@@ -456,7 +459,6 @@ TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   string columns = "run";
   const auto ordered = nlohmann::ordered_json::parse(run.out).at("scenes").at(0).at("summary");
   for (const auto& item : ordered.items()) columns += "," + item.key();
-
   EXPECT_EQ(columns, summary.substr(0, summary.find('\n')));
   EXPECT_EQ(document.at("scenes").at(1).at("status"), "up to date");
   EXPECT_FALSE(document.at("scenes").at(1).contains("summary"));

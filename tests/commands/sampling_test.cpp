@@ -44,16 +44,16 @@ TEST(SampledSweep, OfTheCommandLineIsThatOfAFile) {
   here.write("balls.yaml", two_balls());
   here.write("latin.yaml", latin);
   here.carom({"sweep", "latin.yaml", "-o", "file", "-q"});
+
   const Finished words = here.carom({"sweep", "balls.yaml", "--latin", "9", "--grid", "balls.red.mass=1:50:log",
                                      "--grid", "balls.red.position.z=-0.05:0.05", "--only", "energy", "--seed", "3",
                                      "--measures", "balls.blue.x_m", "-q"});
-
   EXPECT_EQ(words.code, 0) << words.err;
   for (const string run : {"r0001", "r0009"})
     EXPECT_EQ(here.read("output/balls.sweep/runs/" + run + "/energy.csv"),
               here.read("file/runs/" + run + "/energy.csv"));
-  const string rows = here.read("output/balls.sweep/summary.csv");
 
+  const string rows = here.read("output/balls.sweep/summary.csv");
   EXPECT_TRUE(rows.substr(0, rows.find('\n')).ends_with("balls.red.mass,balls.red.position.z,balls.blue.x_m")) << rows;
 }
 
@@ -111,10 +111,12 @@ TEST(SkipInvalid, LeavesOutInvalidScenariosAndKeepsTheIdsOfTheOthers) {
   EXPECT_EQ(std::ranges::count(rows, '\n'), 3);
   EXPECT_NE(rows.find("\nr0004,"), string::npos);
 
+  // They are named again, and nothing is run.
   const Finished again = here.carom({"sweep", "masses.yaml", "--skip-invalid"});
   EXPECT_NE(again.out.find("up to date  2 runs"), string::npos) << again.out;
   EXPECT_NE(again.out.find("r0003: `mass` is -1"), string::npos) << again.out;
 
+  // The rest can be compared.
   const Finished compare = here.carom({"compare", "output/masses", "-q"});
   EXPECT_EQ(compare.code, 0) << compare.err;
 }

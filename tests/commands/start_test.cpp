@@ -141,8 +141,8 @@ TEST(Start, OfAFreeBallIsTheClosedFormAtAnyTime) {
   here.write("second.yaml", ball + "start: {run: first, at: 0.123456789}\n");
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   expect_run(here, {"run", "second.yaml", "-o", "second"});
-  const vector<Row> rows = rows_in(here.read("second/trajectory.csv"));
 
+  const vector<Row> rows = rows_in(here.read("second/trajectory.csv"));
   ASSERT_EQ(rows.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
     const double t = 0.123456789 + static_cast<double>(i);
@@ -161,12 +161,13 @@ TEST(Start, WithoutFlightsHasTheNumbersOfTheTable) {
     here.write("second.yaml", many_balls(output + "start: {run: first, at: 0.7}\n"));
     expect_run(here, {"run", "first.yaml", "-o", "first"});
     expect_run(here, {"run", "second.yaml", "-o", "second"});
+
+    // The rows of the first instant.
     vector<Row> then = later(rows_in(here.read("first/trajectory.csv")), 0.7),
                 now = rows_in(here.read("second/trajectory.csv"));
     const size_t rows = layout == string("long") ? 10 : 1;
     then.resize(rows);
     now.resize(rows);
-
     EXPECT_EQ(greatest_difference(then, now), 0) << layout;
   }
 }
@@ -193,10 +194,10 @@ TEST(Start, LeavesASceneThatRunsAlone) {
   EXPECT_EQ(here.read("second/scene.yaml").find("start:"), string::npos);
   std::map<string, string> second = without_manifest(here.files("second")),
                            third = without_manifest(here.files("third"));
+
   // These name the run by its folder.
   second.erase("summary.csv");
   third.erase("summary.csv");
-
   EXPECT_EQ(second, third);
 }
 
@@ -209,15 +210,16 @@ TEST(Start, IsInTheManifestAndAChangedRunIsNoticed) {
   expect_run(here, again);
 
   EXPECT_NE(here.carom(again).out.find("up to date"), string::npos);
+
   const auto first = nlohmann::json::parse(here.read("first/manifest.json")),
              second = nlohmann::json::parse(here.read("second/manifest.json"));
   string flights;
   for (const auto& file : first["files"])
     if (file["name"] == "flights.bin") flights = file["sha256"];
-
   EXPECT_EQ(second["scene"]["start"],
             (nlohmann::json{{"run", "first"}, {"at", 0.37}, {"file", "flights.bin"}, {"sha256", flights}}));
 
+  // Another first run makes another second one.
   expect_run(here, {"run", "first.yaml", "-o", "first", "--set", "balls.blue.velocity.x=-1", "--force"});
   const Finished renewed = here.carom(again);
   EXPECT_EQ(renewed.code, 0) << renewed.err;
@@ -235,18 +237,20 @@ TEST(Start, OfAnySweptTimeHasItsState) {
   const Words sweep = {"sweep", "second.yaml", "--grid", "start.at=0,0.125,0.25", "--set", "simulate.duration=0.125",
                        "-o",    "sweep"};
   expect_run(here, sweep);
+
   // Red moves at 2 m/s from -1 m, and meets blue at 0.445 s.
   const vector<Row> rows = rows_in(here.read("sweep/summary.csv"));
-
   ASSERT_EQ(rows.size(), 3u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(rows[i].numbers.back(), -1 + 2 * 0.125 * static_cast<double>(i + 1)) << i;
   EXPECT_NE(here.carom(sweep).out.find("made        0 runs"), string::npos);
 
+  // Not by a run in its own folder.
   const Finished within =
       here.carom({"sweep", "second.yaml", "--grid", "start.run=sweep/runs/r0001", "-o", "sweep", "--force"});
   EXPECT_EQ(within.code, 2);
   EXPECT_NE(within.err.find("the run `sweep/runs/r0001` lies in the folder of this sweep"), string::npos) << within.err;
 
+  // After another former run the folder holds another sweep.
   expect_run(here, {"run", "first.yaml", "-o", "first", "--set", "balls.red.position.x=-1.5", "--force"});
   EXPECT_NE(here.carom(sweep).err.find("holds something other"), string::npos);
 }
@@ -257,8 +261,8 @@ TEST(Start, ChecksWithoutWriting) {
   here.write("second.yaml", many_balls("start: {run: first, at: 0.5}\n"));
   expect_run(here, {"run", "first.yaml", "-o", "first"});
   const auto before = here.files();
-  const Finished check = here.carom({"check", "second.yaml"});
 
+  const Finished check = here.carom({"check", "second.yaml"});
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_NE(check.out.find("  start       the run first at 0.5 s, by its flights.bin\n"
                            "  note        start: the impulse of `red` is not applied again: the velocities of the run "
@@ -328,8 +332,8 @@ TEST(Start, AppliesImpulsesOnce) {
     expect_run(here, {"run", "first.yaml", "-o", "first"});
     expect_run(here, {"run", "second.yaml", "-o", "second"});
     for (const Row& row : rows_in(here.read("second/trajectory.csv"))) EXPECT_NEAR(row.numbers[4], 4, 1e-15) << engine;
-    const Finished again = here.carom({"run", "again.yaml", "-o", "again"});
 
+    const Finished again = here.carom({"run", "again.yaml", "-o", "again"});
     if (engine == string("book")) {
       EXPECT_NE(again.err.find("the book's engine had not yet applied the impulses then"), string::npos);
       continue;
@@ -362,8 +366,8 @@ TEST(Start, RefusesBodiesThatHaveMergedAndKeepsMassesOfTheScene) {
     here.write("first.yaml", lumps + blue_lump + "output: {flights: true, trajectory: {every: 0.25}}\n");
     here.write("both.yaml", lumps + blue_lump + "start: {run: first}\n");
     expect_run(here, {"run", "first.yaml", "-o", "first", "--only", only});
-    const Finished both = here.carom({"check", "both.yaml"});
 
+    const Finished both = here.carom({"check", "both.yaml"});
     EXPECT_EQ(both.code, 2);
     EXPECT_NE(
         both.err.find(": error: at 1 s of the run `blue` is gone: merged into another body, or removed by a region\n"),
@@ -371,6 +375,7 @@ TEST(Start, RefusesBodiesThatHaveMergedAndKeepsMassesOfTheScene) {
         << both.err;
     EXPECT_EQ(here.carom({"check", "both.yaml", "--set", "start.at=0.25"}).code, 0);
 
+    // Without what is gone the masses are those of the scene.
     here.write("red.yaml", lumps + "start: {run: first}\n");
     const Finished red = here.carom({"run", "red.yaml", "-o", "red"});
     EXPECT_EQ(red.code, 0) << red.err;

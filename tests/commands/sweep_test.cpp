@@ -194,14 +194,15 @@ TEST(Sweep, OneFailingRunStopsNoOther) {
   prepare(here,
           "sweep: 1\nbase: balls.yaml\nset: {room: {min: [-1.15, -1, -1], max: [1.15, 1, 1]}}\n"
           "grid: {simulate.max_collisions: [100, 1, 200]}\n");
-  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
 
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_EQ(sweep.code, 3);
   EXPECT_TRUE(sweep.err.starts_with("carom: r0002: the run failed: more than simulate.max_collisions = 1"))
       << sweep.err;
   EXPECT_TRUE(here.has("output/offsets/runs/r0002/error.txt"));
   EXPECT_TRUE(here.has("output/offsets/runs/r0003/trajectory.csv"));
 
+  // Its row says so.
   const vector<string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(rows[2].starts_with("r0002,,,failed,")) << rows[2];
@@ -244,8 +245,8 @@ TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
           "  - grid: {balls.red.position.z: [0.05]}\n");
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
   const string summary = here.read("output/offsets/summary.csv");
-  auto rows = rows_of(summary);
 
+  auto rows = rows_of(summary);
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0]["balls.red.mass"], "5");
   EXPECT_EQ(rows[0]["balls.red.position.z"], "0");
@@ -272,11 +273,13 @@ TEST(Sweep, RunsOfAnotherSweepAreNeverTakenForItsOwn) {
   prepare(here, masses("1, 2, 3, 4"));
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 2);
 
+  // Half of the runs.
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "1/2", "--force"}).code, 0);
   const Finished gathered = here.carom({"gather", "output/offsets", "-q"});
   EXPECT_EQ(gathered.code, 1);
   EXPECT_NE(gathered.err.find("2 of 4 runs are missing: r0002 and r0004"), string::npos) << gathered.err;
 
+  // The other half.
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "2/2"}).code, 0);
   ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
   for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
@@ -290,8 +293,8 @@ TEST(Sweep, RunThatWasReplacedIsNotUpToDateAndNotGathered) {
   ASSERT_EQ(
       here.shell("rm -r output/offsets/runs/r0001 && cp -r output/offsets/runs/r0002 output/offsets/runs/r0001").code,
       0);
-  const Finished again = here.carom({"sweep", "offsets.yaml", "-q"});
 
+  const Finished again = here.carom({"sweep", "offsets.yaml", "-q"});
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
             "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something other than this run\n"
@@ -315,9 +318,11 @@ TEST(Sweep, ForceRunsAgainAndANewMeasureRunsWhatLacksIt) {
   EXPECT_EQ(made({}), 0);
   EXPECT_EQ(made({"--force"}), 2);
 
+  // A measure that every run has.
   prepare(here, masses("1, 2", "compare: {measures: [energy_end_J]}\n"));
   EXPECT_EQ(made({}), 0);
 
+  // A measure that needs the runs again.
   prepare(here, masses("1, 2", "compare: {measures: [balls.red.vx_m_per_s]}\n"));
   EXPECT_EQ(made({}), 2);
   EXPECT_EQ(made({}), 0);
@@ -358,6 +363,7 @@ TEST(Sweep, MeshesCountByTheirBytes) {
   EXPECT_EQ(here.read("output/offsets/runs/r0002/pin.obj"), tetrahedron("2"));
   EXPECT_EQ(sweep()["made"], 0);
 
+  // The mesh of one run changes.
   here.write("b/pin.obj", tetrahedron("3"));
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 2);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
@@ -382,8 +388,8 @@ TEST(Sweep, AllErrorsOfAllScenariosAreShownOnce) {
   prepare(here,
           "sweep: 1\nbase: balls.yaml\n"
           "grid: {balls.red.mass: [1, a, -3], simulate.duration: [-1, 2], balls.blue.radius: [q, 0.1]}\n");
-  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
 
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
   EXPECT_EQ(sweep.code, 2);
   for (const char* place : {"3:28", "3:31", "3:56", "3:84"})
     EXPECT_NE(sweep.err.find(string("offsets.yaml:") + place + ": error: "), string::npos) << sweep.err;
@@ -452,8 +458,8 @@ TEST(Gather, RefusesAFolderThatHoldsSomethingElse) {
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "run"}).code, 0);
   const auto before = here.files("run");
-  const Finished gathered = here.carom({"gather", "run", "output/offsets"});
 
+  const Finished gathered = here.carom({"gather", "run", "output/offsets"});
   EXPECT_EQ(gathered.code, 2);
   EXPECT_EQ(gathered.err, "carom: the folder run holds something else; nothing was gathered\n");
   EXPECT_EQ(here.files("run"), before);
@@ -506,6 +512,7 @@ TEST(Sweep, EqualScenariosAreCopiesAndCamerasShareASimulation) {
   const Json two = Json::parse(here.read("output/offsets/runs/r0002/manifest.json"));
   EXPECT_EQ(one["wall_times_s"]["simulate"], two["wall_times_s"]["simulate"]);  // one and the same
 
+  // A run by itself has the same pictures.
   here.carom({"run", "balls.yaml", "--set", "camera.fov=60", "-o", "alone", "-q"});
   EXPECT_EQ(here.read("alone/frames/frame_00003.png"), here.read("output/offsets/runs/r0002/frames/frame_00003.png"));
 }
@@ -552,8 +559,8 @@ output: {energy: {every: 0.1}}
     const size_t last = line.rfind(','), before = line.rfind(',', last - 1);
     ends += line.substr(before) + "\n";
   }
-
   EXPECT_EQ(ends, ",1,0.2\n,1,0.125\n,2,0.2\n,2,0.25\n,3,0.2\n,3,0.375\n");
+
   EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.q=1,2"}).err.find("`let` has no `q`"),
             string::npos);
   EXPECT_NE(here.carom({"sweep", "row.yaml", "-o", "q", "--grid", "let.r=1,= q"}).err.find("no number is named `q`"),

@@ -118,9 +118,9 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
   here.write("short.yaml", two_balls());
   here.write("long.yaml", long_scene());
   here.write("never.yaml", two_balls());
+
   const Finished run = here.interrupted({"run", "short.yaml", "long.yaml", "never.yaml", "--json"},
                                         "output/long/frames/frame_00002.png", GetParam());
-
   EXPECT_EQ(run.code, 128 + GetParam());
   EXPECT_EQ(run.err.substr(run.err.find("carom:")),
             "carom: long.yaml: interrupted; the same command runs what is missing\n");
@@ -132,6 +132,7 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
   EXPECT_TRUE(here.has("output/short/manifest.json"));
   EXPECT_FALSE(here.has("output/long/manifest.json") || here.has("output/never"));
 
+  // No part of a file is left.
   for (const auto& [name, bytes] : here.files("output")) {
     EXPECT_EQ(name.find(".part"), string::npos) << name;
     EXPECT_FALSE(name.ends_with(".csv") && name.starts_with("long/")) << name;
@@ -145,10 +146,10 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
 TEST_P(Interrupt, EndsAllScenesThatRunAtOnce) {
   const Workplace here;
   for (const char* name : {"a.yaml", "b.yaml", "never.yaml"}) here.write(name, long_scene());
+
   const Finished run =
       here.interrupted({"run", "a.yaml", "b.yaml", "never.yaml", "-j", "2", "--json", "--progress", "none"},
                        "output/b/frames/frame_00002.png", GetParam());
-
   EXPECT_EQ(run.code, 128 + GetParam());
   EXPECT_EQ(run.err,
             "carom: a.yaml: interrupted; the same command runs what is missing\n"
@@ -177,41 +178,43 @@ TEST(Terminal, IgnoredSignalStaysIgnored) {
 }
 
 /// Characters that are invisible or reverse the following text: each is escaped on a terminal.
+const string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
+const string turned_shown = R"(a\u202eb\u2066\u00ad\u200b\udb40\udc41)";
+
+/// Commands that report a title, a key, or a word of their own with such characters.
+const vector<vector<string>> commands_with_turned_text = {
+    {"check", "a.yaml"},
+    {"run", "a.yaml"},
+    {"run", "a.yaml", "--json"},
+    {"check", "a.yaml", "--json"},
+    {"run", "a.yaml", "--set", turned + "=1"},
+    {"run", turned + ".yaml"},
+    {"run", turned},
+    {turned},
+    {"run", "--" + turned},
+    {"render", turned},
+    {"explain", turned},
+    {"sweep", "a.yaml", "--grid", turned + "=1:2:3"},
+    {"compare", turned},
+    {"diff", turned, turned},
+    {"gather", turned},
+    {"new", "folder/" + turned},
+    {"submit", turned + ".yaml", "--slurm"},
+};
+
 TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
   const Workplace here;
-  const string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
-  const string shown = R"(a\u202eb\u2066\u00ad\u200b\udb40\udc41)";
   here.write("a.yaml", "scene: 1\ntitle: \"" + turned + "\"\nsimulate: {duration: 1}\n");
   here.write(turned + ".yaml", "scene: 1\n" + turned + ": 1\n");
   const auto raw = [](const Finished& run) {
     return (run.out + run.err).find("\u202e") != string::npos || (run.out + run.err).find("\u200b") != string::npos;
   };
 
-  const vector<vector<string>> commands = {
-      {"check", "a.yaml"},
-      {"run", "a.yaml"},
-      {"run", "a.yaml", "--json"},
-      {"check", "a.yaml", "--json"},
-      {"run", "a.yaml", "--set", turned + "=1"},
-      {"run", turned + ".yaml"},
-      {"run", turned},
-      {turned},
-      {"run", "--" + turned},
-      {"render", turned},
-      {"explain", turned},
-      {"sweep", "a.yaml", "--grid", turned + "=1:2:3"},
-      {"compare", turned},
-      {"diff", turned, turned},
-      {"gather", turned},
-      {"new", "folder/" + turned},
-      {"submit", turned + ".yaml", "--slurm"},
-  };
-
-  for (const auto& words : commands) {
+  for (const auto& words : commands_with_turned_text) {
     const Finished run = here.carom(words);
     EXPECT_FALSE(raw(run)) << words.front() << ":\n" << run.out << run.err;
   }
-  EXPECT_NE(here.carom({"check", "a.yaml"}).out.find("a: " + shown), string::npos);
+  EXPECT_NE(here.carom({"check", "a.yaml"}).out.find("a: " + turned_shown), string::npos);
   // The document of --json keeps the meaning of the file.
   EXPECT_EQ(Json::parse(here.carom({"check", "a.yaml", "--json"}).out)["scenes"][0]["title"], turned);
 }
