@@ -51,7 +51,8 @@ class Bench {
     } catch (const SimulationError& error) {
       throw named(error);
     }
-    evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded, rounding_of(scene_),
+    evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded,
+                      rounding_of(world_, scene_.initial),
                       Finding{reference_.method, reference_.run, reference_.error});
     if (reference_.second) evidence_->add(*std::move(reference_.second));
     // Half of the time is for the qualities of crowds.
@@ -254,10 +255,6 @@ class Bench {
 };
 
 }  // namespace
-
-double rounding_of(const Scene& scene) {
-  return 0x1p-53 * extent(scene.world, scene.initial);
-}
 
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
   return Bench(scene, options, watch).go();

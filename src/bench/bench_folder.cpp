@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "bench/shifted.h"
 #include "files/csv.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
@@ -168,7 +169,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.x_label = "CPU time of the run (s)";
   plot.y_label = result.chaotic ? "deviation of statistics (1: their spread by rounding)"
                                 : "position error (m), greatest of all bodies and instants";
-  plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
+  plot.floor = result.chaotic ? least_deviation : rounding_of(scene.world, scene.initial);
   plot.levels = levels_of(result);
   // Integrators of which runs have the same bits as the exact engine's. They share its point.
   std::set<string> exact;

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "bench/bench.h"
 #include "bench/method.h"
-#include "bench/reference.h"
 #include "bench/timing.h"
 #include "numerics/whole.h"
 #include "physics/world.h"

@@ -25,7 +25,7 @@ using accuracy_tolerance::golden, accuracy_tolerance::most_instants, accuracy_to
 constexpr int shifted_runs = 3;
 constexpr int ensemble_runs = 12;
 constexpr double astray = 0.01;  // of the largest radius
-constexpr double last_digit = 0x1p-53, grown = 0x1p14;
+constexpr double grown = 0x1p14;
 
 vector<double> instants_in(double from, double to, size_t bodies) {
   const auto most = static_cast<int>(places_kept / static_cast<double>(std::max<size_t>(bodies, 1)));
@@ -130,7 +130,7 @@ class Making {
 
   /// Determines whether rounding grows until trajectories are meaningless, and until when they are comparable.
   void judge(const vector<RecordedRun>& others) {
-    const double first = last_digit * extent(world_, scene_.initial);
+    const double first = rounding_of(world_, scene_.initial);
     double until = 0;
     for (size_t k = 0; k < reference_.instants.size(); ++k) {
       for (const RecordedRun& other : others)
@@ -172,13 +172,6 @@ class Making {
 };
 
 }  // namespace
-
-function<void()> stop_check_within(double share, const function<void()>& stop_check) {
-  return [end = cpu_time() + share, &stop_check] {
-    stop_check();
-    if (cpu_time() > end) throw Overrun{};
-  };
-}
 
 Reference make_reference(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
   return Making(scene, options, watch).go();

@@ -29,6 +29,13 @@ double cpu_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+function<void()> stop_check_within(double share, const function<void()>& stop_check) {
+  return [end = cpu_time() + share, &stop_check] {
+    stop_check();
+    if (cpu_time() > end) throw Overrun{};
+  };
+}
+
 vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void(double)>& report_progress) {
   vector<int> runs;  // executions in a turn
   vector<vector<double>> times(tasks.size());

@@ -56,20 +56,6 @@ XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const vector<Measur
 
 }  // namespace
 
-optional<size_t> find_parameter(const ComparisonPlan& plan, string_view path) {
-  for (size_t p = 0; p < plan.parameters.size(); ++p)
-    if (plan.parameters[p].path == path) return p;
-  return nullopt;
-}
-
-string label_of(const Parameter& parameter) {
-  return parameter.unit.empty() ? parameter.path : fmt::format("{} ({})", parameter.path, parameter.unit);
-}
-
-string name_of_value(const Parameter& parameter, const string& value) {
-  return fmt::format("{} = {}{}{}", parameter.path, value, parameter.unit.empty() ? "" : " ", parameter.unit);
-}
-
 vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes) {
   if (!plan.charts.empty()) return plan.charts;
   vector<size_t> independent = outcomes.independent();

@@ -12,11 +12,7 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
-#include "physics/world.h"
-#include "render/mesh.h"
 #include "run/stored_trajectory.h"
-#include "scene/load.h"
-#include "scene/scene.h"
 #include "std.h"
 
 namespace carom {
@@ -89,13 +85,6 @@ MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>
   for (const string& body : bodies)
     columns.first.push_back(trajectory.find(fmt::format("{}.{}", body, name_of(Quantity::x))).value_or(0));
   return columns;
-}
-
-Scene load_run_scene(const string& folder) {
-  LoadOptions options;
-  options.budget.enforced = false;
-  options.mesh_points = [](const string& path) { return read_mesh_points(path); };
-  return load_scene(folder + "/scene.yaml", options);
 }
 
 }  // namespace carom

@@ -1,11 +1,8 @@
 #pragma once
 // The data of one run that a comparison reads from its folder.
 
-#include "compare/comparison.h"
-#include "compare/end_of_trajectory.h"
-#include "files/output_file.h"
+#include "compare/plan.h"
 #include "files/stored_table.h"
-#include "scene/scene.h"
 #include "std.h"
 
 namespace carom {
@@ -43,8 +40,5 @@ struct MotionColumns {
 };
 /// `bodies`: names as in trajectory.csv.
 MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>& bodies);
-
-/// The scene in the run's folder. Throws SceneError.
-Scene load_run_scene(const string& folder);
 
 }  // namespace carom

@@ -3,7 +3,6 @@
 #include "compare/comparison.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -28,9 +27,6 @@
 
 namespace carom {
 namespace {
-
-/// The default measures.
-constexpr const char* usual_measures[] = {"energy_lost_J", "collisions", "max_speed_m_per_s"};
 
 ComparisonPlan titled(ComparisonPlan plan, size_t count) {
   if (plan.title.empty()) plan.title = "Comparison of " + how_many(count, "run", "runs");
@@ -203,45 +199,6 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
 }
 
 }  // namespace
-
-vector<Measure> measures_of(const ComparisonPlan& plan) {
-  vector<Measure> measures;
-  const auto add = [&](string_view name) {
-    const bool known = std::ranges::any_of(measures, [&](const Measure& measure) { return measure.name == name; });
-    if (!known) measures.push_back(parse_measure(name, plan.own));
-  };
-  for (const string& name : plan.measures) add(name);
-  for (const Chart& chart : plan.charts) {
-    add(chart.y);
-    if (!find_parameter(plan, chart.x)) add(chart.x);
-  }
-  for (const string& name : plan.own) add(name);
-  if (measures.empty())
-    for (const char* name : usual_measures) add(name);
-  return measures;
-}
-
-void check_charts(const ComparisonPlan& plan) {
-  vector<string_view> paths;
-  for (const Parameter& parameter : plan.parameters) paths.push_back(parameter.path);
-  const auto refuse = [&](const string& name, const char* what) {
-    const string near = nearest(name, paths);
-    string remedy;
-    if (!near.empty()) remedy = fmt::format("; did you mean {}?", in_backticks(near));
-    if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", joined(paths, ", "));
-    throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
-  };
-  for (const Chart& chart : plan.charts) {
-    if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "is not varied");
-    if (find_parameter(plan, chart.x)) continue;
-    try {
-      parse_measure(chart.x, plan.own);
-    } catch (const MeasureError&) {
-      refuse(chart.x, "is neither varied nor a measure");
-    }
-  }
-  measures_of(plan);
-}
 
 vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count,
                                                 const function<ComparedRun(size_t)>& run,

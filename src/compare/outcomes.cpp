@@ -9,7 +9,6 @@
 #include <numeric>
 #include <set>
 
-#include "compare/charts.h"
 #include "compare/number_look.h"
 #include "files/csv.h"
 #include "std.h"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "compare/charts.h"
 #include "scene/path_field.h"
 #include "std.h"
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/charts.h"
 #include "compare/scenarios.h"
 #include "std.h"
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "compare/charts.h"
 #include "std.h"
 
 namespace carom {

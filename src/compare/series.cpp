@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "compare/end_of_trajectory.h"
 #include "files/stored_file.h"
 #include "run/stored_trajectory.h"
 #include "std.h"

@@ -10,13 +10,14 @@
 #include <set>
 #include <utility>
 
-#include "compare/compared_run.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
+#include "render/mesh.h"
 #include "run/measure_scope.h"
 #include "run/summary_columns.h"
 #include "scene/formula.h"
+#include "scene/load.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 
@@ -45,6 +46,13 @@ const char* table_of(const Measure& measure) {
 }
 
 }  // namespace
+
+Scene load_run_scene(const string& folder) {
+  LoadOptions options;
+  options.budget.enforced = false;
+  options.mesh_points = [](const string& path) { return read_mesh_points(path); };
+  return load_scene(folder + "/scene.yaml", options);
+}
 
 const Manifest* StoredMeasures::manifest() {
   if (!manifest_) manifest_ = read_manifest(folder_, manifest_name);

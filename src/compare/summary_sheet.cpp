@@ -10,7 +10,6 @@
 #include <map>
 #include <utility>
 
-#include "compare/charts.h"
 #include "files/csv.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"

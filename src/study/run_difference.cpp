@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "compare/compared_run.h"
+#include "compare/end_of_trajectory.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "std.h"
