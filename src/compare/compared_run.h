@@ -30,15 +30,4 @@ StoredTable open_table(const RunRecord& run, const char* name);
 /// Whether the file exists.
 bool has_file(const RunRecord& run, const char* name);
 
-/// The columns of trajectory.csv with the six numbers of a body's motion.
-struct MotionColumns {
-  /// Long form: the column of the name. The numbers follow it.
-  size_t body = 0;
-  /// Wide form, by body: the first of the six. 0: absent.
-  vector<size_t> first;
-  bool wide = false;
-};
-/// `bodies`: names as in trajectory.csv.
-MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>& bodies);
-
 }  // namespace carom
