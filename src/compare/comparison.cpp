@@ -51,6 +51,7 @@ class Comparison {
         book_(place, workbook_name, plan_.title),
         charts_(book_, !SummarySheet::is_table(count)),
         unrelated_(variation.unrelated),
+        // The sheets, in their order.
         summary_(place, book_, plan_, measures_, count, unrelated_),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
         pivot_(variation.two ? &book_.add("Pivot", true) : nullptr),
@@ -66,10 +67,12 @@ class Comparison {
   void add(size_t number, ComparedRun compared) {
     if (compared.values.size() != plan_.parameters.size())
       throw std::logic_error("a run has as many values as there are parameters");
+
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
     if (!run.done) ++failed_;
     if (run.done && run.summary[status_] == "doubtful") ++doubtful_;
+
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
     series_.add(number, run);
@@ -85,18 +88,22 @@ class Comparison {
     summary_.finish();
     vector<unique_ptr<OutputFile>> files;
     files.push_back(summary_.take_table());
+
     if (plan_.seed) {
       files.push_back(make_unique<OutputFile>(place_, repeats_name));
       write_repeats(*files.back(), plan_, measures_, outcomes_);
       files.back()->complete();
       write_repeats(*repeats_, plan_, measures_, outcomes_);
     }
+
+    // The sheets that take all runs together.
     write_pivot_sheet();
     const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
     parameters_.finish(outcomes_, common_.values());
     write_charts(placed);
     write_about(about_, plan_, measures_, remarks());
+
     files.push_back(make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
     files.back()->complete();
@@ -120,6 +127,8 @@ class Comparison {
       if (unrelated_ && plan_.charts.empty()) chart = {"", chart.y, ""};
       charts.push_back(chart_data(chart, plan_, measures_, outcomes_));
     }
+
+    // One line of text says what the runs are.
     string varied;
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
     string text = how_many(count_, "run", "runs");
@@ -130,6 +139,7 @@ class Comparison {
                           how_many(plan_.parameters.size(), "value differs", "values differ"));
     else if (!varied.empty())
       text += "; varied: " + varied;
+
     charts_.write(plan_, text, parameters_.differences(), charts, placed, series_.scenarios().all);
   }
 
@@ -141,6 +151,7 @@ class Comparison {
     if (count_ + summary_.first_row() > most_rows)
       remarks.push_back(
           fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - summary_.first_row()));
+
     const ChosenScenarios& scenarios = series_.scenarios();
     if (scenarios.names.size() < scenarios.all)
       remarks.push_back(fmt::format("Series: {} of {} {}, spread over the values of the parameters.",
@@ -149,6 +160,7 @@ class Comparison {
     if (series_.left_out() > 0)
       remarks.push_back(fmt::format("Series: {} left out, for tables that are too long or other instants.",
                                     how_many(series_.left_out(), "run", "runs")));
+
     if (collisions_ && collisions_->full())
       remarks.push_back(fmt::format("Collisions: the first {} of each run; collisions.csv of each run has all.",
                                     collisions_->share()));
@@ -182,6 +194,8 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
   Outcomes outcomes(plan, 0, count);
   vector<size_t> points(count);
   vector<bool> is_absent(plan.parameters.size());
+
+  // A value that is absent from some scenes tells them apart, unless a run failed.
   for (size_t i = 0; i < count; ++i) {
     watch.stop_check();
     const ComparedRun one = run(i);
@@ -190,6 +204,7 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
     if (std::ranges::all_of(one.values, [](const auto& value) { return value.empty(); })) continue;
     for (size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
   }
+
   outcomes.finish();
   const auto absent = static_cast<size_t>(std::ranges::count(is_absent, true));
   variation.unrelated = 2 * absent > plan.parameters.size();

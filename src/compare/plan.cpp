@@ -37,11 +37,13 @@ vector<Measure> measures_of(const ComparisonPlan& plan) {
     const bool known = std::ranges::any_of(measures, [&](const Measure& measure) { return measure.name == name; });
     if (!known) measures.push_back(parse_measure(name, plan.own));
   };
+
   for (const string& name : plan.measures) add(name);
   for (const Chart& chart : plan.charts) {
     add(chart.y);
     if (!find_parameter(plan, chart.x)) add(chart.x);
   }
+
   for (const string& name : plan.own) add(name);
   if (measures.empty())
     for (const char* name : usual_measures) add(name);
@@ -51,6 +53,7 @@ vector<Measure> measures_of(const ComparisonPlan& plan) {
 void check_charts(const ComparisonPlan& plan) {
   vector<string_view> paths;
   for (const Parameter& parameter : plan.parameters) paths.push_back(parameter.path);
+
   const auto refuse = [&](const string& name, const char* what) {
     const string near = nearest(name, paths);
     string remedy;
@@ -58,6 +61,7 @@ void check_charts(const ComparisonPlan& plan) {
     if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", joined(paths, ", "));
     throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
   };
+
   for (const Chart& chart : plan.charts) {
     if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "is not varied");
     if (find_parameter(plan, chart.x)) continue;
@@ -67,6 +71,7 @@ void check_charts(const ComparisonPlan& plan) {
       refuse(chart.x, "is neither varied nor a measure");
     }
   }
+
   measures_of(plan);
 }
 

@@ -45,6 +45,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
     case CellStyle::swept:
       format_set_bg_color(format, tint);
       break;
+
     case CellStyle::header:
     case CellStyle::swept_header:
       format_set_bold(format);
@@ -53,6 +54,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
       break;
+
     case CellStyle::title:
       format_set_bold(format);
       format_set_font_size(format, 14);
@@ -60,16 +62,19 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
     case CellStyle::note:
       format_set_font_color(format, grey);
       break;
+
     case CellStyle::wrapped:
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
       break;
+
     case CellStyle::doubtful:
       format_set_bg_color(format, doubtful_tint);
       break;
     case CellStyle::failed:
       format_set_bg_color(format, failed_tint);
       break;
+
     case CellStyle::plain:
       break;
   }
@@ -287,14 +292,18 @@ void Workbook::write(OutputFile& file) {
   errno = 0;
   const lxw_error error = workbook_close(book_);
   const int system_error = errno;
+
   // Closing frees it, even on failure.
   book_ = nullptr;
   files_.check();
+
   // The library's own text of this error does not have the system's reason.
   if (error == LXW_ERROR_ZIP_FILE_OPERATION && system_error != 0)
     fail("write", place_, name_, std::strerror(system_error));
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
   files_.check_archive(scratch_.get());
+
+  // Copy the archive.
   vector<char> piece(size_t{256} * 1024);
   off_t at = 0;
   for (;;) {
