@@ -50,8 +50,8 @@ void CollisionSheet::finish() {
 
   sheet_.fit_table();
   sheet_.freeze(1, 1);
-  worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<size_t>(rows_.size(), 1)),
-                       static_cast<lxw_col_t>(collision_columns().size()));
+  worksheet_autofilter(sheet_.get(), 0, 0, to_row(std::max<size_t>(rows_.size(), 1)),
+                       to_column(collision_columns().size()));
   sheet_.print_table(0);
 }
 

@@ -37,10 +37,10 @@ struct CellRange {
 
 lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const string& name) {
   lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
-  const auto row = [](size_t n) { return static_cast<lxw_row_t>(n); };
-  const auto column = [](size_t n) { return static_cast<lxw_col_t>(n); };
-  chart_series_set_categories(series, x.sheet, row(x.first_row), column(x.column), row(x.last_row), column(x.column));
-  chart_series_set_values(series, y.sheet, row(y.first_row), column(y.column), row(y.last_row), column(y.column));
+  chart_series_set_categories(series, x.sheet, to_row(x.first_row), to_column(x.column), to_row(x.last_row),
+                              to_column(x.column));
+  chart_series_set_values(series, y.sheet, to_row(y.first_row), to_column(y.column), to_row(y.last_row),
+                          to_column(y.column));
   if (!name.empty()) chart_series_set_name(series, name.c_str());
   return series;
 }
@@ -147,8 +147,8 @@ void CompareSheet::place(lxw_chart* chart, size_t number) {
   options.x_scale = chart_width / 480.0;
   options.y_scale = chart_height / 288.0;
   options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
-  worksheet_insert_chart_opt(sheet_.get(), static_cast<lxw_row_t>(charts_row_ + number / charts_across * rows_of_chart),
-                             static_cast<lxw_col_t>(number % charts_across * columns_of_chart), chart, &options);
+  worksheet_insert_chart_opt(sheet_.get(), to_row(charts_row_ + number / charts_across * rows_of_chart),
+                             to_column(number % charts_across * columns_of_chart), chart, &options);
 }
 
 void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) {
@@ -283,8 +283,7 @@ void CompareSheet::set_pages(size_t charts, size_t last_row) {
   }
 
   sheet_.print_pages(breaks);
-  worksheet_print_area(sheet_.get(), 0, 0, static_cast<lxw_row_t>(last_row),
-                       static_cast<lxw_col_t>(charts_across * columns_of_chart - 1));
+  worksheet_print_area(sheet_.get(), 0, 0, to_row(last_row), to_column(charts_across * columns_of_chart - 1));
 }
 
 void CompareSheet::write(const ComparisonPlan& plan, const string& line, const DifferenceList& differences,
@@ -292,7 +291,7 @@ void CompareSheet::write(const ComparisonPlan& plan, const string& line, const D
   constexpr size_t columns = charts_across * columns_of_chart;
   size_t widest = columns;
   for (const ChartData& chart : charts) widest = std::max(widest, chart.lines.size() + 1);
-  worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(widest), column_width, nullptr);
+  worksheet_set_column(sheet_.get(), 0, to_column(widest), column_width, nullptr);
 
   sheet_.text(0, 0, plan.title, CellStyle::title);
   sheet_.note(1, columns, line, columns * column_width);

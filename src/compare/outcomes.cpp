@@ -217,8 +217,7 @@ void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Me
 
   sheet.fit_table();
   sheet.freeze(1, parameters);
-  worksheet_autofilter(sheet.get(), 0, 0, static_cast<lxw_row_t>(std::max<size_t>(row - 1, 1)),
-                       static_cast<lxw_col_t>(header.size() - 1));
+  worksheet_autofilter(sheet.get(), 0, 0, to_row(std::max<size_t>(row - 1, 1)), to_column(header.size() - 1));
   sheet.print_table(0);
 }
 

@@ -23,13 +23,13 @@ struct Mean {
 
 string range_of(size_t column, const SummaryPlace& summary) {
   char name[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(name, static_cast<lxw_col_t>(column), LXW_TRUE);
+  lxw_col_to_name(name, to_column(column), LXW_TRUE);
   return fmt::format("Summary!{0}${1}:{0}${2}", name, summary.first_row + 1, summary.first_row + summary.rows);
 }
 
 string cell_name(size_t row, size_t column, bool row_fixed) {
   char name[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(name, static_cast<lxw_col_t>(column), row_fixed ? LXW_FALSE : LXW_TRUE);
+  lxw_col_to_name(name, to_column(column), row_fixed ? LXW_FALSE : LXW_TRUE);
   return fmt::format("{}{}{}", name, row_fixed ? "$" : "", row + 1);
 }
 
@@ -43,8 +43,7 @@ void add_scale(Worksheet& sheet, size_t row, size_t rows, size_t columns) {
   scale.type = LXW_CONDITIONAL_2_COLOR_SCALE;
   scale.min_color = 0xFFFFFF;
   scale.max_color = 0x8FBFE0;
-  worksheet_conditional_format_range(sheet.get(), static_cast<lxw_row_t>(row), 1,
-                                     static_cast<lxw_row_t>(row + rows - 1), static_cast<lxw_col_t>(columns), &scale);
+  worksheet_conditional_format_range(sheet.get(), to_row(row), 1, to_row(row + rows - 1), to_column(columns), &scale);
 }
 
 }  // namespace

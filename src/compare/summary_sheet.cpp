@@ -170,13 +170,13 @@ void SummarySheet::finish() {
   write_rows();
 
   const size_t rows = std::min(count_, most_rows - first_row());
-  const auto last_row = static_cast<lxw_row_t>(head_row_ + rows);
-  const auto last_column = static_cast<lxw_col_t>(shown_.size() - 1);
+  const auto last_row = to_row(head_row_ + rows);
+  const auto last_column = to_column(shown_.size() - 1);
 
   if (is_table() && rows > 0) {
     make_table(last_row, last_column);
   } else if (rows > 0) {
-    worksheet_autofilter(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column);
+    worksheet_autofilter(sheet_.get(), to_row(head_row_), 0, last_row, last_column);
   }
   if (rows > 0) mark_rows(last_row, last_column);
 
@@ -191,7 +191,7 @@ void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
   if (status == shown_.end()) return;
 
   char column[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(column, static_cast<lxw_col_t>(status - shown_.begin()), 1);
+  lxw_col_to_name(column, to_column(status - shown_.begin()), 1);
   for (const auto& [text, style] :
        {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
     string formula = fmt::format("={}{}=\"{}\"", column, first_row() + 1, text);
@@ -200,8 +200,7 @@ void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
     rule.type = LXW_CONDITIONAL_TYPE_FORMULA;
     rule.value_string = formula.data();
     rule.format = sheet_.format(style);
-    worksheet_conditional_format_range(sheet_.get(), static_cast<lxw_row_t>(first_row()), 0, last_row, last_column,
-                                       &rule);
+    worksheet_conditional_format_range(sheet_.get(), to_row(first_row()), 0, last_row, last_column, &rule);
   }
 }
 
@@ -221,7 +220,7 @@ void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
   options.style_type = LXW_TABLE_STYLE_TYPE_LIGHT;
   options.style_type_number = 1;
   options.columns = pointers.data();
-  worksheet_add_table(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column, &options);
+  worksheet_add_table(sheet_.get(), to_row(head_row_), 0, last_row, last_column, &options);
 }
 
 unique_ptr<OutputFile> SummarySheet::take_table() {
