@@ -118,18 +118,10 @@ Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
   return v + bodies_.verlet_change(i, f, at - f.start);
 }
 
-void FlightChanges::end_verlets(Entity i) {
-  if (in_lasting_contact(bodies_.mode(i)) || bodies_.flights.curve(i) == nullptr) return;
+void FlightChanges::end_by_method(Entity i) {
   paths_.note_change(i);
-  const Vec3 x = bodies_.position(i);
+  const Vec3 x = position_of_method(i, bodies_.now);
   const Vec3 v = velocity_of_method(i, bodies_.now);
-  book(i, x, bodies_.now);
-  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
-}
-
-void FlightChanges::end_closed(Entity i) {
-  paths_.note_change(i);
-  const auto [x, v] = curved_.closed_place(i, bodies_.now);
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
 }

@@ -199,8 +199,8 @@ void CrowdSteps::strike(Crowd& crowd, size_t group, size_t lane, Strikes& strike
   const double restitution = crowd.rows.state[group].e[lane];
   const double separation = restitution * speed;
   const Vec3 point = crowd.position(a) + bodies_.world.volume_of(i).support(normal) * normal;
-  strikes.met.push_back(make_collision(bodies_.world, body ? CollisionKind::body_body : CollisionKind::body_fixed,
-                                       bodies_.now.hi, i, e, point, normal, speed, separation, restitution));
+  strikes.met.push_back(with_effect(bodies_.world, {bodies_.now.hi, impact_kind(bodies_.world, e), i, e, point, normal,
+                                                    speed, separation, restitution}));
   strikes.lost += strikes.met.back().energy_lost;
   strikes.work += push(crowd, group, lane, strikes.met.back().impulse, crowd.v);
 }

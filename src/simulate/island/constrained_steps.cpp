@@ -157,17 +157,11 @@ void ConstrainedSteps::record_fast(IslandStep& step, vector<AbsorbedImpact>& imp
     if (!(presses && impacts[c].approach > std::max(slow, step.contacts.slow[c]))) continue;
 
     const double sign = p.force < 0 ? -1 : 1;
-    const CollisionKind kind = world.is_string(e) ? CollisionKind::taut
-                               : world.is_body(e) ? CollisionKind::body_body
-                                                  : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, step.position_of(bodies_, e), feature);
-    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, sign * p.normal,
-                                     impacts[c].approach, 0, pair_restitution(world, i, e));
-
-    // Shared among all struck bodies.
-    taken.impulse = sign * p.force;
-    taken.energy_lost = impacts[c].lost;
-    step.bookings.collisions.push_back(taken);
+    // The energy is shared among all struck bodies.
+    step.bookings.collisions.push_back({bodies_.now.hi, impact_kind(world, e), i, e, there.point, sign * p.normal,
+                                        impacts[c].approach, 0, pair_restitution(world, i, e), sign * p.force,
+                                        impacts[c].lost});
     impacts[c].recorded = true;
   }
 }
