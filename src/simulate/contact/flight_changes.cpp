@@ -201,9 +201,7 @@ double FlightChanges::book_work(Entity i, double time, const Vec3& displacement,
       // The force on a body at rest, wind included, and the drag on its motion.
       const Vec3 any = Vec3::Zero();
       const Vec3 standing = working_acceleration(world, force, part, any, any);
-      const Drag* const drag = std::get_if<Drag>(&force.law);
-      const double work =
-          world.mass[part] * standing.dot(displacement) - (drag != nullptr ? drag->linear * squared_speed : 0);
+      const double work = world.mass[part] * standing.dot(displacement) - fade_of(force.law) * squared_speed;
       if (work != 0) bodies_.log.add_work(k, work);
       all += work;
     }

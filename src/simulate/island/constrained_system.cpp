@@ -11,6 +11,7 @@
 #include "numerics/cube_root.h"
 #include "numerics/dormand_prince.h"
 #include "numerics/radau_collocation.h"
+#include "physics/closed_motion.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
