@@ -23,27 +23,13 @@ constexpr double hopeless = 1e4;
 
 using StageRow = array<double, nodes>;
 
-/// Gauss points and weights on [0, 1]. They integrate polynomials of degree 9 exactly.
-struct Gauss {
-  array<double, 5> at, weight;
-  Gauss() {
-    const double root = 2 * std::sqrt(10.0 / 7), near = std::sqrt(5 - root) / 3, far = std::sqrt(5 + root) / 3;
-    const double w_near = (322 + 13 * std::sqrt(70.0)) / 900, w_far = (322 - 13 * std::sqrt(70.0)) / 900;
-    at = {0.5 * (1 - far), 0.5 * (1 - near), 0.5, 0.5 * (1 + near), 0.5 * (1 + far)};
-    weight = {0.5 * w_far, 0.5 * w_near, 64.0 / 225, 0.5 * w_near, 0.5 * w_far};
-  }
-};
-
 struct Method {
   StageRow c = radau_points<nodes>();
-  Gauss gauss;
-  // The collocation matrix: integrals of Lagrange's polynomials up to each point.
-  array<StageRow, nodes> a;
+  array<StageRow, nodes> a = collocation_matrix(c, gauss_5);
   // The sweep's matrix: the transpose of U, where L U is the transpose of a.
   array<StageRow, nodes> lower;
 
   Method() {
-    for (int i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
     array<StageRow, nodes> u;
     for (int i = 0; i < nodes; ++i)
       for (int j = 0; j < nodes; ++j) u[i][j] = a[j][i];
@@ -54,19 +40,6 @@ struct Method {
       }
     for (int i = 0; i < nodes; ++i)
       for (int j = 0; j < nodes; ++j) lower[i][j] = j <= i ? u[j][i] : 0;
-  }
-
-  /// Integrals of Lagrange's polynomials through the points, from 0 to s.
-  StageRow integrals(double s) const {
-    StageRow sum{};
-    for (size_t g = 0; g < gauss.at.size(); ++g)
-      for (int j = 0; j < nodes; ++j) {
-        double product = s * gauss.weight[g];
-        for (int l = 0; l < nodes; ++l)
-          if (l != j) product *= (s * gauss.at[g] - c[l]) / (c[j] - c[l]);
-        sum[j] += product;
-      }
-    return sum;
   }
 };
 

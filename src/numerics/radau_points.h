@@ -2,6 +2,7 @@
 // Radau's points in (0, 1], the last of which is 1. There Legendre's polynomials of the two highest degrees are equal
 // (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.5).
 
+#include "numerics/gauss.h"
 #include "std.h"
 
 namespace carom {
@@ -38,6 +39,22 @@ array<double, count> radau_points() {
   }
   points[count - 1] = 1;
   return points;
+}
+
+/// The collocation matrix of points c: integrals of Lagrange's polynomials through them, from 0 up to each point.
+template <size_t count, size_t size>
+array<array<double, count>, count> collocation_matrix(const array<double, count>& c,
+                                                      const array<GaussPoint, size>& rule) {
+  array<array<double, count>, count> a{};
+  for (size_t i = 0; i < count; ++i)
+    for (const GaussPoint& node : rule)
+      for (size_t j = 0; j < count; ++j) {
+        double product = c[i] * node.weight;
+        for (size_t l = 0; l < count; ++l)
+          if (l != j) product *= (c[i] * node.at - c[l]) / (c[j] - c[l]);
+        a[i][j] += product;
+      }
+  return a;
 }
 
 }  // namespace carom

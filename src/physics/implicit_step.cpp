@@ -43,21 +43,9 @@ constexpr double filter = 0x1p-5;
 using NodeRow = array<double, nodes>;
 using NodeMatrix = array<NodeRow, nodes>;
 
-/// Gauss points and weights on [0, 1]. They integrate polynomials of degree 7 exactly.
-struct GaussRule {
-  array<double, 4> at, weight;
-  GaussRule() {
-    const double root = 2 * std::sqrt(1.2), near = std::sqrt((3 - root) / 7), far = std::sqrt((3 + root) / 7);
-    const double part = std::sqrt(30.0) / 72;
-    at = {0.5 * (1 - far), 0.5 * (1 - near), 0.5 * (1 + near), 0.5 * (1 + far)};
-    weight = {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part};
-  }
-};
-
 struct SevenStages {
   NodeRow c = radau_points<nodes>();
-  // The collocation matrix: integrals of Lagrange's polynomials up to each point.
-  NodeMatrix a;
+  NodeMatrix a = collocation_matrix(c, gauss_4);
   NodeMatrix a_squared;
   // Coefficients of Legendre's polynomials of degrees 4 to 7 in the polynomial of `power`.
   array<NodeRow, 4> tail;
@@ -65,7 +53,6 @@ struct SevenStages {
   NodeMatrix power;
 
   SevenStages() {
-    for (size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
     for (size_t i = 0; i < nodes; ++i)
       for (size_t j = 0; j < nodes; ++j) {
         a_squared[i][j] = 0;
@@ -75,20 +62,6 @@ struct SevenStages {
       set_powers(j);
       set_tail(j);
     }
-  }
-
-  /// Integrals of Lagrange's polynomials through the points, from 0 to s.
-  NodeRow integrals(double s) const {
-    const GaussRule gauss;
-    NodeRow sum{};
-    for (size_t g = 0; g < gauss.at.size(); ++g)
-      for (size_t j = 0; j < nodes; ++j) {
-        double product = s * gauss.weight[g];
-        for (size_t l = 0; l < nodes; ++l)
-          if (l != j) product *= (s * gauss.at[g] - c[l]) / (c[j] - c[l]);
-        sum[j] += product;
-      }
-    return sum;
   }
 
   /// Coefficients of s / c_j times the product of (s - c_l) / (c_j - c_l) over the other points.
