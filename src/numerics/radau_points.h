@@ -25,18 +25,22 @@ array<double, count> radau_points() {
     const auto p = legendre<count>(s);
     return p[count - 1] - p[count];
   };
+
+  // A fine grid separates the roots, and bisection finds them.
   constexpr int intervals = 1000;
   array<double, count> points{};
   size_t found = 0;
   for (int k = 0; k < intervals - 1; ++k) {
     double low = static_cast<double>(k) / intervals, high = (k + 1.0) / intervals;
     if (f(low) * f(high) > 0) continue;
+
     for (int pass = 0; pass < 60; ++pass) {
       const double middle = 0.5 * (low + high);
       (f(low) * f(middle) <= 0 ? high : low) = middle;
     }
     points[found++] = 0.5 * (low + high);
   }
+
   points[count - 1] = 1;
   return points;
 }

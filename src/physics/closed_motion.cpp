@@ -88,6 +88,8 @@ ClosedMotion::Point ClosedMotion::at(DoubleDouble t) const {
     fall(strength_, there);
     return there;
   }
+
+  // The slopes carry an oscillation over the low part of the time.
   const Oscillation& swing = std::get<Oscillation>(motion_);
   swing.at(t.hi, there.place, there.velocity);
   swing.bend(t.hi, there.acceleration, there.jerk);

@@ -58,6 +58,7 @@ struct SevenStages {
         a_squared[i][j] = 0;
         for (size_t k = 0; k < nodes; ++k) a_squared[i][j] += a[i][k] * a[k][j];
       }
+
     for (size_t j = 0; j < nodes; ++j) {
       set_powers(j);
       set_tail(j);
@@ -145,6 +146,8 @@ struct ImplicitStep::Newton {
       hj[l] = h * j.by_velocity;
       hhj[l] = h * h * j.by_position;
     }
+
+    // One block for each pair of stages.
     for (size_t i = 0; i < nodes; ++i)
       for (size_t k = 0; k < nodes; ++k) {
         Eigen::Matrix3d block = m.a[i][k] * hj[k];
@@ -154,6 +157,7 @@ struct ImplicitStep::Newton {
             factors.at(i * axes + p, k * axes + q) =
                 (i == k && p == q ? 1 : 0) - block(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
       }
+
     return factors.factor();
   }
 
@@ -173,6 +177,8 @@ struct ImplicitStep::Newton {
   double correct() {
     array<Vec3, nodes> a;
     for (size_t j = 0; j < nodes; ++j) a[j] = acceleration(position(j), v + z[j]);
+
+    // What the stages miss, and the changes that make up for it.
     Vector b;
     for (size_t i = 0; i < nodes; ++i) {
       Vec3 sum = Vec3::Zero();
@@ -180,6 +186,7 @@ struct ImplicitStep::Newton {
       put(b, i, h * sum - z[i]);
     }
     factors.solve(b);
+
     double changed = 0;
     for (size_t i = 0; i < nodes; ++i)
       for (size_t p = 0; p < axes; ++p) {
@@ -188,6 +195,7 @@ struct ImplicitStep::Newton {
         z[i][static_cast<Eigen::Index>(p)] += change;
         changed = std::max(changed, std::abs(change));
       }
+
     return changed;
   }
 
@@ -203,13 +211,17 @@ struct ImplicitStep::Newton {
     for (int pass = 0; pass < most_passes; ++pass) {
       const double changed = correct();
       if (changed == infinity) return false;
+
       // The rate is 0 in a first pass.
       const double rate = changed / before;
       const bool first = before == infinity;
       if (changed <= limit || (!first && rate < 0.5 && rate * changed <= limit)) return true;
+
       // Rounding allows no better agreement.
       if (at_stages && rate >= 0.5 && changed <= hopeless * limit) return true;
       before = changed;
+
+      // New factors, if they are worth their time.
       if (!is_slow(changed, rate, limit, worth_factors)) continue;
       if (!at_stages && !(rate < 0.5)) {
         z = predicted;
@@ -218,6 +230,7 @@ struct ImplicitStep::Newton {
       if (!factor_at_stages()) return false;
       at_stages = true;
     }
+
     return false;
   }
 };
@@ -246,6 +259,7 @@ double ImplicitStep::error_by_terms() const {
     for (size_t j = 0; j < nodes; ++j) sum += method().tail[n][j] * change_[j];
     size[n] = sum.cwiseAbs().maxCoeff();
   }
+
   const double last = std::max(size[2], size[3]), before = std::max(size[0], size[1]);
   if (!(last < before)) return last;
   const double fading = std::sqrt(last / before);
@@ -265,25 +279,20 @@ double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const
       factors.at(p, q) = (p == q ? 1 : 0) - s * j.by_velocity(row, column) - s * s * j.by_position(row, column);
     }
   if (!factors.factor()) return infinity;
+
   // The slope of the polynomial at the start, by the step, m/s.
   Vec3 slope = Vec3::Zero();
   for (size_t k = 0; k < nodes; ++k) slope += method().power[0][k] * change_[k];
   const Vec3 miss = length_ * a - slope;
   LuFactors<axes>::Row b{miss[0], miss[1], miss[2]};
   factors.solve(b);
+
   double greatest = 0;
   for (const double missed : b) {
     if (!std::isfinite(missed)) return infinity;
     greatest = std::max(greatest, std::abs(missed));
   }
   return start_share * greatest;
-}
-
-double ImplicitStep::next_length(double h, double error) {
-  constexpr double safety = 0.9, shortest = 0.2, longest = 6;
-  if (!std::isfinite(error)) return shortest * h;
-  const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
-  return h * (eighth_root > 0 ? std::clamp(safety / eighth_root, shortest, longest) : longest);
 }
 
 PolynomialPath ImplicitStep::path() const {

@@ -39,12 +39,14 @@ vector<MotionLeg> legs_of(span<const MotionWindow> windows) {
     else
       legs.push_back(next_leg(legs, from, velocity));
   };
+
   for (const MotionWindow& window : windows) {
     if (window.velocity.isZero(0)) continue;
     if (legs.empty() && window.from > 0) begin(0, Vec3::Zero());
     begin(window.from, window.velocity);
     if (window.until < std::numeric_limits<double>::infinity()) begin(window.until, Vec3::Zero());
   }
+
   return legs;
 }
 

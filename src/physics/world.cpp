@@ -33,10 +33,13 @@ bool place_fixed_things(const World& world, double time, World& copy) {
     changed = changed || there != x;
     x = there;
   };
+
+  // In the order of their numbers.
   size_t fixed = 0;
   for (Plane& plane : copy.planes) place(fixed++, plane.point);
   for (Wall& wall : copy.walls) place(fixed++, wall.center);
   for (Obstacle& obstacle : copy.obstacles) place(fixed++, obstacle.center);
+
   return changed;
 }
 

@@ -47,8 +47,8 @@ struct ContactList {
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
   /// Drops contacts of a body at x (m), from number `first` on, with things that lie wholly behind a flat fixed surface
-  /// beside it. The surface must be no farther away than `beside` (m). Surfaces level with it stay.
-  void drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first, double beside = never);
+  /// beside it. Surfaces level with it stay.
+  void drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first);
   /// Throws SimulationError if things that move leave a body no room: the one with the fastest approach at these
   /// velocities (m/s), which contacts could not prevent.
   void check_room(const ExactBodies& bodies, const vector<Vec3>& velocities) const;

@@ -200,17 +200,14 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
 
     PolynomialPath path;
     double error;
-    double next;
 
     if (implicit) {
       ImplicitStep motion;
       error = motion.step(h, x, v, acceleration, jacobian, place, speed);
-      next = ImplicitStep::next_length(h, error);
       if (error <= 1) path = motion.path();
     } else {
       DormandPrince motion({x}, {v}, {a});
       error = motion.step(h, accelerations, place, speed);
-      next = DormandPrince::next_length(h, error);
       if (error <= 1) {
         motion.interpolate(accelerations);
         path = motion.path(0);
@@ -218,6 +215,7 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
     }
 
     // A step that is accurate enough is taken.
+    const double next = DormandPrince::next_length(h, error);
     if (error <= 1) {
       next_.write(i) = next;
       note_method(i, implicit);
