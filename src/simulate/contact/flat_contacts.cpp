@@ -355,6 +355,7 @@ vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const 
   vector<SurfaceForce> surfaces;
   for (size_t k = 0; k < contacts.count; ++k) surfaces.push_back({contacts.at[k].surface, -contacts.at[k].normal});
 
+  // Others that it touches without speed along the normal.
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity(i);
   for (const Entity e : bodies_.neighbours_of(i)) {

@@ -383,6 +383,7 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
     inverse_mass.push_back(free_[k].at[3]);
   }
 
+  // Rows as contacts that may close their gaps in the step.
   vector<ContactConstraint> pairs;
   crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
@@ -395,6 +396,7 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
   });
   if (!carom::solve({inverse_mass, motion, pairs}).solved()) return false;
 
+  // The answer's impulses and drifts.
   auto pair = pairs.cbegin();
   crowd.rows.for_each([&](size_t g, size_t lane) { crowd.rows.hot[g].impulse[lane] = pair++->force; });
   for (size_t k = 0; k < motion.size(); ++k)

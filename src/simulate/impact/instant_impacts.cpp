@@ -50,6 +50,7 @@ bool InstantImpacts::strike(const Due& due) {
   if (!string && (!meets || (approaching.size() == 1 && !now.set.linked() && !stays && !endless))) return false;
   if (!meets) hold_string(now);
 
+  // Round follows round until nothing approaches.
   while (!approaching.empty()) {
     if (now.set.may_be_endless()) {
       gather_all(now);

@@ -66,6 +66,7 @@ bool ConstrainedMotion::advance(Entity i) {
     }
   }
 
+  // Parts that nothing connects become islands of their own.
   for (const Entity first : bodies_.islands.split(i, part)) {
     IslandStep step = begin_step(bodies_.islands.of(first).members, undisturbed);
     apply(step);
@@ -85,6 +86,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
     const Vec3 x = bodies_.position(k);
     const Vec3 v = bodies_.velocity(k);
 
+    // Bodies that fall beside it, and touch it.
     for (const Entity e : bodies_.neighbours_of(k)) {
       if (!world.is_body(e) || !is_free(bodies_.mode(e))) continue;
       if (!bodies_.falls_freely(e) || bodies_.applied[e] != bodies_.applied[k]) continue;
@@ -272,6 +274,7 @@ void ConstrainedMotion::report(const Island& island, double time, vector<Contact
     }
   }
 
+  // The forces that keep them together.
   solve({step.inverse_mass, step.a, pairs, true});
   for (size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});

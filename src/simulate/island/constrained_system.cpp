@@ -471,6 +471,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const vector<Vec3>& 
   for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
   forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
 
+  // Each stage stays on the surfaces.
   vector<ContactConstraint> rows = held_;
   vector<double> inverse_mass(members_.size());
   const auto hold = [&](const vector<Vec3>& at, double s, vector<Vec3>& u) {
