@@ -102,14 +102,14 @@ void FlightChanges::curve(Entity i, Flight from, bool free) {
 }
 
 Vec3 FlightChanges::position_of_method(Entity i, const Instant& at) const {
-  if (follows_closed_form(i)) [[unlikely]]
+  if (curved_.follows_closed_form(i)) [[unlikely]]
     return curved_.closed_place(i, at).x;
   const Flight f = bodies_.flights[i];
   return f.position(at - f.start);
 }
 
 Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
-  if (follows_closed_form(i)) [[unlikely]]
+  if (curved_.follows_closed_form(i)) [[unlikely]]
     return curved_.closed_place(i, at).v;
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   const Flight f = bodies_.flights[i];

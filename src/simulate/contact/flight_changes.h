@@ -29,7 +29,7 @@ class FlightChanges {
   /// Verlet's method changes the velocity where its step ends, at an impact or not.
   [[gnu::always_inline]] void end_step(Entity i) {
     const bool verlet = bodies_.options.integrator == Integrator::verlet;
-    if (follows_closed_form(i) || (verlet && bends_freely(i))) [[unlikely]]
+    if (curved_.follows_closed_form(i) || (verlet && bends_freely(i))) [[unlikely]]
       end_by_method(i);
   }
   /// Ends a step of body i's own flight, and begins the next.
@@ -78,7 +78,6 @@ class FlightChanges {
   bool bends_freely(Entity i) const {
     return bodies_.flights.curve(i) != nullptr && !in_lasting_contact(bodies_.mode(i));
   }
-  bool follows_closed_form(Entity i) const { return curved_.follows_closed_form(i) && !is_member(bodies_.mode(i)); }
   [[gnu::noinline]] void count_anew(Entity i);
   void end_by_method(Entity i);
   void curve(Entity i, Flight from, bool free);

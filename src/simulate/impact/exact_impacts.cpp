@@ -21,23 +21,13 @@ namespace carom {
 void ExactImpacts::bounce_off(const PairImpact& impact, Entity striker, Entity struck) {
   const Touch& there = impact.there;
   const double mass = bodies_.world.mass[striker];
-  const double e = impact.e;
   const double approach = impact.approach;
-  const double separation = e * approach;
-
-  const Collision met{bodies_.now.hi,
-                      CollisionKind::body_body,
-                      impact.a,
-                      impact.b,
-                      there.point,
-                      there.normal,
-                      approach,
-                      separation,
-                      e,
-                      impact_impulse(mass, ExactBodies::immovable, approach, separation),
-                      impact_loss(mass, ExactBodies::immovable, approach, separation)};
-  bodies_.log.record(met);
-  bodies_.log.lose(met.energy_lost);
+  const double separation = impact.e * approach;
+  const double impulse = impact_impulse(mass, ExactBodies::immovable, approach, separation);
+  const double lost = impact_loss(mass, ExactBodies::immovable, approach, separation);
+  rules_.book({bodies_.now.hi, CollisionKind::body_body, impact.a, impact.b, there.point, there.normal, approach,
+               separation, impact.e, impulse, lost},
+              false, impact.press, impact.length);
 
   // The normal points from the lower number to the higher one.
   const Vec3 away = striker < struck ? Vec3(-there.normal) : there.normal;
