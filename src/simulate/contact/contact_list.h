@@ -20,12 +20,11 @@ struct Contact {
   void keep(auto& archive) { archive(i, e, feature); }
 };
 
-/// By body: the first of the bodies that pairs connect with it. `connects`: whether pair number c does.
-template <typename Connects>
-vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs, const Connects& connects) {
+/// By body: the first of the bodies that pairs connect with it.
+inline vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs) {
   DisjointSets sets(bodies);
-  for (size_t c = 0; c < pairs.size(); ++c)
-    if (pairs[c].b != ContactConstraint::fixed && connects(c)) sets.join(pairs[c].a, pairs[c].b);
+  for (const ContactConstraint& pair : pairs)
+    if (pair.b != ContactConstraint::fixed) sets.join(pair.a, pair.b);
 
   vector<uint32_t> part(bodies);
   vector<uint32_t> first(bodies, ContactConstraint::fixed);

@@ -59,7 +59,7 @@ bool ConstrainedMotion::advance(Entity i) {
   {
     IslandStep step = begin_step(island.members, undisturbed);
     if (may_be_busy && !count_change(island, step.load, step.smallest)) return false;
-    part = connected_parts(step.members.size(), step.contacts.pairs, [](size_t) { return true; });
+    part = connected_parts(step.members.size(), step.contacts.pairs);
     if (std::ranges::all_of(part, [](uint32_t first) { return first == 0; })) {
       apply(step);
       return true;

@@ -343,7 +343,7 @@ void ConstrainedSteps::fail_jammed(Entity i, double force) const {
 void ConstrainedSteps::find_resting(IslandStep& step) const {
   const size_t n = step.x.size();
   const vector<ContactConstraint>& pairs = step.contacts.pairs;
-  const vector<uint32_t> part = connected_parts(n, pairs, [](size_t) { return true; });
+  const vector<uint32_t> part = connected_parts(n, pairs);
   vector<uint8_t> moves(n, 1);  // by part
   for (const ContactConstraint& p : pairs) moves[part[p.a]] = 0;
 
