@@ -52,6 +52,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
   const bool balls = world.volume.empty();
   if (balls && m.a.isZero(0) && p.fade == q.fade && m.d.dot(m.w) >= 0) return {never, 0};
 
+  // The horizon is the end of a step, or of the run.
   const double s = world.radius[a] + world.radius[b];
   const bool curved = p.curve != nullptr || q.curve != nullptr;
   const bool parabolas = p.is_parabola() && q.is_parabola();
@@ -78,6 +79,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
   }
 
+  // The time by the kind of paths and volumes.
   double t;
   if (!parabolas) {
     const FeatureTime first = time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
