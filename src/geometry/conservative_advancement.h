@@ -10,7 +10,6 @@
 #include "geometry/contact_time.h"
 #include "geometry/relative_way.h"
 #include "geometry/separation.h"
-#include "geometry/touch.h"
 #include "std.h"
 
 namespace carom {

@@ -55,6 +55,21 @@ Polynomial squared_gap_polynomial(const RelativeMotion& m, double s, Side side) 
           4};
 }
 
+Polynomial room_in_disc(const RelativeMotion& m, double s) {
+  Polynomial room = squared_gap_polynomial(m, s);
+  for (double& x : room.c) x = -x;
+  return room;
+}
+
+Roots exit_times(const RelativeMotion& m, double s, double horizon) {
+  const Polynomial room = room_in_disc(m, s), slope = room.derivative();
+  Roots exits;
+  const Roots all = roots_between(room, 0, horizon);
+  for (int k = 0; k < all.count; ++k)
+    if (const double t = all.at[static_cast<size_t>(k)]; slope(t) < 0) exits.at[static_cast<size_t>(exits.count++)] = t;
+  return exits;
+}
+
 namespace {
 
 /// The roots of this polynomial are the contacts. Where t = 0 is one by definition, a cubic is left.

@@ -3,7 +3,6 @@
 // own.
 #include "geometry/pair.h"
 
-#include "physics/world.h"
 #include "std.h"
 
 namespace carom {

@@ -68,27 +68,19 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
                                  double speeds, uint8_t left, double horizon) {
   const RelativeMotion start{xb - xa, way.velocity(0), way.acceleration(0), speeds, left != no_feature};
   const double far = xa.cwiseAbs().sum() + xb.cwiseAbs().sum();
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
     case PairKind::half_space:
     case PairKind::sphere_wall:
       return meet_round(way, world, a, xa, b, xb, speeds, left, horizon);
-    case PairKind::prism: {
-      const PairPrism pair = pair_prism(world, a, b);
-      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, start), way.in(pair.frame), far, horizon).run(left);
-    }
-    case PairKind::box_wall: {
-      const SlabSum sum = slab_sum(world, a, b);
-      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
-    }
-    case PairKind::cylinder_wall: {
-      const TiltedSum sum = tilted_sum(world, a, b);
-      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
-    }
     case PairKind::string:
-      break;
+      return {never, no_feature};
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
+        return ConservativeAdvancement(sum, in_frame(frame, start), way.in(frame), far, horizon).run(left);
+      });
   }
-  return {never, no_feature};
 }
 
 }  // namespace

@@ -235,20 +235,17 @@ FeatureTime RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m,
     const PrismFeature c{corner % 2 == 0 ? 1 : -1, 0, corner / 2 == 0 ? 1 : -1};
     RelativeMotion level{from_corner(m.d, c), m.w, m.a, m.speeds, false};
     level.w.y() = level.a.y() = 0;
-    Polynomial room = squared_gap_polynomial(level, disc);
-    for (double& x : room.c) x = -x;
     if (round()) {
-      offer(first_descent(room, horizon), c);
+      offer(first_descent(room_in_disc(level, disc), horizon), c);
       continue;
     }
-    const Roots roots = roots_between(room, 0, horizon);
-    const Polynomial slope = room.derivative();
-    for (int k = 0; k < roots.count; ++k) {
-      const double t = roots.at[static_cast<size_t>(k)];
+    const Roots exits = exit_times(level, disc, horizon);
+    for (int k = 0; k < exits.count; ++k) {
+      const double t = exits.at[static_cast<size_t>(k)];
       const Vec3 p = path(t);
       const double rounding = 0x1p-44 * (size() + p.cwiseAbs().sum() + m.d.cwiseAbs().sum());
       const bool on_corner = c.x * p.x() >= half.x() - rounding && c.z * p.z() >= half.z() - rounding;
-      if (slope(t) < 0 && on_corner) offer(t, c);
+      if (on_corner) offer(t, c);
     }
   }
   return first;

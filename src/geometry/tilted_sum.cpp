@@ -25,10 +25,10 @@ double level_length(const Vec3& p) {
 
 }  // namespace
 
-TiltedSum::TiltedSum(double radius, double half_height, const Wall& wall)
-    : radius_(radius),
-      segments_{Vec3(0, half_height, 0), wall.half_width * wall.right, wall.half_height * wall.up},
-      size_(radius + half_height + wall.half_width + wall.half_height) {
+TiltedSum::TiltedSum(const Volume& cylinder, const Wall& wall)
+    : radius_(cylinder.half.x()),
+      segments_{Vec3(0, cylinder.half.y(), 0), wall.half_width * wall.right, wall.half_height * wall.up},
+      size_(radius_ + cylinder.half.y() + wall.half_width + wall.half_height) {
   for (size_t k = 0; k < 3; ++k) casts_[k] = std::abs(segments_[k].y()) > 0x1p-40 * segments_[k].norm();
   const Vec3 along[3] = {Vec3::UnitY(), wall.right, wall.up};
   for (size_t k = 0; k < 2; ++k) {
@@ -205,14 +205,11 @@ FeatureTime TiltedSum::leave(uint8_t feature, const RelativeMotion& m, double ho
     for (double sign : {1.0, -1.0}) {
       const Vec3 end = count > 0 ? Vec3(sign * sides[0]) : Vec3::Zero();
       const RelativeMotion level{level_part(d - end), level_part(m.w), level_part(m.a), m.speeds, false};
-      Polynomial room = squared_gap_polynomial(level, radius_);
-      for (double& x : room.c) x = -x;
-      const Polynomial slope = room.derivative();
-      const Roots roots = roots_between(room, 0, horizon);
-      for (int k = 0; k < roots.count; ++k) {
-        const double t = roots.at[static_cast<size_t>(k)];
+      const Roots exits = exit_times(level, radius_, horizon);
+      for (int k = 0; k < exits.count; ++k) {
+        const double t = exits.at[static_cast<size_t>(k)];
         const Vec3 e = level.d + t * (level.w + 0.5 * t * level.a);
-        if (slope(t) < 0 && end.dot(e) >= -0x1p-40 * end.norm() * radius_) offer(t, e.normalized());
+        if (end.dot(e) >= -0x1p-40 * end.norm() * radius_) offer(t, e.normalized());
       }
     }
   }

@@ -40,23 +40,10 @@ Touch touch_string(const Vec3& xa, const Vec3& xb, double length) {
   return {-points.gap, -points.normal, xa, 0};
 }
 
-Vec3 sign_of(const Vec3& n) {
-  return {double(n.x() > 0) - double(n.x() < 0), double(n.y() > 0) - double(n.y() < 0),
-          double(n.z() > 0) - double(n.z() < 0)};
-}
-
 Touch touch_plane(const Plane& plane, const Vec3& point, const Volume& volume, const Vec3& x) {
   const Vec3 n = -plane.normal;
   const double gap = plane_gap(x, point, plane.normal, volume.support(plane.normal));
-  if (volume.shape == Shape::sphere) return {gap, n, x + volume.half.x() * n, 0};
-  Vec3 reach = volume.half.cwiseProduct(sign_of(n));
-  if (volume.shape == Shape::cylinder) {
-    const Vec3 level(n.x(), 0, n.z());
-    const double length = level.norm();
-    reach = Vec3(0, reach.y(), 0);
-    if (length > 0) reach += volume.half.x() / length * level;
-  }
-  return {gap, n, x + reach, 0};
+  return {gap, n, x + foremost(volume, n), 0};
 }
 
 Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const Vec3& xa, const Vec3& xb,
@@ -76,6 +63,11 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
   return {squared_gap(d, r) / (distance + r), n, xa + r * n, feature};
 }
 
+/// The middle of what an interval about 0 shares with one about d, of these half lengths.
+double middle_of_overlap(double half, double d, double other) {
+  return 0.5 * (std::max(-half, d - other) + std::min(half, d + other));
+}
+
 /// The middle of the area that a disc shares with a rectangle or another disc with its centre at d, from the disc's
 /// centre. The disc lies about the origin in the xz-plane.
 Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
@@ -83,12 +75,11 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
     const Vec3 level(d.x(), 0, d.z());
     const double distance = level.norm();
     if (distance == 0) return Vec3::Zero();
-    const double from = std::max(-disc, distance - other.half.x()), to = std::min(disc, distance + other.half.x());
-    return 0.5 * (from + to) / distance * level;
+    return middle_of_overlap(disc, distance, other.half.x()) / distance * level;
   }
   Vec3 middle = Vec3::Zero(), nearest = Vec3::Zero();
   for (int k : {0, 2}) {
-    middle[k] = 0.5 * (std::max(-disc, d[k] - other.half[k]) + std::min(disc, d[k] + other.half[k]));
+    middle[k] = middle_of_overlap(disc, d[k], other.half[k]);
     nearest[k] = std::clamp(0.0, d[k] - other.half[k], d[k] + other.half[k]);
   }
   if (middle.norm() <= disc) return middle;
@@ -107,8 +98,7 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
   if (b.shape == Shape::sphere) return p - (b.half.x() + s.gap) * s.normal;
   Vec3 c;
   for (int k = 0; k < 3; ++k) {
-    const double middle = 0.5 * (std::max(-a.half[k], p[k] - b.half[k]) + std::min(a.half[k], p[k] + b.half[k]));
-    c[k] = std::clamp(middle, -a.half[k], a.half[k]);
+    c[k] = std::clamp(middle_of_overlap(a.half[k], p[k], b.half[k]), -a.half[k], a.half[k]);
   }
   if (a.shape == Shape::box && b.shape == Shape::box) return c;
   const Vec3 level(s.normal.x(), 0, s.normal.z());
@@ -176,7 +166,8 @@ bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, con
 }
 
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, uint8_t feature) {
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
       return touch_spheres(xa, world.volume_of(a).half.x(), xb, world.volume_of(b).half.x());
     case PairKind::half_space:
@@ -186,9 +177,10 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
     case PairKind::prism:
       return touch_prism(world, a, b, xa, xb, feature);
     case PairKind::box_wall:
-      return touch_at_an_angle(slab_sum(world, a, b), world.volume_of(a), world.wall(b), xa, xb, feature);
     case PairKind::cylinder_wall:
-      return touch_at_an_angle(tilted_sum(world, a, b), world.volume_of(a), world.wall(b), xa, xb, feature);
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame&) {
+        return touch_at_an_angle(sum, world.volume_of(a), world.wall(b), xa, xb, feature);
+      });
     case PairKind::string:
       return touch_string(xa, xb, world.string(b).length);
   }
@@ -198,46 +190,36 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
 double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& touch,
                const Vec3& w) {
   const Vec3 d = xb - xa;
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
       return w.cross(touch.normal).squaredNorm() / d.norm();
     case PairKind::half_space:
-    case PairKind::box_wall:
       return 0;
-    case PairKind::sphere_wall: {
-      const PairPrism pair = pair_prism(world, a, b);
-      const Vec3 p = pair.frame.to(d);
-      return pair.sum.bending(p, prism_feature(touch.feature, p), pair.frame.to(w));
-    }
-    case PairKind::prism: {
-      const PairPrism pair = pair_prism(world, a, b);
-      return pair.sum.bending(pair.frame.to(d), touch.feature, pair.frame.to(w));
-    }
-    case PairKind::cylinder_wall:
-      return tilted_sum(world, a, b).bending(d, touch.feature, w);
     case PairKind::string:
       return -w.cross(touch.normal).squaredNorm() / d.norm();
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
+        const Vec3 p = frame.to(d);
+        const bool of_wall = kind == PairKind::sphere_wall;
+        return sum.bending(p, of_wall ? prism_feature(touch.feature, p) : touch.feature, frame.to(w));
+      });
   }
-  return 0;
 }
 
 bool is_flat(const World& world, Entity a, Entity b, uint8_t feature) {
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
+    case PairKind::string:
       return false;
     case PairKind::half_space:
-    case PairKind::box_wall:
       return true;
     case PairKind::sphere_wall:
       return feature < wall_edges;
-    case PairKind::prism:
-      return pair_prism(world, a, b).sum.flat(feature);
-    case PairKind::cylinder_wall:
-      return feature < TiltedSum::patches;
-    case PairKind::string:
-      return false;
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame&) { return sum.flat(feature); });
   }
-  return false;
 }
 
 }  // namespace carom

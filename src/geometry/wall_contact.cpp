@@ -82,16 +82,16 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
 
 }  // namespace
 
-WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
+FeatureTime wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               uint8_t left, double horizon) {
   return wall_contact_time(wall, of_wall(wall, x, v, a), radius, left, horizon);
 }
 
-WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
+FeatureTime wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
                               double horizon) {
   const LocalPath path = to_local(wall, motion, radius);
   const double half[2] = {wall.half_width, wall.half_height};
-  WallContact first{never, no_feature};
+  FeatureTime first{never, no_feature};
   const auto offer = [&](double t, uint8_t feature) {
     if (!(t < first.time)) return;
     first = {t, feature};
@@ -129,14 +129,10 @@ Vec3 nearest_on_wall(const Wall& wall, const Vec3& x) {
   return nearest_on_wall(wall, wall.center, x);
 }
 
-WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon) {
-  return wall_release_time(wall, of_wall(wall, x, v, a), horizon);
-}
-
-WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon) {
+FeatureTime wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon) {
   const LocalPath path = to_local(wall, motion, 1);
   const double half[2] = {wall.half_width, wall.half_height};
-  WallContact first{never, no_feature};
+  FeatureTime first{never, no_feature};
   for (int k = 0; k < 4; ++k) {
     const int axis = k / 2;
     const double side = k % 2 == 0 ? 1 : -1;
