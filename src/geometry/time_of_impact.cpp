@@ -43,6 +43,7 @@ FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const
     }
     case PairKind::half_space:
       return meet_plane(world.plane(b), motion, world.volume_of(a).support(world.plane(b).normal), left, horizon);
+
     case PairKind::sphere_wall:
       return wall_contact_time(world.wall(b), motion, world.volume_of(a).half.x(), left, horizon);
     case PairKind::string: {
@@ -50,6 +51,7 @@ FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const
       m.just_separated = left != no_feature;
       return {taut_time(m, world.string(b).length, horizon), 0};
     }
+
     default:
       return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
         const double far = size_of_positions(world, b, motion);

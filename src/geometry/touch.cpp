@@ -52,11 +52,13 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
     const PairPrism pair = pair_prism(world, a, b);
     feature = wall_feature(pair.sum.nearest(pair.frame.to(xb - xa)).feature);
   }
+
   const double r = world.volume_of(a).half.x();
   if (feature < wall_edges) {
     const Vec3 to_body = feature == wall_front ? wall.normal : Vec3(-wall.normal);
     return {plane_gap(xa, xb, to_body, r), -to_body, xa - r * to_body, feature};
   }
+
   const Vec3 d = nearest_on_wall(wall, xb, xa) - xa;
   const double distance = d.norm();
   const Vec3 n = distance > 0 ? Vec3(d / distance) : wall.normal;
@@ -77,12 +79,14 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
     if (distance == 0) return Vec3::Zero();
     return middle_of_overlap(disc, distance, other.half.x()) / distance * level;
   }
+
   Vec3 middle = Vec3::Zero(), nearest = Vec3::Zero();
   for (int k : {0, 2}) {
     middle[k] = middle_of_overlap(disc, d[k], other.half[k]);
     nearest[k] = std::clamp(0.0, d[k] - other.half[k], d[k] + other.half[k]);
   }
   if (middle.norm() <= disc) return middle;
+
   // Only a corner of the rectangle is over the disc. The middle is half way from there to the disc's rim.
   const Vec3 across = middle - nearest;
   const double half = nearest.dot(across), length = across.squaredNorm();
@@ -96,11 +100,14 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
   const Volume &a = pair.a, &b = pair.b;
   if (a.shape == Shape::sphere) return a.half.x() * s.normal;
   if (b.shape == Shape::sphere) return p - (b.half.x() + s.gap) * s.normal;
+
   Vec3 c;
   for (int k = 0; k < 3; ++k) {
     c[k] = std::clamp(middle_of_overlap(a.half[k], p[k], b.half[k]), -a.half[k], a.half[k]);
   }
   if (a.shape == Shape::box && b.shape == Shape::box) return c;
+
+  // In the plane of the discs.
   const Vec3 level(s.normal.x(), 0, s.normal.z());
   const double length = level.norm();
   Vec3 m;
@@ -112,15 +119,18 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
   } else {
     m = p + middle_of_areas(b.half.x(), a, -p);
   }
+
   return {m.x(), c.y(), m.z()};
 }
 
 Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const Vec3& xb, uint8_t feature) {
   const PairPrism pair = pair_prism(world, a, b);
   const Vec3 p = pair.frame.to(xb - xa);
+
   Separation s = feature == no_feature ? pair.sum.nearest(p) : pair.sum.at(p, feature);
   if (pair.sum.sharp(s.feature) && s.gap <= rounding_of_gap(xa, xb, pair.sum.size()))
     s = pair.sum.at(p, pair.sum.foremost_face(p, s.feature));
+
   const PrismFeature f = PrismFeature::of(s.feature);
   const int k = f.x != 0 ? 0 : f.y != 0 ? 1 : 2, side = f.x + f.y + f.z;
   if (pair.sum.flat(s.feature) && (!pair.frame.turned || k == 1)) {
@@ -128,6 +138,7 @@ Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const 
   } else {
     s.gap += s.normal.dot(pair.frame.to(lost_in_difference(xa, xb)));
   }
+
   return {s.gap, pair.frame.from(s.normal), xa + pair.frame.from(contact_in_prism(pair, p, s)), s.feature};
 }
 
@@ -174,6 +185,7 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
       return touch_plane(world.plane(b), xb, world.volume_of(a), xa);
     case PairKind::sphere_wall:
       return touch_wall(world, a, b, world.wall(b), xa, xb, feature);
+
     case PairKind::prism:
       return touch_prism(world, a, b, xa, xb, feature);
     case PairKind::box_wall:
@@ -181,6 +193,7 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
       return with_sum(kind, world, a, b, [&](const auto& sum, const Frame&) {
         return touch_at_an_angle(sum, world.volume_of(a), world.wall(b), xa, xb, feature);
       });
+
     case PairKind::string:
       return touch_string(xa, xb, world.string(b).length);
   }
@@ -198,6 +211,7 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
       return 0;
     case PairKind::string:
       return -w.cross(touch.normal).squaredNorm() / d.norm();
+
     default:
       return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
         const Vec3 p = frame.to(d);
