@@ -57,7 +57,7 @@ inline Solid solid(SolidKind kind, const Float3& center, const Float3& half) {
 
 /// Of each kind that rays meet, one about this centre. Walls are the shot's first.
 inline vector<Solid> one_of_each_kind(Shot& shot, const Float3& center) {
-  shot.walls = {{{0.8F, 0, 0.6F}, {0, 1, 0}, {0.6F, 0, -0.8F}}};
+  shot.walls = {{{0.8F, 0, 0.6F}, {0.36F, 0.8F, -0.48F}, {0.48F, -0.6F, -0.64F}}};
   return {ball(center, 0.5F), solid(SolidKind::box, center, {0.3F, 0.4F, 0.5F}),
           solid(SolidKind::cylinder, center, {0.3F, 0.5F, 0.3F}), solid(SolidKind::wall, center, {0.5F, 0.4F, 0})};
 }
