@@ -286,7 +286,7 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, uint8_t& featu
     const double reach = world.radius[i] + horizon * (sum_of_speeds(f.v) + horizon * sum_of_speeds(f.a));
     if (step && (f.x - nearest_on_wall(world.wall(surface), f.x)).squaredNorm() > reach * reach) return {never, 0};
 
-    const WallContact contact = wall_contact_time(world.wall(surface), f.x, f.v, f.a, world.radius[i],
+    const FeatureTime contact = wall_contact_time(world.wall(surface), f.x, f.v, f.a, world.radius[i],
                                                   left ? bodies_.body[i].origin_feature : no_feature, horizon);
     t = contact.time;
     feature = contact.feature;
