@@ -23,18 +23,21 @@ Shot crowded(int balls, bool lamp) {
   Shot shot = shot_of(203, 121, 0.5);
   uint64_t seed = 3;
   const auto any = [&](double low, double high) { return static_cast<float>(low + (high - low) * noise(seed)); };
+
   for (int i = 0; i < balls; ++i) {
     const Float3 center{any(-2, 2), any(-1, 1), any(2, 7)};
     shot.solids.push_back(ball(center, any(0.01, 0.15)));
     shot.solids.back().color = {any(0, 1), any(0, 1), any(0, 1)};
     shot.solids.back().glow = i % 7 ? 0.0F : 0.5F;
   }
+
   for (const SolidKind kind : {SolidKind::box, SolidKind::cylinder, SolidKind::wall}) {
     Solid s = ball({any(-1, 1), any(-0.5, 0.5), any(2, 5)}, 0.7F);
     s.kind = kind;
     s.half = {0.3F, 0.2F, 0.3F};
     shot.solids.push_back(s);
   }
+
   shot.walls.push_back({{1, 0, 0}, {0, 0.8F, 0.6F}, {0, 0.6F, -0.8F}});
   shot.solids.push_back(ball({0.2F, -0.1F, 0.15F}, 0.1F));  // across the near plane
   shot.grounds.push_back({{0, 1, 0}, 1, {1, 0, 0}, {0, 0, 1}, 0.3F, 0.2F, {0.6F, 0.5F, 0.4F}, true});
@@ -77,6 +80,7 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
   // Balls that glow, on black: the light of a pixel is its covered share.
   Shot shot = shot_of(160, 120, 0.7);
   uint64_t seed = 5;
+
   for (int i = 0; i < 40; ++i) {
     const double z = 3 + 4 * noise(seed);
     shot.solids.push_back(ball({static_cast<float>((1.4 * noise(seed) - 0.7) * z),
@@ -84,9 +88,11 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
                                static_cast<float>(0.05 + 0.4 * noise(seed))));
     shot.solids.back().glow = 1;
   }
+
   const vector<uint8_t> pixels = bytes_of(shot, tile_kernels().back());
   double worst = 0, square = 0;
   int edges = 0;
+
   for (int y = 64; y < shot.lens.height; ++y)  // below the line that bytes_of() adds
     for (int x = 0; x < shot.lens.width; ++x) {
       int hits = 0;
@@ -103,12 +109,14 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
           break;
         }
       }
+
       const double share =
           linear(pixels[3U * static_cast<unsigned>(y * shot.lens.width + x)]) / 0.85;  // by the tone curve
       const double error = share - hits / 64.0;
       if (hits > 0 && hits < 64) square += error * error, ++edges;
       worst = std::max(worst, std::abs(error));
     }
+
   EXPECT_GT(edges, 300);
   EXPECT_LT(std::sqrt(square / edges), 0.04);  // measured: 0.031
   EXPECT_LT(worst, 0.25);                      // measured: 0.215, where edges cross

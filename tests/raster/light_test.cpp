@@ -58,6 +58,7 @@ TEST(Light, GlintsWhereTheBallMirrorsTheLamp) {
   double most = 0;
   Vec3 brightest;
   const Drawn picture = drawn(shot);
+
   for_each_pixel(picture, [&](int x, int y, const Seen& seen) {
     if (seen.layers.empty() || seen.light.z() <= most) return;
     most = seen.light.z();
@@ -96,6 +97,7 @@ TEST(Light, OnFacesOfABoxIsThatOfTheirNormals) {
   shot.solids = {solid(SolidKind::box, {0, 0, 3}, {0.4F, 0.4F, 0.4F})};
   shot.solids[0].color = {0.3F, 0.3F, 0.3F};
   int compared = 0;
+
   for_each_pixel(drawn(shot), [&](int x, int y, const Seen& seen) {
     if (seen.layers.empty() || seen.layers[0].share < 1) return;
     const Vec3 p = seen.layers[0].z * ray(shot.lens, x, y), off = p - vec(shot.solids[0].center);
@@ -115,6 +117,7 @@ TEST(Light, OnFacesOfABoxIsThatOfTheirNormals) {
     EXPECT_NEAR(seen.light.x(), 0.3 * (1 - mirrored(n.dot(v))) * std::max(n.dot(l), 0.0), 2e-3) << x << ' ' << y;
     ++compared;
   });
+
   EXPECT_GT(compared, 50);
 }
 

@@ -29,6 +29,7 @@ void expect_met(const Shot& shot, const Solid& solid) {
       ++met;
     }
   });
+
   EXPECT_GT(met, 100);
   EXPECT_GT(missed, 1000);
 }
@@ -85,6 +86,7 @@ TEST(Rays, MeetABallThatReachesBehindTheEye) {
     EXPECT_NEAR(seen.layers[0].z, exact->from, 1e-4);
     ++met;
   });
+
   EXPECT_GT(met, 100);
 }
 

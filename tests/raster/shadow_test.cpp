@@ -65,6 +65,7 @@ Counts expect_shadows(Shot shot, double least = 0.85, double most = 1.15) {
       ++counts.lit;
     }
   });
+
   return counts;
 }
 
@@ -149,11 +150,13 @@ TEST(Shadows, AreNotCastByOtherLamps) {
   second.solids.clear();
   const Drawn both = drawn(shot), alone = drawn(second);
   int dark = 0;
+
   for_each_pixel(both, [&](int x, int y, const Seen& seen) {
     if (!is_blocked(shot, floor_point(shot, x, y), 0.6)) return;
     EXPECT_NEAR(seen.light.x(), alone.at(x, y).light.x(), 0.01);
     ++dark;
   });
+
   EXPECT_GT(dark, 25);
 }
 

@@ -138,6 +138,7 @@ inline Seen seen_in(const TileMemory& m, size_t block, size_t pixel) {
   constexpr size_t lanes = block_side * block_side;
   const size_t at = block * lanes + pixel;
   Seen seen;
+
   for (size_t k = 0; k < static_cast<size_t>(m.layers.used[block]); ++k) {
     const size_t place = (block * most_layers + k) * lanes + pixel;
     const int solid = m.layers.solid[place];
@@ -181,6 +182,7 @@ inline Drawn drawn(const Shot& shot, const How& how = {}) {
             seen_in(*memory, static_cast<size_t>(block), static_cast<size_t>(pixel));
       }
   }
+
   return out;
 }
 
