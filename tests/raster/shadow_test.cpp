@@ -25,7 +25,7 @@ Shot over_a_floor(const Lamp& lamp) {
   return shot;
 }
 
-const Lamp sun{unit({0.3F, 0.2F, -1}), false, {1, 1, 1}};
+const Lamp sun{unit({0.6F, 0.5F, -0.8F}), false, {1, 1, 1}};
 const Lamp bulb{{0.4F, 0.2F, -1}, true, {1, 1, 1}};
 
 Vec3 floor_point(const Shot& shot, int x, int y) {
