@@ -99,6 +99,8 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
       for (int k = 0; k < 64; ++k) {
         const double dx = double{shot.lens.left} + (x + (k % 8 + 0.5) / 8 - 0.5) * double{shot.lens.pixel};
         const double dy = double{shot.lens.top} - (y + (k / 8 + 0.5) / 8 - 0.5) * double{shot.lens.pixel};
+
+        // A sample counts once, whichever ball its ray meets.
         for (const Solid& s : shot.solids) {
           const double dd = dx * dx + dy * dy + 1;
           const double dc = dx * double{s.center[0]} + dy * double{s.center[1]} + double{s.center[2]};
