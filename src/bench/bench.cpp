@@ -51,13 +51,18 @@ class Bench {
     } catch (const SimulationError& error) {
       throw named(error);
     }
-    evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded, rounding_of(scene_),
+
+    evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded,
+                      rounding_of(world_, scene_.initial),
                       Finding{reference_.method, reference_.run, reference_.error});
     if (reference_.second) evidence_->add(*std::move(reference_.second));
+
     // Half of the time is for the qualities of crowds.
     const bool has_crowds = reference_.run.tally.stepped_contact > 0 && reference_.method.engine == Engine::exact;
     share_ = has_crowds ? 0.5 : 1;
     left_ = std::max(0.2 * options_.budget, share_ * options_.budget - spent());
+
+    // Each engine has its rows, or a reason why it has none.
     for (const Engine engine : {Engine::exact, Engine::stepped, Engine::book}) {
       if (const auto lacks = unsupported(world_, with_engine(scene_.simulate, engine)); !lacks.empty())
         result_.left_out.push_back(fmt::format("{}: {}", name_of(engine), lacks.front().what));
@@ -68,6 +73,7 @@ class Bench {
       else
         rows_of_stepped();
     }
+
     settle_reference();
     time_rows();
     if (has_crowds) measure_crowds();
@@ -87,6 +93,7 @@ class Bench {
     const double duration = scene_.simulate.duration;
     if (world_.body_count() == 0) throw SimulationError("the scene has no bodies: there is nothing to measure");
     if (!(duration > 0)) throw SimulationError("the scene lasts 0 s: there is nothing to measure");
+
     const double most = std::min(0.25 * duration, 64 * default_step(world_, scene_.initial));
     const double longest = options_.longest.value_or(std::exp2(std::floor(std::log2(most))));
     const double shortest = options_.shortest.value_or(std::ldexp(longest, -halvings));
@@ -103,6 +110,7 @@ class Bench {
     row.collisions = run.tally.collisions();
     row.hash = run.hash;
     if (reference_.horizon > 0) row.errors = reference_.off(world_, run);
+
     if (!reference_.ensemble) return;
     row.statistics = reference_.statistics(world_, run);
     row.speed_distance = reference_.ensemble->speed_distance(row.statistics);
@@ -126,10 +134,13 @@ class Bench {
       const bool recorded = method == reference_.method;
       const RecordedRun other = recorded ? RecordedRun{} : record(method, stop_check_within(left_, watch_.stop_check));
       const RecordedRun& run = recorded ? reference_.run : other;
+
+      // One run more is evidence. It is timed as often as the budget allows.
       fill(row, run);
       if (method.engine == Engine::exact && !recorded && reference_.horizon > 0)
         evidence_->add({method, run, reference_.rounded});
       row.repeats = static_cast<int>(std::clamp<int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
+
     } catch (const Overrun&) {
       result_.left_out.push_back(
           fmt::format("{}: one run takes more than {:.2g} s of CPU time", full_name_of(method), left_));
@@ -151,14 +162,18 @@ class Bench {
                         2 * step, options_.budget));
         return;
       }
+
       method.steps.length = step;
       const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
       watch_.report_progress(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
+
       BenchRow row;
       row.method = method;
       try {
         RecordedRun run = record(method, stop_check_within(0.5 * share, watch_.stop_check));
         fill(row, run);
+
+        // The rest of the share bounds the repeats and the next row.
         row.cpu_s = bare = time_once(row);
         records = std::max(0.0, run.cpu_s - bare);
         share -= run.cpu_s + bare;
@@ -166,6 +181,7 @@ class Bench {
         share -= row.repeats * bare;
         // The error of the book's engine comes from overlaps of bodies, however smooth their paths are.
         if (reference_.horizon > 0 && method.engine == Engine::stepped) evidence_->add_halved(method, std::move(run));
+
       } catch (const Overrun&) {
         result_.left_out.push_back(fmt::format("{}: steps of {:.4g} s and shorter, one run takes more than {:.2g} s",
                                                name_of(method), step, 0.5 * share));
@@ -181,17 +197,21 @@ class Bench {
     result_.rounding = reference_.rounding;
     result_.inexact_islands = reference_.run.inexact_islands;
     result_.chaotic = reference_.chaotic;
+
     result_.horizon = reference_.horizon;
     if (reference_.ensemble) {
       result_.members = reference_.ensemble->size();
       result_.mean = reference_.ensemble->mean();
     }
+
+    // Other methods may have shown that the first reference is not the best.
     if (reference_.horizon > 0) {
       Verdict verdict = evidence_->verdict(options_.reference.has_value());
       reference_.error = verdict.error;
       result_.witnesses = std::move(verdict.witnesses);
       if (verdict.reference > 0) take_reference(evidence_->findings()[verdict.reference]);
     }
+
     result_.reference = reference_.method;
     result_.reference_error = reference_.error;
     for (BenchRow& row : result_.rows)
@@ -233,6 +253,7 @@ class Bench {
       rows.push_back(&row);
       tasks.push_back({[this, &row] { time_once(row); }, row.repeats});
     }
+
     const auto report_progress = [&](double done) { watch_.report_progress(0.5 + 0.5 * done, "timed runs"); };
     const vector<double> medians = time_in_turns(tasks, report_progress);
     for (size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
@@ -254,10 +275,6 @@ class Bench {
 };
 
 }  // namespace
-
-double rounding_of(const Scene& scene) {
-  return 0x1p-53 * extent(scene.world, scene.initial);
-}
 
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
   return Bench(scene, options, watch).go();

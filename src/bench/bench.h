@@ -52,16 +52,7 @@ struct BenchResult {
   double cpu_s = 0;  // of the whole bench
 };
 
-struct BenchWatch {
-  /// Called often. May throw.
-  function<void()> stop_check;
-  function<void(double done, const string& what)> report_progress;  // done: 0 to 1
-};
-
 /// Throws SimulationError if there is no reference, and std::runtime_error if a repeated run has a different result.
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
-
-/// In m: 2^-53 of the scene's extent. Smaller distances are rounding.
-double rounding_of(const Scene& scene);
 
 }  // namespace carom

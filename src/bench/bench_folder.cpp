@@ -6,9 +6,9 @@
 
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <set>
 
+#include "bench/shifted.h"
 #include "files/csv.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
@@ -23,7 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 // In the plot.
 constexpr double least_deviation = 0.01;
 
@@ -44,6 +43,7 @@ Json facts_json(const BenchResult& result) {
   reference["velocity_error_m_per_s"] = error.velocity;
   reference["energy_error_J"] = error.energy;
   reference["held_against"] = witnesses_json(result.witnesses);
+
   return {{"reference", std::move(reference)},
           {"rounding_m", result.rounding},
           {"chaotic", result.chaotic},
@@ -53,48 +53,64 @@ Json facts_json(const BenchResult& result) {
           {"cpu_s", result.cpu_s}};
 }
 
-void write_table(OutputFile& file, const BenchResult& result) {
-  file.write(
-      "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
-      "collisions_missed,collisions_invented,result_hash,status,repeats,collisions,compared_until_s,"
-      "collision_rate_per_s,mean_speed_m_per_s,force_on_fixed_N,speed_distance,deviation,deviation_of,step_error,"
-      "reference_error_m\n");
-  for (const BenchRow& row : result.rows) {
-    const bool done = row.failure.empty(), errors = done && row.errors, statistics = done && result.chaotic;
-    const auto if_any = [](bool there, double value) { return there ? value : nothing; };
-    const Differences e = row.errors.value_or(Differences{});
-    CsvRow cells(file);
-    const SimulationMethod& method = row.method;
-    cells.text(name_of(method.engine)).text(method.engine == Engine::stepped ? name_of(method.integrator) : "");
-    cells.number(method.steps.length.value_or(nothing))
-        .number(if_any(done, row.cpu_s))
-        .number(if_any(errors, e.position));
-    cells.number(if_any(errors, e.velocity)).number(if_any(errors, e.energy)).number(if_any(done, row.max_overlap));
-    cells.number(if_any(errors, static_cast<double>(e.missed)));
-    cells.number(if_any(errors, static_cast<double>(e.invented)));
-    cells.text(done ? fmt::format("{:016x}", row.hash) : "").text(done ? "done" : "failed");
-    cells.number(if_any(done, row.repeats)).number(if_any(done, static_cast<double>(row.collisions)));
-    cells.number(if_any(errors, result.horizon));
-    cells.number(if_any(statistics, row.statistics.collision_rate));
-    cells.number(if_any(statistics, row.statistics.mean_speed));
-    cells.number(if_any(statistics, row.statistics.force_on_fixed));
-    cells.number(if_any(statistics, row.speed_distance)).number(if_any(statistics, row.deviation.value));
-    cells.text(statistics ? row.deviation.of : "").number(if_any(method.steps.error > 0, method.steps.error));
-    cells.number(if_any(errors, result.reference_error.position)).end();
+/// A row for each object, with its members of these names. A cell is empty where it has none.
+void write_table(OutputFile& file, span<const char* const> columns, const vector<Json>& rows) {
+  CsvRow cells(file);
+  for (const char* name : columns) cells.text(name);
+  cells.end();
+  for (const Json& row : rows) {
+    for (const char* name : columns) {
+      const Json value = row.value(name, Json(""));
+      value.is_string() ? cells.text(value.get<string>()) : cells.number(value.get<double>());
+    }
+    cells.end();
   }
 }
 
-void write_qualities(OutputFile& file, const QualityCurve& curve) {
-  file.write(
-      "quality,cpu_s,runs,dissipated_error,dissipated_spread,height_error,height_spread,contact_made_J,unsolved_steps,"
-      "max_overlap_m\n");
-  for (const QualityRow& row : curve.rows) {
-    CsvRow cells(file);
-    cells.text(string(name_of(row.level))).number(row.cpu_s).number(static_cast<double>(curve.runs));
-    cells.number(row.dissipated.value).number(row.dissipated.spread);
-    cells.number(row.height.value).number(row.height.spread);
-    cells.number(row.made).number(row.unsolved).number(row.max_overlap).end();
+/// Of bench.csv and of qualities.csv.
+constexpr const char* row_columns[] = {"engine",
+                                       "integrator",
+                                       "step_s",
+                                       "cpu_s",
+                                       "position_error_m",
+                                       "velocity_error_m_per_s",
+                                       "energy_error_J",
+                                       "max_overlap_m",
+                                       "collisions_missed",
+                                       "collisions_invented",
+                                       "result_hash",
+                                       "status",
+                                       "repeats",
+                                       "collisions",
+                                       "compared_until_s",
+                                       "collision_rate_per_s",
+                                       "mean_speed_m_per_s",
+                                       "force_on_fixed_N",
+                                       "speed_distance",
+                                       "deviation",
+                                       "deviation_of",
+                                       "step_error",
+                                       "reference_error_m"};
+
+constexpr const char* quality_columns[] = {"quality",           "cpu_s",        "runs",          "dissipated_error",
+                                           "dissipated_spread", "height_error", "height_spread", "contact_made_J",
+                                           "unsolved_steps",    "max_overlap_m"};
+
+vector<Json> rows_of(const BenchResult& result) {
+  vector<Json> rows;
+  for (const BenchRow& row : result.rows) {
+    Json& json = rows.emplace_back(row_json(row, result.chaotic));
+    if (!row.failure.empty() || !row.errors) continue;
+    json["compared_until_s"] = result.horizon;
+    json["reference_error_m"] = result.reference_error.position;
   }
+  return rows;
+}
+
+vector<Json> rows_of(const QualityCurve& curve) {
+  vector<Json> rows;
+  for (const QualityRow& row : curve.rows) rows.emplace_back(quality_json(row))["runs"] = curve.runs;
+  return rows;
 }
 
 /// One curve of the errors over run time. The reference has none.
@@ -161,6 +177,52 @@ nlohmann::ordered_json witnesses_json(const vector<Witness>& witnesses) {
   return list;
 }
 
+nlohmann::ordered_json differences_json(const Differences& errors) {
+  return {{"position_error_m", errors.position},
+          {"velocity_error_m_per_s", errors.velocity},
+          {"energy_error_J", errors.energy},
+          {"collisions_missed", errors.missed},
+          {"collisions_invented", errors.invented}};
+}
+
+nlohmann::ordered_json statistics_json(const Statistics& s) {
+  return {{"collision_rate_per_s", s.collision_rate},
+          {"mean_speed_m_per_s", s.mean_speed},
+          {"force_on_fixed_N", s.force_on_fixed}};
+}
+
+nlohmann::ordered_json row_json(const BenchRow& row, bool chaotic) {
+  Json json = method_json(row.method);
+  json["status"] = row.failure.empty() ? "done" : "failed";
+  if (!row.failure.empty()) return json;
+
+  json["cpu_s"] = row.cpu_s;
+  json["repeats"] = row.repeats;
+  if (row.errors) json.update(differences_json(*row.errors));
+  json["max_overlap_m"] = row.max_overlap;
+  json["collisions"] = row.collisions;
+  json["result_hash"] = fmt::format("{:016x}", row.hash);
+
+  if (!chaotic) return json;
+  json.update(statistics_json(row.statistics));
+  json["speed_distance"] = row.speed_distance;
+  json["deviation"] = row.deviation.value;
+  json["deviation_of"] = row.deviation.of;
+  return json;
+}
+
+nlohmann::ordered_json quality_json(const QualityRow& row) {
+  return {{"quality", name_of(row.level)},
+          {"cpu_s", row.cpu_s},
+          {"dissipated_error", row.dissipated.value},
+          {"dissipated_spread", row.dissipated.spread},
+          {"height_error", row.height.value},
+          {"height_spread", row.height.spread},
+          {"contact_made_J", row.made},
+          {"unsolved_steps", row.unsolved},
+          {"max_overlap_m", row.max_overlap}};
+}
+
 Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   Plot plot;
   plot.title = valid_utf8(scene.title);
@@ -168,8 +230,9 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.x_label = "CPU time of the run (s)";
   plot.y_label = result.chaotic ? "deviation of statistics (1: their spread by rounding)"
                                 : "position error (m), greatest of all bodies and instants";
-  plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
+  plot.floor = result.chaotic ? least_deviation : rounding_of(scene.world, scene.initial);
   plot.levels = levels_of(result);
+
   // Integrators of which runs have the same bits as the exact engine's. They share its point.
   std::set<string> exact;
   for (const BenchRow& row : result.rows) {
@@ -182,6 +245,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
     if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, style_of(row.method), {}});
     plot.series.back().points.push_back(point_of(row, result));
   }
+
   if (exact.size() == 3) exact = {"stepped"};
   for (const string& name : exact) plot.series.front().name += ", " + name;
   // The labels of the first and the last point suffice for those between.
@@ -198,6 +262,7 @@ Plot quality_plot(const Scene& scene, const QualityCurve& curve) {
   plot.x_label = "CPU time of the run (s)";
   plot.y_label = "share of the whole";
   plot.floor = 1e-5;
+
   plot.series.push_back(quality_series(curve, "energy lost", 0, &QualityRow::dissipated));
   plot.series.push_back(quality_series(curve, "height of the heap", 1, &QualityRow::height));
   for (PlotPoint& point : plot.series.back().points) point.label.clear();
@@ -210,6 +275,7 @@ FolderContent inspect_bench_folder(const string& folder, const Scene& scene, con
   files.insert(files.end(), bench_files.begin(), bench_files.end());
   for (const MeshFile& mesh : scene.meshes)
     if (!mesh.copy.empty()) files.push_back(mesh.copy);
+
   // The outputs of a run of the scene are not part of a bench.
   Scene nothing_else;
   nothing_else.resolved = scene.resolved;
@@ -227,8 +293,10 @@ void BenchFolder::write(const Scene& scene, const BenchOptions& options, const B
   const FilePlace& place = folder_.place();
   std::deque<OutputFile> files;
   for (size_t k = 0; k < 3 * plots.size(); ++k) files.emplace_back(place, bench_files[k]);
-  write_table(files[0], result);
-  if (has_qualities) write_qualities(files[3], result.qualities);
+
+  write_table(files[0], row_columns, rows_of(result));
+  if (has_qualities) write_table(files[3], quality_columns, rows_of(result.qualities));
+
   vector<PartFile*> written;
   for (size_t k = 0; k < files.size(); ++k) {
     if (k % 3 == 1) files[k].write(pictures[k / 3].png);

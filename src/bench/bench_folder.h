@@ -27,6 +27,12 @@ Plot quality_plot(const Scene& scene, const QualityCurve& curve);
 nlohmann::ordered_json method_json(const SimulationMethod& method);
 /// The other methods, with apart_m and agrees.
 nlohmann::ordered_json witnesses_json(const vector<Witness>& witnesses);
+/// The columns of bench.csv, by their names. Absent: what a failed row, or one without trajectories, does not have.
+nlohmann::ordered_json row_json(const BenchRow& row, bool chaotic);
+nlohmann::ordered_json differences_json(const Differences& errors);
+nlohmann::ordered_json statistics_json(const Statistics& statistics);
+/// The columns of a row of qualities.csv.
+nlohmann::ordered_json quality_json(const QualityRow& row);
 
 class BenchFolder {
  public:

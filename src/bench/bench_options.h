@@ -1,5 +1,5 @@
 #pragma once
-// Options of a bench: the steps, and the time limits.
+// The options of a bench, and how it is watched.
 
 #include "scene/simulate_settings.h"
 #include "std.h"
@@ -15,6 +15,12 @@ struct BenchOptions {
   double budget = 20;
   /// exact or stepped. None: exact if it supports the whole scene.
   optional<Engine> reference;
+};
+
+struct BenchWatch {
+  /// Called often. May throw.
+  function<void()> stop_check;
+  function<void(double done, const string& what)> report_progress;  // done: 0 to 1
 };
 
 }  // namespace carom

@@ -32,6 +32,7 @@ class Matching {
     auto s = run.impacts.begin();
     while (r != reference.impacts.end() || s != run.impacts.end()) {
       // The next pair that collides in either run, and all its collisions in both.
+
       const bool from_reference = s == run.impacts.end() || (r != reference.impacts.end() && key(*r) <= key(*s));
       const auto pair = key(from_reference ? *r : *s);
       const auto r_end = std::find_if(r, reference.impacts.end(), [&](const Impact& i) { return key(i) != pair; });
@@ -73,12 +74,14 @@ class Matching {
         const Entity second = world_.second_body(reference[i].b);
         if (second != no_entity) between_[second].push_back({from, to});
         ++i, ++j;
+
       } else if (reference[i].time < run[j].time) {
         count(reference[i++], missed_);
       } else {
         count(run[j++], invented_);
       }
     }
+
     for (; i < reference.size(); ++i) count(reference[i], missed_);
     for (; j < run.size(); ++j) count(run[j], invented_);
   }
@@ -117,6 +120,7 @@ Differences differences(const World& world, const RecordedRun& reference, const 
   Differences most;
   most.missed = matching.missed();
   most.invented = matching.invented();
+
   for (size_t k = 0; k < instants.size() && instants[k] <= until; ++k) {
     const State &there = reference.states[k], &here = run.states[k];
     Sum energy;

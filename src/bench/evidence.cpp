@@ -47,10 +47,12 @@ void Evidence::add(Finding finding) {
 
 void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   if (run.hash == findings_.front().run.hash) return;
+
   if (last_ && last_->method.integrator != method.integrator) {
     last_.reset();
     best_ = 0;
   }
+
   Finding finding{method, std::move(run), {}};
   double change = infinite;
   if (last_) {
@@ -63,6 +65,7 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
     const bool converges = falls || change <= rounding_room * rounding_.position;
     if (converges && finding.error.position <= largest_error * last_digit_) keep(finding);
   }
+
   last_ = std::move(finding);
   change_ = change;
 }
@@ -84,6 +87,7 @@ bool Evidence::agree(const Finding& a, const Finding& b, double apart) const {
 Verdict Evidence::verdict(bool settled) const {
   const size_t n = findings_.size();
   Verdict verdict;
+
   vector<Differences> apart(n * n);
   vector<bool> confirmed(n);
   for (size_t i = 0; i < n; ++i)
@@ -93,13 +97,17 @@ Verdict Evidence::verdict(bool settled) const {
       if (resolves_forces(findings_[i].method) || resolves_forces(findings_[j].method))
         if (agree(findings_[i], findings_[j], apart[i * n + j].position)) confirmed[i] = confirmed[j] = true;
     }
+
   // The first finding is the reference unless others confirm a different one, or confirm one with far smaller error.
   for (size_t i = 1; i < n && !settled; ++i) {
     const double mine = findings_[i].error.position, held = findings_[verdict.reference].error.position;
     if (confirmed[i] && (!confirmed[verdict.reference] || rounding_room * mine < held)) verdict.reference = i;
   }
+
   const Finding& reference = findings_[verdict.reference];
   verdict.error = reference.error;
+
+  // How far each of the others is from it.
   Differences least{infinite, infinite, infinite, 0, 0};
   for (size_t i = 0; i < n; ++i) {
     if (i == verdict.reference) continue;
@@ -107,6 +115,7 @@ Verdict Evidence::verdict(bool settled) const {
     verdict.witnesses.push_back({findings_[i].method, d.position, agree(reference, findings_[i], d.position)});
     if (d.position < least.position) least = d;
   }
+
   if (n > 1 && !confirmed[verdict.reference]) verdict.error = larger(verdict.error, least);
   return verdict;
 }

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "bench/bench.h"
 #include "bench/method.h"
-#include "bench/reference.h"
 #include "bench/timing.h"
 #include "numerics/whole.h"
 #include "physics/world.h"
@@ -56,6 +54,7 @@ double height_of_heap(const World& world, const State& state) {
   double mass = 0;
   double moment = 0;
   double lowest = std::numeric_limits<double>::infinity();
+
   for (Entity i = 0; i < world.body_count(); ++i) {
     const double of_body = state.mass.empty() ? world.mass[i] : state.mass[i];
     if (of_body == 0) continue;  // it has left the world
@@ -64,6 +63,7 @@ double height_of_heap(const World& world, const State& state) {
     moment += of_body * height;
     lowest = std::min(lowest, height - world.radius[i]);
   }
+
   return moment / mass - lowest;
 }
 
@@ -161,13 +161,16 @@ class QualityBench {
     const QualityRuns& reference = runs_.back();
     QualityRow row;
     row.level = static_cast<QualityLevel>(level);
+
     vector<double> times;
     for (const QualityRun& run : runs) {
       times.push_back(run.cpu_s);
       row.max_overlap = std::max(row.max_overlap, run.tally.max_overlap);
     }
+
     std::nth_element(times.begin(), times.begin() + static_cast<ptrdiff_t>(times.size() / 2), times.end());
     row.cpu_s = times[times.size() / 2];
+
     row.made = mean_over(runs, [](const QualityRun& run) { return run.tally.doubts.contact_made; }).value;
     row.unsolved =
         mean_over(runs, [](const QualityRun& run) {

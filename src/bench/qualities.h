@@ -12,7 +12,6 @@
 
 namespace carom {
 
-struct BenchWatch;
 struct Scene;
 
 /// How far a mean over runs is from that of the reference, as a share, and its standard error.

@@ -16,6 +16,7 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
                        const vector<double>& instants, const function<void()>& stop_check) {
   const double start = cpu_time();
   RecordedRun run;
+
   run.duration = simulate.duration;
   const auto simulator = make_simulator(world, initial, simulate, {.collisions = true}, steps);
   const auto go_to = [&](double time) {
@@ -28,14 +29,18 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
       }
     }
   };
+
+  // Sample the run, and go on to its end.
   for (const double instant : instants) {
     go_to(instant);
     run.states.push_back(simulator->state());
   }
   go_to(simulate.duration);
+
   run.tally = simulator->tally();
   run.inexact_islands = simulator->effort().inexact_steps > 0 || run.tally.stepped_contact > 0;
   run.hash = hash_of(simulator->state(), run.tally);
+
   std::ranges::stable_sort(run.impacts, [](const Impact& p, const Impact& q) {
     return std::tie(p.a, p.b, p.time) < std::tie(q.a, q.b, q.time);
   });

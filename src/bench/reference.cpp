@@ -11,6 +11,7 @@
 #include "bench/timing.h"
 #include "physics/force.h"
 #include "physics/world.h"
+#include "run/accuracy.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
@@ -20,20 +21,10 @@ namespace carom {
 
 namespace {
 
-using accuracy_tolerance::golden, accuracy_tolerance::most_instants, accuracy_tolerance::places_kept;
-
 constexpr int shifted_runs = 3;
 constexpr int ensemble_runs = 12;
 constexpr double astray = 0.01;  // of the largest radius
-constexpr double last_digit = 0x1p-53, grown = 0x1p14;
-
-vector<double> instants_in(double from, double to, size_t bodies) {
-  const auto most = static_cast<int>(places_kept / static_cast<double>(std::max<size_t>(bodies, 1)));
-  const int count = std::clamp(most, 8, most_instants);
-  vector<double> instants(static_cast<size_t>(count));
-  for (int k = 0; k < count; ++k) instants[static_cast<size_t>(k)] = from + (to - from) * (k + golden) / count;
-  return instants;
-}
+constexpr double grown = 0x1p14;
 
 class Making {
  public:
@@ -46,9 +37,11 @@ class Making {
     const bool exact_runs = unsupported(world_, settings_of(scene_.simulate, method)).empty();
     method.engine = options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped);
     if (method.engine == Engine::stepped) method = dop853(world_, exact_tolerance::step_error);
+
     reference_.duration = scene_.simulate.duration;
     if (const auto lacks = unsupported(world_, settings_of(scene_.simulate, method)); !lacks.empty())
       throw SimulationError("there is no reference: " + lacks.front().what);
+
     try {
       run();
     } catch (const Overrun&) {
@@ -70,12 +63,15 @@ class Making {
 
   void run() {
     const double duration = scene_.simulate.duration;
-    reference_.instants = instants_in(0, duration, world_.body_count());
+    reference_.instants = uneven_instants(0, duration, world_.body_count());
     reference_.run = record(world_, scene_.initial, reference_.method);
     const double once = reference_.run.cpu_s;
+
+    // The same in shifted coordinates, as often as time allows.
     vector<RecordedRun> others;
     for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * once < 0.2 * options_.budget); ++k)
       others.push_back(shifted_run(k, reference_.method));
+
     judge(others);
     if (reference_.chaotic) {
       gather_ensemble();
@@ -83,6 +79,8 @@ class Making {
       for (const RecordedRun& other : others) take_rounding(other);
     }
     if (reference_.horizon > 0 && reference_.run.inexact_islands) take_smaller_steps();
+
+    // The error of the reference, and another method to check it.
     reference_.error = reference_.rounded;
     if (!(reference_.horizon > 0) || varying_force(world_) == nullptr) return;
     watch_.report_progress(0, "dop853");
@@ -130,7 +128,7 @@ class Making {
 
   /// Determines whether rounding grows until trajectories are meaningless, and until when they are comparable.
   void judge(const vector<RecordedRun>& others) {
-    const double first = last_digit * extent(world_, scene_.initial);
+    const double first = rounding_of(world_, scene_.initial);
     double until = 0;
     for (size_t k = 0; k < reference_.instants.size(); ++k) {
       for (const RecordedRun& other : others)
@@ -146,13 +144,15 @@ class Making {
   /// Samples the reference and more shifted runs before the horizon, and then after it.
   void gather_ensemble() {
     vector<double>& instants = reference_.instants;
-    instants = instants_in(0, reference_.horizon, world_.body_count());
+    instants = uneven_instants(0, reference_.horizon, world_.body_count());
     if (!(reference_.horizon > 0)) instants.clear();
     reference_.trajectory_instants = instants.size();
-    for (const double later : instants_in(reference_.horizon, scene_.simulate.duration, world_.body_count()))
+    for (const double later : uneven_instants(reference_.horizon, scene_.simulate.duration, world_.body_count()))
       instants.push_back(later);
+
     reference_.run = record(world_, scene_.initial, reference_.method);
     vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
+
     for (int k = 1; k <= ensemble_runs; ++k) {
       if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
       watch_.report_progress(0, "the reference, shifted");
@@ -172,13 +172,6 @@ class Making {
 };
 
 }  // namespace
-
-function<void()> stop_check_within(double share, const function<void()>& stop_check) {
-  return [end = cpu_time() + share, &stop_check] {
-    stop_check();
-    if (cpu_time() > end) throw Overrun{};
-  };
-}
 
 Reference make_reference(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
   return Making(scene, options, watch).go();

@@ -8,7 +8,7 @@
 // Trajectories of a chaotic scene are compared until rounding has grown 2^14-fold.
 // Beyond that, statistics are compared, and more shifted runs show how much these vary.
 
-#include "bench/bench.h"
+#include "bench/bench_options.h"
 #include "bench/differences.h"
 #include "bench/evidence.h"
 #include "bench/method.h"
@@ -20,12 +20,6 @@
 namespace carom {
 
 struct Scene;
-
-/// Thrown when a run exceeds its CPU time.
-struct Overrun {};
-
-/// Calls `stop_check`, and throws Overrun once `share` (s) of CPU time has passed since this call.
-function<void()> stop_check_within(double share, const function<void()>& stop_check);
 
 struct Reference {
   SimulationMethod method;  // exact, or stepped with dop853

@@ -27,6 +27,10 @@ double extent(const World& world, const State& initial) {
   return most;
 }
 
+double rounding_of(const World& world, const State& initial) {
+  return 0x1p-53 * extent(world, initial);
+}
+
 Vec3 shift(double extent, int number) {
   const auto fraction = [&](double root) { return number * root - std::floor(number * root); };
   return extent * Vec3(0.5 + fraction(std::sqrt(2.0)), 0.5 + fraction(std::sqrt(3.0)), 0.5 + fraction(std::sqrt(5.0)));

@@ -21,8 +21,10 @@ Statistics statistics_of(const World& world, const RecordedRun& run, double dura
     struck += bodies ? 2 : 1;
     if (!bodies) on_fixed += impact.impulse;
   }
+
   statistics.collision_rate = static_cast<double>(struck) / (static_cast<double>(world.body_count()) * duration);
   statistics.force_on_fixed = on_fixed / duration;
+
   for (size_t k = from; k < run.states.size(); ++k)
     for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());
   std::ranges::sort(statistics.speeds);
@@ -82,6 +84,8 @@ Ensemble::Ensemble(vector<Statistics> members) : members_(std::move(members)) {
   mean_.collision_rate = mean_of(each(members_, rate));
   mean_.mean_speed = mean_of(each(members_, speed));
   mean_.force_on_fixed = mean_of(each(members_, force));
+
+  // Each member counts as one more run beside the others.
   for (size_t m = 0; m < members_.size(); ++m) {
     vector<double> others;
     for (size_t k = 0; k < members_.size(); ++k)

@@ -29,10 +29,19 @@ double cpu_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+function<void()> stop_check_within(double share, const function<void()>& stop_check) {
+  return [end = cpu_time() + share, &stop_check] {
+    stop_check();
+    if (cpu_time() > end) throw Overrun{};
+  };
+}
+
 vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void(double)>& report_progress) {
   vector<int> runs;  // executions in a turn
   vector<vector<double>> times(tasks.size());
   int rounds = 0;
+
+  // How many executions make a turn long enough for the clock.
   for (const TimedTask& task : tasks) {
     int many = 1;
     // A task that is timed only once takes long enough.
@@ -45,11 +54,13 @@ vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void
     runs.push_back(many);
     rounds = std::max(rounds, task.repeats);
   }
+
   for (int round = 0; round < rounds; ++round) {
     report_progress(static_cast<double>(round) / rounds);
     for (size_t k = 0; k < tasks.size(); ++k)
       if (round < tasks[k].repeats) times[k].push_back(turn(tasks[k], runs[k]));
   }
+
   vector<double> medians;
   for (vector<double>& all : times) {
     std::ranges::sort(all);

@@ -1,5 +1,5 @@
 #pragma once
-// CPU times, measured so that other work on the machine affects all tasks alike.
+// CPU times and their limits. They are measured so that other work on the machine affects all tasks alike.
 
 #include "std.h"
 
@@ -7,6 +7,12 @@ namespace carom {
 
 /// CPU time of this process so far (s).
 double cpu_time();
+
+/// Thrown when a run exceeds its CPU time.
+struct Overrun {};
+
+/// Calls `stop_check`, and throws Overrun once `share` (s) of CPU time has passed since this call.
+function<void()> stop_check_within(double share, const function<void()>& stop_check);
 
 struct TimedTask {
   function<void()> run;

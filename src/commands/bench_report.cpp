@@ -95,41 +95,6 @@ Cells cells_of(const BenchRow& row, bool chaotic) {
   return cells;
 }
 
-Json errors_json(const Differences& errors) {
-  return {{"position_error_m", errors.position},
-          {"velocity_error_m_per_s", errors.velocity},
-          {"energy_error_J", errors.energy},
-          {"collisions_missed", errors.missed},
-          {"collisions_invented", errors.invented}};
-}
-
-Json statistics_json(const Statistics& s) {
-  return {{"collision_rate_per_s", s.collision_rate},
-          {"mean_speed_m_per_s", s.mean_speed},
-          {"force_on_fixed_N", s.force_on_fixed}};
-}
-
-Json row_json(const BenchRow& row, bool chaotic) {
-  Json json = method_json(row.method);
-  json["status"] = row.failure.empty() ? "done" : "failed";
-  if (!row.failure.empty()) {
-    json["errors"] = carom::errors_json(error_of_text(row.failure));
-    return json;
-  }
-  json["cpu_s"] = row.cpu_s;
-  json["repeats"] = row.repeats;
-  if (row.errors) json.update(errors_json(*row.errors));
-  json["max_overlap_m"] = row.max_overlap;
-  json["collisions"] = row.collisions;
-  json["result_hash"] = fmt::format("{:016x}", row.hash);
-  if (!chaotic) return json;
-  json.update(statistics_json(row.statistics));
-  json["speed_distance"] = row.speed_distance;
-  json["deviation"] = row.deviation.value;
-  json["deviation_of"] = row.deviation.of;
-  return json;
-}
-
 /// "0.21 +- 0.05" %, or nothing.
 string percent_text(const MeanError& error) {
   if (!std::isfinite(error.value)) return "";
@@ -144,18 +109,6 @@ void describe(Block& block, const QualityCurve& curve) {
     rows.push_back({string(name_of(row.level)), digits(row.cpu_s), percent_text(row.dissipated),
                     percent_text(row.height), digits(row.made), digits(100 * row.unsolved), digits(row.max_overlap)});
   block.table(rows);
-}
-
-Json quality_json(const QualityRow& row) {
-  return {{"quality", name_of(row.level)},
-          {"cpu_s", row.cpu_s},
-          {"dissipated_error", row.dissipated.value},
-          {"dissipated_spread", row.dissipated.spread},
-          {"height_error", row.height.value},
-          {"height_spread", row.height.spread},
-          {"contact_made_J", row.made},
-          {"unsolved_steps", row.unsolved},
-          {"max_overlap_m", row.max_overlap}};
 }
 
 }  // namespace
@@ -182,7 +135,7 @@ void describe(Block& block, const PlannedScene& planned, const BenchResult& resu
 
 Json bench_json(const BenchResult& result) {
   Json reference = method_json(result.reference);
-  reference.update(errors_json(result.reference_error));
+  reference.update(differences_json(result.reference_error));
   reference["held_against"] = witnesses_json(result.witnesses);
   reference["islands_unchecked"] = result.inexact_islands;
   Json json = {{"reference", reference},
@@ -195,7 +148,10 @@ Json bench_json(const BenchResult& result) {
     json["ensemble"]["runs"] = result.members;
   }
   json["rows"] = Json::array();
-  for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row, result.chaotic));
+  for (const BenchRow& row : result.rows) {
+    Json& entry = json["rows"].emplace_back(row_json(row, result.chaotic));
+    if (!row.failure.empty()) entry["errors"] = errors_json(error_of_text(row.failure));
+  }
 
   if (!result.qualities.rows.empty()) {
     json["qualities"] = Json::array();

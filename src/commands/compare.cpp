@@ -17,6 +17,7 @@
 #include "commands/text.h"
 #include "compare/compared_run.h"
 #include "compare/comparison_folder.h"
+#include "compare/stored_measures.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/stored_file.h"

@@ -37,6 +37,7 @@ XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const vector<Measur
   XAxis axis;
   const auto parameter = find_parameter(plan, chart.x);
   const auto measure = find_measure(measures, chart.x);
+
   if (parameter && parameter != plan.seed) {
     const Varied& varied = outcomes.varied()[*parameter];
     axis.label = label_of(plan.parameters[*parameter]);
@@ -51,27 +52,15 @@ XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const vector<Measur
     axis.numeric = false;
     axis.of_point = [&outcomes](size_t i) { return Cell{string(outcomes.id(i))}; };
   }
+
   return axis;
 }
 
 }  // namespace
 
-optional<size_t> find_parameter(const ComparisonPlan& plan, string_view path) {
-  for (size_t p = 0; p < plan.parameters.size(); ++p)
-    if (plan.parameters[p].path == path) return p;
-  return nullopt;
-}
-
-string label_of(const Parameter& parameter) {
-  return parameter.unit.empty() ? parameter.path : fmt::format("{} ({})", parameter.path, parameter.unit);
-}
-
-string name_of_value(const Parameter& parameter, const string& value) {
-  return fmt::format("{} = {}{}{}", parameter.path, value, parameter.unit.empty() ? "" : " ", parameter.unit);
-}
-
 vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes) {
   if (!plan.charts.empty()) return plan.charts;
+
   vector<size_t> independent = outcomes.independent();
   const auto values = [&](size_t p) { return outcomes.varied()[p].values.size(); };
   string x, by;
@@ -84,6 +73,7 @@ vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& m
     if (independent.size() > 1 && values(independent[1]) <= most_default_lines)
       by = plan.parameters[independent[1]].path;
   }
+
   vector<Chart> charts;
   for (size_t k = 0; k < measures.size() && k < most_default_charts; ++k) charts.push_back({x, measures[k].name, by});
   return charts;
@@ -95,6 +85,7 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
   const size_t y = find_measure(measures, chart.y).value_or(0);
   const auto by = chart.by.empty() ? nullopt : find_parameter(plan, chart.by);
   const Varied* lines = by && by != plan.seed ? &outcomes.varied()[*by] : nullptr;
+
   ChartData data;
   data.x_label = axis.label;
   data.y_label = label_of(chart.y);
@@ -109,31 +100,38 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
 
   // Make a row for each x, and several rows if a line has several points there.
   const auto line_of = [&](size_t i) -> size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
+
   vector<size_t> points_of_line(data.lines.size());
   size_t shown = 0;
   for (size_t i = 0; i < outcomes.points(); ++i) shown += line_of(i) < data.lines.size() ? 1 : 0;
   const size_t every = 1 + (std::max<size_t>(shown, 1) - 1) / most_charted;
   if (every * outcomes.every() > 1)
     data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
+
   // x, or the order of its text; the number of earlier points with it.
   using Row = std::pair<std::pair<double, size_t>, size_t>;
   std::map<Row, vector<std::pair<size_t, size_t>>> rows;  // line and point
   std::map<string, size_t> texts;
   std::map<std::pair<size_t, std::pair<double, size_t>>, size_t> seen;
+
   for (size_t i = 0; i < outcomes.points(); ++i) {
     const size_t line = line_of(i);
     // Each line is thinned separately, so that no line is lost.
     if (line >= data.lines.size() || points_of_line[line]++ % every != 0) continue;
+
     const Cell x = axis.of_point(i);
     if (axis.numeric && !x.is_number()) continue;
     const std::pair<double, size_t> key =
         axis.numeric ? std::pair(x.number, size_t{0}) : std::pair(0.0, texts.emplace(x.text, i).first->second);
     rows[{key, seen[{line, key}]++}].emplace_back(line, i);
   }
+
+  // A line has no value where it has no point.
   for (ChartLine& line : data.lines) {
     line.y.assign(rows.size(), std::nan(""));
     if (plan.seed) line.spread = line.y;
   }
+
   data.joined = axis.chosen;
   for (const auto& [key, points] : rows) {
     for (const auto& [line, point] : points) {

@@ -31,13 +31,4 @@ vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& m
 ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vector<Measure>& measures,
                      const Outcomes& outcomes);
 
-/// "balls.red.position.z (m)".
-string label_of(const Parameter& parameter);
-
-/// "balls.red.position.z = 0.025 m".
-string name_of_value(const Parameter& parameter, const string& value);
-
-/// The index of a parameter in the plan, or none.
-optional<size_t> find_parameter(const ComparisonPlan& plan, string_view path);
-
 }  // namespace carom

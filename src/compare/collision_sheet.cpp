@@ -16,18 +16,18 @@ CollisionSheet::CollisionSheet(Worksheet& sheet, size_t runs)
 void CollisionSheet::add(const RunRecord& run) {
   if (!run.done || rows_.size() >= most || !has_file(run, "collisions.csv")) return;
   StoredTable table = open_table(run, "collisions.csv");
-  vector<size_t> from;
-  for (const ColumnText& text : collision_columns())
-    from.push_back(table.find(text.name).value_or(table.columns().size()));
+  vector<optional<size_t>> from;
+  for (const ColumnText& text : collision_columns()) from.push_back(table.find(text.name));
+
   ids_.push_back(run.run.id);
   size_t taken = 0;
-  while (const auto* cells = table.next()) {
+  while (table.next() != nullptr) {
     if (taken++ == share_) {
       full_ = true;
       return;
     }
     Row& row = rows_.emplace_back(Row{static_cast<uint32_t>(ids_.size() - 1), {}});
-    for (const size_t k : from) row.cells.emplace_back(k < cells->size() ? (*cells)[k] : "");
+    for (const auto& column : from) row.cells.emplace_back(table.cell(column));
   }
 }
 
@@ -35,20 +35,23 @@ void CollisionSheet::finish() {
   vector<NumberLook> looks(collision_columns().size());
   for (const Row& row : rows_)
     for (size_t k = 0; k < looks.size(); ++k) looks[k].add(cell_of(row.cells[k]).number);
+
   sheet_.set_head_row(0);
   sheet_.head(0, 0, "run");
   size_t column = 1;
   for (const ColumnText& text : collision_columns()) sheet_.head(0, column++, label_of(text.name));
+
   for (size_t i = 0; i < rows_.size(); ++i) {
     sheet_.text(1 + i, 0, ids_[rows_[i].run]);
     for (size_t k = 0; k < looks.size(); ++k)
       sheet_.cell(1 + i, 1 + k, cell_of(rows_[i].cells[k]), CellStyle::plain, &looks[k]);
   }
   if (rows_.empty()) sheet_.text(1, 0, "No run has collisions in a collisions.csv.", CellStyle::note);
+
   sheet_.fit_table();
   sheet_.freeze(1, 1);
-  worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<size_t>(rows_.size(), 1)),
-                       static_cast<lxw_col_t>(collision_columns().size()));
+  worksheet_autofilter(sheet_.get(), 0, 0, to_row(std::max<size_t>(rows_.size(), 1)),
+                       to_column(collision_columns().size()));
   sheet_.print_table(0);
 }
 

@@ -42,17 +42,22 @@ void CommonValues::compare(string_view other) {
     same_.assign(text_.size(), false);
     return;
   }
+
   const auto differ = [&](string_view part) {
     const auto from = same_.begin() + (part.data() - text_.data());
     std::fill(from, from + static_cast<ptrdiff_t>(part.size()), false);
   };
+
+  // Line by line, and within a line value by value.
   for (string_view rest = text_; !rest.empty();) {
     string_view line = take(rest, '\n'), other_line = take(other, '\n');
     if (line == other_line) continue;
+
     if (std::ranges::count(line, ',') != std::ranges::count(other_line, ',')) {
       differ(line);
       continue;
     }
+
     while (!line.empty()) {
       const string_view value = take(line, ',');
       if (value != take(other_line, ',')) differ(value);

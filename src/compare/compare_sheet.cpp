@@ -37,10 +37,10 @@ struct CellRange {
 
 lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const string& name) {
   lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
-  const auto row = [](size_t n) { return static_cast<lxw_row_t>(n); };
-  const auto column = [](size_t n) { return static_cast<lxw_col_t>(n); };
-  chart_series_set_categories(series, x.sheet, row(x.first_row), column(x.column), row(x.last_row), column(x.column));
-  chart_series_set_values(series, y.sheet, row(y.first_row), column(y.column), row(y.last_row), column(y.column));
+  chart_series_set_categories(series, x.sheet, to_row(x.first_row), to_column(x.column), to_row(x.last_row),
+                              to_column(x.column));
+  chart_series_set_values(series, y.sheet, to_row(y.first_row), to_column(y.column), to_row(y.last_row),
+                          to_column(y.column));
   if (!name.empty()) chart_series_set_name(series, name.c_str());
   return series;
 }
@@ -147,17 +147,19 @@ void CompareSheet::place(lxw_chart* chart, size_t number) {
   options.x_scale = chart_width / 480.0;
   options.y_scale = chart_height / 288.0;
   options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
-  worksheet_insert_chart_opt(sheet_.get(), static_cast<lxw_row_t>(charts_row_ + number / charts_across * rows_of_chart),
-                             static_cast<lxw_col_t>(number % charts_across * columns_of_chart), chart, &options);
+  worksheet_insert_chart_opt(sheet_.get(), to_row(charts_row_ + number / charts_across * rows_of_chart),
+                             to_column(number % charts_across * columns_of_chart), chart, &options);
 }
 
 void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) {
   const size_t last_row = first_row + data.x.size() - 1;
   const size_t bars = bars_of(data);
   const bool barred = data.numeric && bars > 0 && bars <= most_bars;
+
   // Texts along x are drawn as columns, in their order.
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
   const CellRange x{"Compare", first_row, 0, last_row};
+
   for (size_t k = 0; k < data.lines.size(); ++k) {
     lxw_chart_series* series = add_series(chart, x, {"Compare", first_row, 1 + k, last_row}, data.lines[k].name);
     if (data.numeric) {
@@ -169,6 +171,8 @@ void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) 
       chart_series_set_fill(series, &fill);
     }
   }
+
+  // Error bars are series without names.
   vector<int16_t> unnamed;
   for (size_t k = 0; barred && k < data.lines.size(); ++k)
     for (size_t row = 0; row < data.x.size(); ++row)
@@ -177,11 +181,13 @@ void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) 
         add_bar(chart, x, {"Compare", first_row, 1 + k, last_row}, first_row + row, sd, k);
       }
   unnamed.push_back(-1);
+
   string title = data.title;
   if (barred) title += ", mean ± standard deviation";
   if (!data.note.empty()) title += fmt::format(" ({})", data.note);
   set_texts(chart, title, data.x_label, data.y_label, data.lines.size() > 1);
   if (unnamed.size() > 1) chart_legend_delete_series(chart, unnamed.data());
+
   chart_show_blanks_as(chart, LXW_CHART_BLANKS_AS_CONNECTED);
   const auto [low, high] = ends_of(data);
   if (barred) set_ends(chart->y_axis, low, high);
@@ -194,6 +200,7 @@ void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t num
   const string& name = series.front().name;
   size_t drawn = 0;
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+
   for (const PlacedSeries& one : series) {
     if (one.name != name) continue;
     lxw_chart_series* line = add_series(chart, {"Series", 1, one.time_column, one.rows},
@@ -204,10 +211,12 @@ void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t num
     low = std::fmin(low, one.least);
     high = std::fmax(high, one.greatest);
   }
+
   // An axis of rounding errors shows nothing.
   constexpr double noise = 1e-6;
   const double largest = std::max(std::abs(low), std::abs(high));
   if (high - low < noise * largest) set_ends(chart->y_axis, std::min(low, 0.0), std::max(high, 0.0));
+
   string title = fmt::format("{} over time", label_of(name));
   if (scenarios > drawn) title += fmt::format(" ({} of {})", drawn, scenarios);
   set_texts(chart, title, "time (s)", label_of(name), drawn > 1);
@@ -219,6 +228,8 @@ void CompareSheet::write_data(const ChartData& chart, size_t first_row) {
   sheet_.text(first_row, 0, chart.title, CellStyle::note);
   sheet_.set_head_row(first_row + 1);
   sheet_.head(first_row + 1, 0, chart.x_label, CellStyle::swept_header);
+
+  // All lines are measured before the first number is written, and share one look.
   NumberLook x_look, look;
   for (const Cell& x : chart.x) x_look.add(x.number);
   for (size_t k = 0; k < chart.lines.size(); ++k) {
@@ -226,6 +237,7 @@ void CompareSheet::write_data(const ChartData& chart, size_t first_row) {
     sheet_.head(first_row + 1, 1 + k, name.empty() ? chart.y_label : name);
     for (const double y : chart.lines[k].y) look.add(y);
   }
+
   for (size_t row = 0; row < chart.x.size(); ++row) {
     sheet_.cell(first_row + 2 + row, 0, chart.x[row], CellStyle::swept, &x_look);
     for (size_t k = 0; k < chart.lines.size(); ++k)
@@ -240,6 +252,7 @@ void CompareSheet::write_differences(const ComparisonPlan& plan, const Differenc
   for (size_t k = 0; k < differences.runs.size(); ++k)
     sheet_.text(charts_row_, columns_of_path + k, differences.runs[k], CellStyle::header);
   ++charts_row_;
+
   const size_t shown = std::min(differences.rows.size(), most_differences);
   for (size_t i = 0; i < shown; ++i, ++charts_row_) {
     const Difference& difference = differences.rows[i];
@@ -249,6 +262,7 @@ void CompareSheet::write_differences(const ComparisonPlan& plan, const Differenc
       sheet_.cell(charts_row_, columns_of_path + k, value.empty() ? Cell{"-"} : cell_of(value));
     }
   }
+
   if (shown < differences.rows.size())
     sheet_.text(charts_row_++, 0, fmt::format("and {} more, on the sheet Parameters", differences.rows.size() - shown),
                 CellStyle::note);
@@ -260,15 +274,16 @@ void CompareSheet::set_pages(size_t charts, size_t last_row) {
   constexpr size_t rows_on_page = 46;
   vector<size_t> breaks;
   size_t page = 0;
+
   for (size_t k = 0; k < (charts + charts_across - 1) / charts_across; ++k) {
     const size_t row = charts_row_ + k * rows_of_chart;
     if (row + rows_of_chart <= page + rows_on_page) continue;
     breaks.push_back(row);
     page = row;
   }
+
   sheet_.print_pages(breaks);
-  worksheet_print_area(sheet_.get(), 0, 0, static_cast<lxw_row_t>(last_row),
-                       static_cast<lxw_col_t>(charts_across * columns_of_chart - 1));
+  worksheet_print_area(sheet_.get(), 0, 0, to_row(last_row), to_column(charts_across * columns_of_chart - 1));
 }
 
 void CompareSheet::write(const ComparisonPlan& plan, const string& line, const DifferenceList& differences,
@@ -276,11 +291,14 @@ void CompareSheet::write(const ComparisonPlan& plan, const string& line, const D
   constexpr size_t columns = charts_across * columns_of_chart;
   size_t widest = columns;
   for (const ChartData& chart : charts) widest = std::max(widest, chart.lines.size() + 1);
-  worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(widest), column_width, nullptr);
+  worksheet_set_column(sheet_.get(), 0, to_column(widest), column_width, nullptr);
+
   sheet_.text(0, 0, plan.title, CellStyle::title);
   sheet_.note(1, columns, line, columns * column_width);
   charts_row_ = 3;
   if (!differences.rows.empty()) write_differences(plan, differences);
+
+  // Beneath the charts are their numbers.
   const size_t all = charts.size() + (series.empty() ? 0 : 1);
   const size_t end_of_charts = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart;
   size_t row = end_of_charts + 1;
@@ -289,6 +307,7 @@ void CompareSheet::write(const ComparisonPlan& plan, const string& line, const D
     if (!charts[k].x.empty()) draw(charts[k], k, row + 2);
     row += charts[k].x.size() + 3;
   }
+
   if (!series.empty()) draw_over_time(series, charts.size(), scenarios);
   worksheet_gridlines(sheet_.get(), LXW_HIDE_ALL_GRIDLINES);
   set_pages(all, end_of_charts - 1);

@@ -12,11 +12,6 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
-#include "physics/world.h"
-#include "render/mesh.h"
-#include "run/stored_trajectory.h"
-#include "scene/load.h"
-#include "scene/scene.h"
 #include "std.h"
 
 namespace carom {
@@ -28,13 +23,9 @@ namespace {
 
 vector<string> read_summary(const RunRecord& run) {
   StoredTable table = open_table(run, summary_name);
-  const vector<string_view>* row = table.next();
-  if (row == nullptr) refuse_run(run.run.folder, "has an empty summary.csv: run it again with --force");
+  if (table.next() == nullptr) refuse_run(run.run.folder, "has an empty summary.csv: run it again with --force");
   vector<string> cells;
-  for (const SummaryColumn& column : summary_columns()) {
-    const auto at = table.find(column.name);
-    cells.emplace_back(at && *at < row->size() ? (*row)[*at] : string_view());
-  }
+  for (const SummaryColumn& column : summary_columns()) cells.emplace_back(table.cell(table.find(column.name)));
   return cells;
 }
 
@@ -59,16 +50,19 @@ bool has_measures(const string& path, const vector<Measure>& measures) {
 RunRecord read_run(ComparedRun run, const vector<Measure>& measures) {
   RunRecord record{std::move(run), false, Descriptor(), {}, {}, {}};
   record.folder = open_folder(AT_FDCWD, record.run.folder, true);
+
   if (!record.folder && !record.run.failed) refuse_run(record.run.folder, "cannot be opened: there is no such folder");
   record.done = !record.run.failed && has_file(record, manifest_name) && has_file(record, summary_name);
   if (!record.done && !record.run.failed && !has_file(record, failure_file))
     refuse_run(record.run.folder, "holds no whole run: run its scene again, or leave it out");
+
   if (!record.done) {
     record.summary.assign(summary_columns().size(), "");
     record.measures.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
     record.texts.resize(measures.size());
     return record;
   }
+
   record.summary = read_summary(record);
   StoredMeasures stored(record.folder.get(), record.run.folder);
   for (const Measure& measure : measures) {
@@ -77,25 +71,6 @@ RunRecord read_run(ComparedRun run, const vector<Measure>& measures) {
     record.texts.push_back(measured.text);
   }
   return record;
-}
-
-MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>& bodies) {
-  MotionColumns columns;
-  if (const auto body = trajectory.find("body")) {
-    columns.body = *body;
-    return columns;
-  }
-  columns.wide = true;
-  for (const string& body : bodies)
-    columns.first.push_back(trajectory.find(fmt::format("{}.{}", body, name_of(Quantity::x))).value_or(0));
-  return columns;
-}
-
-Scene load_run_scene(const string& folder) {
-  LoadOptions options;
-  options.budget.enforced = false;
-  options.mesh_points = [](const string& path) { return read_mesh_points(path); };
-  return load_scene(folder + "/scene.yaml", options);
 }
 
 }  // namespace carom

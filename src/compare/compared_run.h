@@ -1,11 +1,8 @@
 #pragma once
 // The data of one run that a comparison reads from its folder.
 
-#include "compare/comparison.h"
-#include "compare/end_of_trajectory.h"
-#include "files/output_file.h"
+#include "compare/plan.h"
 #include "files/stored_table.h"
-#include "scene/scene.h"
 #include "std.h"
 
 namespace carom {
@@ -32,19 +29,5 @@ bool has_measures(const string& folder, const vector<Measure>& measures);
 StoredTable open_table(const RunRecord& run, const char* name);
 /// Whether the file exists.
 bool has_file(const RunRecord& run, const char* name);
-
-/// The columns of trajectory.csv with the six numbers of a body's motion.
-struct MotionColumns {
-  /// Long form: the column of the name. The numbers follow it.
-  size_t body = 0;
-  /// Wide form, by body: the first of the six. 0: absent.
-  vector<size_t> first;
-  bool wide = false;
-};
-/// `bodies`: names as in trajectory.csv.
-MotionColumns motion_columns(const StoredTable& trajectory, const vector<string>& bodies);
-
-/// The scene in the run's folder. Throws SceneError.
-Scene load_run_scene(const string& folder);
 
 }  // namespace carom

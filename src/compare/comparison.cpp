@@ -3,7 +3,6 @@
 #include "compare/comparison.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -29,9 +28,6 @@
 namespace carom {
 namespace {
 
-/// The default measures.
-constexpr const char* usual_measures[] = {"energy_lost_J", "collisions", "max_speed_m_per_s"};
-
 ComparisonPlan titled(ComparisonPlan plan, size_t count) {
   if (plan.title.empty()) plan.title = "Comparison of " + how_many(count, "run", "runs");
   return plan;
@@ -55,6 +51,7 @@ class Comparison {
         book_(place, workbook_name, plan_.title),
         charts_(book_, !SummarySheet::is_table(count)),
         unrelated_(variation.unrelated),
+        // The sheets, in their order.
         summary_(place, book_, plan_, measures_, count, unrelated_),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
         pivot_(variation.two ? &book_.add("Pivot", true) : nullptr),
@@ -70,10 +67,12 @@ class Comparison {
   void add(size_t number, ComparedRun compared) {
     if (compared.values.size() != plan_.parameters.size())
       throw std::logic_error("a run has as many values as there are parameters");
+
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
     if (!run.done) ++failed_;
     if (run.done && run.summary[status_] == "doubtful") ++doubtful_;
+
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
     series_.add(number, run);
@@ -89,18 +88,22 @@ class Comparison {
     summary_.finish();
     vector<unique_ptr<OutputFile>> files;
     files.push_back(summary_.take_table());
+
     if (plan_.seed) {
       files.push_back(make_unique<OutputFile>(place_, repeats_name));
       write_repeats(*files.back(), plan_, measures_, outcomes_);
       files.back()->complete();
       write_repeats(*repeats_, plan_, measures_, outcomes_);
     }
+
+    // The sheets that take all runs together.
     write_pivot_sheet();
     const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
     parameters_.finish(outcomes_, common_.values());
     write_charts(placed);
     write_about(about_, plan_, measures_, remarks());
+
     files.push_back(make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
     files.back()->complete();
@@ -124,6 +127,8 @@ class Comparison {
       if (unrelated_ && plan_.charts.empty()) chart = {"", chart.y, ""};
       charts.push_back(chart_data(chart, plan_, measures_, outcomes_));
     }
+
+    // One line of text says what the runs are.
     string varied;
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
     string text = how_many(count_, "run", "runs");
@@ -134,6 +139,7 @@ class Comparison {
                           how_many(plan_.parameters.size(), "value differs", "values differ"));
     else if (!varied.empty())
       text += "; varied: " + varied;
+
     charts_.write(plan_, text, parameters_.differences(), charts, placed, series_.scenarios().all);
   }
 
@@ -145,6 +151,7 @@ class Comparison {
     if (count_ + summary_.first_row() > most_rows)
       remarks.push_back(
           fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - summary_.first_row()));
+
     const ChosenScenarios& scenarios = series_.scenarios();
     if (scenarios.names.size() < scenarios.all)
       remarks.push_back(fmt::format("Series: {} of {} {}, spread over the values of the parameters.",
@@ -153,6 +160,7 @@ class Comparison {
     if (series_.left_out() > 0)
       remarks.push_back(fmt::format("Series: {} left out, for tables that are too long or other instants.",
                                     how_many(series_.left_out(), "run", "runs")));
+
     if (collisions_ && collisions_->full())
       remarks.push_back(fmt::format("Collisions: the first {} of each run; collisions.csv of each run has all.",
                                     collisions_->share()));
@@ -186,6 +194,8 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
   Outcomes outcomes(plan, 0, count);
   vector<size_t> points(count);
   vector<bool> is_absent(plan.parameters.size());
+
+  // A value that is absent from some scenes tells them apart, unless a run failed.
   for (size_t i = 0; i < count; ++i) {
     watch.stop_check();
     const ComparedRun one = run(i);
@@ -194,6 +204,7 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
     if (std::ranges::all_of(one.values, [](const auto& value) { return value.empty(); })) continue;
     for (size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
   }
+
   outcomes.finish();
   const auto absent = static_cast<size_t>(std::ranges::count(is_absent, true));
   variation.unrelated = 2 * absent > plan.parameters.size();
@@ -203,45 +214,6 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
 }
 
 }  // namespace
-
-vector<Measure> measures_of(const ComparisonPlan& plan) {
-  vector<Measure> measures;
-  const auto add = [&](string_view name) {
-    const bool known = std::ranges::any_of(measures, [&](const Measure& measure) { return measure.name == name; });
-    if (!known) measures.push_back(parse_measure(name, plan.own));
-  };
-  for (const string& name : plan.measures) add(name);
-  for (const Chart& chart : plan.charts) {
-    add(chart.y);
-    if (!find_parameter(plan, chart.x)) add(chart.x);
-  }
-  for (const string& name : plan.own) add(name);
-  if (measures.empty())
-    for (const char* name : usual_measures) add(name);
-  return measures;
-}
-
-void check_charts(const ComparisonPlan& plan) {
-  vector<string_view> paths;
-  for (const Parameter& parameter : plan.parameters) paths.push_back(parameter.path);
-  const auto refuse = [&](const string& name, const char* what) {
-    const string near = nearest(name, paths);
-    string remedy;
-    if (!near.empty()) remedy = fmt::format("; did you mean {}?", in_backticks(near));
-    if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", joined(paths, ", "));
-    throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
-  };
-  for (const Chart& chart : plan.charts) {
-    if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "is not varied");
-    if (find_parameter(plan, chart.x)) continue;
-    try {
-      parse_measure(chart.x, plan.own);
-    } catch (const MeasureError&) {
-      refuse(chart.x, "is neither varied nor a measure");
-    }
-  }
-  measures_of(plan);
-}
 
 vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count,
                                                 const function<ComparedRun(size_t)>& run,

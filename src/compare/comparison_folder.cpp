@@ -85,10 +85,12 @@ void ComparisonFolder::publish(const vector<unique_ptr<OutputFile>>& files, Side
     all.push_back(file.get());
     records.push_back(file->record());
   }
+
   if (film != nullptr) {
     all.push_back(&film->file());
     records.push_back(film->record());
   }
+
   OutputFile manifest(folder_.place(), manifest_name);
   manifest.write(manifest_text(request, "{}", records));
   manifest.complete();

@@ -57,10 +57,13 @@ string meaning_of(const Measure& measure) {
       return "a measure that the scene defines";
     case MeasureForm::expression:
       return "an expression of measures";
+
     case MeasureForm::hits:
       return "number of collisions";
     case MeasureForm::count:
       return "number of bodies at the run's end";
+
+    // Of regions.
     case MeasureForm::entries:
       return fmt::format("bodies that entered {}, each time anew", measure.things[0]);
     case MeasureForm::inside:
@@ -69,6 +72,7 @@ string meaning_of(const Measure& measure) {
       return fmt::format("time of the first entry into {}", measure.things[0]);
     case MeasureForm::first_entrant:
       return fmt::format("the body that entered {} first", measure.things[0]);
+
     default:
       return label_of(measure.name) + ", over the whole run";
   }
@@ -93,39 +97,48 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
     sheet.text(row, 2, unit);
     sheet.text(row++, 3, meaning, CellStyle::wrapped);
   };
+
   sheet.text(row++, 0, plan.title, CellStyle::title);
   sheet.text(row++, 0,
              "written by carom " CAROM_VERSION
              "; SI units, right-handed axes, y is up; cells show about five digits and "
              "have 16, the CSV files all",
              CellStyle::note);
+
   section("Sheets");
   for (const SheetText& text : sheets) {
     sheet.text(row, 0, text.name);
     sheet.text(row++, 1, text.text, CellStyle::note);
   }
+
   if (!remarks.empty()) {
     section("Left out");
     for (const string& remark : remarks) sheet.text(row++, 0, remark, CellStyle::note);
   }
+
   section("Columns");
   for (size_t k = 0; const char* head : {"sheet", "column", "unit", "meaning"})
     sheet.text(row, k++, head, CellStyle::header);
   ++row;
+
+  // Each sheet's columns, in the order of the sheets.
   for (const SummaryColumn& text : summary_columns()) column("Summary", text.name, unit_of(text.name), text.meaning);
   for (const Parameter& parameter : plan.parameters)
     column("Summary", parameter.path, parameter.unit, "value of the scene that is varied");
   for (const Measure& measure : measures)
     if (measure.column == nullptr) column("Summary", measure.name, unit_of(measure.name), meaning_of(measure));
+
   if (plan.seed) {
     column("Repeats", "n", "", "whole runs of the scenario");
     for (const Measure& measure : measures)
       column("Repeats", measure.name + ".mean, .sd, .min, .max", unit_of(measure.name), meaning_of(measure));
   }
+
   for (const ColumnText& text : series_texts) column("Series", text.name, unit_of(text.name), text.meaning);
   if (plan.collisions)
     for (const ColumnText& text : collision_columns())
       column("Collisions", text.name, unit_of(text.name), text.meaning);
+
   sheet.fit(0, 12, 20);
   sheet.fit(1, 20, 48);
   sheet.fit(2, 8, 10);

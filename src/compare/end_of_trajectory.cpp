@@ -6,42 +6,36 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
-#include "run/measure.h"
 #include "run/stored_trajectory.h"
 #include "std.h"
 
 namespace carom {
 
-vector<EndMotion> end_of_trajectory(int folder) {
+TrajectoryEnd end_of_trajectory(int folder) {
   constexpr const char* name = "trajectory.csv";
-  constexpr size_t motion_size = 6;
   Descriptor head = open_stored(folder, name);
   if (!head) throw ExportError("there is no trajectory.csv");
   const StoredTable table(std::move(head));
+  const TrajectoryLayout layout(table);
+
   const Descriptor file = open_stored(folder, name);
-  const bool wide = !table.find("body");
-  vector<EndMotion> motions;
+  TrajectoryEnd end;
   vector<string_view> cells;
-  string unquoted, last_time;
+  string unquoted, instant;
   lines_from_end(file.get(), [&](string_view line) {
     split_cells(line, cells, unquoted);
-    if (wide) {
-      for (size_t first = 1; first + motion_size <= table.columns().size(); first += motion_size) {
-        const string& column = table.columns()[first];
-        EndMotion motion{column.substr(0, column.size() - 1 - name_of(Quantity::x).size()), {}, {}};
-        if (read_motion(cells, first, motion.position, motion.velocity)) motions.push_back(std::move(motion));
-      }
-      return false;
-    }
-    if (cells.size() < 2 + motion_size) return true;
-    if (last_time.empty()) last_time = cells[0];
-    if (cells[0] != last_time) return false;
-    EndMotion motion{string(cells[1]), {}, {}};
-    if (read_motion(cells, 2, motion.position, motion.velocity)) motions.push_back(std::move(motion));
+    if (instant.empty()) instant = cells[0];
+    if (cells[0] != instant) return false;
+    layout.for_each(cells, [&](string_view body, size_t first) {
+      EndMotion motion{string(body), {}, {}};
+      if (read_motion(cells, first, motion.position, motion.velocity)) end.bodies.push_back(std::move(motion));
+    });
     return true;
   });
-  if (!wide) std::ranges::reverse(motions);
-  return motions;
+
+  end.time = number_in(instant).value_or(0);
+  if (!layout.is_wide()) std::ranges::reverse(end.bodies);
+  return end;
 }
 
 }  // namespace carom

@@ -12,8 +12,13 @@ struct EndMotion {
   Vec3 position, velocity;  // m, m/s
 };
 
-/// All bodies at the last instant, in the order of the file in this open folder. Only the end of the file is read.
-/// Throws ExportError if there is no such file.
-vector<EndMotion> end_of_trajectory(int folder);
+/// The last instant in the file of an open folder.
+struct TrajectoryEnd {
+  double time = 0;           // s
+  vector<EndMotion> bodies;  // in the order of the file
+};
+
+/// Reads only the end of the file. Throws ExportError if there is none.
+TrajectoryEnd end_of_trajectory(int folder);
 
 }  // namespace carom

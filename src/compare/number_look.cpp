@@ -47,12 +47,15 @@ void NumberLook::add(double number) {
 NumberLook::Form NumberLook::form() const {
   const auto last = std::find(has_.rbegin(), has_.rend(), true);
   if (last == has_.rend()) return {};
+
+  // The decades of the largest number, and of the smallest that is not noise.
   const auto index = static_cast<int>(has_.rend() - last) - 1;
   int low = index;
   for (int k = std::max(0, index - noise); k < low; ++k)
     if (has_[static_cast<size_t>(k)]) low = k;
   const int top = index + least_decade;
   low += least_decade;
+
   Form form{false, std::max(shown - 1 - top, shown_of_least - 1 - low), std::max(top + 1, 1)};
   form.decimals = std::clamp(form.decimals, 0, decimals_);
   const bool whole = decimals_ == 0;

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <set>
 
-#include "compare/charts.h"
 #include "compare/number_look.h"
 #include "files/csv.h"
 #include "std.h"
@@ -26,14 +25,28 @@ constexpr SpreadColumn spread_columns[] = {{"mean", [](const Spread& s) { return
                                            {"min", [](const Spread& s) { return s.min(); }},
                                            {"max", [](const Spread& s) { return s.max(); }}};
 
-vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures) {
+/// `labels`: readable ones, for a sheet.
+vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures, bool labels) {
   vector<string> header;
   for (size_t p = 0; p < plan.parameters.size(); ++p)
-    if (p != plan.seed) header.push_back(plan.parameters[p].path);
+    if (p != plan.seed) header.push_back(labels ? label_of(plan.parameters[p]) : plan.parameters[p].path);
   header.emplace_back("n");
   for (const Measure& measure : measures)
-    for (const SpreadColumn& column : spread_columns) header.push_back(measure.name + "." + column.name);
+    for (const SpreadColumn& column : spread_columns)
+      header.push_back(labels ? fmt::format("{}, {}", label_of(measure.name), column.name)
+                              : fmt::format("{}.{}", measure.name, column.name));
   return header;
+}
+
+/// Calls use(column, cell) for the cells of a point's row.
+template <typename Use>
+void for_cells(const ComparisonPlan& plan, size_t measures, const Outcomes& outcomes, size_t point, const Use& use) {
+  size_t column = 0;
+  for (const Varied& varied : outcomes.varied())
+    if (varied.parameter != plan.seed) use(column++, varied.values[varied.of_point[point]]);
+  use(column++, Cell{{}, static_cast<double>(outcomes.runs(point))});
+  for (size_t k = 0; k < measures; ++k)
+    for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(outcomes.spread(point, k))});
 }
 
 }  // namespace
@@ -58,6 +71,7 @@ Outcomes::Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs)
       stride_(plan.seed ? 1 : 1 + (std::max<size_t>(runs, 1) - 1) / most_points),
       varied_(plan.parameters.size()),
       numbers_(plan.parameters.size()) {
+  // Repeats are points of their scenarios, whose number is not known.
   const size_t points = seed_ ? 0 : (runs + stride_ - 1) / stride_;
   for (size_t p = 0; p < varied_.size(); ++p) {
     varied_[p].parameter = p;
@@ -70,6 +84,8 @@ Outcomes::Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs)
 
 size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vector<double>& measures) {
   if (number % stride_ != 0) return no_point;
+
+  // The run's values, as indices.
   vector<uint32_t> key;
   for (size_t p = 0; p < varied_.size(); ++p) {
     if (p == seed_) continue;
@@ -81,6 +97,8 @@ size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vec
     }
     key.push_back(found->second);
   }
+
+  // Its point: that of its scenario, or a new one.
   size_t point = points();
   if (seed_) point = scenarios_.emplace(key, point).first->second;
   if (point == points()) {
@@ -94,6 +112,7 @@ size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vec
     for (size_t p = 0, k = 0; p < varied_.size(); ++p)
       if (p != seed_) varied_[p].of_point.push_back(key[k++]);
   }
+
   if (!done) return point;
   ++runs_[point];
   for (size_t k = 0; k < measures_; ++k) {
@@ -122,6 +141,8 @@ void Outcomes::finish() {
   numbers_.clear();
   for (Varied& varied : varied_) {
     if (!varied.numeric) continue;
+
+    // Sort the values, and let the points have their new places.
     vector<uint32_t> order(varied.values.size()), place(order.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, [&](auto a, auto b) { return varied.values[a].number < varied.values[b].number; });
@@ -130,6 +151,7 @@ void Outcomes::finish() {
       place[order[k]] = k;
       sorted.push_back(std::move(varied.values[order[k]]));
     }
+
     varied.values = std::move(sorted);
     for (uint32_t& value : varied.of_point) value = place[value];
   }
@@ -160,54 +182,42 @@ vector<size_t> Outcomes::independent() const {
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
   CsvRow row(file);
-  for (const string& name : repeats_header(plan, measures)) row.text(name);
+  for (const string& name : repeats_header(plan, measures, false)) row.text(name);
   row.end();
+
+  const size_t count = plan.parameters.size() - 1;  // the column of n
   for (size_t i = 0; i < outcomes.points(); ++i) {
-    for (const Varied& varied : outcomes.varied()) {
-      if (varied.parameter == plan.seed) continue;
-      const Cell& cell = varied.values[varied.of_point[i]];
-      cell.is_number() ? row.number(cell.number) : row.text(cell.text);
-    }
-    row.count(outcomes.runs(i));
-    for (size_t k = 0; k < measures.size(); ++k)
-      for (const SpreadColumn& column : spread_columns) row.number(column.value(outcomes.spread(i, k)));
+    for_cells(plan, measures.size(), outcomes, i, [&](size_t column, const Cell& cell) {
+      if (column == count)
+        row.count(outcomes.runs(i));
+      else
+        cell.is_number() ? row.number(cell.number) : row.text(cell.text);
+    });
     row.end();
   }
 }
 
 void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
-  vector<string> header;
-  for (size_t p = 0; p < plan.parameters.size(); ++p)
-    if (p != plan.seed) header.push_back(label_of(plan.parameters[p]));
-  header.emplace_back("n");
-  for (const Measure& measure : measures)
-    for (const SpreadColumn& of : spread_columns)
-      header.push_back(fmt::format("{}, {}", label_of(measure.name), of.name));
+  const vector<string> header = repeats_header(plan, measures, true);
   const size_t parameters = plan.parameters.size() - 1;
   sheet.set_head_row(0);
   for (size_t column = 0; column < header.size(); ++column)
     sheet.head(0, column, header[column], column < parameters ? CellStyle::swept_header : CellStyle::header);
+
   vector<NumberLook> looks(header.size());
-  const auto for_cells = [&](size_t i, const auto& use) {
-    size_t column = 0;
-    for (const Varied& varied : outcomes.varied())
-      if (varied.parameter != plan.seed) use(column++, varied.values[varied.of_point[i]]);
-    use(column++, Cell{{}, static_cast<double>(outcomes.runs(i))});
-    for (size_t k = 0; k < measures.size(); ++k)
-      for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(outcomes.spread(i, k))});
-  };
   for (size_t i = 0; i < outcomes.points(); ++i)
-    for_cells(i, [&](size_t column, const Cell& cell) { looks[column].add(cell.number); });
+    for_cells(plan, measures.size(), outcomes, i,
+              [&](size_t column, const Cell& cell) { looks[column].add(cell.number); });
   size_t row = 1;
   for (size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row)
-    for_cells(i, [&](size_t column, const Cell& cell) {
+    for_cells(plan, measures.size(), outcomes, i, [&](size_t column, const Cell& cell) {
       sheet.cell(row, column, cell, column < parameters ? CellStyle::swept : CellStyle::plain, &looks[column]);
     });
+
   sheet.fit_table();
   sheet.freeze(1, parameters);
-  worksheet_autofilter(sheet.get(), 0, 0, static_cast<lxw_row_t>(std::max<size_t>(row - 1, 1)),
-                       static_cast<lxw_col_t>(header.size() - 1));
+  worksheet_autofilter(sheet.get(), 0, 0, to_row(std::max<size_t>(row - 1, 1)), to_column(header.size() - 1));
   sheet.print_table(0);
 }
 

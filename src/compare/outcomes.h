@@ -3,7 +3,7 @@
 #include <limits>
 #include <map>
 
-#include "compare/comparison.h"
+#include "compare/plan.h"
 #include "compare/workbook.h"
 #include "std.h"
 

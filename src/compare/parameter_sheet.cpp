@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "compare/charts.h"
 #include "scene/path_field.h"
 #include "std.h"
 
@@ -33,14 +32,17 @@ void ParameterSheet::add(const ComparedRun& run) {
 size_t ParameterSheet::write_ranges(const Outcomes& outcomes, size_t row) {
   sheet_.text(row++, 0, "What varies", CellStyle::title);
   write_head(sheet_, row++, {"parameter", "unit", "values", "from", "to"});
+
   for (const Varied& varied : outcomes.varied()) {
     const Parameter& parameter = plan_.parameters[varied.parameter];
     sheet_.text(row, 0, parameter.path, CellStyle::swept);
     sheet_.text(row, 1, parameter.unit);
+
     if (varied.values.empty()) {
       sheet_.text(row++, 3, "distinguishes repeats", CellStyle::note);
       continue;
     }
+
     sheet_.number(row, 2, static_cast<double>(varied.values.size()), CellStyle::whole);
     sheet_.cell(row, 3, varied.values.front());
     sheet_.cell(row++, 4, varied.values.back());
@@ -56,15 +58,18 @@ size_t ParameterSheet::write_differences(size_t row) {
   };
   std::ranges::stable_sort(differences_.rows,
                            [&](const Difference& a, const Difference& b) { return rank(a) < rank(b); });
+
   sheet_.text(row++, 0, "What differs", CellStyle::title);
   if (differences_.all_runs > differences_.runs.size())
     sheet_.text(
         row++, 0,
         fmt::format("The first {} runs; summary.csv has all {}.", differences_.runs.size(), differences_.all_runs),
         CellStyle::note);
+
   vector<string> heads = {"value of the scene", "unit"};
   heads.insert(heads.end(), differences_.runs.begin(), differences_.runs.end());
   write_head(sheet_, row++, heads);
+
   for (const Difference& difference : differences_.rows) {
     if (row >= most_rows) break;
     sheet_.text(row, 0, plan_.parameters[difference.parameter].path, CellStyle::swept);

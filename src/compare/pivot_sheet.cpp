@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/charts.h"
 #include "compare/scenarios.h"
 #include "std.h"
 
@@ -24,13 +23,13 @@ struct Mean {
 
 string range_of(size_t column, const SummaryPlace& summary) {
   char name[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(name, static_cast<lxw_col_t>(column), LXW_TRUE);
+  lxw_col_to_name(name, to_column(column), LXW_TRUE);
   return fmt::format("Summary!{0}${1}:{0}${2}", name, summary.first_row + 1, summary.first_row + summary.rows);
 }
 
 string cell_name(size_t row, size_t column, bool row_fixed) {
   char name[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(name, static_cast<lxw_col_t>(column), row_fixed ? LXW_FALSE : LXW_TRUE);
+  lxw_col_to_name(name, to_column(column), row_fixed ? LXW_FALSE : LXW_TRUE);
   return fmt::format("{}{}{}", name, row_fixed ? "$" : "", row + 1);
 }
 
@@ -44,8 +43,7 @@ void add_scale(Worksheet& sheet, size_t row, size_t rows, size_t columns) {
   scale.type = LXW_CONDITIONAL_2_COLOR_SCALE;
   scale.min_color = 0xFFFFFF;
   scale.max_color = 0x8FBFE0;
-  worksheet_conditional_format_range(sheet.get(), static_cast<lxw_row_t>(row), 1,
-                                     static_cast<lxw_row_t>(row + rows - 1), static_cast<lxw_col_t>(columns), &scale);
+  worksheet_conditional_format_range(sheet.get(), to_row(row), 1, to_row(row + rows - 1), to_column(columns), &scale);
 }
 
 }  // namespace
@@ -69,13 +67,17 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
   const size_t height = std::min(down.values.size(), most_labels);
   const size_t width = std::min(across.values.size(), most_labels);
   const size_t blocks = std::min(measures.size(), most_blocks);
+
+  // A formula takes its criteria from the cells of the heads.
   const bool literal = std::ranges::all_of(down.values, is_literal) && std::ranges::all_of(across.values, is_literal);
   const bool formulas = summary.rows > 0 && literal && blocks * height * width <= most_formulas;
+
   const vector<string> names =
       short_names({plan.parameters[parameters.first].path, plan.parameters[parameters.second].path});
   NumberLook down_look, across_look;
   for (const Cell& value : down.values) down_look.add(value.number);
   for (const Cell& value : across.values) across_look.add(value.number);
+
   sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
   sheet.note(
       1, std::max<size_t>(width + 1, 2),
@@ -85,6 +87,8 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
                       ? fmt::format("; only the first {} values of each", most_labels)
                       : ""),
       10 * static_cast<double>(std::max<size_t>(width + 1, 2)));
+
+  // A block for each measure: its means, then their table.
   size_t row = 3;
   for (size_t block = 0; block < blocks; ++block) {
     vector<Mean> means(height * width);
@@ -96,23 +100,28 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
       mean.sum += spread.mean() * static_cast<double>(spread.count());
       mean.count += spread.count();
     }
+
     NumberLook look;
     for (const Mean& mean : means)
       if (mean.count > 0) look.add(mean.sum / static_cast<double>(mean.count));
+
     sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
     const size_t head = row++;
     sheet.text(head, 0, fmt::format("{} \\ {}", names[0], names[1]), CellStyle::header);
     for (size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header, &across_look);
+
     for (size_t i = 0; i < height; ++i, ++row) {
       sheet.cell(row, 0, down.values[i], CellStyle::swept, &down_look);
       for (size_t k = 0; k < width; ++k) {
         const Mean& mean = means[i * width + k];
         if (mean.count == 0) continue;
         const double value = mean.sum / static_cast<double>(mean.count);
+
         if (!formulas) {
           sheet.number(row, 1 + k, value, CellStyle::plain, &look);
           continue;
         }
+
         sheet.formula(
             row, 1 + k,
             fmt::format("=AVERAGEIFS({},{},{},{},{})", range_of(summary.measures[block], summary),
@@ -121,9 +130,11 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
             value, CellStyle::plain, &look);
       }
     }
+
     if (height > 0 && width > 0) add_scale(sheet, row - height, height, width);
     ++row;
   }
+
   sheet.fit_all(8, 50);
   sheet.freeze(0, 1);
   sheet.print_wide();

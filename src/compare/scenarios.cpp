@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "compare/charts.h"
 #include "std.h"
 
 namespace carom {
@@ -25,15 +24,19 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
       const Varied& varied = outcomes.varied()[parameters.front()];
       std::ranges::stable_sort(order, [&](size_t a, size_t b) { return varied.of_point[a] < varied.of_point[b]; });
     }
+
     for (size_t k = 0; k < std::min(all, count); ++k)
       chosen.push_back(order[all <= count ? k : k * (all - 1) / (count - 1)]);
     return chosen;
   }
+
+  // The next one is always the farthest from those that are chosen.
   vector<double> nearest(all, std::numeric_limits<double>::infinity());  // squared distance to those chosen
   size_t next = 0;
   while (chosen.size() < count && nearest[next] > 0) {
     chosen.push_back(next);
     const size_t last = next;
+
     for (size_t i = 0; i < all; ++i) {
       double distance = 0;
       for (const size_t p : parameters) {
@@ -43,10 +46,12 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
             (static_cast<double>(varied.of_point[i]) - static_cast<double>(varied.of_point[last])) / width;
         distance += way * way;
       }
+
       nearest[i] = std::min(nearest[i], distance);
       if (nearest[i] > nearest[next] || i == 0) next = i;
     }
   }
+
   std::ranges::sort(chosen);
   return chosen;
 }
@@ -64,10 +69,12 @@ vector<string> short_names(const vector<string>& paths) {
     for (size_t k = 0; k < words && at != string::npos; ++k) at = at == 0 ? at : path.rfind('.', at - 1);
     return at == string::npos ? path : path.substr(at + 1);
   };
+
   vector<string> names;
   for (const string& path : paths) {
     // A coordinate alone says too little.
     size_t words = tail(path, 1).size() == 1 && !path.starts_with("let.") ? 2 : 1;
+
     const auto is_taken = [&] {
       return std::ranges::any_of(
           paths, [&](const string& other) { return other != path && tail(other, words) == tail(path, words); });
@@ -82,14 +89,18 @@ ChosenScenarios chosen_scenarios(const ComparisonPlan& plan, const Outcomes& out
                                  const vector<size_t>& point_of_run, bool unrelated) {
   const vector<size_t> parameters = unrelated ? vector<size_t>() : outcomes.independent();
   const vector<size_t> points = spread_points(outcomes, parameters, ChosenScenarios::most);
+
   vector<string> paths;
   for (const size_t p : parameters) paths.push_back(plan.parameters[p].path);
   const vector<string> names = short_names(paths);
+
   ChosenScenarios chosen;
   chosen.all = outcomes.points();
   vector<uint32_t> number(outcomes.points(), ChosenScenarios::none);
   for (const size_t point : points) {
     number[point] = static_cast<uint32_t>(chosen.names.size());
+
+    // Named by its values.
     string name;
     for (size_t k = 0; k < parameters.size(); ++k) {
       const Varied& varied = outcomes.varied()[parameters[k]];
@@ -100,6 +111,7 @@ ChosenScenarios chosen_scenarios(const ComparisonPlan& plan, const Outcomes& out
     }
     chosen.names.push_back(name.empty() ? string(outcomes.id(point)) : name);
   }
+
   for (const size_t point : point_of_run)
     chosen.of_run.push_back(point == Outcomes::no_point ? ChosenScenarios::none : number[point]);
   return chosen;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "compare/end_of_trajectory.h"
 #include "files/stored_file.h"
 #include "run/stored_trajectory.h"
 #include "std.h"
@@ -20,6 +21,8 @@ namespace {
 /// Bytes. A longer file is not read for a chart of 2,000 points.
 constexpr uint64_t longest_file = 64 << 20;
 
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
 bool is_short(const RunRecord& run, const char* name) {
   const auto size = stored_size(run.folder.get(), name);
   return size && *size <= longest_file;
@@ -28,45 +31,37 @@ bool is_short(const RunRecord& run, const char* name) {
 SeriesGroup read_energy(const RunRecord& run) {
   SeriesGroup group;
   StoredTable table = open_table(run, "energy.csv");
-  vector<size_t> from;
-  for (const char* name : {"kinetic_J", "total_J"}) {
-    const auto column = table.find(name);
-    if (!column) continue;
-    from.push_back(*column);
-    group.columns.push_back({0, name, {}});
-  }
-  while (const auto* cells = table.next()) {
-    group.times.push_back(number_in((*cells)[0]).value_or(0));
-    for (size_t k = 0; k < from.size(); ++k)
-      group.columns[k].values.push_back(from[k] < cells->size() ? number_in((*cells)[from[k]]).value_or(std::nan(""))
-                                                                : std::nan(""));
+  for (const char* name : {"kinetic_J", "total_J"})
+    if (table.find(name)) group.columns.push_back({0, name, {}});
+  while (table.next() != nullptr) {
+    group.times.push_back(number_in(table.cell(0)).value_or(0));
+    for (SeriesColumn& column : group.columns)
+      column.values.push_back(number_in(table.cell(table.find(column.name))).value_or(no_value));
   }
   return group;
 }
 
 SeriesGroup read_bodies(const RunRecord& run, const vector<Measure>& measures) {
   SeriesGroup group;
+  for (const Measure& measure : measures) group.columns.push_back({0, measure.name, {}});
+
   StoredTable table = open_table(run, "trajectory.csv");
-  vector<string> bodies;
-  for (const Measure& measure : measures) {
-    bodies.push_back(measure.body);
-    group.columns.push_back({0, measure.name, {}});
-  }
-  const MotionColumns columns = motion_columns(table, bodies);
+  const TrajectoryLayout layout(table);
   string time;
   Vec3 position, velocity;
+
   while (const auto* cells = table.next()) {
-    if (columns.wide || (*cells)[0] != time) {
-      time = (*cells)[0];
+    if (cells->front() != time) {
+      time = cells->front();
       group.times.push_back(number_in(time).value_or(0));
-      for (SeriesColumn& column : group.columns) column.values.push_back(std::numeric_limits<double>::quiet_NaN());
+      for (SeriesColumn& column : group.columns) column.values.push_back(no_value);
     }
-    for (size_t k = 0; k < measures.size(); ++k) {
-      if (!columns.wide && (cells->size() <= columns.body || (*cells)[columns.body] != measures[k].body)) continue;
-      const size_t first = columns.wide ? columns.first[k] : columns.body + 1;
-      if (first > 0 && read_motion(*cells, first, position, velocity))
-        group.columns[k].values.back() = quantity_of(measures[k].quantity, position, velocity, 1);
-    }
+
+    layout.for_each(*cells, [&](string_view body, size_t first) {
+      for (size_t k = 0; k < measures.size(); ++k)
+        if (measures[k].body == body && read_motion(*cells, first, position, velocity))
+          group.columns[k].values.back() = quantity_of(measures[k].quantity, position, velocity, 1);
+    });
   }
   return group;
 }
@@ -111,7 +106,7 @@ void SeriesGatherer::add(size_t number, const RunRecord& run) {
 /// Without measures of bodies and without energies, follows the speeds of the first few bodies.
 void SeriesGatherer::follow_first(const RunRecord& run) {
   constexpr size_t few = 3;
-  for (const EndMotion& motion : end_of_trajectory(run.folder.get())) {
+  for (const EndMotion& motion : end_of_trajectory(run.folder.get()).bodies) {
     if (bodies_.size() == few) break;
     Measure& measure = bodies_.emplace_back();
     measure.name = fmt::format("{}.{}", motion.body, name_of(Quantity::speed));
@@ -125,12 +120,14 @@ void SeriesGatherer::take(uint32_t scenario, SeriesGroup part) {
   thin(part, most_points);
   if (part.times.empty()) return;
   for (SeriesColumn& column : part.columns) column.scenario = scenario;
+
   // A repeat joins the mean of those before it.
   for (SeriesGroup& group : groups_) {
     const auto same = std::ranges::find_if(group.columns, [&](const SeriesColumn& column) {
       return column.scenario == scenario && column.name == part.columns.front().name;
     });
     if (same == group.columns.end()) continue;
+
     if (group.times != part.times) {
       ++left_out_;
       return;
@@ -143,6 +140,8 @@ void SeriesGatherer::take(uint32_t scenario, SeriesGroup part) {
     }
     return;
   }
+
+  // Scenarios with the same instants share their column.
   auto group = std::ranges::find_if(groups_, [&](const auto& g) { return g.times == part.times; });
   if (group == groups_.end()) {
     groups_.push_back({part.times, {}});
@@ -159,31 +158,39 @@ vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series
     looks.emplace_back();
     for (const double value : values) looks.back().add(value);
   };
+
+  // The heads leave room for the longest name.
   constexpr double least = 16;  // characters
   size_t longest = 0;
   for (const string& name : series.scenarios().names) longest = std::max(longest, letters_of(name));
   sheet.set_head_row(0, std::min<size_t>(2 + longest / static_cast<size_t>(least), 5));
+
   for (const SeriesGroup& group : series.groups()) {
     rows = std::max(rows, group.times.size());
     sheet.head(0, column, "time (s)");
     look_at(group.times);
     const size_t time_column = column++;
+
     for (const SeriesColumn& values : group.columns) {
       const string& scenario = series.scenarios().names[values.scenario];
       sheet.head(0, column, fmt::format("{}: {}", label_of(values.name), scenario));
       look_at(values.values);
       PlacedSeries& place =
           placed.emplace_back(PlacedSeries{scenario, values.name, time_column, column++, group.times.size()});
+
       for (const double value : values.values) {
         place.least = std::fmin(place.least, value);
         place.greatest = std::fmax(place.greatest, value);
       }
     }
   }
+
   if (placed.empty()) {
     sheet.text(0, 0, "No run has energy.csv or trajectory.csv.", CellStyle::note);
     return placed;
   }
+
+  // The sheet is streamed, so that rows go across all groups.
   for (size_t row = 0; row < rows; ++row) {
     column = 0;
     for (const SeriesGroup& group : series.groups()) {
@@ -195,6 +202,7 @@ vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series
       column += 1 + group.columns.size();
     }
   }
+
   sheet.fit_table(least);
   sheet.freeze(1, 1);
   sheet.print_table(0);

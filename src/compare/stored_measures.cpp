@@ -10,13 +10,14 @@
 #include <set>
 #include <utility>
 
-#include "compare/compared_run.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
+#include "render/mesh.h"
 #include "run/measure_scope.h"
 #include "run/summary_columns.h"
 #include "scene/formula.h"
+#include "scene/load.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 
@@ -31,20 +32,30 @@ const char* table_of(const Measure& measure) {
     case MeasureForm::at_end:
     case MeasureForm::count:
       return "trajectory.csv";
+
     case MeasureForm::first_hit:
     case MeasureForm::hits:
       return "collisions.csv";
+
     case MeasureForm::entries:
     case MeasureForm::inside:
     case MeasureForm::first_entry:
     case MeasureForm::first_entrant:
       return "regions.csv";
+
     default:
       return nullptr;
   }
 }
 
 }  // namespace
+
+Scene load_run_scene(const string& folder) {
+  LoadOptions options;
+  options.budget.enforced = false;
+  options.mesh_points = [](const string& path) { return read_mesh_points(path); };
+  return load_scene(folder + "/scene.yaml", options);
+}
 
 const Manifest* StoredMeasures::manifest() {
   if (!manifest_) manifest_ = read_manifest(folder_, manifest_name);
@@ -68,7 +79,7 @@ const Scene& StoredMeasures::scene() {
 }
 
 const vector<EndMotion>& StoredMeasures::ends() {
-  if (!ends_) ends_ = end_of_trajectory(folder_);
+  if (!ends_) ends_ = end_of_trajectory(folder_).bodies;
   return *ends_;
 }
 
@@ -97,11 +108,13 @@ double StoredMeasures::number(const Measure& measure, const vector<string>& summ
     const auto column = static_cast<size_t>(measure.column - summary_columns().data());
     return number_in(summary[column]).value_or(undefined);
   }
+
   if (const Measured* known = measured(measure.name)) return known->value;
   if (const char* table = table_of(measure); table != nullptr && !has_file(table))
     throw ExportError(fmt::format(
         "{} has no {}, needed for {}: run its scene.yaml again with that output, or with the measure in `measures`",
         path_, table, measure.name));
+
   switch (measure.form) {
     case MeasureForm::at_end:
       return at_end(measure);
@@ -111,6 +124,7 @@ double StoredMeasures::number(const Measure& measure, const vector<string>& summ
       return meetings(measure).first;
     case MeasureForm::hits:
       return meetings(measure).count;
+
     case MeasureForm::entries:
       return visits(measure).entries;
     case MeasureForm::inside:
@@ -119,6 +133,7 @@ double StoredMeasures::number(const Measure& measure, const vector<string>& summ
       return visits(measure).first;
     case MeasureForm::first_entrant:
       return undefined;
+
     case MeasureForm::expression:
       return evaluated(measure, summary);
     case MeasureForm::given: {
@@ -127,6 +142,7 @@ double StoredMeasures::number(const Measure& measure, const vector<string>& summ
     }
     case MeasureForm::own:
       return undefined;
+
     default:
       throw ExportError(
           fmt::format("{} did not measure {}: run its scene.yaml again with this in `measures`", path_, measure.name));
@@ -177,17 +193,18 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   StoredTable table(open_stored(folder_, "collisions.csv"));
   const auto time = table.find("time_s"), kind = table.find("kind"), a = table.find("a"), b = table.find("b");
   Meetings found{0, undefined};
-  if (!time || !kind || !a || !b) return found;
-  while (const vector<string_view>* row = table.next()) {
-    if (row->size() <= std::max({*time, *kind, *a, *b}) || (*row)[*kind] == "rest") continue;
+
+  while (table.next() != nullptr) {
+    if (table.cell(kind) == "rest") continue;
     // A string that goes taut pulls at both of its bodies.
-    const string other = (*row)[*kind] == "string" ? second_body((*row)[*b]) : string();
+    const string other = table.cell(kind) == "string" ? second_body(table.cell(b)) : string();
     const auto has = [&](size_t name, bool first) {
-      return is_named((*row)[first ? *a : *b], measure.things[name]) ||
+      return is_named(table.cell(first ? a : b), measure.things[name]) ||
              (first && is_named(other, measure.things[name]));
     };
+
     if (!meet(measure.things.size(), has)) continue;
-    if (found.count == 0) found.first = number_in((*row)[*time]).value_or(undefined);
+    if (found.count == 0) found.first = number_in(table.cell(time)).value_or(undefined);
     ++found.count;
   }
   return found;
@@ -198,23 +215,27 @@ StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
   const auto time = table.find("time_s"), region = table.find("region"), body = table.find("body"),
              what = table.find("what");
   Visits found{0, 0, undefined, {}};
-  if (!time || !region || !body || !what) return found;
+
+  // A body is removed where it enters such a region, and is then inside of none.
   std::set<string> removing;
   for (size_t r = 0; r < scene().world.regions.size(); ++r)
     if (scene().world.regions[r].removes) removing.insert(scene().roster.regions[r]);
   std::set<std::pair<string, string>> inside;  // region, body
-  while (const vector<string_view>* row = table.next()) {
-    if (row->size() <= std::max({*time, *region, *body, *what})) continue;
-    const string in((*row)[*region]), who((*row)[*body]);
-    const bool enters = (*row)[*what] == "enter";
+
+  while (table.next() != nullptr) {
+    const string in(table.cell(region)), who(table.cell(body));
+    const bool enters = table.cell(what) == "enter";
     if (enters && removing.contains(in)) std::erase_if(inside, [&](const auto& of) { return of.second == who; });
+
     if (!is_named(in, measure.things[0])) continue;
     if (!enters) inside.erase({in, who});
     if (enters && !removing.contains(in)) inside.insert({in, who});
+
     if (!enters) continue;
-    if (found.entries == 0) found.first = number_in((*row)[*time]).value_or(undefined), found.entrant = who;
+    if (found.entries == 0) found.first = number_in(table.cell(time)).value_or(undefined), found.entrant = who;
     ++found.entries;
   }
+
   found.inside = static_cast<double>(inside.size());
   return found;
 }

@@ -9,6 +9,9 @@
 
 namespace carom {
 
+/// The scene in a run's folder. Throws SceneError.
+Scene load_run_scene(const string& folder);
+
 class StoredMeasures {
  public:
   /// `folder`: the open folder of the run, which must stay open. `path`: its path, for messages.

@@ -10,7 +10,6 @@
 #include <map>
 #include <utility>
 
-#include "compare/charts.h"
 #include "files/csv.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
@@ -37,11 +36,13 @@ vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPlan& pl
     columns.push_back(
         {string(summary.name), label_of(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}});
   }
+
   for (size_t k = 0; k < plan.parameters.size(); ++k)
     columns.push_back({plan.parameters[k].path, label_of(plan.parameters[k]), CellStyle::swept, false, {}, k, {}});
   for (size_t k = 0; k < measures.size(); ++k)
     if (measures[k].column == nullptr)
       columns.push_back({measures[k].name, label_of(measures[k].name), CellStyle::plain, false, {}, {}, k});
+
   if (columns.size() > most_columns)
     throw ExportError(
         fmt::format("a comparison of {} columns exceeds the {} of a spreadsheet: compare fewer parameters",
@@ -70,6 +71,8 @@ void SummarySheet::add(size_t number, const RunRecord& run) {
   CsvRow row(*table_);
   for (Column& column : columns_) {
     Cell cell;
+
+    // Measures have all their digits. Other cells are the run's own texts.
     if (column.measure && !run.texts[*column.measure].empty()) {
       cell.text = run.texts[*column.measure];
       row.text(cell.text);
@@ -84,10 +87,13 @@ void SummarySheet::add(size_t number, const RunRecord& run) {
       if (!column.is_text) cell = cell_of(cell.text);
       cell.is_number() ? row.number(cell.number) : row.text(cell.text);
     }
+
+    // What the sheet needs to know of the column.
     column.look.add(cell.number);
     if (number == 0) column.first = cell.text;
     column.is_constant = column.is_constant && column.first == cell.text;
   }
+
   row.end();
 }
 
@@ -125,6 +131,7 @@ void SummarySheet::write_sheet_heads() {
     sheet_.note(0, std::min(shown_.size(), columns_of_note), text, width_of_note);
     head_row_ = 1;
   }
+
   sheet_.set_head_row(head_row_);
   // The column names of a table must differ in more than the case of letters, and must not be long.
   std::map<string, int> taken;
@@ -142,6 +149,7 @@ void SummarySheet::write_rows() {
   Descriptor file = open_stored(place_.folder, part_name(summary_name));
   if (!file) fail("read", place_, summary_name);
   StoredTable table(std::move(file));
+
   size_t row = first_row();
   while (const auto* cells = table.next()) {
     if (row == most_rows) return;
@@ -160,15 +168,18 @@ void SummarySheet::finish() {
   choose_columns();
   write_sheet_heads();
   write_rows();
+
   const size_t rows = std::min(count_, most_rows - first_row());
-  const auto last_row = static_cast<lxw_row_t>(head_row_ + rows);
-  const auto last_column = static_cast<lxw_col_t>(shown_.size() - 1);
+  const auto last_row = to_row(head_row_ + rows);
+  const auto last_column = to_column(shown_.size() - 1);
+
   if (is_table() && rows > 0) {
     make_table(last_row, last_column);
   } else if (rows > 0) {
-    worksheet_autofilter(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column);
+    worksheet_autofilter(sheet_.get(), to_row(head_row_), 0, last_row, last_column);
   }
   if (rows > 0) mark_rows(last_row, last_column);
+
   sheet_.fit_table();
   sheet_.freeze(first_row(), 1);
   sheet_.print_table(head_row_);
@@ -178,35 +189,38 @@ void SummarySheet::finish() {
 void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
   const auto status = std::ranges::find_if(shown_, [&](auto k) { return columns_[k].name == "status"; });
   if (status == shown_.end()) return;
+
   char column[LXW_MAX_COL_NAME_LENGTH];
-  lxw_col_to_name(column, static_cast<lxw_col_t>(status - shown_.begin()), 1);
+  lxw_col_to_name(column, to_column(status - shown_.begin()), 1);
   for (const auto& [text, style] :
        {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
     string formula = fmt::format("={}{}=\"{}\"", column, first_row() + 1, text);
+
     lxw_conditional_format rule{};
     rule.type = LXW_CONDITIONAL_TYPE_FORMULA;
     rule.value_string = formula.data();
     rule.format = sheet_.format(style);
-    worksheet_conditional_format_range(sheet_.get(), static_cast<lxw_row_t>(first_row()), 0, last_row, last_column,
-                                       &rule);
+    worksheet_conditional_format_range(sheet_.get(), to_row(first_row()), 0, last_row, last_column, &rule);
   }
 }
 
 void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
   vector<lxw_table_column> columns(shown_.size());
   vector<lxw_table_column*> pointers;
+
   for (size_t k = 0; k < shown_.size(); ++k) {
     columns[k].header = const_cast<char*>(heads_[k].c_str());
     columns[k].header_format = sheet_.format(head_of(columns_[shown_[k]].style));
     pointers.push_back(&columns[k]);
   }
   pointers.push_back(nullptr);
+
   lxw_table_options options{};
   options.name = const_cast<char*>("Runs");
   options.style_type = LXW_TABLE_STYLE_TYPE_LIGHT;
   options.style_type_number = 1;
   options.columns = pointers.data();
-  worksheet_add_table(sheet_.get(), static_cast<lxw_row_t>(head_row_), 0, last_row, last_column, &options);
+  worksheet_add_table(sheet_.get(), to_row(head_row_), 0, last_row, last_column, &options);
 }
 
 unique_ptr<OutputFile> SummarySheet::take_table() {

@@ -45,6 +45,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
     case CellStyle::swept:
       format_set_bg_color(format, tint);
       break;
+
     case CellStyle::header:
     case CellStyle::swept_header:
       format_set_bold(format);
@@ -53,6 +54,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
       break;
+
     case CellStyle::title:
       format_set_bold(format);
       format_set_font_size(format, 14);
@@ -60,16 +62,19 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
     case CellStyle::note:
       format_set_font_color(format, grey);
       break;
+
     case CellStyle::wrapped:
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
       break;
+
     case CellStyle::doubtful:
       format_set_bg_color(format, doubtful_tint);
       break;
     case CellStyle::failed:
       format_set_bg_color(format, failed_tint);
       break;
+
     case CellStyle::plain:
       break;
   }
@@ -132,20 +137,18 @@ void Worksheet::text(size_t row, size_t column, string_view text, CellStyle styl
   if (text.empty() && style == CellStyle::plain) return;
   const string shown = shortened(text, longest_text);
   widen(column, letters_of(shown), style);
-  must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
+  must(worksheet_write_string(sheet_, to_row(row), to_column(column), shown.c_str(),
                               style == CellStyle::plain ? nullptr : format(style)));
 }
 
 void Worksheet::number(size_t row, size_t column, double value, CellStyle style, const NumberLook* look) {
   lxw_format* const how = style == CellStyle::plain && look == nullptr ? nullptr : format(style, look);
   if (!std::isfinite(value)) {
-    if (how != nullptr)
-      must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
+    if (how != nullptr) must(worksheet_write_blank(sheet_, to_row(row), to_column(column), how));
     return;
   }
   widen(column, look == nullptr ? general_width : look->width(), style);
-  must(worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
-                              value == 0 ? 0.0 : value, how));
+  must(worksheet_write_number(sheet_, to_row(row), to_column(column), value == 0 ? 0.0 : value, how));
 }
 
 void Worksheet::cell(size_t row, size_t column, const Cell& cell, CellStyle style, const NumberLook* look) {
@@ -158,7 +161,7 @@ void Worksheet::cell(size_t row, size_t column, const Cell& cell, CellStyle styl
 void Worksheet::formula(size_t row, size_t column, const string& formula, double value, CellStyle style,
                         const NumberLook* look) {
   widen(column, look == nullptr ? general_width : look->width(), style);
-  must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
+  must(worksheet_write_formula_num(sheet_, to_row(row), to_column(column), formula.c_str(),
                                    style == CellStyle::plain && look == nullptr ? nullptr : format(style, look),
                                    value));
 }
@@ -167,28 +170,27 @@ void Worksheet::head(size_t row, size_t column, string_view text, CellStyle styl
   if (words_.size() <= column) words_.resize(column + 1);
   words_[column] = std::max(words_[column], longest_word(text));
   const string shown = shortened(text, longest_text);
-  must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
-                              format(style)));
+  must(worksheet_write_string(sheet_, to_row(row), to_column(column), shown.c_str(), format(style)));
 }
 
 void Worksheet::set_head_row(size_t row, size_t lines) {
-  worksheet_set_row(sheet_, static_cast<lxw_row_t>(row), (static_cast<double>(lines) + 0.25) * line_height, nullptr);
+  worksheet_set_row(sheet_, to_row(row), (static_cast<double>(lines) + 0.25) * line_height, nullptr);
 }
 
 void Worksheet::note(size_t row, size_t columns, string_view text, double width) {
   const string shown = shortened(text, longest_text);
   const double lines = std::ceil(1.1 * static_cast<double>(letters_of(shown)) / std::max(width, 1.0));
-  worksheet_set_row(sheet_, static_cast<lxw_row_t>(row), std::clamp(lines, 1.0, 25.0) * line_height, nullptr);
+  worksheet_set_row(sheet_, to_row(row), std::clamp(lines, 1.0, 25.0) * line_height, nullptr);
   if (columns < 2)
-    must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), 0, shown.c_str(), format(CellStyle::wrapped)));
+    must(worksheet_write_string(sheet_, to_row(row), 0, shown.c_str(), format(CellStyle::wrapped)));
   else
-    must(worksheet_merge_range(sheet_, static_cast<lxw_row_t>(row), 0, static_cast<lxw_row_t>(row),
-                               static_cast<lxw_col_t>(columns - 1), shown.c_str(), format(CellStyle::wrapped)));
+    must(worksheet_merge_range(sheet_, to_row(row), 0, to_row(row), to_column(columns - 1), shown.c_str(),
+                               format(CellStyle::wrapped)));
 }
 
 void Worksheet::fit(size_t column, double least, double most, double more) {
   const double needed = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
-  const auto number = static_cast<lxw_col_t>(column);
+  const auto number = to_column(column);
   worksheet_set_column(sheet_, number, number, std::clamp(needed, least, most), nullptr);
   total_ += std::clamp(needed, least, most);
 }
@@ -207,14 +209,14 @@ void Worksheet::fit_table(double least) {
   for (size_t column = 0; column < columns; ++column) {
     const double needed = static_cast<double>(std::max(widths_[column] + 1, words_[column])) + button;
     const double width = std::clamp(needed, least, most);
-    const auto number = static_cast<lxw_col_t>(column);
+    const auto number = to_column(column);
     worksheet_set_column(sheet_, number, number, width, nullptr);
     total_ += width;
   }
 }
 
 void Worksheet::freeze(size_t rows, size_t columns) {
-  worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
+  worksheet_freeze_panes(sheet_, to_row(rows), to_column(columns));
 }
 
 void Worksheet::set_paper() {
@@ -244,7 +246,7 @@ void Worksheet::print_pages(const vector<size_t>& rows) {
 
 void Worksheet::print_table(size_t head_row) {
   print_wide();
-  worksheet_repeat_rows(sheet_, static_cast<lxw_row_t>(head_row), static_cast<lxw_row_t>(head_row));
+  worksheet_repeat_rows(sheet_, to_row(head_row), to_row(head_row));
   worksheet_repeat_columns(sheet_, 0, 0);
 }
 
@@ -287,14 +289,18 @@ void Workbook::write(OutputFile& file) {
   errno = 0;
   const lxw_error error = workbook_close(book_);
   const int system_error = errno;
+
   // Closing frees it, even on failure.
   book_ = nullptr;
   files_.check();
+
   // The library's own text of this error does not have the system's reason.
   if (error == LXW_ERROR_ZIP_FILE_OPERATION && system_error != 0)
     fail("write", place_, name_, std::strerror(system_error));
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
   files_.check_archive(scratch_.get());
+
+  // Copy the archive.
   vector<char> piece(size_t{256} * 1024);
   off_t at = 0;
   for (;;) {

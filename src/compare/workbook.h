@@ -44,6 +44,14 @@ enum class CellStyle {
 /// The limits of a sheet.
 inline constexpr size_t most_rows = 1'048'576, most_columns = 16'384;
 
+/// The library's types of rows and columns.
+inline lxw_row_t to_row(size_t row) {
+  return static_cast<lxw_row_t>(row);
+}
+inline lxw_col_t to_column(size_t column) {
+  return static_cast<lxw_col_t>(column);
+}
+
 /// The formats of a workbook, each made once.
 class CellFormats {
  public:

@@ -56,6 +56,7 @@ ssize_t write_file(void* cookie, const char* from, size_t size) {
     failed();
     return 0;
   }
+
   for (size_t done = 0; done < size;) {
     const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
     if (n < 0 && errno == EINTR) continue;
@@ -65,6 +66,7 @@ ssize_t write_file(void* cookie, const char* from, size_t size) {
     }
     done += static_cast<size_t>(n);
   }
+
   file.crc =
       static_cast<uint32_t>(crc32(file.crc, reinterpret_cast<const unsigned char*>(from), static_cast<unsigned>(size)));
   file.at = file.size += size;
@@ -101,15 +103,18 @@ vector<Entry> entries_of(const string& path, bool& whole) {
   const unzFile archive = unzOpen64(path.c_str());
   whole = archive != nullptr;
   if (!whole) return entries;
+
   unz_global_info64 all{};
   whole = unzGetGlobalInfo64(archive, &all) == UNZ_OK;
   vector<char> piece(size_t{64} * 1024);
   int code = unzGoToFirstFile(archive);
+
   for (; whole && code == UNZ_OK; code = unzGoToNextFile(archive)) {
     unz_file_info64 info{};
     whole = unzGetCurrentFileInfo64(archive, &info, nullptr, 0, nullptr, 0, nullptr, 0) == UNZ_OK &&
             unzOpenCurrentFile(archive) == UNZ_OK;
     if (!whole) break;
+
     int n;
     while ((n = unzReadCurrentFile(archive, piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
     }
@@ -117,6 +122,7 @@ vector<Entry> entries_of(const string& path, bool& whole) {
     whole = unzCloseCurrentFile(archive) == UNZ_OK && n == 0;
     entries.push_back({info.uncompressed_size, static_cast<uint32_t>(info.crc)});
   }
+
   whole = whole && code == UNZ_END_OF_LIST_OF_FILE && entries.size() == all.number_entry;
   unzClose(archive);
   return entries;

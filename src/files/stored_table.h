@@ -18,6 +18,10 @@ class StoredTable {
 
   /// The cells of the next row, valid until the next call. Null: the end. A row may have fewer cells than columns.
   const vector<string_view>* next();
+  /// A cell of that row. Empty: the row, or the table, has no such column.
+  string_view cell(optional<size_t> column) const {
+    return column && *column < cells_.size() ? cells_[*column] : string_view();
+  }
 
  private:
   bool read_line(string_view& line);

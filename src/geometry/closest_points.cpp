@@ -56,29 +56,41 @@ double nearest_parameter(const Segment& p, const Volume& cylinder) {
 
 }  // namespace
 
+Vec3 foremost(const Volume& v, const Vec3& n) {
+  if (v.shape == Shape::sphere) return v.half.x() * n;
+  Vec3 reach;
+  for (int k = 0; k < 3; ++k) reach[k] = v.half[k] * ((n[k] > 0) - (n[k] < 0));
+  if (v.shape == Shape::box) return reach;
+
+  const Vec3 level(n.x(), 0, n.z());
+  const double length = level.norm();
+  return Vec3(0, reach.y(), 0) + (length > 0 ? v.half.x() / length : 0) * level;
+}
+
 ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb) {
   // All positions are from a's centre.
   const Vec3 center = xb - xa, right = wall.half_width * wall.right, up = wall.half_height * wall.up;
+
   vector<ClosestPoints> all;
   array<Segment, 4> edges;
+
+  // The wall's corners and edges.
   for (size_t k = 0; k < 4; ++k) {
     const double s = k % 2 == 0 ? 1 : -1, t = k / 2 == 0 ? 1 : -1;
     const Vec3 corner = center + s * right + t * up;
     all.push_back({clamped(a, corner), corner});
     edges[k] = k / 2 == 0 ? Segment{center + s * right - up, 2 * up} : Segment{center + s * up - right, 2 * right};
   }
-  const auto on_wall = [&](const Vec3& p) -> Vec3 {
-    const Vec3 e = p - center;
-    return center + std::clamp(e.dot(wall.right), -wall.half_width, wall.half_width) * wall.right +
-           std::clamp(e.dot(wall.up), -wall.half_height, wall.half_height) * wall.up;
-  };
+
   if (a.shape == Shape::box) {
+    // The box's corners, and its edges with the wall's.
     for (int k = 0; k < 8; ++k) {
       const Vec3 corner = a.half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
-      all.push_back({corner, on_wall(corner)});
+      all.push_back({corner, nearest_on_wall(wall, center, corner)});
       for (int axis = 0; axis < 3; ++axis) {
         if (corner[axis] > 0) continue;
         const Segment edge{corner, 2 * a.half[axis] * Vec3::Unit(axis)};
+
         for (const Segment& other : edges) {
           const auto [s, t] = closest_parameters(edge, other);
           all.push_back({edge.from + s * edge.along, other.from + t * other.along});
@@ -88,18 +100,20 @@ ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, 
   } else {
     // Candidates: the cylinder's foremost point towards the wall's plane, and the wall's edges.
     const Vec3 n = wall.normal.dot(center) > 0 ? wall.normal : Vec3(-wall.normal);
-    const double level = std::sqrt(n.x() * n.x() + n.z() * n.z());
-    Vec3 foremost(0, n.y() > 0 ? a.half.y() : n.y() < 0 ? -a.half.y() : 0, 0);
-    if (level > 0) foremost += a.half.x() / level * Vec3(n.x(), 0, n.z());
-    all.push_back({foremost, on_wall(foremost)});
+    const Vec3 end = foremost(a, n);
+    all.push_back({end, nearest_on_wall(wall, center, end)});
+
     for (const Segment& edge : edges) {
       const Vec3 p = edge.from + nearest_parameter(edge, a) * edge.along;
       all.push_back({clamped(a, p), p});
     }
   }
+
+  // The middle of all that are nearest.
   double least = never;
   for (const ClosestPoints& p : all) least = std::min(least, (p.on_b - p.on_a).norm());
   const double tie = least + 0x1p-48 * (a.half.sum() + wall.half_width + wall.half_height);
+
   ClosestPoints middle{Vec3::Zero(), Vec3::Zero()};
   int count = 0;
   for (const ClosestPoints& p : all) {
@@ -108,6 +122,7 @@ ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, 
     middle.on_b += p.on_b;
     ++count;
   }
+
   return {xa + middle.on_a / count, xa + middle.on_b / count};
 }
 

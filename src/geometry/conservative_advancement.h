@@ -10,7 +10,6 @@
 #include "geometry/contact_time.h"
 #include "geometry/relative_way.h"
 #include "geometry/separation.h"
-#include "geometry/touch.h"
 #include "std.h"
 
 namespace carom {
@@ -36,22 +35,26 @@ class ConservativeAdvancement {
     Separation s = left_ != no_feature ? set_.at(m_.d, left_) : set_.nearest(m_.d);
     if (left_ != no_feature) s.gap = 0;
     if (s.gap <= 0 && set_.sharp(s.feature)) s = set_.at(m_.d, set_.foremost_face(m_.d, s.feature));
+
     double t = 0;
     if (s.gap <= 0) {
       if (left == no_feature) s = over_the_edge(s, 0, m_.w);
       // From here on the gap is one that leaves from zero, whatever its rounding.
       left_ = s.feature;
+
       double speed = s.normal.dot(m_.w);
       if (std::abs(speed) <= noise(s.feature)) speed = 0;
       if (speed < 0) return {0, s.feature};
       t = leaves_until(s, 0, m_.w, speed);
       if (t == 0) return {0, s.feature};
     }
+
     // A path that leaves a curved surface with nearly its curvature takes thousands of steps to come clear of it.
     while (t <= horizon_) {
       s = separation_at(t);
       const Vec3 v = way_.velocity(t);
       const double speed = s.normal.dot(v);
+
       double on;
       if (s.gap > 0) {
         on = way_.descent(s.normal, t, s.gap, speed, horizon_ - t);
@@ -63,12 +66,15 @@ class ConservativeAdvancement {
         if (on == 0) return contact(t, s.feature);
       }
       if (on == never) return {never, no_feature};
+
+      // At the plane, or as near to it as positions can tell.
       const Vec3 p = m_.d + displacement(t), there = m_.d + displacement(t + on);
       if (s.gap > 0 && (closed(s, p) || p == there)) {
         if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v, way_.acceleration(t)));
         if (s.feature != left_) s = over_the_edge(s, t, v);
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
+
         // A curved surface may have turned away by the time the path arrives at the plane.
         if (out < 0 && p != there && !closed(separation_at(t + on), there)) {
           t += on;
@@ -78,8 +84,10 @@ class ConservativeAdvancement {
         on = std::max(on, leaves_until(s, t, v, out));
         if (on == never) return {never, no_feature};
       }
+
       t = std::max(t + on, std::nextafter(t, never));
     }
+
     return {never, no_feature};
   }
 
@@ -145,16 +153,19 @@ class ConservativeAdvancement {
   uint8_t face_left(uint8_t edge, const Vec3& p, const Vec3& v, const Vec3& a) const {
     uint8_t best = no_feature;
     double best_speed = 0, best_acceleration = 0;
+
     set_.for_each_face(edge, [&](uint8_t face) {
       const Vec3 n = set_.at(p, face).normal;
       const double speed = n.dot(v), acceleration = n.dot(a);
       const bool equal = std::abs(speed - best_speed) <= noise(face);
+
       if (best == no_feature || (equal ? acceleration > best_acceleration : speed > best_speed)) {
         best = face;
         best_speed = speed;
         best_acceleration = acceleration;
       }
     });
+
     return best;
   }
 
@@ -164,6 +175,7 @@ class ConservativeAdvancement {
     const bool is_left = feature == left_;
     const Separation start = set_.at(m_.d, feature);
     const double gap = is_left ? 0 : start.gap;
+
     // The closed form, from the start on. It is valid if it is the contact, and not another crossing of the feature's
     // surface.
     double closed = never;
@@ -177,14 +189,17 @@ class ConservativeAdvancement {
       reduced.just_separated = is_left;
       closed = sphere_contact_time(reduced, radius, horizon_);
     }
+
     const auto tolerance = [&](double time) {
       double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());
       if constexpr (!Way::parabola) reach = m_.d.cwiseAbs().sum() + displacement(time).cwiseAbs().sum();
       return 64 * rounding * (reach + set_.size());
     };
+
     if (closed < never && std::abs(separation_at(closed).gap) <= tolerance(closed) &&
         (is_left || std::abs(set_.at(m_.d + displacement(closed), feature).gap) <= tolerance(closed)))
       return {closed, feature};
+
     // Newton's method on the feature's gap. Where the path only just touches the feature's rim, the method may find
     // another point of the extended surface.
     const double found = t;
@@ -192,14 +207,17 @@ class ConservativeAdvancement {
     for (int k = 0; k < 8; ++k) {
       const double slope = set_.at(m_.d + displacement(t), feature).normal.dot(way_.velocity(t));
       if (!(slope < 0)) break;
+
       double rest;
       if (is_left || !Way::parabola || !set_.rim_gap(feature, m_, t, rest))
         rest = set_.displaced_gap(m_.d, feature, gap, displacement(t));
+
       const double step = -rest / slope;
       if (!(std::abs(step) < 0.5 * last) || !(t + step >= 0) || t + step == t) break;
       last = std::abs(step);
       t += step;
     }
+
     if (t != found && std::abs(separation_at(t).gap) > tolerance(t)) t = found;
     if (t > horizon_) return {never, no_feature};
     return {t, feature};

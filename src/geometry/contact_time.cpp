@@ -24,20 +24,26 @@ constexpr double gap_noise = 0x1p-51;
 double straight_contact_time(const RelativeMotion& m, double s, double horizon) {
   const double b = m.d.dot(m.w);
   if (b >= 0) return never;
+
+  // Closed up to rounding, a slow approach is none.
   const double c = m.just_separated ? 0 : squared_gap(m.d, s);
   if (c <= gap_noise * s * s) {
     if (-b <= velocity_noise * m.speeds * s) return never;
     if (c <= 0) return 0;
   }
+
   const double a = m.w.squaredNorm();
   const Vec3 cross = m.d.cross(m.w);
   double disc = a * s * s - cross.squaredNorm();
+
+  // The path may only graze.
   if (std::abs(disc) < 1e-3 * a * s * s) {
     const DoubleDouble x = difference_of_products(m.d.y(), m.w.z(), m.d.z(), m.w.y());
     const DoubleDouble y = difference_of_products(m.d.z(), m.w.x(), m.d.x(), m.w.z());
     const DoubleDouble z = difference_of_products(m.d.x(), m.w.y(), m.d.y(), m.w.x());
     disc = (dot_compensated(m.w, m.w) * two_product(s, s) - (x * x + y * y + z * z)).value();
   }
+
   if (disc <= 0) return never;
   const double t = c / (std::sqrt(disc) - b);
   return t <= horizon ? t : never;
@@ -53,6 +59,21 @@ Polynomial squared_gap_polynomial(const RelativeMotion& m, double s, Side side) 
   return {{c, sign * (2 * b), sign * (m.w.squaredNorm() + m.d.dot(m.a)), sign * m.w.dot(m.a),
            sign * (0.25 * m.a.squaredNorm())},
           4};
+}
+
+Polynomial room_in_disc(const RelativeMotion& m, double s) {
+  Polynomial room = squared_gap_polynomial(m, s);
+  for (double& x : room.c) x = -x;
+  return room;
+}
+
+Roots exit_times(const RelativeMotion& m, double s, double horizon) {
+  const Polynomial room = room_in_disc(m, s), slope = room.derivative();
+  Roots exits;
+  const Roots all = roots_between(room, 0, horizon);
+  for (int k = 0; k < all.count; ++k)
+    if (const double t = all.at[static_cast<size_t>(k)]; slope(t) < 0) exits.at[static_cast<size_t>(exits.count++)] = t;
+  return exits;
 }
 
 namespace {
@@ -112,14 +133,17 @@ double CurvedContacts::within(double from, double to) const {
     if (gap == 0 || (gap < 0 && t == from)) return t;
     (gap > 0 ? l : r) = t;
     deep = deep || gap < 0;
+
     const Vec3 p = m_.d + t * (m_.w + 0.5 * t * m_.a), v = m_.w + t * m_.a;
     const double slope = side_ == Side::outside ? 2 * p.dot(v) : -2 * p.dot(v);
     const double curvature = 2 * (v.squaredNorm() + std::abs(p.dot(m_.a)));
     const double step = -gap / slope;
     if (t + step == t) return t;
+
     double next = t + step;
     const bool newton = slope < 0 && next > l && next < r && std::abs(step) <= 0.5 * last;
     if (newton && step * step * curvature <= -0x1p-54 * t * slope) return next;
+
     if (!newton) {
       deep = deep || exact_gap(r) < 0;
       // The path only comes near.
@@ -127,6 +151,7 @@ double CurvedContacts::within(double from, double to) const {
       next = l + 0.5 * (r - l);
       if (next == l || next == r) return next;
     }
+
     last = std::abs(next - t);
     t = next;
   }
@@ -165,6 +190,7 @@ double plane_contact_time(double gap, double speed, double acceleration, double 
   if (just_separated) gap = 0;
   double t = never;
   if (gap <= 0 && std::abs(speed) <= noise) speed = 0;
+
   if (gap <= 0 && speed < 0) {
     t = 0;
   } else if (gap <= 0 && speed == 0) {
@@ -183,6 +209,7 @@ double plane_contact_time(double gap, double speed, double acceleration, double 
       t = 2 * gap / (std::sqrt(disc) - speed);
     }
   }
+
   return t <= horizon ? t : never;
 }
 

@@ -3,24 +3,13 @@
 // Times are in seconds from the instant at which the arguments hold. `never` (polynomial.h) means no contact.
 // An approach slower than the rounding of its velocities is none, so that noise does not strike touching bodies again.
 
+#include "geometry/relative_motion.h"
 #include "numerics/polynomial.h"
-#include "numerics/vec3.h"
 #include "std.h"
 
 namespace carom {
 
 struct Wall;
-
-/// Two points' relative motion: d = x_b - x_a (m), w = v_b - v_a (m/s), a = a_b - a_a (m/s^2).
-struct RelativeMotion {
-  Vec3 d, w, a;
-  // |v_a| + |v_b|, m/s: the rounding of w has this scale.
-  double speeds;
-  // The two touch and have just collided. Their gap is zero by definition, not by computation.
-  bool just_separated;
-  // m, how far a fixed b is from its position at time 0: positions are rounded on this scale too.
-  double moved = 0;
-};
 
 /// First t in [0, horizon] at which spheres with radii of sum s (m) touch and approach.
 /// The equation is |d + w t + a t^2/2|^2 = s^2: a quadratic where a = 0, otherwise a quartic.
@@ -37,6 +26,12 @@ enum class Side : uint8_t { outside, inside };
 
 /// |d + w t + a t^2/2|^2 - s^2, m^2, or from inside its negative. With just_separated the constant term is zero.
 Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s, Side side = Side::outside);
+
+/// s^2 - |d + w t + a t^2/2|^2, m^2: the room before the rim of a disc, of two points that have not just separated.
+Polynomial room_in_disc(const RelativeMotion& motion, double s);
+
+/// The times in [0, horizon] at which a path leaves a disc.
+Roots exit_times(const RelativeMotion& motion, double s, double horizon);
 
 /// The contacts of spheres of unequal accelerations, one after the other, because a curved path may enter twice. From
 /// inside: the times at which a string goes taut.
@@ -79,20 +74,21 @@ enum WallFeature : uint8_t {
 };
 inline constexpr uint8_t no_feature = 255;
 
-struct WallContact {
-  double time;      // s, or never
-  uint8_t feature;  // of the wall
+/// An instant, and the feature at which two things touch then.
+struct FeatureTime {
+  double time;  // s, or never
+  uint8_t feature;
 };
 
 /// First contact of a sphere at x (m) with velocity v (m/s) and acceleration a (m/s^2) with a wall.
 /// A wall enlarged by the radius is convex: slabs over its faces, cylinders along its edges, balls at its corners.
 /// The contact is the first entry into any of them, on its own stretch. `left`: the feature that the sphere has just
 /// bounced off, or no_feature.
-WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
+FeatureTime wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               uint8_t left, double horizon);
 
 /// The same, from the wall's motion as seen from the sphere: d = wall.center - x.
-WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
+FeatureTime wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
                               double horizon);
 
 /// The wall's point nearest to x (m), with its centre at `center` (m), or where it is at time 0.
@@ -101,7 +97,6 @@ Vec3 nearest_on_wall(const Wall& wall, const Vec3& x);
 
 /// First t in (0, horizon] at which a sphere that slides over a face leaves it. Its point of contact then crosses the
 /// rectangle's rim.
-WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon);
-WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon);
+FeatureTime wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon);
 
 }  // namespace carom

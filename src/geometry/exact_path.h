@@ -3,7 +3,7 @@
 // grazing contact is then as exact as its data.
 #include <cmath>
 
-#include "geometry/contact_time.h"
+#include "geometry/relative_motion.h"
 #include "numerics/compensated.h"
 #include "std.h"
 

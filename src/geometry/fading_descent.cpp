@@ -32,10 +32,12 @@ double descent_on(const FadingDistance& f, double from, double to) {
   const auto slope = [&](double t) { return f.slope(t); };
   const double at_from = f(from), slope_from = f.slope(from);
   if (at_from <= 0 && slope_from < 0) return from;
+
   const double middle = 0.5 * (from + to);
   if (f.bend_sign(middle) < 0) {
     if (at_from <= 0 && slope_from == 0) return from;
     if (f(to) > 0) return never;
+
     // f falls from there on.
     double top = from;
     if (slope_from > 0)
@@ -43,6 +45,7 @@ double descent_on(const FadingDistance& f, double from, double to) {
           slope, [&](double t) { return f.curve(t); }, from, to, middle);
     return f(top) > 0 ? fall_between(value, slope, top, to, to) : top;
   }
+
   if (slope_from >= 0) return never;
   // f falls up to there.
   double bottom = to;
@@ -84,6 +87,7 @@ int FadingDistance::bend_sign(double t) const {
 
 double first_descent(const FadingDistance& f, double horizon) {
   if (!(horizon > 0)) return f.start <= 0 && f.slope(0) < 0 ? 0 : never;
+
   // The time at which the terms cancel. There is at most one, because one of them fades more slowly.
   double turn = horizon;
   if (f.bend_sign(0) * f.bend_sign(horizon) < 0) {
@@ -94,6 +98,7 @@ double first_descent(const FadingDistance& f, double horizon) {
     }
     turn = high;
   }
+
   const double first = descent_on(f, 0, turn);
   return first < never || turn == horizon ? first : descent_on(f, turn, horizon);
 }

@@ -52,17 +52,21 @@ bool solve(Basis& basis) {
     weigh(basis);
     return true;
   }
+
   // With V = (p_i - p_0) = Q R: c = V m and V^T c = |p_i - p_0|^2 / 2. So R^T (Q^T c) = |..|^2 / 2 and R m = Q^T c.
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, n);
   for (int i = 0; i < n; ++i) edges.col(i) = basis.points[i + 1] - basis.points[0];
   const Eigen::ColPivHouseholderQR<decltype(edges)> qr(edges);
   if (qr.rank() < n) return false;
+
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
   const auto triangle = qr.matrixR().topLeftCorner(n, n).template triangularView<Eigen::Upper>();
   Column m = qr.colsPermutation().transpose() * Column(0.5 * edges.colwise().squaredNorm().transpose());
   triangle.transpose().solveInPlace(m);
   triangle.solveInPlace(m);
   m = qr.colsPermutation() * m;
+
+  // The weights of all points. A negative one: fewer points determine the sphere.
   basis.weights[0] = 1 - m.sum();
   for (int i = 0; i < n; ++i) basis.weights[i + 1] = m[i];
   for (int i = 0; i < basis.count; ++i)
@@ -84,6 +88,7 @@ Basis joined(const Basis& basis, const Vec3& point) {
       if (candidate.count < 4) candidate.points[candidate.count] = basis.points[i];
       ++candidate.count;
     }
+
     if (candidate.count < 5 && solve(candidate) && candidate.square > best.square) best = candidate;
   }
   return best;
@@ -96,6 +101,7 @@ Vec3 sphere_center(Points points) {
   basis.points[0] = points.front();
   basis.count = 1;
   solve(basis);
+
   Vec3 best = basis.center;
   double best_square = std::numeric_limits<double>::infinity();
   while (true) {
@@ -105,6 +111,8 @@ Vec3 sphere_center(Points points) {
       const double s = (p - basis.center).squaredNorm();
       if (s > square) square = s, farthest = &p;
     }
+
+    // Rounding ends the growth.
     if (square < best_square) best_square = square, best = basis.center;
     if (square <= basis.square) return best;
     const Basis next = joined(basis, *farthest);
@@ -130,6 +138,7 @@ Fit tightest(Shape shape, Points points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+
   const Vec3 extent = high - low, middle = low + 0.5 * extent;
   if (!extent.allFinite()) throw std::invalid_argument("the points are too far apart");
   const double size = extent.maxCoeff();
@@ -140,6 +149,7 @@ Fit tightest(Shape shape, Points points) {
   if (!(across > 0))
     throw std::invalid_argument("the points have no extent along x and z: a cylinder around them has no radius");
   const double unit = std::ldexp(1.0, std::ilogb(across));
+
   vector<Vec3> near;
   if (shape != Shape::box) {
     near.reserve(points.size());
@@ -147,10 +157,12 @@ Fit tightest(Shape shape, Points points) {
     const Vec3 seen = shape == Shape::sphere ? Vec3(1, 1, 1) : Vec3(1, 0, 1);
     for (const Vec3& p : points) near.push_back(((p - middle) / unit).cwiseProduct(seen));
   }
+
   Fit fit{{shape, Vec3::Zero()}, middle};
   if (shape != Shape::box) {
     const Vec3 center = sphere_center(near);
     fit.center += center * unit;
+
     // From the centre as rounded.
     for (size_t i = 0; i < points.size(); ++i) {
       near[i] = (points[i] - fit.center) / unit;
@@ -159,6 +171,8 @@ Fit tightest(Shape shape, Points points) {
     const double radius = farthest_from(Vec3::Zero(), near) * unit;
     fit.volume = shape == Shape::sphere ? Volume::sphere(radius) : Volume::cylinder(radius, 0);
   }
+
+  // Extents along the axes.
   if (shape != Shape::sphere) {
     const bool box = shape == Shape::box;
     for (int axis = 0; axis < 3; ++axis) {

@@ -3,7 +3,6 @@
 // own.
 #include "geometry/pair.h"
 
-#include "physics/world.h"
 #include "std.h"
 
 namespace carom {
@@ -60,19 +59,13 @@ PairPrism pair_prism(const World& world, Entity a, Entity b) {
     pair.b = {Shape::box, Vec3(wall.half_width, wall.half_height, 0)};
     pair.frame = {wall.right, wall.up, wall.normal, true};
   }
+
+  // The sum of the parts.
   for (const Volume& v : {pair.a, pair.b}) {
-    switch (v.shape) {
-      case Shape::sphere:
-        pair.sum.ball += v.half.x();
-        break;
-      case Shape::cylinder:
-        pair.sum.disc += v.half.x();
-        pair.sum.half.y() += v.half.y();
-        break;
-      case Shape::box:
-        pair.sum.half += v.half;
-        break;
-    }
+    if (v.shape == Shape::sphere) pair.sum.ball += v.half.x();
+    if (v.shape == Shape::cylinder) pair.sum.disc += v.half.x();
+    if (v.shape == Shape::cylinder) pair.sum.half.y() += v.half.y();
+    if (v.shape == Shape::box) pair.sum.half += v.half;
   }
   return pair;
 }

@@ -3,7 +3,7 @@
 #include "geometry/round_prism.h"
 #include "geometry/slab_sum.h"
 #include "geometry/tilted_sum.h"
-#include "geometry/touch.h"
+#include "physics/world.h"
 #include "std.h"
 
 namespace carom {
@@ -41,6 +41,9 @@ PairPrism pair_prism(const World& world, Entity a, Entity b);
 uint8_t prism_feature(uint8_t wall_feature, const Vec3& p);
 uint8_t wall_feature(uint8_t prism_feature);
 
+/// The point of a volume that lies farthest along n, from its centre (m), or the middle of an area of them.
+Vec3 foremost(const Volume& volume, const Vec3& n);
+
 /// The closest points on the surfaces of a and b in the world (m). Body a is a box or a cylinder, b a wall at an angle
 /// to it. Where there are several, it is the middle of all.
 struct ClosestPoints {
@@ -48,12 +51,12 @@ struct ClosestPoints {
 };
 ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb);
 
-inline SlabSum slab_sum(const World& world, Entity a, Entity b) {
-  return SlabSum(world.volume_of(a).half, world.wall(b));
-}
-inline TiltedSum tilted_sum(const World& world, Entity a, Entity b) {
-  const Volume v = world.volume_of(a);
-  return TiltedSum(v.half.x(), v.half.y(), world.wall(b));
+/// Calls visit(sum, frame) with the Minkowski sum of a pair of this kind: of a volume and a wall or another volume.
+auto with_sum(PairKind kind, const World& world, Entity a, Entity b, const auto& visit) {
+  if (kind == PairKind::box_wall) return visit(SlabSum(world.volume_of(a).half, world.wall(b)), Frame{});
+  if (kind == PairKind::cylinder_wall) return visit(TiltedSum(world.volume_of(a), world.wall(b)), Frame{});
+  const PairPrism pair = pair_prism(world, a, b);
+  return visit(pair.sum, pair.frame);
 }
 
 }  // namespace carom

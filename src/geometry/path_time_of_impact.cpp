@@ -27,15 +27,18 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
                        double speeds, uint8_t left, double horizon) {
   const double far = from_a.cwiseAbs().sum() + xb.cwiseAbs().sum() + world.radius[a];
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
+
   double t = 0;
   for (int step_count = 0; step_count < 500 && t <= horizon; ++step_count) {
     // b does not move.
     const Vec3 xa = from_a - way.displacement(t);
     const bool leaving = t == 0 && left != no_feature;
     const Touch there = touch(world, a, xa, b, xb, leaving ? left : no_feature);
+
     const Vec3 w = way.velocity(t);
     const Vec3& n = there.normal;
     double gap = there.gap, rate = n.dot(w);
+
     // s: the path is surely outside for this long.
     double least = 0;
     if (!(gap > closed) || leaving) {
@@ -43,6 +46,7 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
       const double acceleration = n.dot(bend), unsure = 0x1p-48 * bend.cwiseAbs().sum();
       if (std::abs(rate) <= noise) rate = 0;
       if (rate < 0) return {t, there.feature};
+
       if (rate == 0 && acceleration < 0 && -acceleration <= unsure) {
         // Rounding of the acceleration takes the path no deeper than rounding of positions.
         least = std::sqrt(closed / unsure);
@@ -54,12 +58,14 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
       }
       gap = 0;
     }
+
     const double on = std::max(way.descent(n, t, gap, rate, std::max(horizon - t, least)), least);
     if (on == never) return {never, no_feature};
     // The clock is too coarse to come nearer.
     if (t + on == t && there.gap > closed) return {t, there.feature};
     t += on;
   }
+
   return {never, no_feature};
 }
 
@@ -68,27 +74,20 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
                                  double speeds, uint8_t left, double horizon) {
   const RelativeMotion start{xb - xa, way.velocity(0), way.acceleration(0), speeds, left != no_feature};
   const double far = xa.cwiseAbs().sum() + xb.cwiseAbs().sum();
-  switch (pair_kind(world, a, b)) {
+
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
     case PairKind::half_space:
     case PairKind::sphere_wall:
       return meet_round(way, world, a, xa, b, xb, speeds, left, horizon);
-    case PairKind::prism: {
-      const PairPrism pair = pair_prism(world, a, b);
-      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, start), way.in(pair.frame), far, horizon).run(left);
-    }
-    case PairKind::box_wall: {
-      const SlabSum sum = slab_sum(world, a, b);
-      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
-    }
-    case PairKind::cylinder_wall: {
-      const TiltedSum sum = tilted_sum(world, a, b);
-      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
-    }
     case PairKind::string:
-      break;
+      return {never, no_feature};
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
+        return ConservativeAdvancement(sum, in_frame(frame, start), way.in(frame), far, horizon).run(left);
+      });
   }
-  return {never, no_feature};
 }
 
 }  // namespace
@@ -113,12 +112,15 @@ double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, doubl
     gap[k + 1] -= 2 * d.dot(displacement[k]);
     for (size_t j = 0; j < PolynomialPath::terms; ++j) gap[k + j + 2] -= displacement[k].dot(displacement[j]);
   }
+
   const bool closed = gap[0] <= 0x1p-51 * s * s;
   if (closed && std::abs(gap[1]) <= 0x1p-48 * length * speeds * s) gap[1] = 0;
   if (closed) gap[0] = 0;
+
   const auto first = std::ranges::find_if(gap, [](double c) { return c != 0; });
   if (first == gap.end()) return never;
   if (*first < 0) return 0;
+
   // Without the root at t = 0.
   for (const double at : roots_in_unit({first, gap.end()})) {
     const Vec3 there = d + PolynomialPath::value(displacement, at);
@@ -132,15 +134,18 @@ FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, En
                           uint8_t feature, double horizon) {
   const FadingWay way(pa, pb);
   const double least = 0x1p-50 * world.radius[a];
+
   // m: the allowed difference between the path and its parabola.
   double room = 0x1p-20 * world.radius[a];
   double t = 0, before = 0;
+
   while (t < horizon) {
     const Vec3 w = way.velocity(t);
     const double jerk = way.jerk(t);
     const double length = jerk > 0 ? std::min(horizon - t, cube_root(6 * room / jerk)) : horizon - t;
     const RelativeMotion m{pb.x - pa.x + way.displacement(t), w, way.acceleration(t), w.cwiseAbs().sum(), true};
     const FeatureTime rim = leave_feature(world, a, b, feature, m, length);
+
     if (rim.time == never) {
       before = t;
       t += length;
@@ -155,6 +160,7 @@ FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, En
       t += 0.75 * rim.time;
     }
   }
+
   return {never, no_feature};
 }
 

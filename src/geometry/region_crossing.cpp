@@ -49,6 +49,8 @@ class Condition {
   double value(double t) const {
     array<DoubleDouble, 3> d;
     const Vec3 bent = path_.parabola ? Vec3(Vec3::Zero()) : PolynomialPath::value(path_.displacement, t / path_.length);
+
+    // From the point.
     const DoubleDouble half_square = two_product(0.5 * t, t);
     for (int k = 0; k < 3; ++k) {
       DoubleDouble& at = d[static_cast<size_t>(k)];
@@ -56,11 +58,13 @@ class Condition {
       at = path_.parabola ? at + (two_product(t, path_.v[k]) + half_square * DoubleDouble{path_.a[k], 0})
                           : at + DoubleDouble{bent[k], 0};
     }
+
     DoubleDouble sum = round_ ? -two_product(reach_, reach_) : DoubleDouble{-reach_, 0};
     for (int k = 0; k < 3; ++k) {
       const DoubleDouble& at = d[static_cast<size_t>(k)];
       if (axes_[k] != 0) sum = sum + at * (round_ ? at : DoubleDouble{axes_[k], 0});
     }
+
     return sum.value();
   }
 
@@ -75,18 +79,21 @@ class Condition {
     const PolynomialPath::Terms terms =
         PolynomialPath::shifted(path_.displacement, in.from / path_.length, (in.to - in.from) / path_.length);
     const size_t count = path_.parabola ? 2 : PolynomialPath::terms;
+
     array<double, Bernstein::most_degree + 1> a{};
     a[0] = value(in.from);
     if (!round_) {
       for (size_t k = 0; k < count; ++k) a[k + 1] = axes_.dot(terms[k]);
       return Bernstein::of_powers(a, count);
     }
+
     const Vec3 start = axes_.cwiseProduct(distance(in.from));
     for (size_t k = 0; k < count; ++k) {
       const Vec3 term = axes_.cwiseProduct(terms[k]);
       a[k + 1] += 2 * start.dot(term);
       for (size_t j = 0; j < count; ++j) a[k + j + 2] += term.dot(terms[j]);
     }
+
     return Bernstein::of_powers(a, 2 * count);
   }
 
@@ -117,6 +124,7 @@ double refine(const Condition& condition, const Stretch& in, bool falling) {
 void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, vector<double>& roots) {
   const int changes = f.changes();
   if (changes == 0) return;
+
   const double middle = in.from + 0.5 * (in.to - in.from);
   const bool narrow = !(middle > in.from && middle < in.to);
   if (changes == 1 || narrow) {
@@ -124,8 +132,10 @@ void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, vect
     if (changes % 2 == 1) roots.push_back(narrow ? in.to : refine(condition, in, falling));
     return;
   }
+
   Bernstein right = f.split();
   add_roots(condition, f, {in.from, middle}, roots);
+
   // A root at the middle itself is none of the open halves.
   if (right.b[0] == 0 && f.changes() % 2 == 0) {
     const auto sign = [](const Bernstein& of, bool last) {
@@ -135,6 +145,7 @@ void add_roots(const Condition& condition, Bernstein& f, const Stretch& in, vect
     };
     if (sign(f, true) * sign(right, false) < 0) roots.push_back(middle);
   }
+
   add_roots(condition, right, {middle, in.to}, roots);
 }
 
@@ -144,10 +155,14 @@ void restrict_to(const Condition& condition, vector<Stretch>& intervals) {
   vector<double> roots;
   for (const Stretch& in : intervals) {
     Bernstein f = condition.on(in);
+
+    // Without a sign at the start, the next term tells it.
     double sign = 0;
     for (size_t k = 0; k <= f.degree && sign == 0; ++k) sign = f.b[k];
+
     roots.clear();
     add_roots(condition, f, in, roots);
+
     double from = in.from;
     bool below = sign < 0;
     for (const double root : roots) {
@@ -157,6 +172,7 @@ void restrict_to(const Condition& condition, vector<Stretch>& intervals) {
     }
     if (below) met.push_back({from, in.to});
   }
+
   intervals = std::move(met);
 }
 
@@ -167,10 +183,12 @@ vector<Stretch> inside_of(const WorldRegion& region, const CenterPath& path, con
     restrict_to(Condition::side(path, region.position, -region.normal, margin), intervals);
     return intervals;
   }
+
   const Vec3& half = region.volume.half;
   for (int k = 0; k < 3 && !intervals.empty(); ++k)
     for (const double side : {-1.0, 1.0})
       restrict_to(Condition::side(path, region.position, side * Vec3::Unit(k), half[k] + margin), intervals);
+
   if (region.volume.shape == Shape::box || intervals.empty()) return intervals;
   const Vec3 axes = region.volume.shape == Shape::sphere ? Vec3(1, 1, 1) : Vec3(1, 0, 1);
   restrict_to(Condition::round(path, region.position, axes, half.x() + margin), intervals);
@@ -183,6 +201,7 @@ optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath
                                      double margin) {
   if (!(path.length > from)) return nullopt;
   const vector<Stretch> deep = inside_of(region, path, {from, path.length}, inside ? margin : -margin);
+
   double sure = from;
   if (!inside) {
     if (deep.empty()) return nullopt;
@@ -191,7 +210,10 @@ optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath
     sure = deep.front().to;
     if (sure == path.length) return nullopt;
   }
+
   if (sure == from) return CrossingTime{from, from};
+
+  // The boundary itself is crossed before.
   // The boundary itself is crossed before.
   const vector<Stretch> real = inside_of(region, path, {from, sure}, 0);
   if (real.empty()) return CrossingTime{inside ? from : sure, sure};

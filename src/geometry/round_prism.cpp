@@ -84,6 +84,7 @@ double RoundPrism::displaced_gap(const Vec3& p, uint8_t feature, double gap, con
   const PrismFeature f = PrismFeature::of(feature);
   const double dv = f.y * by.y();
   if (!f.level()) return gap + dv;
+
   double du = f.x * by.x() + f.z * by.z();
   if (f.bent()) {
     // The change of length, |e + by| - |e|.
@@ -91,6 +92,7 @@ double RoundPrism::displaced_gap(const Vec3& p, uint8_t feature, double gap, con
     const double lengths = e.norm() + (e + level).norm();
     du = lengths > 0 ? level.dot(2 * e + level) / lengths : 0;
   }
+
   if (f.y == 0) return gap + du;
   const double u = excess(p, f).u, v = f.y * p.y() - half.y();
   const double lengths = std::sqrt(u * u + v * v) + std::sqrt((u + du) * (u + du) + (v + dv) * (v + dv));
@@ -159,9 +161,11 @@ Vec3 RoundPrism::within(const Vec3& p, uint8_t feature) const {
 bool RoundPrism::as_spheres(uint8_t feature, const RelativeMotion& m, RelativeMotion& reduced, double& radius) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (flat(feature) || (f.y != 0 && f.bent() && disc > 0)) return false;
+
   reduced = m;
   radius = ball + (f.y == 0 ? disc : 0);
   const int side[3] = {f.x, f.y, f.z};
+
   for (int k = 0; k < 3; ++k) {
     if (side[k] == 0) {
       reduced.d[k] = reduced.w[k] = reduced.a[k] = 0;
@@ -169,12 +173,14 @@ bool RoundPrism::as_spheres(uint8_t feature, const RelativeMotion& m, RelativeMo
       reduced.d[k] -= side[k] * half[k];
     }
   }
+
   return radius > 0;
 }
 
 FeatureTime RoundPrism::leave(uint8_t feature, const RelativeMotion& m, double horizon) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (!f.level() && disc > 0) return leave_round_cap(f, m, horizon);
+
   FeatureTime first{never, no_feature};
   const auto offer = [&](double t, PrismFeature beyond) {
     if (t < first.time) first = {t, unique(beyond).code()};
@@ -182,6 +188,7 @@ FeatureTime RoundPrism::leave(uint8_t feature, const RelativeMotion& m, double h
   const auto falls = [&](double room, int k, int sign) {
     return plane_contact_time(room, sign * m.w[k], sign * m.a[k], 0, false, horizon);
   };
+
   if (round() && f.y != 0) {
     // The rounded rim ends at the cap and at the side.
     RelativeMotion level = m;
@@ -191,6 +198,7 @@ FeatureTime RoundPrism::leave(uint8_t feature, const RelativeMotion& m, double h
     offer(falls(f.y * m.d.y() - half.y(), 1, f.y), {1, 0, 1});
     return first;
   }
+
   const int side[3] = {f.x, f.y, f.z};
   for (int k = 0; k < 3; ++k) {
     if (k != 1 && round()) continue;
@@ -207,6 +215,7 @@ FeatureTime RoundPrism::leave(uint8_t feature, const RelativeMotion& m, double h
       (k == 0 ? beyond.x : k == 1 ? beyond.y : beyond.z) = 0;
       const double t = falls(side[k] * m.d[k] - half[k], k, side[k]);
       if (t == never) continue;
+
       // The path is on one side or the other of a rectangle without width.
       const Vec3 p = m.d + t * (m.w + 0.5 * t * m.a);
       if (beyond.x != 0 && half.x() == 0) beyond.x = side_of(p.x());
@@ -214,6 +223,7 @@ FeatureTime RoundPrism::leave(uint8_t feature, const RelativeMotion& m, double h
       offer(t, beyond);
     }
   }
+
   return first;
 }
 
@@ -226,31 +236,34 @@ FeatureTime RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m,
     if (ball > 0) beyond.y = f.y;
     first = {t, unique(beyond).code()};
   };
+
+  // The straight sides.
   for (int k : {0, 2})
     for (int sign : {1, -1})
       if (!round())
         offer(plane_contact_time(half[k] + disc - sign * m.d[k], -sign * m.w[k], -sign * m.a[k], 0, false, horizon),
               k == 0 ? PrismFeature{sign, 0, 0} : PrismFeature{0, 0, sign});
+
+  // The round corners.
   for (int corner = 0; corner < (round() ? 1 : 4); ++corner) {
     const PrismFeature c{corner % 2 == 0 ? 1 : -1, 0, corner / 2 == 0 ? 1 : -1};
     RelativeMotion level{from_corner(m.d, c), m.w, m.a, m.speeds, false};
     level.w.y() = level.a.y() = 0;
-    Polynomial room = squared_gap_polynomial(level, disc);
-    for (double& x : room.c) x = -x;
     if (round()) {
-      offer(first_descent(room, horizon), c);
+      offer(first_descent(room_in_disc(level, disc), horizon), c);
       continue;
     }
-    const Roots roots = roots_between(room, 0, horizon);
-    const Polynomial slope = room.derivative();
-    for (int k = 0; k < roots.count; ++k) {
-      const double t = roots.at[static_cast<size_t>(k)];
+
+    const Roots exits = exit_times(level, disc, horizon);
+    for (int k = 0; k < exits.count; ++k) {
+      const double t = exits.at[static_cast<size_t>(k)];
       const Vec3 p = path(t);
       const double rounding = 0x1p-44 * (size() + p.cwiseAbs().sum() + m.d.cwiseAbs().sum());
       const bool on_corner = c.x * p.x() >= half.x() - rounding && c.z * p.z() >= half.z() - rounding;
-      if (slope(t) < 0 && on_corner) offer(t, c);
+      if (on_corner) offer(t, c);
     }
   }
+
   return first;
 }
 

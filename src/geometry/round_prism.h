@@ -6,7 +6,6 @@
 
 #include "geometry/contact_time.h"
 #include "geometry/separation.h"
-#include "geometry/touch.h"
 #include "std.h"
 
 namespace carom {
@@ -59,8 +58,7 @@ struct RoundPrism {
   uint8_t foremost_face(const Vec3& p, uint8_t feature) const;
 
   /// Calls visit(face) for each face at a sharp edge or corner.
-  template <typename Visit>
-  void for_each_face(uint8_t feature, Visit visit) const {
+  void for_each_face(uint8_t feature, const auto& visit) const {
     const PrismFeature f = PrismFeature::of(feature);
     if (f.bent() && disc > 0) {
       visit(PrismFeature{f.x, 0, f.z}.code());

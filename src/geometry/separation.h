@@ -13,4 +13,13 @@ struct Separation {
   uint8_t feature;  // the nearest part of the surface
 };
 
+/// The answers of a sum at whose edges no face has to be chosen: none counts as sharp.
+struct BluntSum {
+  bool sharp(uint8_t) const { return false; }
+  Vec3 within(const Vec3& p, uint8_t) const { return p; }
+  uint8_t foremost_face(const Vec3&, uint8_t feature) const { return feature; }
+  void for_each_face(uint8_t, const auto&) const {}
+  bool rim_gap(uint8_t, const auto&, double, double&) const { return false; }
+};
+
 }  // namespace carom

@@ -12,12 +12,14 @@ namespace carom {
 SlabSum::SlabSum(const Vec3& half, const Wall& wall) : size_(half.sum() + wall.half_width + wall.half_height) {
   const Vec3 along[5] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), wall.right, wall.up};
   const double reach[5] = {half.x(), half.y(), half.z(), wall.half_width, wall.half_height};
+
   for (int i = 0; i < 5; ++i)
     for (int j = i + 1; j < 5; ++j) {
       const Vec3 cross = along[i].cross(along[j]);
       const double sine = cross.norm();
       // Parallel: other pairs span their faces too.
       if (sine < 0x1p-50) continue;
+
       Slab& slab = slabs_[static_cast<size_t>(count_++)];
       slab = {i == 3 ? wall.normal : Vec3(cross / sine), 0};
       for (int k = 0; k < 5; ++k)

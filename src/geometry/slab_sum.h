@@ -4,13 +4,12 @@
 
 #include "geometry/contact_time.h"
 #include "geometry/separation.h"
-#include "geometry/touch.h"
 #include "std.h"
 
 namespace carom {
 
 /// Feature 2 k is the face of slab k along its normal, and 2 k + 1 the face opposite.
-class SlabSum {
+class SlabSum : public BluntSum {
  public:
   /// half: the box's half edges (m).
   SlabSum(const Vec3& half, const Wall& wall);
@@ -25,14 +24,8 @@ class SlabSum {
   // The whole surface consists of faces.
   bool flat(uint8_t) const { return true; }
   double curvature_radius(const Vec3&, uint8_t) const { return size_; }
-  bool sharp(uint8_t) const { return false; }
   double bending(const Vec3&, uint8_t, const Vec3&) const { return 0; }
-  Vec3 within(const Vec3& p, uint8_t) const { return p; }
   bool as_spheres(uint8_t, const RelativeMotion&, RelativeMotion&, double&) const { return false; }
-  uint8_t foremost_face(const Vec3&, uint8_t feature) const { return feature; }
-  bool rim_gap(uint8_t, const RelativeMotion&, double, double&) const { return false; }
-  template <typename Visit>
-  void for_each_face(uint8_t, Visit) const {}
 
  private:
   struct Slab {

@@ -25,10 +25,10 @@ double level_length(const Vec3& p) {
 
 }  // namespace
 
-TiltedSum::TiltedSum(double radius, double half_height, const Wall& wall)
-    : radius_(radius),
-      segments_{Vec3(0, half_height, 0), wall.half_width * wall.right, wall.half_height * wall.up},
-      size_(radius + half_height + wall.half_width + wall.half_height) {
+TiltedSum::TiltedSum(const Volume& cylinder, const Wall& wall)
+    : radius_(cylinder.half.x()),
+      segments_{Vec3(0, cylinder.half.y(), 0), wall.half_width * wall.right, wall.half_height * wall.up},
+      size_(radius_ + cylinder.half.y() + wall.half_width + wall.half_height) {
   for (size_t k = 0; k < 3; ++k) casts_[k] = std::abs(segments_[k].y()) > 0x1p-40 * segments_[k].norm();
   const Vec3 along[3] = {Vec3::UnitY(), wall.right, wall.up};
   for (size_t k = 0; k < 2; ++k) {
@@ -69,6 +69,7 @@ Vec3 TiltedSum::slanted(const Vec3& level, int along) const {
 uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
   const Vec3 q = shadow(p, along);
   const Vec3 side[2] = {shadow(segments_[along == 0 ? 1 : 0], along), shadow(segments_[along == 2 ? 1 : 2], along)};
+
   uint8_t best = no_feature;
   double best_distance = never;
   for (int corner = 0; corner < 4; ++corner) {
@@ -76,12 +77,14 @@ uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
     const Vec3 e = q - (signs[0] * side[0] + signs[1] * side[1]);
     // The corner's own wedge: neither side that ends here comes nearer.
     if (signs[0] * e.dot(side[0]) < 0 || signs[1] * e.dot(side[1]) < 0) continue;
+
     const double distance = e.squaredNorm();
     if (distance < best_distance) {
       best_distance = distance;
       best = static_cast<uint8_t>(patches + 4 * along + corner);
     }
   }
+
   return best;
 }
 
@@ -114,15 +117,18 @@ Separation TiltedSum::nearest_but(const Vec3& p, int without) const {
     const double along = n.dot(p), gap = std::abs(along) - support(n);
     if (gap > best.gap) best = {gap, along < 0 ? Vec3(-n) : n, static_cast<uint8_t>(face + (along < 0))};
   }
+
   for (int along = 0; along < 3; ++along) {
     if (!casts_[static_cast<size_t>(along)]) continue;
     const uint8_t corner = nearest_corner(p, along);
     if (corner == no_feature) continue;
+
     // For every normal the sum lies beyond the plane. The arc's own normal is the best of those across this segment.
     Separation s = at(p, corner);
     s.gap = s.normal.dot(p) - support(s.normal);
     if (s.gap > best.gap) best = s;
   }
+
   return best;
 }
 
@@ -166,6 +172,7 @@ FeatureTime TiltedSum::leave(uint8_t feature, const RelativeMotion& m, double ho
   FeatureTime first{never, no_feature};
   if (!flat(feature)) return first;
   const Vec3 n = face_normal(feature);
+
   // The face is the part of the sum that lies farthest along n: a polygon about its centre, enlarged by the disc under
   // a cap.
   Vec3 center = Vec3::Zero();
@@ -176,51 +183,58 @@ FeatureTime TiltedSum::leave(uint8_t feature, const RelativeMotion& m, double ho
     const double along = g.dot(n);
     const bool spans = feature < caps && (static_cast<int>(k) == first_of_face[feature / 2] ||
                                           static_cast<int>(k) == second_of_face[feature / 2]);
+
     if (spans || std::abs(along) <= 0x1p-50 * g.norm()) {
       sides[count++] = g;
     } else {
       center += along > 0 ? g : Vec3(-g);
     }
   }
+
   const bool cap = feature >= caps;
   if (!cap) center += radius_ * level_part(n) / level_length(n);
   const Vec3 d = m.d - center;
+
   Vec3 outward = Vec3::Zero();
   const auto offer = [&](double t, const Vec3& out) {
     if (!(t < first.time) || t > horizon) return;
     first.time = t;
     outward = out;
   };
+
+  // The rim's straight parts.
   for (size_t k = 0; k < count; ++k) {
     const Vec3 q = n.cross(sides[k]).normalized();
     double reach = cap ? radius_ : 0;
     for (size_t j = 0; j < count; ++j)
       if (j != k) reach += std::abs(q.dot(sides[j]));
+
     for (double sign : {1.0, -1.0}) {
       const Vec3 out = sign * q;
       offer(plane_contact_time(reach - out.dot(d), -out.dot(m.w), -out.dot(m.a), 0, false, horizon), out);
     }
   }
+
+  // Its round ends.
   if (cap) {
     for (double sign : {1.0, -1.0}) {
       const Vec3 end = count > 0 ? Vec3(sign * sides[0]) : Vec3::Zero();
       const RelativeMotion level{level_part(d - end), level_part(m.w), level_part(m.a), m.speeds, false};
-      Polynomial room = squared_gap_polynomial(level, radius_);
-      for (double& x : room.c) x = -x;
-      const Polynomial slope = room.derivative();
-      const Roots roots = roots_between(room, 0, horizon);
-      for (int k = 0; k < roots.count; ++k) {
-        const double t = roots.at[static_cast<size_t>(k)];
+      const Roots exits = exit_times(level, radius_, horizon);
+      for (int k = 0; k < exits.count; ++k) {
+        const double t = exits.at[static_cast<size_t>(k)];
         const Vec3 e = level.d + t * (level.w + 0.5 * t * level.a);
-        if (slope(t) < 0 && end.dot(e) >= -0x1p-40 * end.norm() * radius_) offer(t, e.normalized());
+        if (end.dot(e) >= -0x1p-40 * end.norm() * radius_) offer(t, e.normalized());
       }
     }
   }
+
   if (first.time < never) {
     // A little beyond the rim another feature is the nearest.
     const Vec3 p = m.d + first.time * (m.w + 0.5 * first.time * m.a) + 0x1p-20 * radius_ * outward;
     first.feature = nearest_but(p, feature / 2).feature;
   }
+
   return first;
 }
 

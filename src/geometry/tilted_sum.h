@@ -7,19 +7,19 @@
 
 #include "geometry/contact_time.h"
 #include "geometry/separation.h"
-#include "geometry/touch.h"
+#include "physics/volume.h"
 #include "std.h"
 
 namespace carom {
 
-class TiltedSum {
+class TiltedSum : public BluntSum {
  public:
   // Features 0 to 5 are faces: 0, 1 spanned by axis and width, 2, 3 by axis and height, 4, 5 by width and height.
   // Features 6 and 7 are the caps. Even ones are along the normal. The patches along axis, width and height follow,
   // four corners each.
   static constexpr uint8_t caps = 6, patches = 8;
 
-  TiltedSum(double radius, double half_height, const Wall& wall);
+  TiltedSum(const Volume& cylinder, const Wall& wall);
 
   /// The gap along the best of the surface's normals. It is at most the distance.
   Separation nearest(const Vec3& p) const;
@@ -31,13 +31,6 @@ class TiltedSum {
   FeatureTime leave(uint8_t feature, const RelativeMotion& motion, double horizon) const;
   double curvature_radius(const Vec3& p, uint8_t feature) const;
   double size() const { return size_; }
-
-  bool sharp(uint8_t) const { return false; }
-  Vec3 within(const Vec3& p, uint8_t) const { return p; }
-  uint8_t foremost_face(const Vec3&, uint8_t feature) const { return feature; }
-  bool rim_gap(uint8_t, const RelativeMotion&, double, double&) const { return false; }
-  template <typename Visit>
-  void for_each_face(uint8_t, Visit) const {}
 
  private:
   struct Patch {

@@ -35,67 +35,44 @@ FeatureTime meet_plane(const Plane& plane, const RelativeMotion& m, double reach
 
 FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, uint8_t left,
                                    double horizon) {
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres: {
       const double s = world.volume_of(a).half.x() + world.volume_of(b).half.x();
       return meet_spheres(motion, s, left, horizon);
     }
     case PairKind::half_space:
       return meet_plane(world.plane(b), motion, world.volume_of(a).support(world.plane(b).normal), left, horizon);
-    case PairKind::sphere_wall: {
-      const WallContact c = wall_contact_time(world.wall(b), motion, world.volume_of(a).half.x(), left, horizon);
-      return {c.time, c.feature};
-    }
-    case PairKind::prism: {
-      const PairPrism pair = pair_prism(world, a, b);
-      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, motion), size_of_positions(world, b, motion),
-                                     horizon)
-          .run(left);
-    }
-    case PairKind::box_wall: {
-      const SlabSum sum = slab_sum(world, a, b);
-      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion), horizon).run(left);
-    }
-    case PairKind::cylinder_wall: {
-      const TiltedSum sum = tilted_sum(world, a, b);
-      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion), horizon).run(left);
-    }
+
+    case PairKind::sphere_wall:
+      return wall_contact_time(world.wall(b), motion, world.volume_of(a).half.x(), left, horizon);
     case PairKind::string: {
       RelativeMotion m = motion;
       m.just_separated = left != no_feature;
       return {taut_time(m, world.string(b).length, horizon), 0};
     }
+
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
+        const double far = size_of_positions(world, b, motion);
+        return ConservativeAdvancement(sum, in_frame(frame, motion), far, horizon).run(left);
+      });
   }
-  return {never, no_feature};
 }
 
 FeatureTime leave_feature(const World& world, Entity a, Entity b, uint8_t feature, const RelativeMotion& motion,
                           double horizon) {
-  switch (pair_kind(world, a, b)) {
-    case PairKind::spheres:
-    case PairKind::half_space:
-    case PairKind::string:
-      return {never, no_feature};
-    case PairKind::sphere_wall: {
-      if (feature < wall_edges) {
-        const WallContact c = wall_release_time(world.wall(b), motion, horizon);
-        return {c.time, c.feature};
-      }
-      const PairPrism pair = pair_prism(world, a, b);
-      const RelativeMotion m = in_frame(pair.frame, motion);
-      const FeatureTime beyond = pair.sum.leave(prism_feature(feature, m.d), m, horizon);
-      return {beyond.time, beyond.feature == no_feature ? no_feature : wall_feature(beyond.feature)};
-    }
-    case PairKind::prism: {
-      const PairPrism pair = pair_prism(world, a, b);
-      return pair.sum.leave(feature, in_frame(pair.frame, motion), horizon);
-    }
-    case PairKind::box_wall:
-      return slab_sum(world, a, b).leave(feature, motion, horizon);
-    case PairKind::cylinder_wall:
-      return tilted_sum(world, a, b).leave(feature, motion, horizon);
-  }
-  return {never, no_feature};
+  const PairKind kind = pair_kind(world, a, b);
+  if (kind == PairKind::spheres || kind == PairKind::half_space || kind == PairKind::string) return {never, no_feature};
+  const bool of_wall = kind == PairKind::sphere_wall;
+  if (of_wall && feature < wall_edges) return wall_release_time(world.wall(b), motion, horizon);
+
+  return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
+    const RelativeMotion m = in_frame(frame, motion);
+    FeatureTime beyond = sum.leave(of_wall ? prism_feature(feature, m.d) : feature, m, horizon);
+    if (of_wall && beyond.feature != no_feature) beyond.feature = wall_feature(beyond.feature);
+    return beyond;
+  });
 }
 
 }  // namespace carom

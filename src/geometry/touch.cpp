@@ -40,23 +40,10 @@ Touch touch_string(const Vec3& xa, const Vec3& xb, double length) {
   return {-points.gap, -points.normal, xa, 0};
 }
 
-Vec3 sign_of(const Vec3& n) {
-  return {double(n.x() > 0) - double(n.x() < 0), double(n.y() > 0) - double(n.y() < 0),
-          double(n.z() > 0) - double(n.z() < 0)};
-}
-
 Touch touch_plane(const Plane& plane, const Vec3& point, const Volume& volume, const Vec3& x) {
   const Vec3 n = -plane.normal;
   const double gap = plane_gap(x, point, plane.normal, volume.support(plane.normal));
-  if (volume.shape == Shape::sphere) return {gap, n, x + volume.half.x() * n, 0};
-  Vec3 reach = volume.half.cwiseProduct(sign_of(n));
-  if (volume.shape == Shape::cylinder) {
-    const Vec3 level(n.x(), 0, n.z());
-    const double length = level.norm();
-    reach = Vec3(0, reach.y(), 0);
-    if (length > 0) reach += volume.half.x() / length * level;
-  }
-  return {gap, n, x + reach, 0};
+  return {gap, n, x + foremost(volume, n), 0};
 }
 
 Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const Vec3& xa, const Vec3& xb,
@@ -65,15 +52,22 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
     const PairPrism pair = pair_prism(world, a, b);
     feature = wall_feature(pair.sum.nearest(pair.frame.to(xb - xa)).feature);
   }
+
   const double r = world.volume_of(a).half.x();
   if (feature < wall_edges) {
     const Vec3 to_body = feature == wall_front ? wall.normal : Vec3(-wall.normal);
     return {plane_gap(xa, xb, to_body, r), -to_body, xa - r * to_body, feature};
   }
+
   const Vec3 d = nearest_on_wall(wall, xb, xa) - xa;
   const double distance = d.norm();
   const Vec3 n = distance > 0 ? Vec3(d / distance) : wall.normal;
   return {squared_gap(d, r) / (distance + r), n, xa + r * n, feature};
+}
+
+/// The middle of what an interval about 0 shares with one about d, of these half lengths.
+double middle_of_overlap(double half, double d, double other) {
+  return 0.5 * (std::max(-half, d - other) + std::min(half, d + other));
 }
 
 /// The middle of the area that a disc shares with a rectangle or another disc with its centre at d, from the disc's
@@ -83,15 +77,16 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
     const Vec3 level(d.x(), 0, d.z());
     const double distance = level.norm();
     if (distance == 0) return Vec3::Zero();
-    const double from = std::max(-disc, distance - other.half.x()), to = std::min(disc, distance + other.half.x());
-    return 0.5 * (from + to) / distance * level;
+    return middle_of_overlap(disc, distance, other.half.x()) / distance * level;
   }
+
   Vec3 middle = Vec3::Zero(), nearest = Vec3::Zero();
   for (int k : {0, 2}) {
-    middle[k] = 0.5 * (std::max(-disc, d[k] - other.half[k]) + std::min(disc, d[k] + other.half[k]));
+    middle[k] = middle_of_overlap(disc, d[k], other.half[k]);
     nearest[k] = std::clamp(0.0, d[k] - other.half[k], d[k] + other.half[k]);
   }
   if (middle.norm() <= disc) return middle;
+
   // Only a corner of the rectangle is over the disc. The middle is half way from there to the disc's rim.
   const Vec3 across = middle - nearest;
   const double half = nearest.dot(across), length = across.squaredNorm();
@@ -105,12 +100,14 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
   const Volume &a = pair.a, &b = pair.b;
   if (a.shape == Shape::sphere) return a.half.x() * s.normal;
   if (b.shape == Shape::sphere) return p - (b.half.x() + s.gap) * s.normal;
+
   Vec3 c;
   for (int k = 0; k < 3; ++k) {
-    const double middle = 0.5 * (std::max(-a.half[k], p[k] - b.half[k]) + std::min(a.half[k], p[k] + b.half[k]));
-    c[k] = std::clamp(middle, -a.half[k], a.half[k]);
+    c[k] = std::clamp(middle_of_overlap(a.half[k], p[k], b.half[k]), -a.half[k], a.half[k]);
   }
   if (a.shape == Shape::box && b.shape == Shape::box) return c;
+
+  // In the plane of the discs.
   const Vec3 level(s.normal.x(), 0, s.normal.z());
   const double length = level.norm();
   Vec3 m;
@@ -122,15 +119,18 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
   } else {
     m = p + middle_of_areas(b.half.x(), a, -p);
   }
+
   return {m.x(), c.y(), m.z()};
 }
 
 Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const Vec3& xb, uint8_t feature) {
   const PairPrism pair = pair_prism(world, a, b);
   const Vec3 p = pair.frame.to(xb - xa);
+
   Separation s = feature == no_feature ? pair.sum.nearest(p) : pair.sum.at(p, feature);
   if (pair.sum.sharp(s.feature) && s.gap <= rounding_of_gap(xa, xb, pair.sum.size()))
     s = pair.sum.at(p, pair.sum.foremost_face(p, s.feature));
+
   const PrismFeature f = PrismFeature::of(s.feature);
   const int k = f.x != 0 ? 0 : f.y != 0 ? 1 : 2, side = f.x + f.y + f.z;
   if (pair.sum.flat(s.feature) && (!pair.frame.turned || k == 1)) {
@@ -138,6 +138,7 @@ Touch touch_prism(const World& world, Entity a, Entity b, const Vec3& xa, const 
   } else {
     s.gap += s.normal.dot(pair.frame.to(lost_in_difference(xa, xb)));
   }
+
   return {s.gap, pair.frame.from(s.normal), xa + pair.frame.from(contact_in_prism(pair, p, s)), s.feature};
 }
 
@@ -176,19 +177,23 @@ bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, con
 }
 
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, uint8_t feature) {
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
       return touch_spheres(xa, world.volume_of(a).half.x(), xb, world.volume_of(b).half.x());
     case PairKind::half_space:
       return touch_plane(world.plane(b), xb, world.volume_of(a), xa);
     case PairKind::sphere_wall:
       return touch_wall(world, a, b, world.wall(b), xa, xb, feature);
+
     case PairKind::prism:
       return touch_prism(world, a, b, xa, xb, feature);
     case PairKind::box_wall:
-      return touch_at_an_angle(slab_sum(world, a, b), world.volume_of(a), world.wall(b), xa, xb, feature);
     case PairKind::cylinder_wall:
-      return touch_at_an_angle(tilted_sum(world, a, b), world.volume_of(a), world.wall(b), xa, xb, feature);
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame&) {
+        return touch_at_an_angle(sum, world.volume_of(a), world.wall(b), xa, xb, feature);
+      });
+
     case PairKind::string:
       return touch_string(xa, xb, world.string(b).length);
   }
@@ -198,46 +203,37 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
 double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& touch,
                const Vec3& w) {
   const Vec3 d = xb - xa;
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
       return w.cross(touch.normal).squaredNorm() / d.norm();
     case PairKind::half_space:
-    case PairKind::box_wall:
       return 0;
-    case PairKind::sphere_wall: {
-      const PairPrism pair = pair_prism(world, a, b);
-      const Vec3 p = pair.frame.to(d);
-      return pair.sum.bending(p, prism_feature(touch.feature, p), pair.frame.to(w));
-    }
-    case PairKind::prism: {
-      const PairPrism pair = pair_prism(world, a, b);
-      return pair.sum.bending(pair.frame.to(d), touch.feature, pair.frame.to(w));
-    }
-    case PairKind::cylinder_wall:
-      return tilted_sum(world, a, b).bending(d, touch.feature, w);
     case PairKind::string:
       return -w.cross(touch.normal).squaredNorm() / d.norm();
+
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame& frame) {
+        const Vec3 p = frame.to(d);
+        const bool of_wall = kind == PairKind::sphere_wall;
+        return sum.bending(p, of_wall ? prism_feature(touch.feature, p) : touch.feature, frame.to(w));
+      });
   }
-  return 0;
 }
 
 bool is_flat(const World& world, Entity a, Entity b, uint8_t feature) {
-  switch (pair_kind(world, a, b)) {
+  const PairKind kind = pair_kind(world, a, b);
+  switch (kind) {
     case PairKind::spheres:
+    case PairKind::string:
       return false;
     case PairKind::half_space:
-    case PairKind::box_wall:
       return true;
     case PairKind::sphere_wall:
       return feature < wall_edges;
-    case PairKind::prism:
-      return pair_prism(world, a, b).sum.flat(feature);
-    case PairKind::cylinder_wall:
-      return feature < TiltedSum::patches;
-    case PairKind::string:
-      return false;
+    default:
+      return with_sum(kind, world, a, b, [&](const auto& sum, const Frame&) { return sum.flat(feature); });
   }
-  return false;
 }
 
 }  // namespace carom

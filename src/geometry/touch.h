@@ -48,12 +48,6 @@ bool is_flat(const World& world, Entity a, Entity b, uint8_t feature);
 /// body that slides in that plane cannot strike it.
 bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& xf, const Vec3& n);
 
-/// An instant, and the feature at which two things touch then.
-struct FeatureTime {
-  double time;      // s, or never
-  uint8_t feature;  // as in Touch
-};
-
 /// First t in [0, horizon] at which a and b touch and approach, from x_b - x_a = motion.d on.
 /// `left`: the feature at which the pair has just bounced (its gap is zero by definition), or no_feature. It replaces
 /// motion.just_separated.

@@ -49,6 +49,7 @@ double edge_contact_time(const LocalPath& path, int along, double half_length, c
   const auto on_edge = [&](double t) {
     return std::abs(path.at(along, t)) <= half_length && beyond_rim(path, 1 - along, axis[1 - along], t);
   };
+
   RelativeMotion m{path.p - axis, path.v, path.a, 0, just_left};
   m.d[along] = m.w[along] = m.a[along] = 0;
   m.speeds = path.rounded_speed;
@@ -56,6 +57,7 @@ double edge_contact_time(const LocalPath& path, int along, double half_length, c
     const double t = sphere_contact_time(m, radius, horizon);
     return t < never && on_edge(t) ? t : never;
   }
+
   CurvedContacts contacts(m, radius, horizon);
   double t = contacts.next();
   while (t < never && !on_edge(t)) t = contacts.next();
@@ -67,6 +69,7 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
                          bool on_rim, double horizon) {
   const double gap = side * path.p.z() - radius, speed = side * path.v.z(), acceleration = side * path.a.z();
   const auto over = [&](double t) { return std::abs(path.at(0, t)) <= half[0] && std::abs(path.at(1, t)) <= half[1]; };
+
   double t = never;
   if (just_left || gap > 0 || (gap > -radius && over(0))) {
     t = plane_contact_time(gap, speed, acceleration, rounding * path.v.norm(), just_left, horizon);
@@ -75,6 +78,7 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
     const double disc = speed * speed - 2 * acceleration * gap;
     if (disc > 0) t = (speed + std::sqrt(disc)) / -acceleration;
   }
+
   // The path has just left the face over its rim.
   if (on_rim && t == 0) return never;
   return t <= horizon && over(t) ? t : never;
@@ -82,25 +86,28 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
 
 }  // namespace
 
-WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
+FeatureTime wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               uint8_t left, double horizon) {
   return wall_contact_time(wall, of_wall(wall, x, v, a), radius, left, horizon);
 }
 
-WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
+FeatureTime wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, uint8_t left,
                               double horizon) {
   const LocalPath path = to_local(wall, motion, radius);
   const double half[2] = {wall.half_width, wall.half_height};
-  WallContact first{never, no_feature};
+
+  FeatureTime first{never, no_feature};
   const auto offer = [&](double t, uint8_t feature) {
     if (!(t < first.time)) return;
     first = {t, feature};
     // A later contact does not matter.
     horizon = std::min(horizon, t);
   };
+
   const bool on_rim = left != no_feature && left >= wall_edges;
   for (uint8_t face : {wall_front, wall_back})
     offer(face_contact_time(path, face == wall_front ? 1 : -1, half, radius, left == face, on_rim, horizon), face);
+
   const double signs[2] = {1, -1};
   for (int k = 0; k < 4; ++k) {
     const auto feature = static_cast<uint8_t>(wall_edges + k);
@@ -108,6 +115,7 @@ WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
     axis[k / 2] = signs[k % 2] * half[k / 2];
     offer(edge_contact_time(path, 1 - k / 2, half[1 - k / 2], axis, radius, left == feature, horizon), feature);
   }
+
   for (int k = 0; k < 4; ++k) {
     const auto feature = static_cast<uint8_t>(wall_corners + k);
     const Vec3 corner(signs[k % 2] * half[0], signs[k / 2] * half[1], 0);
@@ -115,6 +123,7 @@ WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
         sphere_contact_time({path.p - corner, path.v, path.a, path.rounded_speed, left == feature}, radius, horizon);
     if (t < never && beyond_rim(path, 0, corner.x(), t) && beyond_rim(path, 1, corner.y(), t)) offer(t, feature);
   }
+
   return first;
 }
 
@@ -129,14 +138,10 @@ Vec3 nearest_on_wall(const Wall& wall, const Vec3& x) {
   return nearest_on_wall(wall, wall.center, x);
 }
 
-WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon) {
-  return wall_release_time(wall, of_wall(wall, x, v, a), horizon);
-}
-
-WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon) {
+FeatureTime wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon) {
   const LocalPath path = to_local(wall, motion, 1);
   const double half[2] = {wall.half_width, wall.half_height};
-  WallContact first{never, no_feature};
+  FeatureTime first{never, no_feature};
   for (int k = 0; k < 4; ++k) {
     const int axis = k / 2;
     const double side = k % 2 == 0 ? 1 : -1;

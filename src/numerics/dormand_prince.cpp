@@ -192,6 +192,8 @@ void DormandPrince::evaluate(size_t stage, const Acceleration& acceleration) {
 double DormandPrince::step(double h, const Acceleration& acceleration, double position, double velocity) {
   length_ = h;
   for (size_t stage = 1; stage <= last; ++stage) evaluate(stage, acceleration);
+
+  // The greatest error of a point along an axis.
   double greatest = 0;
   for (size_t k = 0; k < size(); ++k) {
     const Vec3 x5 = sum(error_5, velocity_, k), x3 = sum(error_3, velocity_, k);
@@ -203,6 +205,7 @@ double DormandPrince::step(double h, const Acceleration& acceleration, double po
       greatest = std::max({greatest, x_error, v_error});
     }
   }
+
   return greatest;
 }
 
@@ -215,6 +218,7 @@ double DormandPrince::next_length(double h, double error) {
 
 void DormandPrince::interpolate(const Acceleration& acceleration) {
   for (size_t stage = last + 1; stage < stages; ++stage) evaluate(stage, acceleration);
+
   const auto coefficients = [&](const vector<Vec3>* rates, vector<Vec3>& c) {
     c.clear();
     for (size_t k = 0; k < size(); ++k) {
@@ -225,6 +229,7 @@ void DormandPrince::interpolate(const Acceleration& acceleration) {
       for (const StageWeights& row : dense) c.push_back(length_ * sum(row, rates, k));
     }
   };
+
   coefficients(velocity_, of_displacement_);
   coefficients(rate_, of_velocity_);
 }
@@ -259,6 +264,8 @@ PolynomialPath DormandPrince::path(size_t k) const {
       change[power] = term % 2 == 0 ? change[power - 1] : Vec3(change[power] - change[power - 1]);
     if (term % 2 == 0) change[0].setZero();
   }
+
+  // Its integral is the path.
   PolynomialPath path;
   path.length = length_;
   path.displacement[0] = length_ * v_[k];

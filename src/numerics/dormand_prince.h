@@ -22,7 +22,8 @@ class DormandPrince final : public DenseMotion {
   /// Returns the greatest error of a point along an axis, as a share of `position` (m) and `velocity` (m/s). At most 1
   /// is within tolerance.
   double step(double h, const Acceleration& acceleration, double position, double velocity);
-  /// The step length (s) after a step of h (s) with this error. After a rejected step it is the length of the retry.
+  /// The step length (s) after a step of h (s) with this error, of order 8 in h. After a rejected step it is the length
+  /// of the retry.
   static double next_length(double h, double error);
 
   /// Prepares displacement() and velocity() for the last step. Within the step both are right to order 7.

@@ -83,11 +83,15 @@ SinCos sin_cos(DoubleDouble z) {
   if (!(std::abs(z.hi) < 0x1p52)) return {0, 1};
   const double sign = std::copysign(1.0, z.hi);
   DoubleDouble r = {sign * z.hi, sign * z.lo};
+
+  // Whole quarters of a turn are taken away in three parts.
   const double quarters = std::floor(r.hi * (2 / pi) + 0.5);
   if (quarters != 0) {
     r = r - two_product(quarters, half_pi_parts[0]) - two_product(quarters, half_pi_parts[1]);
     r = r - DoubleDouble{quarters * half_pi_parts[2], 0};
   }
+
+  // Each of them exchanges sine and cosine, and changes a sign.
   const SinCos of = sin_cos_reduced(r);
   const double quarter = quarters - 4 * std::floor(0.25 * quarters);
   if (quarter == 0) return {sign * of.sin, of.cos};

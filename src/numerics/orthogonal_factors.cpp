@@ -97,6 +97,7 @@ void OrthogonalFactors::append(double* d) {
   const size_t rest = n_ - rank_;
   double* h = reflector_.data();
   std::copy(d + rank_, d + n_, h);
+
   // If the first component is 0, it gives the reflection no sign, and a mirrored scene would need the opposite one.
   // Exchange it with the largest component: the sign of that turns with the mirror.
   if (h[0] == 0 && rest > 1) {
@@ -106,9 +107,11 @@ void OrthogonalFactors::append(double* d) {
     std::swap(h[0], h[k]);
     for (size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
   }
+
   const double length = std::sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
   // The two have opposite signs, so nothing cancels.
   h[0] -= head;
+
   // 1 - 2 h h^T / |h|^2 maps the tail of d to (head, 0, ...).
   const double square = dot(h, h, rest);
   if (rest > 1 && square > 0) {
@@ -120,6 +123,7 @@ void OrthogonalFactors::append(double* d) {
     std::fill(d + rank_ + 1, d + n_, 0.0);
     d[rank_] = head;
   }
+
   std::copy(d, d + rank_ + 1, &r_[rank_ * stride_]);
   ++rank_;
 }
@@ -128,10 +132,12 @@ void OrthogonalFactors::remove(size_t place, double* d) {
   for (size_t j = place + 1; j < rank_; ++j)
     std::copy(&r_[j * stride_], &r_[j * stride_] + j + 1, &r_[(j - 1) * stride_]);
   --rank_;
+
   // Without the row, each later column has one entry below the diagonal. One rotation for each column removes it.
   vector<double>& cosine = reflector_;
   vector<double>& sine = sine_;
   sine.resize(n_);
+
   for (size_t j = place; j < rank_; ++j) {
     double* column = &r_[j * stride_];
     const double p = column[j], q = column[j + 1], length = std::sqrt(p * p + q * q);
@@ -142,6 +148,8 @@ void OrthogonalFactors::remove(size_t place, double* d) {
     for (size_t k = j + 1; k < rank_; ++k) rotate(c, s, r_[k * stride_ + j], r_[k * stride_ + j + 1]);
     rotate(c, s, d[j], d[j + 1]);
   }
+
+  // The columns of Q take the same rotations.
   for (size_t i = 0; i < n_; ++i) {
     double* row = &q_[i * stride_ + place];
     for (size_t j = 0; j + place < rank_; ++j) rotate(cosine[j], sine[j], row[j], row[j + 1]);

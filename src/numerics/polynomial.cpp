@@ -59,6 +59,8 @@ Roots roots_between(const Polynomial& polynomial, double low, double high) {
   Polynomial f = polynomial;
   f.degree = true_degree(f);
   Roots roots;
+
+  // Degrees up to 2 have closed forms.
   if (f.degree == 0) return roots;
   if (f.degree == 1) {
     const double t = -f.c[0] / f.c[1];
@@ -66,10 +68,13 @@ Roots roots_between(const Polynomial& polynomial, double low, double high) {
     return roots;
   }
   if (f.degree == 2 && add_quadratic_roots(f, low, high, roots)) return roots;
+
+  // Between two turning points there is one root at most.
   const Polynomial df = f.derivative();
   const Roots turning = roots_between(df, low, high);
   double l = low;
   double f_l = f(l);
+
   for (int k = 0; k <= turning.count; ++k) {
     const double r = k < turning.count ? turning.at[static_cast<size_t>(k)] : high;
     const double f_r = f(r);
@@ -81,6 +86,7 @@ Roots roots_between(const Polynomial& polynomial, double low, double high) {
     l = r;
     f_l = f_r;
   }
+
   return roots;
 }
 
@@ -102,6 +108,7 @@ bool Descents::next(Piece& piece) {
     at_left_ = f_r;
     ++piece_;
     ended_ = last;
+
     // This piece rises.
     if (!(f_r < f_l)) continue;
     if (f_l <= 0) {

@@ -41,16 +41,19 @@ PolynomialPath PolynomialPath::through(double length, const Point& start, const 
   const Terms of = through(length, start.acceleration, start.jerk, change - length * start.acceleration,
                            end.acceleration - start.acceleration, end.jerk)
                        .displacement;
+
   const Vec3 place = 64 * ((middle.velocity - start.velocity) - value(of, 0.5));
   const Vec3 line = 64 * (length * middle.acceleration - slope(of, 0.5));
   // The line's value at s = 0.
   const Vec3 level = place - 0.5 * line;
+
   constexpr double cube[4] = {1, -3, 3, -1};
   Terms velocity = of;
   for (size_t k = 0; k < 4; ++k) {
     velocity[2 + k] += cube[k] * level;
     velocity[3 + k] += cube[k] * line;
   }
+
   PolynomialPath path = path_of(length, {length * start.velocity});
   for (size_t k = 0; k + 1 < terms; ++k) path.displacement[k + 1] = length / static_cast<double>(k + 2) * velocity[k];
   return path;

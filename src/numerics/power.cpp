@@ -74,14 +74,18 @@ Scaled root(double x, double f) {
 double power(double x, double y) {
   if (y == 0 || x == 1) return 1;
   if (std::isnan(x) || std::isnan(y)) return x + y;
+
   const bool is_whole = std::nearbyint(y) == y, is_odd = is_whole && std::fmod(y, 2) != 0;
   if (x == 0) return y > 0 ? 0 : std::numeric_limits<double>::infinity();
   if (x < 0 && !is_whole) return std::numeric_limits<double>::quiet_NaN();
   const double base = std::abs(x), sign = x < 0 && is_odd ? -1 : 1;
+
+  // Such powers are 0, 1 or infinite.
   if (!std::isfinite(x) || std::abs(y) > largest_whole) {
     if (base == 1) return sign;
     return sign * ((base > 1) == (y > 0) ? std::numeric_limits<double>::infinity() : 0);
   }
+
   if (y == 0.5) return std::sqrt(x);
   const double n = std::nearbyint(y), f = y - n;
   const Scaled whole = whole_power(base, n);

@@ -23,50 +23,25 @@ constexpr double hopeless = 1e4;
 
 using StageRow = array<double, nodes>;
 
-/// Gauss points and weights on [0, 1]. They integrate polynomials of degree 9 exactly.
-struct Gauss {
-  array<double, 5> at, weight;
-  Gauss() {
-    const double root = 2 * std::sqrt(10.0 / 7), near = std::sqrt(5 - root) / 3, far = std::sqrt(5 + root) / 3;
-    const double w_near = (322 + 13 * std::sqrt(70.0)) / 900, w_far = (322 - 13 * std::sqrt(70.0)) / 900;
-    at = {0.5 * (1 - far), 0.5 * (1 - near), 0.5, 0.5 * (1 + near), 0.5 * (1 + far)};
-    weight = {0.5 * w_far, 0.5 * w_near, 64.0 / 225, 0.5 * w_near, 0.5 * w_far};
-  }
-};
-
 struct Method {
   StageRow c = radau_points<nodes>();
-  Gauss gauss;
-  // The collocation matrix: integrals of Lagrange's polynomials up to each point.
-  array<StageRow, nodes> a;
+  array<StageRow, nodes> a = collocation_matrix(c, gauss_5);
   // The sweep's matrix: the transpose of U, where L U is the transpose of a.
   array<StageRow, nodes> lower;
 
   Method() {
-    for (int i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
     array<StageRow, nodes> u;
     for (int i = 0; i < nodes; ++i)
       for (int j = 0; j < nodes; ++j) u[i][j] = a[j][i];
+
     for (int k = 0; k < nodes; ++k)
       for (int i = k + 1; i < nodes; ++i) {
         const double factor = u[i][k] / u[k][k];
         for (int j = k; j < nodes; ++j) u[i][j] -= factor * u[k][j];
       }
+
     for (int i = 0; i < nodes; ++i)
       for (int j = 0; j < nodes; ++j) lower[i][j] = j <= i ? u[j][i] : 0;
-  }
-
-  /// Integrals of Lagrange's polynomials through the points, from 0 to s.
-  StageRow integrals(double s) const {
-    StageRow sum{};
-    for (size_t g = 0; g < gauss.at.size(); ++g)
-      for (int j = 0; j < nodes; ++j) {
-        double product = s * gauss.weight[g];
-        for (int l = 0; l < nodes; ++l)
-          if (l != j) product *= (s * gauss.at[g] - c[l]) / (c[j] - c[l]);
-        sum[j] += product;
-      }
-    return sum;
   }
 };
 
@@ -84,6 +59,7 @@ double RadauCollocation::sweep(span<const Forces> forces, const Hold& hold) {
   double changed = 0;
   for (int i = 0; i < nodes; ++i) {
     const double s = length_ * m.lower[i][i];
+
     // m/s: velocities without and with the new rate of this stage.
     vector<Vec3> known(size()), u(size());
     for (size_t k = 0; k < size(); ++k) {
@@ -92,14 +68,18 @@ double RadauCollocation::sweep(span<const Forces> forces, const Hold& hold) {
         way += m.a[i][j] * old_speed[j][k];
         speed += m.a[i][j] * old_rate[j][k];
       }
+
+      // Stages before it have changed in this sweep.
       for (int j = 0; j < i; ++j) {
         way += m.lower[i][j] * (speed_[j][k] - old_speed[j][k]);
         speed += m.lower[i][j] * (rate_[j][k] - old_rate[j][k]);
       }
+
       at_[i][k] = x_[k] + length_ * way;
       known[k] = v_[k] + length_ * speed - s * old_rate[i][k];
       u[k] = (known[k] + s * forces[k].pull) / (1 + s * forces[k].fade);
     }
+
     hold(at_[i], s, u);
     for (size_t k = 0; k < size(); ++k) {
       changed = std::max(changed, (u[k] - old_speed[i][k]).cwiseAbs().maxCoeff());
@@ -107,6 +87,7 @@ double RadauCollocation::sweep(span<const Forces> forces, const Hold& hold) {
       rate_[i][k] = (u[k] - known[k]) / s;
     }
   }
+
   return changed;
 }
 
@@ -115,6 +96,7 @@ double RadauCollocation::step(double h, span<const Forces> forces, const Hold& h
   at_.assign(nodes, x_);
   speed_.assign(nodes, v_);
   rate_.assign(nodes, vector<Vec3>(size(), Vec3::Zero()));
+
   const double enough = 0.01 * std::min(velocity, position / h);
   double before = never;
   for (int pass = 0; pass < most_sweeps && before > enough; ++pass) {
@@ -123,6 +105,7 @@ double RadauCollocation::step(double h, span<const Forces> forces, const Hold& h
     if (pass > nodes && !(changed < before)) break;
     before = changed;
   }
+
   if (before > 100 * enough) return hopeless;
   const double missed = interpolate();
   return std::max(missed / velocity, missed * method().c[0] * h / position);
@@ -133,6 +116,7 @@ double RadauCollocation::step(double h, span<const Forces> forces, const Hold& h
 double RadauCollocation::interpolate() {
   const StageRow& weight = method().a.back();
   double worst = 0;
+
   of_displacement_.assign(terms * size(), Vec3::Zero());
   of_velocity_.assign(terms * size(), Vec3::Zero());
   for (size_t k = 0; k < size(); ++k) {
@@ -143,9 +127,11 @@ double RadauCollocation::interpolate() {
       const auto p = legendre<nodes>(method().c[j]);
       for (int n = 0; n < nodes; ++n) v[n] += (2 * n + 1) * weight[j] * p[n] * speed_[j][k];
     }
+
     Vec3 missed = v_[k];
     for (int n = 0; n < nodes; ++n) missed -= n % 2 == 0 ? v[n] : Vec3(-v[n]);
     worst = std::max(worst, missed.cwiseAbs().maxCoeff());
+
     // The integral of P_n from the start on is proportional to P_(n+1) - P_(n-1).
     d[0] = d[1] = 0.5 * length_ * v[0];
     for (int n = 1; n < nodes; ++n) {
@@ -153,10 +139,12 @@ double RadauCollocation::interpolate() {
       d[n + 1] += share;
       d[n - 1] -= share;
     }
+
     // (P_6 - P_7) / 2 is 1 at the start and 0 at the stages.
     v[nodes - 1] += 0.5 * missed;
     v[nodes] = -0.5 * missed;
   }
+
   return worst;
 }
 
@@ -180,6 +168,7 @@ PolynomialPath RadauCollocation::path(size_t k) const {
   array<double, terms> before{}, p{1};
   array<Vec3, terms> velocity;
   velocity.fill(Vec3::Zero());
+
   for (size_t n = 0; n < terms; ++n) {
     for (size_t power = 0; power <= n; ++power) velocity[power] += p[power] * of_velocity_[terms * k + n];
     array<double, terms> after{};
@@ -190,6 +179,7 @@ PolynomialPath RadauCollocation::path(size_t k) const {
     }
     before = std::exchange(p, after);
   }
+
   PolynomialPath path;
   path.length = length_;
   for (size_t power = 0; power < terms; ++power)

@@ -42,6 +42,8 @@ class VanishingSum {
     const Vec3& n = directions_[first_];
     const auto other = [&](size_t k) -> const Vec3& { return directions_[others_[k]]; };
     Vec3 factors(1, 0, 0);
+
+    // The others balance the first one with these factors.
     if (others_.size() == 2) {
       const double cosine = other(0).dot(other(1)), a = -n.dot(other(0)), b = -n.dot(other(1));
       factors = Vec3(a - cosine * b, b - cosine * a, 0) / (1 - cosine * cosine);
@@ -49,6 +51,7 @@ class VanishingSum {
       const Vec3 all(n.dot(other(1).cross(other(2))), n.dot(other(2).cross(other(0))), n.dot(other(0).cross(other(1))));
       factors = -all / other(0).dot(other(1).cross(other(2)));
     }
+
     Vec3 sum = n;
     for (size_t k = 0; k < others_.size(); ++k) {
       // False also where it is not a number: of directions that depend on one another.

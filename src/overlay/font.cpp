@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "std.h"
 #include "yaml/source.h"
 

@@ -13,6 +13,11 @@ struct Attractor {
   double strength = 0;         // m^3/s^2, mu; negative: it repels
   double softening = 0;        // m, s
 
+  static constexpr bool bends() { return true; }
+  bool closed() const { return softening == 0 || strength == 0; }
+  static constexpr bool damps() { return false; }
+  static constexpr double fade() { return 0; }
+  double reach(const Vec3& x) const { return std::sqrt((x - center).squaredNorm() + softening * softening); }
   Vec3 acceleration(const Particle& p) const {
     const double square = distance_squared(p);
     return -strength / (square * std::sqrt(square)) * (p.x - center);
@@ -24,8 +29,6 @@ struct Attractor {
     const double square = distance_squared(p);
     return std::sqrt(std::abs(strength) / (square * std::sqrt(square))) + p.v.norm() / std::sqrt(square);
   }
-  /// The distance to the nearest complex point at which the acceleration is infinite (m).
-  double distance(const Vec3& x) const { return std::sqrt((x - center).squaredNorm() + softening * softening); }
   friend bool operator==(const Attractor&, const Attractor&) = default;
 
  private:

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/force.h"
 #include "physics/world.h"
 #include "std.h"
 
@@ -19,23 +18,11 @@ class Gathering {
  public:
   explicit Gathering(double mass) : mass_(mass) {}
 
-  void take(const UniformForce& law) { constant_ = constant_ || !law.force.isZero(0); }
-  void take(const UniformAcceleration& law) { gravity(law.value); }
+  void add(const auto& law) {
+    closed_ = closed_ && law.closed();
+    take(law);
+  }
   void gravity(const Vec3& g) { constant_ = constant_ || !g.isZero(0); }
-  void take(const Drag& law) {
-    if (law.quadratic != 0) closed_ = false;
-    forces_.fade += law.linear / mass_;
-  }
-  void take(const Spring& law) {
-    if (law.rest_length != 0 || law.damping != 0) closed_ = false;
-    forces_.stiffness += law.stiffness / mass_;
-  }
-  void take(const Attractor& law) {
-    if (law.strength == 0) return;
-    if (law.softening != 0 || (forces_.strength != 0 && law.center != forces_.center)) closed_ = false;
-    forces_.center = law.center;
-    forces_.strength += law.strength;
-  }
 
   optional<ClosedForces> all() const {
     const bool springs = forces_.stiffness > 0 || forces_.fade > 0;
@@ -44,6 +31,17 @@ class Gathering {
   }
 
  private:
+  void take(const UniformForce& law) { constant_ = constant_ || !law.force.isZero(0); }
+  void take(const UniformAcceleration& law) { gravity(law.value); }
+  void take(const Drag& law) { forces_.fade += law.linear / mass_; }
+  void take(const Spring& law) { forces_.stiffness += law.stiffness / mass_; }
+  void take(const Attractor& law) {
+    if (law.strength == 0) return;
+    if (forces_.strength != 0 && law.center != forces_.center) closed_ = false;
+    forces_.center = law.center;
+    forces_.strength += law.strength;
+  }
+
   double mass_;  // kg
   bool closed_ = true, constant_ = false;
   ClosedForces forces_;
@@ -55,8 +53,13 @@ optional<ClosedForces> closed_forces(const World& world, Entity body, double tim
   Gathering all(world.mass[body]);
   all.gravity(world.gravity);
   for (const Force& force : world.forces)
-    if (acts(force, body, time)) std::visit([&](const auto& law) { all.take(law); }, force.law);
+    if (acts(force, body, time)) std::visit([&](const auto& law) { all.add(law); }, force.law);
   return all.all();
+}
+
+/// The positive root of speed t + acceleration t^2 / 2 = reach / 2, without cancellation.
+double step_within(double reach, double speed, double acceleration) {
+  return reach / (speed + std::sqrt(speed * speed + acceleration * reach));
 }
 
 ClosedMotion::ClosedMotion(const ClosedForces& forces, const Vec3& x, const Vec3& v, const Vec3& at_rest)
@@ -85,6 +88,8 @@ ClosedMotion::Point ClosedMotion::at(DoubleDouble t) const {
     fall(strength_, there);
     return there;
   }
+
+  // The slopes carry an oscillation over the low part of the time.
   const Oscillation& swing = std::get<Oscillation>(motion_);
   swing.at(t.hi, there.place, there.velocity);
   swing.bend(t.hi, there.acceleration, there.jerk);

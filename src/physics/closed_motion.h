@@ -29,6 +29,9 @@ struct ClosedForces {
 /// It is empty too where only constant forces and linear drag act.
 optional<ClosedForces> closed_forces(const World& world, Entity body, double time);
 
+/// The time (s) in which a body covers at most half of `reach` (m), from a speed (m/s) under an acceleration (m/s^2).
+double step_within(double reach, double speed, double acceleration);
+
 /// A motion from its start on.
 class ClosedMotion {
  public:

@@ -27,8 +27,8 @@ struct Collision {
   double approach_speed;    // m/s, along the normal, > 0: approaching
   double separation_speed;  // m/s, along the normal, > 0: separating
   double restitution;       // the pair's coefficient
-  double impulse;           // N s, along the normal
-  double energy_lost;       // J, < 0: made
+  double impulse = 0;       // N s, along the normal
+  double energy_lost = 0;   // J, < 0: made
 
   void keep(auto& archive) {
     archive(time, kind, a, b, position, normal, approach_speed, separation_speed, restitution, impulse, energy_lost);

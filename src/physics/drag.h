@@ -13,6 +13,11 @@ struct Drag {
   double quadratic = 0;      // kg/m, q
   Vec3 wind = Vec3::Zero();  // m/s, the medium's velocity
 
+  bool bends() const { return quadratic != 0; }
+  bool closed() const { return quadratic == 0; }
+  static constexpr bool damps() { return true; }
+  double fade() const { return linear; }
+  static constexpr double reach(const Vec3&) { return everywhere; }
   Vec3 acceleration(const Particle& p) const {
     const Vec3 u = p.v - wind;
     const double factor = quadratic == 0 ? linear : linear + quadratic * u.norm();

@@ -8,8 +8,6 @@
 
 namespace carom {
 
-namespace {}  // namespace
-
 double kinetic_energy(const World& world, const State& state) {
   Sum sum;
   for (Entity i = 0; i < world.body_count(); ++i)

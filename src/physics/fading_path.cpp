@@ -12,6 +12,8 @@ Fading fading(double z) {
   constexpr double all = 64;
   // Terms of the series: right to rounding up to 1/2.
   constexpr int terms = 13;
+
+  // The series, for an argument of 1/2 at most.
   double part = std::min(z, all);
   int doublings = 0;
   for (; part > 0.5; part *= 0.5) ++doublings;
@@ -19,6 +21,7 @@ Fading fading(double z) {
   for (int n = terms; n >= 0; --n) third = (1 - part * third) / (n + 3);
   third *= 0.5;
   double bend = 0.5 - part * third, gone = part * (1 - part * bend);
+
   if (doublings == 0) return {gone, bend, third};
   for (int k = 0; k < doublings; ++k) gone *= 2 - gone;
   bend = (z - gone) / (z * z);

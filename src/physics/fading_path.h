@@ -17,8 +17,8 @@ Fading fading(double z);
 /// The displacement at t (s) that an acceleration of 1 at t = 0 has caused, by t (s).
 inline double displaced(double fade, double t) {
   return (fade == 0 ? 0.5 : fading(fade * t).bend) * t;
-  /// The velocity that it has caused (s).
 }
+/// The velocity that it has caused (s).
 inline double gained(double fade, double t) {
   return fade == 0 ? t : fading(fade * t).gone / fade;
 }

@@ -14,12 +14,19 @@ namespace carom {
 
 namespace {
 
-bool acts_on(const Force& force, Entity body) {
-  return force.on.empty() || std::binary_search(force.on.begin(), force.on.end(), body);
-}
-
 bool acts_for_ever(const Force& force) {
   return force.from == 0 && force.until == std::numeric_limits<double>::infinity();
+}
+
+/// Whether a force of which this is true acts on a body at `time` (s).
+template <typename Is>
+bool any_acts(const World& world, Entity body, double time, const Is& is) {
+  return std::ranges::any_of(world.forces,
+                             [&](const Force& force) { return std::visit(is, force.law) && acts(force, body, time); });
+}
+
+double reach_of(const ForceLaw& law, const Vec3& x) {
+  return std::visit([&](const auto& l) { return l.reach(x); }, law);
 }
 
 }  // namespace
@@ -27,7 +34,7 @@ bool acts_for_ever(const Force& force) {
 Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
   Vec3 a = world.gravity;
   for (const Force& force : world.forces) {
-    if (time < force.from || time >= force.until || !acts_on(force, body)) continue;
+    if (!acts(force, body, time)) continue;
     a += std::visit([&](const auto& law) { return law.acceleration({x, v, world.mass[body]}); }, force.law);
   }
   return a;
@@ -71,13 +78,8 @@ const Force* varying_force(const World& world) {
   return nullptr;
 }
 
-bool acts(const Force& force, Entity body, double time) {
-  return time >= force.from && time < force.until && acts_on(force, body);
-}
-
 bool bends(const ForceLaw& law) {
-  const Drag* drag = std::get_if<Drag>(&law);
-  return !is_constant(law) && (drag == nullptr || drag->quadratic != 0);
+  return std::visit([](const auto& l) { return l.bends(); }, law);
 }
 
 const Force* bending_force(const World& world) {
@@ -87,8 +89,7 @@ const Force* bending_force(const World& world) {
 }
 
 bool bends(const World& world, Entity body, double time) {
-  return std::ranges::any_of(world.forces,
-                             [&](const Force& force) { return bends(force.law) && acts(force, body, time); });
+  return any_acts(world, body, time, [](const auto& law) { return law.bends(); });
 }
 
 namespace {
@@ -100,11 +101,7 @@ const Force* open_force(const World& world, Entity body, double time) {
   const Force* any = nullptr;
   for (const Force& force : world.forces) {
     if (!bends(force.law) || !acts(force, body, time)) continue;
-    const Spring* spring = std::get_if<Spring>(&force.law);
-    const Attractor* attractor = std::get_if<Attractor>(&force.law);
-    const bool closed = (spring != nullptr && spring->rest_length == 0 && spring->damping == 0) ||
-                        (attractor != nullptr && attractor->softening == 0);
-    if (!closed) return &force;
+    if (!std::visit([](const auto& law) { return law.closed(); }, force.law)) return &force;
     any = &force;
   }
   return any;
@@ -123,19 +120,17 @@ const Force* force_without_closed_form(const World& world) {
 }
 
 bool damps(const World& world, Entity body, double time) {
-  return std::ranges::any_of(world.forces, [&](const Force& force) {
-    if (!acts(force, body, time)) return false;
-    const Spring* const spring = std::get_if<Spring>(&force.law);
-    return std::holds_alternative<Drag>(force.law) || (spring != nullptr && spring->damping > 0);
-  });
+  return any_acts(world, body, time, [](const auto& law) { return law.damps(); });
+}
+
+double fade_of(const ForceLaw& law) {
+  return std::visit([](const auto& l) { return l.fade(); }, law);
 }
 
 double fade_of(const World& world, Entity body, double time) {
   double fade = 0;
   for (const Force& force : world.forces) {
-    const Drag* drag = std::get_if<Drag>(&force.law);
-    if (drag == nullptr || time < force.from || time >= force.until || !acts_on(force, body)) continue;
-    fade += drag->linear / world.mass[body];
+    if (acts(force, body, time)) fade += fade_of(force.law) / world.mass[body];
   }
   return fade;
 }
@@ -154,25 +149,17 @@ double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v)
 }
 
 double force_reach(const World& world, Entity body, const Vec3& x) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Force& force : world.forces) {
-    const Attractor* attractor = std::get_if<Attractor>(&force.law);
-    if (attractor != nullptr && acts_on(force, body)) least = std::min(least, attractor->distance(x));
-  }
+  double least = everywhere;
+  for (const Force& force : world.forces)
+    if (acts_on(force, body)) least = std::min(least, reach_of(force.law, x));
   return least;
-}
-
-/// The positive root of speed t + acceleration t^2 / 2 = reach / 2, without cancellation.
-double step_within(double reach, double speed, double acceleration) {
-  return reach / (speed + std::sqrt(speed * speed + acceleration * reach));
 }
 
 double left_of_speed(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
   double depth = 0;  // m^2/s^2
   for (const Force& force : world.forces) {
-    const Attractor* const attractor = std::get_if<Attractor>(&force.law);
-    if (attractor == nullptr || !acts(force, body, time)) continue;
-    depth = std::max(depth, -attractor->potential({x, v, 1}));
+    if (reach_of(force.law, x) == everywhere || !acts(force, body, time)) continue;
+    depth = std::max(depth, -std::visit([&](const auto& law) { return law.potential({x, v, 1}); }, force.law));
   }
 
   const double kinetic = 0.5 * v.squaredNorm();

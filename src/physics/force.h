@@ -30,9 +30,6 @@ bool is_constant(const ForceLaw& law);
 /// The first force that is not constant. Null: there is none, and every path between impacts is a parabola.
 const Force* varying_force(const World& world);
 
-/// Whether a force acts on a body at `time` (s).
-bool acts(const Force& force, Entity body, double time);
-
 /// Whether paths under this law are neither parabolas nor the closed form of linear drag.
 bool bends(const ForceLaw& law);
 /// The first force that bends paths; null: there is none.
@@ -47,6 +44,8 @@ const Force* force_without_closed_form(const World& world);
 /// Whether a force that acts on this body at `time` (s) takes energy at every speed: drag or a damper.
 bool damps(const World& world, Entity body, double time);
 
+/// The linear drag of a law (kg/s).
+double fade_of(const ForceLaw& law);
 /// The decay rate of a body's velocity by linear drag at `time` (s), in 1/s.
 /// The forces that have a closed form give free_acceleration at velocity zero, less this rate times the velocity.
 double fade_of(const World& world, Entity body, double time);
@@ -58,12 +57,8 @@ const char* name_of(const ForceLaw& law);
 /// constant.
 double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v);
 
-/// The distance from x within which the forces on a body are smooth (m).
-/// It is the distance to the nearest attractor's centre, its softening included.
+/// The distance from x within which the forces on a body are smooth (m): the least reach of their laws.
 double force_reach(const World& world, Entity body, const Vec3& x);
-
-/// The time (s) in which a body covers at most half of `reach` (m), from a speed (m/s) under an acceleration (m/s^2).
-double step_within(double reach, double speed, double acceleration);
 
 /// The kinetic energy that a body keeps far from its attractors, as a share of the energy that it has at x (m) and v
 /// (m/s), from `time` (s) on. An error of the speed here is a larger share of the speed there.

@@ -25,6 +25,7 @@ ForceJacobian jacobian(const Spring& spring, const Particle& p) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
   ForceJacobian j;
   j.by_position = -spring.stiffness * one;
+
   if (length > 0) {
     const Vec3 n = d / length;
     const Eigen::Matrix3d along = n * n.transpose();
@@ -35,6 +36,7 @@ ForceJacobian jacobian(const Spring& spring, const Particle& p) {
   } else {
     j.by_velocity = -spring.damping * one;
   }
+
   j.by_position /= p.mass;
   j.by_velocity /= p.mass;
   return j;

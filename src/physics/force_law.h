@@ -1,7 +1,12 @@
 #pragma once
 // The laws of force. Each is a plain struct in a file of its own.
-// A law has a `name`. Its `constant` is true if the force is the same everywhere and at every speed. It also has four
+// A law has a `name`. Its `constant` is true if the force is the same everywhere and at every speed. It also has these
 // functions:
+//   bends()          whether paths under it are neither parabolas nor the closed form of linear drag
+//   closed()         whether paths under it alone have a closed form
+//   damps()          whether it takes energy at every speed
+//   fade()           kg/s, the linear drag that is in it
+//   reach(x)         m, the distance to the nearest complex point at which the acceleration is infinite
 //   acceleration(p)  m/s^2, of a particle under the force
 //   potential(p)     J; the acceleration is its downhill slope, except for
 //   drain(p)         m/s^2, the part of the acceleration that has no potential

@@ -26,24 +26,19 @@ inline double impact_mass(const World& world, Entity e) {
   return world.is_body(e) ? world.mass[e] : std::numeric_limits<double>::infinity();
 }
 
-/// The record of an impact of body a on b, a body or a fixed thing, at `time` (s). The masses give its impulse and the
-/// energy lost. Units: `point` m, `approach` and `separation` m/s along the normal. `normal` is unit, from a to b;
-/// `restitution` is the pair's coefficient.
-inline Collision make_collision(const World& world, CollisionKind kind, double time, Entity a, Entity b,
-                                const Vec3& point, const Vec3& normal, double approach, double separation,
-                                double restitution) {
-  const double ma = world.mass[a], mb = impact_mass(world, b);
-  return {time,
-          kind,
-          a,
-          b,
-          point,
-          normal,
-          approach,
-          separation,
-          restitution,
-          impact_impulse(ma, mb, approach, separation),
-          impact_loss(ma, mb, approach, separation)};
+/// What an impact on this thing is.
+inline CollisionKind impact_kind(const World& world, Entity thing) {
+  return world.is_body(thing)     ? CollisionKind::body_body
+         : world.is_string(thing) ? CollisionKind::taut
+                                  : CollisionKind::body_fixed;
+}
+
+/// Completes the record of an impact on a body or a fixed thing: the masses give its impulse and the energy lost.
+inline Collision with_effect(const World& world, Collision met) {
+  const double ma = world.mass[met.a], mb = impact_mass(world, met.b);
+  met.impulse = impact_impulse(ma, mb, met.approach_speed, met.separation_speed);
+  met.energy_lost = impact_loss(ma, mb, met.approach_speed, met.separation_speed);
+  return met;
 }
 
 }  // namespace carom

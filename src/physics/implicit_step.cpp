@@ -43,21 +43,9 @@ constexpr double filter = 0x1p-5;
 using NodeRow = array<double, nodes>;
 using NodeMatrix = array<NodeRow, nodes>;
 
-/// Gauss points and weights on [0, 1]. They integrate polynomials of degree 7 exactly.
-struct GaussRule {
-  array<double, 4> at, weight;
-  GaussRule() {
-    const double root = 2 * std::sqrt(1.2), near = std::sqrt((3 - root) / 7), far = std::sqrt((3 + root) / 7);
-    const double part = std::sqrt(30.0) / 72;
-    at = {0.5 * (1 - far), 0.5 * (1 - near), 0.5 * (1 + near), 0.5 * (1 + far)};
-    weight = {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part};
-  }
-};
-
 struct SevenStages {
   NodeRow c = radau_points<nodes>();
-  // The collocation matrix: integrals of Lagrange's polynomials up to each point.
-  NodeMatrix a;
+  NodeMatrix a = collocation_matrix(c, gauss_4);
   NodeMatrix a_squared;
   // Coefficients of Legendre's polynomials of degrees 4 to 7 in the polynomial of `power`.
   array<NodeRow, 4> tail;
@@ -65,30 +53,16 @@ struct SevenStages {
   NodeMatrix power;
 
   SevenStages() {
-    for (size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
     for (size_t i = 0; i < nodes; ++i)
       for (size_t j = 0; j < nodes; ++j) {
         a_squared[i][j] = 0;
         for (size_t k = 0; k < nodes; ++k) a_squared[i][j] += a[i][k] * a[k][j];
       }
+
     for (size_t j = 0; j < nodes; ++j) {
       set_powers(j);
       set_tail(j);
     }
-  }
-
-  /// Integrals of Lagrange's polynomials through the points, from 0 to s.
-  NodeRow integrals(double s) const {
-    const GaussRule gauss;
-    NodeRow sum{};
-    for (size_t g = 0; g < gauss.at.size(); ++g)
-      for (size_t j = 0; j < nodes; ++j) {
-        double product = s * gauss.weight[g];
-        for (size_t l = 0; l < nodes; ++l)
-          if (l != j) product *= (s * gauss.at[g] - c[l]) / (c[j] - c[l]);
-        sum[j] += product;
-      }
-    return sum;
   }
 
   /// Coefficients of s / c_j times the product of (s - c_l) / (c_j - c_l) over the other points.
@@ -172,6 +146,8 @@ struct ImplicitStep::Newton {
       hj[l] = h * j.by_velocity;
       hhj[l] = h * h * j.by_position;
     }
+
+    // One block for each pair of stages.
     for (size_t i = 0; i < nodes; ++i)
       for (size_t k = 0; k < nodes; ++k) {
         Eigen::Matrix3d block = m.a[i][k] * hj[k];
@@ -181,6 +157,7 @@ struct ImplicitStep::Newton {
             factors.at(i * axes + p, k * axes + q) =
                 (i == k && p == q ? 1 : 0) - block(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
       }
+
     return factors.factor();
   }
 
@@ -200,6 +177,8 @@ struct ImplicitStep::Newton {
   double correct() {
     array<Vec3, nodes> a;
     for (size_t j = 0; j < nodes; ++j) a[j] = acceleration(position(j), v + z[j]);
+
+    // What the stages miss, and the changes that make up for it.
     Vector b;
     for (size_t i = 0; i < nodes; ++i) {
       Vec3 sum = Vec3::Zero();
@@ -207,6 +186,7 @@ struct ImplicitStep::Newton {
       put(b, i, h * sum - z[i]);
     }
     factors.solve(b);
+
     double changed = 0;
     for (size_t i = 0; i < nodes; ++i)
       for (size_t p = 0; p < axes; ++p) {
@@ -215,6 +195,7 @@ struct ImplicitStep::Newton {
         z[i][static_cast<Eigen::Index>(p)] += change;
         changed = std::max(changed, std::abs(change));
       }
+
     return changed;
   }
 
@@ -230,13 +211,17 @@ struct ImplicitStep::Newton {
     for (int pass = 0; pass < most_passes; ++pass) {
       const double changed = correct();
       if (changed == infinity) return false;
+
       // The rate is 0 in a first pass.
       const double rate = changed / before;
       const bool first = before == infinity;
       if (changed <= limit || (!first && rate < 0.5 && rate * changed <= limit)) return true;
+
       // Rounding allows no better agreement.
       if (at_stages && rate >= 0.5 && changed <= hopeless * limit) return true;
       before = changed;
+
+      // New factors, if they are worth their time.
       if (!is_slow(changed, rate, limit, worth_factors)) continue;
       if (!at_stages && !(rate < 0.5)) {
         z = predicted;
@@ -245,6 +230,7 @@ struct ImplicitStep::Newton {
       if (!factor_at_stages()) return false;
       at_stages = true;
     }
+
     return false;
   }
 };
@@ -273,6 +259,7 @@ double ImplicitStep::error_by_terms() const {
     for (size_t j = 0; j < nodes; ++j) sum += method().tail[n][j] * change_[j];
     size[n] = sum.cwiseAbs().maxCoeff();
   }
+
   const double last = std::max(size[2], size[3]), before = std::max(size[0], size[1]);
   if (!(last < before)) return last;
   const double fading = std::sqrt(last / before);
@@ -292,25 +279,20 @@ double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const
       factors.at(p, q) = (p == q ? 1 : 0) - s * j.by_velocity(row, column) - s * s * j.by_position(row, column);
     }
   if (!factors.factor()) return infinity;
+
   // The slope of the polynomial at the start, by the step, m/s.
   Vec3 slope = Vec3::Zero();
   for (size_t k = 0; k < nodes; ++k) slope += method().power[0][k] * change_[k];
   const Vec3 miss = length_ * a - slope;
   LuFactors<axes>::Row b{miss[0], miss[1], miss[2]};
   factors.solve(b);
+
   double greatest = 0;
   for (const double missed : b) {
     if (!std::isfinite(missed)) return infinity;
     greatest = std::max(greatest, std::abs(missed));
   }
   return start_share * greatest;
-}
-
-double ImplicitStep::next_length(double h, double error) {
-  constexpr double safety = 0.9, shortest = 0.2, longest = 6;
-  if (!std::isfinite(error)) return shortest * h;
-  const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
-  return h * (eighth_root > 0 ? std::clamp(safety / eighth_root, shortest, longest) : longest);
 }
 
 PolynomialPath ImplicitStep::path() const {

@@ -39,6 +39,8 @@ Constants constants(double mu, const Vec3& x, const Vec3& v) {
   c.beta = DoubleDouble{2 * mu, 0} / c.r - dot_compensated(v, v);
   c.eta = dot_compensated(x, v);
   c.zeta = strength - c.beta * c.r;
+
+  // The angular momentum and its square.
   c.square = {0, 0};
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -46,6 +48,7 @@ Constants constants(double mu, const Vec3& x, const Vec3& v) {
     c.square = c.square + part * part;
     c.h[i] = part.value();
   }
+
   // Both forms are (|mu| times the eccentricity)^2 as sums of squares. The first vanishes exactly for circles.
   c.bend =
       square_root(c.beta.hi > 0 ? c.zeta * c.zeta + c.beta * c.eta * c.eta : strength * strength - c.beta * c.square);
@@ -74,6 +77,7 @@ Universal universal(double beta, double root, double s) {
     const double first = std::copysign(0.5 * (grow - shrink), s) / root;
     return {first, (0.5 * (grow + shrink) - 1) / -beta, (first - s) / -beta};
   }
+
   const double size = std::abs(z);
   double second = 0, third = 0;
   for (size_t n = size < 0.3 ? 16 : size < 2.6 ? 22 : 28; n >= 2; n -= 2) {
@@ -106,14 +110,18 @@ DoubleDouble start_time(double mu, const Constants& c, double side, DoubleDouble
   // At parameter s from that end, bend G1 = eta and bend G0 = zeta.
   const DoubleDouble bend = side > 0 ? c.bend : -c.bend;
   if (bend.hi == 0) return {0, 0};
+
+  // The parameter of the start, in doubles.
   const double root = std::sqrt(std::abs(c.beta.hi));
   double s = c.eta.hi / bend.hi;
   if (c.beta.hi > 0) s = arc_tangent(side * root * c.eta.hi, side * c.zeta.hi) / root;
   if (c.beta.hi < 0) s = arc_sinh(root * s) / root;
+
   const DoubleDouble exact = {s, 0}, one = {1, 0}, square = two_product(s, s), z = c.beta * square;
   // For a hyperbola far out, the time is distance s + bend G3, with G3 = (s - G1) / beta and distance beta + bend = mu.
   if (z.hi < -series_reach) return (two_product(mu, s) - c.eta) / c.beta;
   const DoubleDouble third = stumpff(z, 3), first = exact * (one - z * third), zeroth = one - z * stumpff(z, 2);
+
   // The error of s is G1 of a difference: sin(a - b) = sin(a) cos(b) - cos(a) sin(b), which holds for any beta.
   const double lacking = (c.eta * zeroth - c.zeta * first).hi / bend.hi;
   return exact * (distance + bend * square * third) + DoubleDouble{c.r.hi * lacking, 0};
@@ -146,6 +154,7 @@ KeplerOrbit::KeplerOrbit(double mu, const Vec3& x, const Vec3& v) : mu_(mu), x_(
   momentum_ = square_root(c.square).hi;
   const DoubleDouble root = square_root(beta_ > 0 ? c.beta : -c.beta);
   root_ = root.hi;
+
   // Two forms of the pericentre's distance. Each is a sum, never a difference.
   const DoubleDouble pericentre = mu > 0 ? c.square / (strength + c.bend) : (c.bend - strength) / -c.beta;
   near_ = {1, pericentre.hi, c.bend.hi};
@@ -173,6 +182,7 @@ KeplerOrbit::KeplerOrbit(double mu, const Vec3& x, const Vec3& v) : mu_(mu), x_(
 KeplerOrbit::Phase KeplerOrbit::phase(DoubleDouble t) const {
   DoubleDouble since = start_ + t;
   if (!(period_.hi < INFINITY)) return {&near_, since};
+
   // One pass suffices unless a double cannot count the turns. The phase is then unknown, but the position is still on
   // the orbit.
   constexpr int most = 32;
@@ -181,6 +191,8 @@ KeplerOrbit::Phase KeplerOrbit::phase(DoubleDouble t) const {
     const double turns = std::floor(since.hi / period_.hi + 0.5);
     since = since - period_ * DoubleDouble{turns, 0};
   }
+
+  // The end of the long axis that is nearer in time.
   const bool same = std::abs(since.hi) <= (starts_far_ ? half - quarter_ : quarter_);
   if (!same) {
     const double sign = std::copysign(0.5, since.hi);
@@ -193,6 +205,7 @@ double KeplerOrbit::first_guess(const Apsis& from, double time) const {
   // For late times on a hyperbola: sinh(w) = n + mu w / bend, w = root s.
   const double n = beta_ < 0 ? root_ * -beta_ * time / from.bend : 0;
   if (n > 5) return rough_logarithm(2 * (n + mu_ / from.bend * rough_logarithm(2 * n))) / root_;
+
   // Otherwise the parabola's equation distance s + bend s^3 / 6 = time. Newton's method starts from the lesser of two
   // upper bounds.
   const double line = time / from.distance;
@@ -212,16 +225,20 @@ double KeplerOrbit::parameter(const Apsis& from, DoubleDouble time) const {
   constexpr int most = 100;
   // A step at which the fourth order leaves an error of its fourth power.
   constexpr double near = 0x1p-10;
+
   double s = first_guess(from, time.hi), low = 0, high = (beta_ > 0 ? 2 : 700) / root_;
   for (int k = 0; k < most; ++k) {
     const Universal g = universal(beta_, root_, s);
     const double rest = (time.hi - (from.distance * s + from.bend * g.third)) + time.lo;
     (rest > 0 ? low : high) = s;
+
     const double slope = from.distance + from.bend * g.second, bend = from.bend * g.first;
     double step = rest / slope;
     step = rest / (slope + 0.5 * step * bend);
     step = rest / (slope + step * (0.5 * bend + step * from.bend * (1 - beta_ * g.second) / 6));
     if (std::abs(step) <= near * s) return s + step;
+
+    // Where the step leaves the bounds, their middle takes its place.
     const double next = s + step;
     s = next > low && next < high ? next : (high < INFINITY ? 0.5 * (low + high) : 2 * low);
   }
@@ -234,12 +251,14 @@ void KeplerOrbit::at(DoubleDouble t, Vec3& x, Vec3& v) const {
     v = v_;
     return;
   }
+
   const auto [apsis, time] = phase(t);
   const double sign = std::copysign(1.0, time.hi);
   const DoubleDouble length = {sign * time.hi, sign * time.lo};
   const double s = length.hi == 0 ? 0 : parameter(*apsis, length);
   const Universal g = universal(beta_, root_, s);
   const double r = apsis->distance + apsis->bend * g.second;
+
   if (r == 0) {
     x = v = Vec3::Zero();
     return;
@@ -247,6 +266,7 @@ void KeplerOrbit::at(DoubleDouble t, Vec3& x, Vec3& v) const {
   const double side = apsis->side;
   x = side * (apsis->distance - mu_ * g.second) * ahead_ + sign * side * momentum_ * g.first * aside_;
   v = -sign * side * (mu_ * g.first / r) * ahead_ + side * (momentum_ * (1 - beta_ * g.second) / r) * aside_;
+
   // The last step of Newton's method is taken by the position itself, because s would round it.
   const double rest = sign * ((length.hi - (apsis->distance * s + apsis->bend * g.third)) + length.lo);
   const Vec3 pull = -mu_ / r * (x / r) / r;

@@ -33,11 +33,14 @@ int EnergyByDirection::dimensions() const {
   array<array<double, 3>, 3> m = {
       {{sum_[0], sum_[3], sum_[4]}, {sum_[3], sum_[1], sum_[5]}, {sum_[4], sum_[5], sum_[2]}}};
   array<bool, 3> used{};
+
   for (int rank = 0; rank < 3; ++rank) {
     size_t pivot = 3;
     for (size_t k = 0; k < 3; ++k)
       if (!used[k] && (pivot == 3 || m[k][k] > m[pivot][pivot])) pivot = k;
     if (!(m[pivot][pivot] > least_share * 2 * kinetic())) return rank;
+
+    // The other directions lose what they share with the pivot.
     used[pivot] = true;
     for (size_t i = 0; i < 3; ++i)
       for (size_t j = 0; j < 3; ++j)

@@ -85,6 +85,7 @@ Response response(double fade, double stiffness, double t) {
   const CharacteristicRoots of = roots(fade, stiffness);
   Response r = of.real ? exponentials(of, t) : sines(fade, t, of.half_gap);
   const double angle = std::sqrt(stiffness) * t, gap = of.real ? 2 * of.half_gap.hi : 0;
+
   // Limits between the forms. Each form keeps all but two bits of the result within its own.
   constexpr double many = 1.5, far = 2, close = 0.75;
   if (angle >= many && (!of.real || of.small * t >= close)) {
@@ -94,6 +95,7 @@ Response response(double fade, double stiffness, double t) {
   } else {
     r.bent = bent_by_series(fade, stiffness, t, of.real ? of.large * t : angle);
   }
+
   return r;
 }
 
@@ -112,11 +114,13 @@ void Oscillation::bend(double t, Vec3& acceleration, Vec3& jerk) const {
     jerk = -stiffness * velocity - fade * acceleration;
     return;
   }
+
   // The velocity is the sum of two exponentials: a slow one by springs against the drag, and a fast one that the drag
   // takes.
   const double gap = of.large - of.small;
   const Vec3 slow = exp_minus(of.small * t) / gap * (a - of.small * v);
   const Vec3 fast = exp_minus(of.large * t) / gap * (of.large * v - a);
+
   acceleration = -of.large * fast - of.small * slow;
   jerk = of.large * of.large * fast + of.small * of.small * slow;
 }

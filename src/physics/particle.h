@@ -1,8 +1,13 @@
 #pragma once
 // The quantities that a force may depend on.
+#include <limits>
+
 #include "numerics/vec3.h"
 
 namespace carom {
+
+/// The reach of a force that is smooth everywhere (m).
+inline constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 struct Particle {
   Vec3 x;       // m

@@ -21,10 +21,12 @@ inline double quantity_of(Quantity quantity, const Vec3& position, const Vec3& v
     case Quantity::y:
     case Quantity::z:
       return position[static_cast<int>(quantity)];
+
     case Quantity::vx:
     case Quantity::vy:
     case Quantity::vz:
       return velocity[static_cast<int>(quantity) - static_cast<int>(Quantity::vx)];
+
     case Quantity::speed:
       return velocity.norm();
     case Quantity::kinetic:

@@ -18,10 +18,12 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
       return std::min(e1, e2);
     case Combine::maximum:
       return std::max(e1, e2);
+
     case Combine::product:
       return e1 * e2;
     case Combine::geometric_mean:
       return std::sqrt(e1 * e2);
+
     case Combine::mass_weighted:
       return (m1 * e1 + m2 * e2) / (m1 + m2);
     case Combine::book:

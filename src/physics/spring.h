@@ -16,9 +16,14 @@ struct Spring {
   double rest_length = 0;      // m, l
   double damping = 0;          // kg/s, c
 
+  static constexpr bool bends() { return true; }
+  bool closed() const { return rest_length == 0 && damping == 0; }
+  bool damps() const { return damping > 0; }
+  static constexpr double fade() { return 0; }
+  static constexpr double reach(const Vec3&) { return everywhere; }
   Vec3 acceleration(const Particle& p) const {
     const Vec3 d = p.x - anchor;
-    if (rest_length == 0 && damping == 0) return -stiffness / p.mass * d;
+    if (closed()) return -stiffness / p.mass * d;
     const double length = d.norm();
     if (length == 0) return -damping / p.mass * p.v;
     // A single factor times d: where the factor is great, rounding leaves no force across the line.

@@ -37,20 +37,25 @@ SpringsInLine::SpringsInLine(const World& world, Entity body, double time, const
     if (spring == nullptr || spring->rest_length == 0 || spring->stiffness == 0 || !acts(force, body, time)) continue;
     const Vec3 d = x - spring->anchor;
     const double rounded = rounding * (x.norm() + spring->anchor.norm() + spring->rest_length);
+
     // The direction is that of the position. Near the anchor, where the position is mere rounding, it is that of the
     // velocity.
     if (!any()) along_ = direction(d.norm() > plainly * rounded ? d : v);
+
+    // The body must be on the line, and move along it.
     const double rate = std::sqrt(spring->stiffness / world.mass[body]), speed = v.norm() + rate * spring->rest_length;
     const bool on_line = d.cross(along_).norm() <= off_line * d.norm() + rounded;
     if (along_.isZero(0) || !on_line || !(v.cross(along_).norm() <= off_line * speed)) {
       springs_.clear();
       return;
     }
+
     // A body leaves an anchor in the direction in which it came.
     const double s = d.dot(along_);
     const double side = std::copysign(1.0, std::abs(s) > rounded ? s : v.dot(along_));
     springs_.push_back({spring->anchor, spring->stiffness * spring->rest_length / world.mass[body], side, rounded});
   }
+
   if (!any()) return;
   const Vec3 smooth = a + correction(x);
   if (!(smooth.cross(along_).norm() <= off_line * smooth.norm())) springs_.clear();
@@ -71,6 +76,8 @@ double SpringsInLine::arrival(const Vec3& x, const PolynomialPath& path) const {
     const double start = spring.side * (x - spring.anchor).dot(along_);
     const auto beyond = [&](double t) { return start + spring.side * path.displacement_at(t).dot(along_) < 0; };
     if (!(start + spring.side * path.displacement_at(path.length).dot(along_) < -spring.rounded)) continue;
+
+    // Between these times it passes the anchor.
     double before = start > spring.rounded ? 0 : soon * path.length, after = path.length;
     if (beyond(before)) continue;
     for (int k = 0; k < halvings; ++k) {
@@ -79,6 +86,7 @@ double SpringsInLine::arrival(const Vec3& x, const PolynomialPath& path) const {
     }
     first = std::min(first, after);
   }
+
   return first;
 }
 

@@ -19,20 +19,24 @@ Matrix amplification(Integrator method, double p, double c, double h) {
   Matrix change;
   change << 0, 1, -p, -c;
   const Matrix z = h * change, one = Matrix::Identity();
+
   switch (method) {
     case Integrator::euler: {
       const Eigen::RowVector2d v(-h * p, 1 - h * c);
       return (Matrix() << Eigen::RowVector2d(1, 0) + h * v, v).finished();
     }
+
     case Integrator::verlet: {
       const Eigen::RowVector2d a(-p, -c), x = Eigen::RowVector2d(1, h) + (0.5 * h * h) * a;
       const Eigen::RowVector2d v = Eigen::RowVector2d(0, 1) + h * a, next = -p * x - c * v;
       return (Matrix() << x, Eigen::RowVector2d(0, 1) + (0.5 * h) * (a + next)).finished();
     }
+
     case Integrator::rk4:
     case Integrator::dop853:
       break;
   }
+
   return one + z * (one + z / 2 * (one + z / 3 * (one + z / 4)));
 }
 
@@ -72,14 +76,17 @@ double stable_step(Integrator method, const ForceJacobian& slopes, LinearMode& m
   for (const Eigen::Matrix3d* const of : {&slopes.by_position, &slopes.by_velocity}) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(0.5 * (*of + of->transpose()));
     for (int k = 0; k < 3; ++k) {
+      // The mode along this axis.
       const Vec3 u = axes.eigenvectors().col(k);
       const LinearMode along{std::max(-u.dot(slopes.by_position * u), 0.0),
                              std::max(-u.dot(slopes.by_velocity * u), 0.0)};
+
       if (!(rate_of(along) > 0)) continue;
       const double step = stable_step(method, along);
       if (step < least) mode = along, least = step;
     }
   }
+
   return least;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "physics/world.h"
 #include "std.h"
 
 namespace carom {
@@ -40,12 +39,14 @@ vector<MotionLeg> legs_of(span<const MotionWindow> windows) {
     else
       legs.push_back(next_leg(legs, from, velocity));
   };
+
   for (const MotionWindow& window : windows) {
     if (window.velocity.isZero(0)) continue;
     if (legs.empty() && window.from > 0) begin(0, Vec3::Zero());
     begin(window.from, window.velocity);
     if (window.until < std::numeric_limits<double>::infinity()) begin(window.until, Vec3::Zero());
   }
+
   return legs;
 }
 
@@ -61,31 +62,6 @@ Vec3 place_on(const Vec3& from, const MotionLeg& leg, const DoubleDouble& time) 
   Vec3 x;
   for (int axis = 0; axis < 3; ++axis) x[axis] = (DoubleDouble{from[axis], 0} + along(leg, time, axis)).value();
   return x;
-}
-
-Vec3 fixed_position(const World& world, Entity fixed, const DoubleDouble& time) {
-  const Vec3& start = world.fixed_position(fixed);
-  return world.moves(fixed) ? place_on(start, leg_at(world.legs(fixed), time), time) : start;
-}
-
-Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time) {
-  return world.moves(fixed) ? leg_at(world.legs(fixed), time).velocity : Vec3(Vec3::Zero());
-}
-
-bool place_fixed_things(const World& world, double time, World& copy) {
-  bool changed = false;
-  const auto place = [&](size_t fixed, Vec3& x) {
-    const Entity e = world.body_count() + static_cast<Entity>(fixed);
-    if (!world.moves(e)) return;
-    const Vec3 there = fixed_position(world, e, {time, 0});
-    changed = changed || there != x;
-    x = there;
-  };
-  size_t fixed = 0;
-  for (Plane& plane : copy.planes) place(fixed++, plane.point);
-  for (Wall& wall : copy.walls) place(fixed++, wall.center);
-  for (Obstacle& obstacle : copy.obstacles) place(fixed++, obstacle.center);
-  return changed;
 }
 
 }  // namespace carom

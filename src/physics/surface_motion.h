@@ -6,12 +6,9 @@
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
-#include "physics/entity.h"
 #include "std.h"
 
 namespace carom {
-
-struct World;
 
 /// A window of time in which a fixed thing moves.
 struct MotionWindow {
@@ -35,14 +32,5 @@ vector<MotionLeg> legs_of(span<const MotionWindow> windows);
 const MotionLeg& leg_at(const vector<MotionLeg>& legs, const DoubleDouble& time);
 /// The displacement since time 0 (m) on this leg, at a time (s), added to `from` (m). It is rounded once.
 Vec3 place_on(const Vec3& from, const MotionLeg& leg, const DoubleDouble& time);
-
-/// The point of a plane, or the centre of a wall or an obstacle (m) at a time (s).
-Vec3 fixed_position(const World& world, Entity fixed, const DoubleDouble& time);
-/// The velocity of a fixed thing (m/s) from a time (s) on.
-Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time);
-
-/// Sets the positions of planes, walls and obstacles that move (m) to those at a time (s) in a copy of their World.
-/// Returns whether any has changed.
-bool place_fixed_things(const World& world, double time, World& copy);
 
 }  // namespace carom

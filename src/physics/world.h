@@ -55,6 +55,10 @@ struct Force {
   vector<Entity> on{};                                     // ascending; empty: all bodies
 };
 
+/// Whether a force acts on a body, at some time and at `time` (s).
+bool acts_on(const Force& force, Entity body);
+bool acts(const Force& force, Entity body, double time);
+
 /// The rule that makes a pair's coefficient of restitution from two (restitution.h).
 enum class Combine : uint8_t { average, minimum, maximum, product, geometric_mean, mass_weighted, book };
 
@@ -124,5 +128,14 @@ struct World {
   size_t obstacles_from() const { return walls_from() + walls.size(); }
   size_t strings_from() const { return obstacles_from() + obstacles.size(); }
 };
+
+/// The point of a plane, or the centre of a wall or an obstacle (m) at a time (s).
+Vec3 fixed_position(const World& world, Entity fixed, const DoubleDouble& time);
+/// The velocity of a fixed thing (m/s) from a time (s) on.
+Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time);
+
+/// Sets the positions of planes, walls and obstacles that move (m) to those at a time (s) in a copy of their World.
+/// Returns whether any has changed.
+bool place_fixed_things(const World& world, double time, World& copy);
 
 }  // namespace carom

@@ -28,6 +28,7 @@ PixelBounds joined(const PixelBounds& a, const PixelBounds& b) {
 void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   columns_ = (shot.lens.width + tile_side - 1) / tile_side;
   rows_ = (shot.lens.height + tile_side - 1) / tile_side;
+
   const auto count = static_cast<uint32_t>(shot.solids.size());
   tiles_.resize(count);
   around_.resize(count);
@@ -38,10 +39,12 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
     const float nearest = silhouettes.of(i).nearest;
     nearest_[i] = nearest;
     tiles_[i] = in_tiles(silhouettes.of(i).bounds);
+
     // Of balls smaller than a pixel the darkening is not seen.
     const bool takes = solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest;
     around_[i] = {solid.center, takes ? solid.radius : 0};
     largest_around_ = std::max(largest_around_, around_[i].radius);
+
     if (takes)
       tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(shot.lens, solid.center, closeness * solid.radius)));
   }
@@ -53,8 +56,10 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
     for (int y = b.top; y < b.bottom; ++y)
       for (int x = b.left; x < b.right; ++x) visit(static_cast<size_t>(y * columns_ + x));
   };
+
   for (uint32_t i = 0; i < count; ++i) each_tile(i, [&](size_t tile) { ++start_[tile + 1]; });
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
+
   members_.resize(start_.back());
   next_.assign(start_.begin(), start_.end() - 1);
   for (const uint32_t i : order_.numbers()) each_tile(i, [&](size_t tile) { members_[next_[tile]++] = i; });

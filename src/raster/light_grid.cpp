@@ -57,6 +57,8 @@ void LightGrid::measure(const Shot& shot) {
   const float infinity = std::numeric_limits<float>::infinity();
   LightExtent& e = extent;
   e.u0 = e.v0 = infinity, e.u1 = e.v1 = -infinity;
+
+  // The extent of all solids across the light.
   double covered = 0;
   for (const Solid& s : shot.solids) {
     const float wide = half_width(shot, s, e.u), high = half_width(shot, s, e.v);
@@ -65,6 +67,8 @@ void LightGrid::measure(const Shot& shot) {
     e.v0 = std::min(e.v0, at_v - high), e.v1 = std::max(e.v1, at_v + high);
     if (s.kind != SolidKind::wall) covered += std::numbers::pi * double{s.radius} * s.radius;
   }
+
+  // In a crowd blurs are narrower.
   const double area = std::max(double{e.u1 - e.u0} * (e.v1 - e.v0), 1e-30);
   const auto shades = static_cast<float>(std::sqrt(most_shades * area / std::max(covered, 1e-30)));
   widest_blur = std::clamp(shades - 1, narrowest, faintest);
@@ -78,6 +82,7 @@ void LightGrid::measure(const Shot& shot) {
     e.u0 -= widest, e.v0 -= widest, e.u1 += widest, e.v1 += widest;
     e.side = std::clamp(static_cast<int>(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
   }
+
   e.per_u = static_cast<float>(e.side) / std::max(e.u1 - e.u0, 1e-30F);
   e.per_v = static_cast<float>(e.side) / std::max(e.v1 - e.v0, 1e-30F);
 }
@@ -87,12 +92,15 @@ double LightGrid::find_blurs(const Shot& shot) {
   const Lamp& key = shot.lighting.lamps[0];
   float lowest = std::numeric_limits<float>::infinity();
   for (const Solid& s : shot.solids) lowest = std::min(lowest, dot(key.vector, s.center) - s.radius);
+
   blur_.resize(shot.solids.size());
   double width = 0;
   int count = 0;
   for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
+
     float blur = shot.lighting.lamp_radius;
+    // Parallel light blurs as far as a shadow may fall.
     if (!key.near) {
       float way = dot(key.vector, s.center) - lowest;
       for (const Ground& g : shot.grounds) {
@@ -101,11 +109,13 @@ double LightGrid::find_blurs(const Shot& shot) {
       }
       blur = shot.lighting.softness * std::max(way, 0.0F);
     }
+
     blur_[i] = std::clamp(blur, narrowest * s.radius, widest_blur * s.radius);
     if (s.kind == SolidKind::wall) continue;
     width += s.radius + blur_[i];
     ++count;
   }
+
   return count > 0 ? width / count : double{extent.u1 - extent.u0};
 }
 
@@ -113,36 +123,44 @@ double LightGrid::find_blurs(const Shot& shot) {
 void LightGrid::find_rects(const Shot& shot) {
   const Lamp& key = shot.lighting.lamps[0];
   const LightExtent& e = extent;
+
   const auto at = [&](float x, float origin, float per) {
     return static_cast<int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(e.side - 1)));
   };
+
   const auto add = [&](int face, float a0, float a1, float b0, float b1) {
     rects_.push_back({static_cast<int16_t>(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u), at(b0, e.v0, e.per_v),
                       at(b1, e.v0, e.per_v)});
   };
+
   rects_.clear();
   rects_.reserve(shot.solids.size());
   first_rect_.resize(shot.solids.size() + 1);
   for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
     first_rect_[i] = static_cast<uint32_t>(rects_.size());
+
     if (!key.near) {
       const float a = dot(e.u, s.center), b = dot(e.v, s.center);
       const float wide = half_width(shot, s, e.u) + blur_[i], high = half_width(shot, s, e.v) + blur_[i];
       add(0, a - wide, a + wide, b - high, b + high);
       continue;
     }
+
+    // The faces of the cube around the lamp on which the ball is seen.
     const float radius = s.radius + blur_[i];
     for (int face = 0; face < 6; ++face) {
       const auto axis = static_cast<size_t>(face / 2);
       const auto p = [&](size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
       const float ahead = face % 2 ? -p(axis) : p(axis);
+
       float a0, a1, b0, b1;
       if (ahead > -radius && span_on_face(p(axis + 1), ahead, radius, a0, a1) &&
           span_on_face(p(axis + 2), ahead, radius, b0, b1))
         add(face, a0, a1, b0, b1);
     }
   }
+
   first_rect_.back() = static_cast<uint32_t>(rects_.size());
 }
 
@@ -151,6 +169,7 @@ void LightGrid::sort_into_cells(const Shot& shot) {
   const int side = extent.side;
   const size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
   const size_t count = faces * static_cast<size_t>(side) * static_cast<size_t>(side);
+
   const auto each_cell = [&](size_t i, auto visit) {
     for (uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
       const CellRect& r = rects_[k];
@@ -158,6 +177,8 @@ void LightGrid::sort_into_cells(const Shot& shot) {
         for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<size_t>((r.face * side + b) * side + a));
     }
   };
+
+  // The number of members by cell, then their places.
   for (LightCells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
   is_ball_.resize(shot.solids.size());
   for (size_t i = 0; i < shot.solids.size(); ++i) {
@@ -165,12 +186,15 @@ void LightGrid::sort_into_cells(const Shot& shot) {
     LightCells& cells = is_ball_[i] ? balls : others;
     each_cell(i, [&](size_t cell) { ++cells.start[cell + 1]; });
   }
+
   for (LightCells* cells : {&balls, &others}) {
     std::partial_sum(cells->start.begin(), cells->start.end(), cells->start.begin());
     cells->members.resize(cells->start.back());
   }
+
   next_ball_.assign(balls.start.begin(), balls.start.end() - 1);
   next_other_.assign(others.start.begin(), others.start.end() - 1);
+
   for (const uint32_t i : order_.numbers()) {
     LightCells& cells = is_ball_[i] ? balls : others;
     vector<size_t>& next = is_ball_[i] ? next_ball_ : next_other_;
@@ -181,19 +205,23 @@ void LightGrid::sort_into_cells(const Shot& shot) {
 void LightGrid::fill(const Shot& shot) {
   for (LightCells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
   if (shot.solids.empty()) return;
+
   const Lamp& key = shot.lighting.lamps[0];
   if (!key.near) {
     const Across sides = across(key.vector);
     extent.u = sides.u, extent.v = sides.v;
   }
   measure(shot);
+
   towards_light.resize(shot.solids.size());
   for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Float3& c = shot.solids[i].center;
     const Float3 off = {key.vector[0] - c[0], key.vector[1] - c[1], key.vector[2] - c[2]};
     towards_light[i] = key.near ? -dot(off, off) : dot(key.vector, c);
   }
+
   order_.sort(towards_light);
+
   find_rects(shot);
   sort_into_cells(shot);
   packs.fill(shot, balls, towards_light);

@@ -21,6 +21,8 @@ vector<PlanePoint> hull_of(vector<PlanePoint> points) {
   if (points.size() < 3) return {};
   std::ranges::sort(points,
                     [](const PlanePoint& a, const PlanePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+
+  // The lower half, then the upper one.
   vector<PlanePoint> hull;
   for (int half = 0; half < 2; ++half) {
     const size_t start = hull.size();
@@ -31,6 +33,7 @@ vector<PlanePoint> hull_of(vector<PlanePoint> points) {
     hull.pop_back();
     std::ranges::reverse(points);
   }
+
   return hull;
 }
 
@@ -74,12 +77,15 @@ void project_wall(const Solid& solid, const WallAxes& axes, Projection& to) {
 void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
   const Vec3 c = vec(solid.center), h = double{solid.half[1]} * vec(lens.axes[1]);
   const Vec3 u = double{solid.half[0]} * vec(lens.axes[0]), v = double{solid.half[0]} * vec(lens.axes[2]);
+
   // A regular polygon of n corners deviates from its circle by r pi^2 / (2 n^2).
   const double z = std::max(c.z() - solid.radius, double{lens.near});
   const double pixels = solid.half[0] / (z * lens.pixel);
   const int corners = std::clamp(static_cast<int>(std::ceil(std::numbers::pi * std::sqrt(10 * pixels))), 12, 512);
+
   // The polygon of the circle's area.
   const double step = 2 * std::numbers::pi / corners, wide = std::sqrt(step / std::sin(step));
+
   Vec3 last = c + wide * u;
   for (int k = 1; k <= corners; ++k) {
     const Vec3 next = c + wide * (std::cos(step * k) * u + std::sin(step * k) * v);

@@ -19,11 +19,13 @@ PixelBounds pixels(const Lens& lens, double left, double right, double bottom, d
     const int i = static_cast<int>(x);
     return static_cast<int16_t>(i < x ? i + 1 : i);
   };
+
   const auto end = [](double x, int most) {
     x = std::clamp(x, -1.0, most - 1.0);
     const int i = static_cast<int>(x);
     return static_cast<int16_t>(i > x ? i : i + 1);
   };
+
   // The middle of pixel i is at left + i pixel.
   return {first((left - lens.left) / lens.pixel - 0.5, lens.width),
           first((lens.top - top) / lens.pixel - 0.5, lens.height),
@@ -38,8 +40,10 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
     to.wide = true;
     return bounds_of_ball(lens, solid.center, solid.radius);
   }
+
   double a = std::sqrt(o.ax * o.ax + o.ay * o.ay), b = std::sqrt(o.bx * o.bx + o.by * o.by);
   const double ex = o.ax / a, ey = o.ay / a;
+
   // A ball that is smaller than a pixel is larger and fainter. The edge of a disc is blurred over a pixel, which adds
   // pi / 12 pixels to its area; the opacity takes them off where they count.
   const double least = 0.75 * lens.pixel, seen = 2 * lens.pixel;
@@ -49,11 +53,13 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
     ball.opacity = static_cast<float>(a * b / (longer * shorter + lens.pixel * lens.pixel / 12));
     a = longer, b = shorter;
   }
+
   ball.x = static_cast<float>(o.x), ball.y = static_cast<float>(o.y);
   ball.xx = static_cast<float>(ex / a), ball.xy = static_cast<float>(ey / a);
   ball.yx = static_cast<float>(-ey / b), ball.yy = static_cast<float>(ex / b);
   ball.per_a = static_cast<float>(1 / a), ball.per_b = static_cast<float>(1 / b);
   ball.depth2 = static_cast<float>(o.depth2);
+
   const double wide = std::sqrt(a * a * ex * ex + b * b * ey * ey), high = std::sqrt(a * a * ey * ey + b * b * ex * ex);
   return pixels(lens, o.x - wide, o.x + wide, o.y - high, o.y + high);
 }
@@ -78,6 +84,7 @@ PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silho
   to.first_edge = static_cast<int32_t>(edges_.size());
   const size_t pairs = (hull.size() + 1) / 2;
   to.edge_pairs = static_cast<int32_t>(pairs);
+
   const auto edge = [&](size_t i) -> Edge {
     if (i >= hull.size()) return {0, 0, 1e6F};
     const PlanePoint &p = hull[i], &q = hull[(i + 1) % hull.size()];
@@ -85,10 +92,12 @@ PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silho
     const double a = -(q.y - p.y) / length, b = (q.x - p.x) / length;
     return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(-a * p.x - b * p.y)};
   };
+
   for (size_t i = 0; i < pairs; ++i) {
     edges_.push_back(edge(i));
     edges_.push_back(edge(i + pairs));
   }
+
   const auto [left, right] = std::minmax_element(hull.begin(), hull.end(), [](auto& p, auto& q) { return p.x < q.x; });
   const auto [bottom, top] = std::minmax_element(hull.begin(), hull.end(), [](auto& p, auto& q) { return p.y < q.y; });
   return pixels(lens, left->x, right->x, bottom->y, top->y);
@@ -101,6 +110,7 @@ void Silhouettes::fill(const Shot& shot) {
     const Solid& solid = shot.solids[i];
     Silhouette& to = all_[i];
     to = {};
+
     to.nearest = solid.center[2] - solid.radius;
     if (solid.shadow_only) {
       to.bounds = {};

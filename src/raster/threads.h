@@ -3,6 +3,7 @@
 
 #include "numerics/team.h"
 #include "raster/tile.h"
+#include "raster/tile_memory.h"
 #include "std.h"
 
 namespace carom::raster {

@@ -7,7 +7,7 @@
 
 #include "numerics/processor.h"
 #include "numerics/srgb.h"
-#include "raster/tile_data.h"
+#include "raster/tile_memory.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -49,9 +49,6 @@ namespace any_processor {
 }  // namespace any_processor
 #endif
 
-TileMemory::TileMemory() : data_(make_unique<Data>()) {}
-TileMemory::~TileMemory() = default;
-
 vector<TileKernel> tile_kernels() {
 #ifdef __x86_64__
   vector<TileKernel> kernels{bits128::draw};
@@ -65,7 +62,7 @@ vector<TileKernel> tile_kernels() {
 
 void draw_tile(const Picture& picture, TileMemory& memory, int tile) {
   static const TileKernel widest = tile_kernels().back();
-  widest(picture, memory.data(), tile);
+  widest(picture, memory, tile);
 }
 
 }  // namespace carom::raster

@@ -32,21 +32,8 @@ struct Picture {
   int channels;                                // 3: RGB; 4: with alpha, not premultiplied
 };
 
-/// The memory of one thread for the tiles that it draws.
-class TileMemory {
- public:
-  TileMemory();
-  ~TileMemory();
-  TileMemory(const TileMemory&) = delete;
-  TileMemory& operator=(const TileMemory&) = delete;
-  struct Data;
-  Data& data() { return *data_; }
-
- private:
-  unique_ptr<Data> data_;
-};
-
-using TileKernel = void (*)(const Picture& picture, TileMemory::Data& memory, int tile);
+struct TileMemory;
+using TileKernel = void (*)(const Picture& picture, TileMemory& memory, int tile);
 
 /// The kernels that this processor can run, the widest last.
 vector<TileKernel> tile_kernels();

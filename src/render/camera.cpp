@@ -48,6 +48,7 @@ CameraFrame view_of(const Camera& camera, Size size) {
   view.forward = (camera.target - camera.eye).normalized();
   // Eye and target are in one place.
   if (!(view.forward.norm() > 0.5)) view.forward = Vec3(0, 0, -1);
+
   Vec3 right = view.forward.cross(camera.up.normalized());
   // With `up` along the line of sight the roll is undetermined. Keep +x to the right if possible, as seen from +z.
   if (!(right.norm() > 1e-9)) right = view.forward.cross(Vec3(0, 0, view.forward.y() > 0 ? 1 : -1));
@@ -70,6 +71,7 @@ bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3
   const double tx = std::tan(view.fov_x * degree / 2), ty = std::tan(view.fov_y * degree / 2);
   const double beyond_right = (x - z * tx) / std::hypot(1, tx), beyond_top = (y - z * ty) / std::hypot(1, ty);
   const double beyond = std::max({beyond_right, beyond_top, camera.near - z, z - camera.far});
+
   if (beyond <= 0) return true;
   if (!(beyond <= radius)) return false;
 
@@ -81,6 +83,7 @@ bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3
   const array<Vec3, 4> top{corner(-1, 1, n), corner(1, 1, n), corner(1, 1, f), corner(-1, 1, f)};
   const array<Vec3, 4> front{corner(-1, -1, n), corner(1, -1, n), corner(1, 1, n), corner(-1, 1, n)};
   const array<Vec3, 4> back{corner(-1, -1, f), corner(1, -1, f), corner(1, 1, f), corner(-1, 1, f)};
+
   for (const auto& face : {right, top, front, back})
     if (distance_to_quad(p, face) <= radius) return true;
   return false;

@@ -27,6 +27,8 @@ void CameraFit::add(const State& state) {
 Camera CameraFit::camera() const {
   MotionView::Content content = motion_.content(0);
   const double height = size_along(content.bodies, motion_.direction(0).up());
+
+  // Content that is long to the front is seen from above.
   const bool is_flat = 2 * height < size_along(content.bodies, motion_.direction(0).front());
   const size_t direction = is_flat ? 1 : 0;
   if (is_flat) content = motion_.content(direction);
@@ -37,11 +39,13 @@ Camera CameraFit::camera() const {
   const Vec3 middle = content.bodies.middle();
   camera.eye = frustum.eye(reach);
   double distance = frustum.depth(reach, middle);
+
   // All is in one point.
   if (!(distance > 0)) {
     distance = 1;
     camera.eye = middle - frustum.view().forward;
   }
+
   camera.target = camera.eye + distance * frustum.view().forward;
   camera.near = distance / 1000;
   camera.far = distance * 1000;

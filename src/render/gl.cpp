@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "render/gl_threads.h"
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "std.h"
 
 namespace carom::gl {
@@ -23,13 +23,16 @@ GLuint made(void (*generate)(GLsizei, GLuint*)) {
 GLuint compile(GLenum kind, std::initializer_list<string_view> parts) {
   string text = "#version 450 core\n";
   for (string_view part : parts) text += part;
+
   const GLuint shader = gl::CreateShader(kind);
   const char* source = text.c_str();
   gl::ShaderSource(shader, 1, &source, nullptr);
   gl::CompileShader(shader);
+
   GLint ok = 0;
   gl::GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
   if (ok) return shader;
+
   string log(4096, '\0');
   GLsizei length = 0;
   gl::GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
@@ -44,9 +47,11 @@ Context::Context() {
   load_functions();
   // The other drivers that OSMesa may choose give other bytes, or are many times slower.
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+
   // The drawing threads are made with the first context, and stay.
   static const bool threads_chosen = (choose_threads(), true);
   (void)threads_chosen;
+
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_PROFILE,
@@ -57,11 +62,13 @@ Context::Context() {
                             5,
                             0,
                             0};
+
   context_ = CreateContextAttribs(attributes, nullptr);
   if (!context_)
     throw RenderError(
         "cannot make an OpenGL 4.5 context for meshes in pictures. Remedy: install libosmesa6 22.3 or later with "
         "llvmpipe (Debian: apt-get install libosmesa6), or run without frames, video and sheet.");
+
   // Without its threads, a context cannot even be destroyed.
   check_threads();
   try {
@@ -101,6 +108,7 @@ Texture make_texture(GLenum format, int width, int height, int levels) {
 Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth) {
   Framebuffer framebuffer(made(gl::GenFramebuffers));
   gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+
   vector<GLenum> targets;
   for (GLuint color : colors) {
     targets.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(targets.size()));
@@ -108,6 +116,7 @@ Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth) {
   }
   if (depth) gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   gl::DrawBuffers(static_cast<GLsizei>(targets.size()), targets.data());
+
   check("allocating the picture");
   if (gl::CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw RenderError("this OpenGL cannot draw into pictures of this size");
@@ -121,10 +130,12 @@ Program::Program(std::initializer_list<string_view> vertex, std::initializer_lis
     gl::AttachShader(handle_.name(), shader);
     gl::DeleteShader(shader);
   }
+
   gl::LinkProgram(handle_.name());
   GLint ok = 0;
   gl::GetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
   if (ok) return;
+
   string log(4096, '\0');
   GLsizei length = 0;
   gl::GetProgramInfoLog(handle_.name(), static_cast<GLsizei>(log.size()), &length, log.data());

@@ -4,7 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "std.h"
 
 namespace carom::gl {

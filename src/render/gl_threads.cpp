@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "raster/threads.h"
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "std.h"
 
 namespace carom::gl {

@@ -18,7 +18,7 @@
 #include "render/glb_meshes.h"
 #include "render/glb_nodes.h"
 #include "render/lighting.h"
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -90,19 +90,24 @@ class GlbBuilder {
   /// linear in between. A plane moves along its normal, as its pattern does in pictures.
   aiNodeAnim* channel_of_fixed(size_t node, Entity fixed) const {
     const World& world = scene_.world;
+
+    // A key wherever the thing's motion changes.
     vector<double> times{motion_.times.front()};
     for (const MotionLeg& leg : world.legs(fixed))
       if (leg.from > times.front() && leg.from < motion_.times.back()) times.push_back(leg.from);
     if (motion_.times.back() > times.back()) times.push_back(motion_.times.back());
+
     auto* channel = new aiNodeAnim;
     channel->mNodeName = exported_name(node);
     channel->mNumPositionKeys = static_cast<unsigned>(times.size());
     channel->mPositionKeys = new aiVectorKey[times.size()];
+
     for (size_t key = 0; key < times.size(); ++key) {
       Vec3 way = fixed_position(world, fixed, {times[key], 0}) - world.fixed_position(fixed);
       if (world.is_plane(fixed)) way = world.plane(fixed).normal.dot(way) * world.plane(fixed).normal;
       channel->mPositionKeys[key] = {times[key], vector_of(nodes_[node].translation + way)};
     }
+
     return channel;
   }
 
@@ -110,11 +115,13 @@ class GlbBuilder {
     const Camera camera = motion_.cameras.empty() ? camera_of(scene_) : motion_.cameras.front();
     const Size size = picture_size(scene_.output);
     const CameraFrame view = view_of(camera, size);
+
     camera_node_ = nodes_.size();
     GlbNode eye{free_name("camera"), camera.eye, rotation_of(camera)};
     eye.camera = GlbCamera{static_cast<double>(size.width) / size.height, view.fov_y * std::numbers::pi / 180,
                            camera.near, camera.far};
     nodes_.push_back(std::move(eye));
+
     for (const Light& light : scene_.lights) {
       if (light.direction) {
         add_sun(light.name, -light.direction->normalized(), linear(light.color), light.intensity);
@@ -126,6 +133,7 @@ class GlbBuilder {
         nodes_.push_back(std::move(node));
       }
     }
+
     if (scene_.lights.empty()) {
       const KeyLight light = default_light(view);
       add_sun("sun", light.towards, light.radiance, 1);
@@ -152,30 +160,37 @@ class GlbBuilder {
       return camera.eye != motion_.cameras.front().eye || camera.target != motion_.cameras.front().target;
     });
     if (motion_.times.empty() || (bodies == 0 && !camera_moves && moving_.empty())) return;
+
     auto animation = make_unique<aiAnimation>();
     animation->mName = "motion";
     animation->mTicksPerSecond = 1;
     animation->mDuration = motion_.times.back();
+
     vector<vector<aiVectorKey>> scales(bodies);
     for (const KeyedMotion::Change& change : motion_.changes) add_scale(scales[change.body], change);
+
     vector<aiNodeAnim*> channels;
     for (Entity body = 0; body < bodies; ++body) {
       auto* channel = new aiNodeAnim;
       channels.push_back(channel);
       channel->mNodeName = exported_name(body);
+
       channel->mNumPositionKeys = static_cast<unsigned>(motion_.times.size());
       channel->mPositionKeys = new aiVectorKey[motion_.times.size()];
       for (size_t key = 0; key < motion_.times.size(); ++key) {
         const array<float, 3>& p = motion_.position[key * bodies + body];
         channel->mPositionKeys[key] = {motion_.times[key], {p[0], p[1], p[2]}};
       }
+
       channel->mNumScalingKeys = static_cast<unsigned>(scales[body].size());
       if (scales[body].empty()) continue;
       channel->mScalingKeys = new aiVectorKey[scales[body].size()];
       std::ranges::copy(scales[body], channel->mScalingKeys);
     }
+
     if (camera_moves) channels.push_back(camera_channel());
     for (const auto& [node, fixed] : moving_) channels.push_back(channel_of_fixed(node, fixed));
+
     hand_over(channels, animation->mChannels, animation->mNumChannels);
     vector<aiAnimation*> animations = {animation.release()};
     hand_over(animations, out_->mAnimations, out_->mNumAnimations);
@@ -184,24 +199,29 @@ class GlbBuilder {
   /// The camera's position and direction at each keyframe.
   aiNodeAnim* camera_channel() const {
     const size_t keys = motion_.times.size();
+
     auto* channel = new aiNodeAnim;
     channel->mNodeName = exported_name(camera_node_);
     channel->mNumPositionKeys = channel->mNumRotationKeys = static_cast<unsigned>(keys);
     channel->mPositionKeys = new aiVectorKey[keys];
     channel->mRotationKeys = new aiQuatKey[keys];
+
     array<double, 4> before{};
     for (size_t key = 0; key < keys; ++key) {
       array<double, 4> q = rotation_of(motion_.cameras[key]);
+
       // q and -q are one rotation. Between two of one sign the turn is the shorter one.
       const double cosine = std::inner_product(q.begin(), q.end(), before.begin(), 0.0);
       if (cosine < 0)
         for (double& part : q) part = -part;
+
       channel->mPositionKeys[key] = {motion_.times[key], vector_of(motion_.cameras[key].eye)};
       channel->mRotationKeys[key] = {
           motion_.times[key],
           {static_cast<float>(q[3]), static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])}};
       before = q;
     }
+
     return channel;
   }
 
@@ -221,18 +241,22 @@ class GlbBuilder {
   string exported() {
     out_->mRootNode = new aiNode("scene");
     vector<aiNode*> children;
+
     for (size_t i = 0; i < nodes_.size(); ++i) {
       auto* child = new aiNode(exported_name(i));
       children.push_back(child);
       child->mParent = out_->mRootNode;
+
       const vector<unsigned>& meshes = nodes_[i].meshes;
       if (meshes.empty()) continue;
       child->mNumMeshes = static_cast<unsigned>(meshes.size());
       child->mMeshes = new unsigned[meshes.size()];
       std::ranges::copy(meshes, child->mMeshes);
     }
+
     hand_over(children, out_->mRootNode->mChildren, out_->mRootNode->mNumChildren);
     meshes_.hand_over(*out_);
+
     Assimp::Exporter exporter;
     const aiExportDataBlob* blob = exporter.ExportToBlob(out_.get(), "glb2");
     if (blob == nullptr) throw RenderError(fmt::format("cannot make animation.glb: {}", exporter.GetErrorString()));

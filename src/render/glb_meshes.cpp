@@ -14,7 +14,7 @@
 #include <limits>
 
 #include "render/lighting.h"
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -54,12 +54,14 @@ unique_ptr<aiMesh> mesh_of(const Mesh& mesh, size_t material, const string& name
   out->mName = name;
   out->mMaterialIndex = static_cast<unsigned>(material);
   out->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+
   out->mNumVertices = static_cast<unsigned>(mesh.vertices.size());
   out->mVertices = new aiVector3D[mesh.vertices.size()];
   std::transform(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices, floats_of);
   out->mNormals = new aiVector3D[mesh.normals.size()];
   std::transform(mesh.normals.begin(), mesh.normals.end(), out->mNormals,
                  [](const Vec3& n) { return floats_of(n.isZero(0) ? Vec3(0, 1, 0) : n); });
+
   out->mNumFaces = static_cast<unsigned>(mesh.triangles.size() / 3);
   out->mFaces = new aiFace[out->mNumFaces];
   for (size_t i = 0; i < out->mNumFaces; ++i) {
@@ -67,6 +69,7 @@ unique_ptr<aiMesh> mesh_of(const Mesh& mesh, size_t material, const string& name
     out->mFaces[i].mIndices = new unsigned[3];
     std::copy_n(&mesh.triangles[3 * i], 3, out->mFaces[i].mIndices);
   }
+
   add_paint(mesh.paint, *out);
   return out;
 }
@@ -91,10 +94,13 @@ unique_ptr<aiMaterial> material_of(const aiColor4D& base, bool two_sided, const 
 Mesh part_of(const Mesh& mesh, size_t first, const MeshPart& part) {
   Mesh out;
   out.paint.parts = {part};
+
   constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
   vector<uint32_t> number(mesh.vertices.size(), none);
   for (size_t i = first; i < first + size_t{3} * part.triangles; ++i) {
     const uint32_t from = mesh.triangles[i];
+
+    // Vertices are numbered in the order in which triangles use them.
     if (number[from] == none) {
       number[from] = static_cast<uint32_t>(out.vertices.size());
       out.vertices.push_back(mesh.vertices[from]);
@@ -102,8 +108,10 @@ Mesh part_of(const Mesh& mesh, size_t first, const MeshPart& part) {
       out.paint.uv.push_back(mesh.paint.uv[from]);
       out.paint.tint.push_back(mesh.paint.tint[from]);
     }
+
     out.triangles.push_back(number[from]);
   }
+
   return out;
 }
 
@@ -165,24 +173,29 @@ size_t GlbMeshes::material(const MeshPart& part, const vector<size_t>& textures,
   const auto& f = part.factor;
   // Pictures show both sides.
   unique_ptr<aiMaterial> out = material_of({f[0], f[1], f[2], f[3]}, true, name);
+
   if (part.cutoff > 0) {
     const aiString mask("MASK");
     out->AddProperty(&mask, AI_MATKEY_GLTF_ALPHAMODE);
     out->AddProperty(&part.cutoff, 1, AI_MATKEY_GLTF_ALPHACUTOFF);
   }
+
   if (part.texture > 0) {
     const aiString file(fmt::format("*{}", textures[part.texture - 1]));
     const aiString sampler(
         fmt::format("{}{}{}", static_cast<int>(part.wrap[0]), static_cast<int>(part.wrap[1]), part.sharp));
     const array<int, 2> modes{mode_of_axis(part.wrap[0]), mode_of_axis(part.wrap[1])};
+
     // GL_NEAREST, GL_LINEAR
     const int filter = part.sharp ? 9728 : 9729;
+
     out->AddProperty(&file, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
     out->AddProperty(&sampler, AI_MATKEY_GLTF_MAPPINGID(aiTextureType_BASE_COLOR, 0));
     out->AddProperty(&modes[0], 1, AI_MATKEY_MAPPINGMODE_U(aiTextureType_BASE_COLOR, 0));
     out->AddProperty(&modes[1], 1, AI_MATKEY_MAPPINGMODE_V(aiTextureType_BASE_COLOR, 0));
     out->AddProperty(&filter, 1, AI_MATKEY_GLTF_MAPPINGFILTER_MAG(aiTextureType_BASE_COLOR, 0));
   }
+
   materials_.push_back(std::move(out));
   return materials_.size() - 1;
 }
@@ -220,14 +233,17 @@ const GlbMeshes::Numbers& GlbMeshes::volume(Shape shape, const Color& color) {
 
 const GlbMeshes::Numbers& GlbMeshes::file(const MeshUse& use, const Color& color) {
   const array<double, 4> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
+
   // A mesh whose parts all have a colour is the same for every body.
   constexpr Srgb any{-1, -1, -1};
   const Srgb own{color.r, color.g, color.b};
   for (const Srgb& of : {any, own})
     if (const auto same = files_.find({use.file, how, use.own_colors, of}); same != files_.end()) return same->second;
+
   const Mesh mesh = drawn_mesh(use);
   const auto& parts = mesh.paint.parts;
   const bool colored = !parts.empty() && std::ranges::all_of(parts, [](const MeshPart& part) { return part.colored; });
+
   Numbers& numbers = files_[{use.file, how, use.own_colors, colored ? any : own}];
   const string name = parts.empty() ? "mesh " + hex_text(color) : std::filesystem::path(use.file).stem().string();
   numbers = single(mesh, color, false, name);

@@ -9,7 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "std.h"
 #include "yaml/value_json.h"
 
@@ -65,16 +65,20 @@ class Mender {
   void mend() {
     gltf_.erase("extensionsUsed");
     for (Json& material : gltf_["materials"]) material.erase("extensions");
+
     std::map<string, size_t> numbers;
     for (size_t i = 0; i < nodes_.size(); ++i) numbers[exported_name(i)] = i;
     size_t found = 0;
     for (Json& json : gltf_["nodes"]) {
       const auto number = numbers.find(json.value("name", ""));
+
       // The root.
       if (number == numbers.end()) continue;
+
       mend_node(json, nodes_[number->second]);
       ++found;
     }
+
     if (found != nodes_.size()) throw RenderError("assimp dropped nodes of a glTF file");
     if (!lights_.empty()) {
       gltf_["extensionsUsed"] = {"KHR_lights_punctual"};
@@ -88,10 +92,12 @@ class Mender {
   void mend_node(Json& json, const GlbNode& node) {
     json["name"] = node.name;
     for (const char* key : {"matrix", "translation", "rotation", "scale"}) json.erase(key);
+
     json["translation"] = vector_json(node.translation);
     if (node.rotation[3] != 1)
       json["rotation"] = floats({node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]});
     if (node.scale != Vec3::Ones()) json["scale"] = vector_json(node.scale);
+
     if (node.camera) {
       json["camera"] = gltf_["cameras"].size();
       gltf_["cameras"].push_back(camera_json(*node.camera));
@@ -119,12 +125,15 @@ array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
   // 4 q_i^2 from the matrix's diagonal. The largest gives the others without loss (Shepperd 1978).
   const array<double, 4> squares = {1 + x.x() - y.y() - z.z(), 1 - x.x() + y.y() - z.z(), 1 - x.x() - y.y() + z.z(),
                                     1 + x.x() + y.y() + z.z()};
+
   size_t largest = 0;
   for (size_t i = 1; i < 4; ++i)
     if (squares[i] > squares[largest]) largest = i;
+
   const double twice = std::sqrt(squares[largest]), by = 0.5 / twice;
   const double xy = (x.y() + y.x()) * by, yz = (y.z() + z.y()) * by, zx = (z.x() + x.z()) * by;
   const double wx = (y.z() - z.y()) * by, wy = (z.x() - x.z()) * by, wz = (x.y() - y.x()) * by;
+
   switch (largest) {
     case 0:
       return {0.5 * twice, xy, zx, wx};
@@ -145,11 +154,13 @@ string mended_glb(string_view file, const string& title, const vector<GlbNode>& 
   const size_t json_size = word_at(file, head_size), json_from = head_size + chunk_head_size;
   if (word_at(file, 0) != magic || word_at(file, head_size + 4) != json_chunk || json_from + json_size > file.size())
     throw RenderError("assimp wrote no glTF file");
+
   Json gltf = json_of_text(file.substr(json_from, json_size));
   if (!gltf.is_object()) throw RenderError("assimp wrote a glTF file without its JSON");
   Mender(gltf, nodes).mend();
   gltf["asset"]["generator"] = "carom " CAROM_VERSION ", by assimp";
   gltf["scenes"][0]["name"] = title;
+
   string text = text_of_json(gltf);
   text.resize((text.size() + 3) / 4 * 4, ' ');
 
@@ -157,6 +168,7 @@ string mended_glb(string_view file, const string& title, const vector<GlbNode>& 
   put_word(out, head_size, text.size());
   out += text;
   out += file.substr(json_from + json_size);
+
   // Bytes, the largest size that the format can represent.
   constexpr size_t largest = 0xFFFFFFFF;
   if (out.size() > largest) throw RenderError("animation.glb would be larger than 4 GB: use fewer keyframes a second");

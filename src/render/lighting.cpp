@@ -25,21 +25,25 @@ KeyLight default_light(const CameraFrame& view) {
 
 void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   shot.lighting.lamps.clear();
+
   // A camera that moves leaves the lights as they are at time 0.
   const Camera at_start = camera_of(scene);
   for (const Light& light : scene.lights) {
     raster::Float3 radiance = linear(light.color);
     for (float& c : radiance) c *= static_cast<float>(light.intensity);
+
     const bool near = light.position.has_value();
     const Vec3 vector = near ? eye.point(*light.position) : Vec3(-eye.direction(light.direction->normalized()));
     shot.lighting.lamps.push_back({floats(vector), near, radiance});
     if (near && shot.lighting.lamps.size() == 1)
       shot.lighting.lamp_radius = static_cast<float>(softness * (at_start.target - *light.position).norm());
   }
+
   if (scene.lights.empty()) {
     const KeyLight light = default_light(view_of(at_start, eye.size));
     shot.lighting.lamps.push_back({floats(eye.direction(light.towards)), false, light.radiance});
   }
+
   shot.lighting.softness = static_cast<float>(softness);
   shot.lighting.ambient = scene.ambient ? linear(*scene.ambient) : raster::Float3{0.26F, 0.28F, 0.31F};
 }

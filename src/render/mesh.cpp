@@ -50,9 +50,11 @@ string check_file(const string& path, const MeshLimits& limits) {
   if (!ending.empty()) ending.erase(0, 1);
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+
   const auto& known = mesh_endings();
   if (std::ranges::find(known, ending) == known.end())
     fail(path, fmt::format("meshes are read from files that end in .{}", joined(known, ", .")));
+
   // Opening must not wait for a queue or a device.
   const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) fail(path, std::strerror(errno));
@@ -60,11 +62,13 @@ string check_file(const string& path, const MeshLimits& limits) {
   const bool known_kind = fstat(file, &info) == 0;
   close(file);
   if (!known_kind) fail(path, std::strerror(errno));
+
   if (S_ISDIR(info.st_mode)) fail(path, "it is a folder");
   if (!S_ISREG(info.st_mode)) fail(path, "it is not a regular file");
   if (info.st_size == 0) fail(path, "it is empty");
   if (static_cast<uint64_t>(info.st_size) > limits.file_bytes)
     fail(path, fmt::format("it has {} bytes; at most {} are read", info.st_size, limits.file_bytes));
+
   return ending;
 }
 
@@ -148,11 +152,13 @@ struct MeshRequest {
     const auto count = [](size_t size) { return static_cast<uint32_t>(size); };
     const MeshReplyHead head{count(mesh.vertices.size() / 3), count(mesh.triangles.size() / 3), 0,
                              count(mesh.paint.parts.size()), count(mesh.paint.textures.size())};
+
     send(pipe, &head, sizeof head);
     send(pipe, mesh.vertices);
     send(pipe, mesh.normals);
     send(pipe, mesh.triangles);
     if (head.parts > 0) send_paint(pipe, mesh.paint);
+
   } catch (const std::bad_alloc&) {
     send_trouble(pipe, "reading it takes too much memory");
   } catch (const std::exception& error) {
@@ -160,6 +166,7 @@ struct MeshRequest {
   } catch (...) {
     send_trouble(pipe, "it is damaged");
   }
+
   // This must not end or flush anything of the parent's.
   _exit(0);
 }
@@ -174,12 +181,15 @@ class MeshReader {
     const string& path = request.path;
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(path, std::strerror(errno));
+
     const pid_t parent = getpid();
     id_ = fork();
     if (id_ == 0) {
       confine(request.limits, parent);
       run_child(ends[1], request);
     }
+
+    // The parent keeps the reading end.
     const int error = errno;
     close(ends[1]);
     pipe_ = ends[0];
@@ -204,17 +214,20 @@ class MeshReader {
         late_ = true;
         return false;
       }
+
       pollfd request{pipe_, POLLIN, 0};
       if (poll(&request, 1, static_cast<int>(std::min<int64_t>(left, glance))) <= 0) {
         stop_check()();
         continue;
       }
+
       const ssize_t n = read(pipe_, to, size);
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) return false;
       to += n;
       size -= static_cast<size_t>(n);
     }
+
     return true;
   }
 

@@ -50,8 +50,10 @@ Color4 color_at(const MeshPaint& paint, const MeshPart& part, const uint32_t* v,
     for (size_t i = 0; i < 2; ++i) uv[i] += at[k] * paint.uv[v[k]][i];
     for (size_t i = 0; i < 3; ++i) tint[i] += at[k] * paint.tint[v[k]][i];
   }
+
   Color4 color{part.factor[0] * tint[0], part.factor[1] * tint[1], part.factor[2] * tint[2], part.factor[3]};
   if (part.texture == 0) return color;
+
   const MeshTexture& texture = paint.textures[part.texture - 1];
   const Color4 light =
       light_of(texture, pixel_at(uv[0], part.wrap[0], texture.width), pixel_at(uv[1], part.wrap[1], texture.height));
@@ -76,6 +78,8 @@ void for_points(int n, Use use) {
 MeshColors::MeshColors(const Mesh& mesh) : parts_(mesh.paint.parts), rows_(gl::make_buffer()) {
   textures_.push_back(uploaded({1, 1, {255, 255, 255, 255}}));
   for (const MeshTexture& texture : mesh.paint.textures) textures_.push_back(uploaded(texture));
+
+  // A row for each vertex: its place in the texture, and its colour.
   constexpr size_t row = 5;
   vector<float> rows;
   rows.reserve(row * mesh.vertices.size());
@@ -83,8 +87,10 @@ MeshColors::MeshColors(const Mesh& mesh) : parts_(mesh.paint.parts), rows_(gl::m
     rows.insert(rows.end(), mesh.paint.uv[i].begin(), mesh.paint.uv[i].end());
     rows.insert(rows.end(), mesh.paint.tint[i].begin(), mesh.paint.tint[i].end());
   }
+
   gl::BindBuffer(GL_ARRAY_BUFFER, rows_.name());
   gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
+
   for (const auto& [index, floats, offset] : {array{4, 2, 0}, array{5, 3, 2}}) {
     gl::EnableVertexAttribArray(static_cast<GLuint>(index));
     gl::VertexAttribPointer(static_cast<GLuint>(index), floats, GL_FLOAT, GL_FALSE, row * sizeof(float),
@@ -106,14 +112,17 @@ void MeshColors::bind(const MeshPart& part) const {
 MeanColor mean_color(const Mesh& mesh) {
   const double triangles = static_cast<double>(mesh.triangles.size()) / 3;
   const int n = std::max(1, static_cast<int>(std::ceil(std::sqrt(least_points / triangles))));
+
   array<double, 3> sum{};
   double area = 0, plain = 0;
   size_t t = 0;
+
   for (const MeshPart& part : mesh.paint.parts)
     for (const size_t end = t + size_t{3} * part.triangles; t < end; t += 3) {
       const uint32_t* v = &mesh.triangles[t];
       const Vec3 &a = mesh.vertices[v[0]], &b = mesh.vertices[v[1]], &c = mesh.vertices[v[2]];
       const double share = (b - a).cross(c - a).norm() / (n * n);
+
       for_points(n, [&](const array<float, 3>& at) {
         const Color4 color = color_at(mesh.paint, part, v, at);
         if (color[3] < part.cutoff) return;
@@ -122,6 +131,7 @@ MeanColor mean_color(const Mesh& mesh) {
         for (size_t i = 0; part.colored && i < 3; ++i) sum[i] += share * static_cast<double>(color[i]);
       });
     }
+
   MeanColor mean{{}, 1};
   if (!(area > 0)) return mean;
   for (size_t i = 0; i < 3; ++i) mean.colored[i] = static_cast<float>(sum[i] / area);

@@ -3,7 +3,7 @@
 // file has colours have them.
 
 #include "render/gl.h"
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "render/things.h"
 #include "std.h"
 

@@ -108,14 +108,17 @@ TextureLine texture_line(string_view line) {
     array<float, 3> numbers = option == "-s" ? array<float, 3>{1, 1, 1} : array<float, 3>{};
     for (; i + 1 < parts.size() && i - first < 3 && number_in(parts[i]); ++i) numbers[i - first] = *number_in(parts[i]);
     const string_view word = i == first && i + 1 < parts.size() ? parts[i++] : string_view();
+
     if (option == "-s") out.placement.scale = {numbers[0], numbers[1]};
     if (option == "-o") out.placement.offset = {numbers[0], numbers[1]};
     if (option == "-clamp") out.clamp = word == "on";
+
     // These do not change the colours.
     static constexpr string_view harmless[] = {"-s", "-o", "-clamp", "-blendu", "-blendv", "-boost", "-texres", "-bm"};
     const bool is_known = std::find(std::begin(harmless), std::end(harmless), option) != std::end(harmless);
     if (!is_known && out.unused.empty()) out.unused = option;
   }
+
   // A name may contain spaces.
   if (i < parts.size()) out.file = after(line.substr(static_cast<size_t>(parts[i].data() - line.data())), "");
   return out;
@@ -131,12 +134,16 @@ string with_white(const string& text, std::set<string>& defined, std::map<string
       out += fmt::format("map_Kd {}{}\n", texture.clamp ? "-clamp on " : "", texture.file);
       return;
     }
+
     out.append(line) += '\n';
     if (!opens(line, "newmtl")) return;
+
+    // The next lines describe this material.
     out += "Kd 1 1 1\n";
     material = after(line, "newmtl");
     defined.insert(material);
   });
+
   return out;
 }
 
@@ -257,6 +264,7 @@ std::filesystem::path MeshFiles::found(const string& what, const string& name, s
   string fault = "is not there", way = "put it beside the mesh";
   std::error_code error;
   const string other = name_in_other_case(folder_, name_in(name));
+
   if (std::filesystem::exists(folder_ / name_in(name), error)) {
     fault = "is not a file in the mesh's folder";
     way = "copy it into that folder and name the copy";
@@ -264,6 +272,7 @@ std::filesystem::path MeshFiles::found(const string& what, const string& name, s
     fault += fmt::format(", but {} is", other);
     way = "write its name as on the disk";
   }
+
   throw std::runtime_error(fmt::format("its {} {} {}. Remedy: {}{}", what, name, fault, way, instead));
 }
 

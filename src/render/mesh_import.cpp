@@ -78,38 +78,49 @@ void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
   const size_t count = mesh.triangles.size() / 3 - triangle, vertices = mesh.vertices.size() / 3 - first;
   vector<Vec3> area(count), normal(count);
   vector<vector<uint32_t>> at_vertex(vertices), at_place(vertices);
+
   const vector<uint32_t> place = places(mesh, first);
+
+  // The triangles at each vertex, and at each place.
   for (size_t t = 0; t < count; ++t) {
     const uint32_t* corner = &mesh.triangles[3 * (triangle + t)];
     const Vec3 a = vertex(mesh, corner[0]), b = vertex(mesh, corner[1]), c = vertex(mesh, corner[2]);
     area[t] = (b - a).cross(c - a);
     normal[t] = area[t].stableNormalized();
+
     for (int k = 0; k < 3; ++k) {
       at_vertex[corner[k] - first].push_back(static_cast<uint32_t>(t));
       at_place[place[corner[k] - first]].push_back(static_cast<uint32_t>(t));
     }
   }
+
+  // A vertex has as many normals as the smooth surfaces that meet there. It is repeated for each further one.
   mesh.normals.resize(mesh.vertices.size(), 0);
   struct Made {
     Vec3 normal;
     uint32_t vertex;
   };
   vector<Made> made;
+
   for (size_t v = 0; v < vertices; ++v) {
     made.clear();
     const vector<uint32_t>& around = at_place[place[v]];
+
     for (const uint32_t t : at_vertex[v]) {
       Vec3 sum = area[t];
+      // The mean of the faces that are smooth with this one.
       if (around.size() <= most_around) {
         sum.setZero();
         for (const uint32_t other : around)
           if (normal[other].dot(normal[t]) > cos_smooth || other == t) sum += area[other];
       }
       const Vec3 mean = sum.stableNormalized();
+
       uint32_t at = static_cast<uint32_t>(first + v);
       bool known = false;
       for (const Made& m : made)
         if (m.normal == mean) known = true, at = m.vertex;
+
       if (!known) {
         // The first one keeps its place.
         if (!made.empty()) {
@@ -117,9 +128,11 @@ void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
           repeat_vertex(mesh, first + v);
           mesh.normals.resize(mesh.vertices.size());
         }
+
         for (int k = 0; k < 3; ++k) mesh.normals[3 * size_t{at} + static_cast<size_t>(k)] = static_cast<float>(mean[k]);
         made.push_back({mean, at});
       }
+
       for (size_t k = 0; k < 3; ++k) {
         uint32_t& corner = mesh.triangles[3 * (triangle + t) + k];
         if (corner == first + v) corner = at;
@@ -163,18 +176,22 @@ void append_normals(const aiMesh& part, ImportedMesh& mesh) {
 void append_paint(const aiMesh& part, const PartSource& source, MeshPaint& paint) {
   const aiVector3D* const uv =
       source.uv_set < AI_MAX_NUMBER_OF_TEXTURECOORDS ? part.mTextureCoords[source.uv_set] : nullptr;
+
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     array<float, 2> at{};
     for (size_t k = 0; uv && k < 2; ++k) {
       at[k] = source.uv[k][0] * uv[i].x + source.uv[k][1] * uv[i].y + source.uv[k][2];
       if (!std::isfinite(at[k])) at[k] = 0;
     }
+
     paint.uv.push_back(at);
+
     array<float, 3> tint{1, 1, 1};
     for (unsigned c = 0; part.mColors[0] && c < 3; ++c) {
       tint[c] = color_share(part.mColors[0][i][c]);
       if (source.srgb_tint) tint[c] = static_cast<float>(light_of_srgb(double{tint[c]}));
     }
+
     paint.tint.push_back(tint);
   }
 }
@@ -183,14 +200,17 @@ void append(const aiMesh& part, MeshMaterials* materials, ImportedMesh& mesh, co
   const size_t first = mesh.vertices.size() / 3, triangle = mesh.triangles.size() / 3;
   check_count(first + part.mNumVertices, limits.vertices, "vertices");
   check_count(triangle + part.mNumFaces, limits.triangles, "triangles");
+
   append_vertices(part, mesh);
   append_triangles(part, first, mesh);
+
   if (materials) {
     PartSource source = materials->of(part);
     append_paint(part, source, mesh.paint);
     source.part.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3 - triangle);
     mesh.paint.parts.push_back(source.part);
   }
+
   if (part.mNormals) return append_normals(part, mesh);
   make_normals(mesh, first, triangle);
   check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
@@ -208,6 +228,7 @@ ImportedMesh imported_stl(const string& path, const MeshLimits& limits) {
   vector<uint32_t> order(corners.size());
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return corners[a] < corners[b]; });
+
   vector<uint32_t> first(corners.size());
   for (size_t i = 0; i < order.size(); ++i)
     first[order[i]] = i > 0 && corners[order[i]] == corners[order[i - 1]] ? first[order[i - 1]] : order[i];
@@ -221,6 +242,7 @@ ImportedMesh imported_stl(const string& path, const MeshLimits& limits) {
     }
     mesh.triangles.push_back(number[first[i]]);
   }
+
   check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
   make_normals(mesh, 0, 0);
   check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
@@ -243,36 +265,46 @@ ImportedMesh imported(const string& path, const string& ending, bool painted, co
   // The importer owns it.
   importer.SetIOHandler(files);
   keep_readers(importer, ending);
+
+  // What no mesh needs is dropped.
   int unwanted = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                  aiComponent_LIGHTS | aiComponent_CAMERAS;
   if (!painted) unwanted |= aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_TEXTURES | aiComponent_MATERIALS;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+
   MissingVertices missing;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
   Assimp::DefaultLogger::get()->attachStream(&missing, Assimp::Logger::Warn);
+
   const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure | aiProcess_RemoveComponent |
                                                      aiProcess_Triangulate | aiProcess_SortByPType |
                                                      aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
+
   if (!scene) {
     const string text = importer.GetErrorString();
     if (text == "std::bad_alloc") throw std::bad_alloc();
     for (const char* empty : {"no faces", "No meshes remaining"})
       if (text.find(empty) != string::npos) throw std::runtime_error("it has no triangles");
+
     files->check_opened();
     throw std::runtime_error(fmt::format("it is damaged, or no .{} file: {}. Remedy: export it again", ending, text));
   }
+
   Assimp::DefaultLogger::get()->detachStream(&missing, Assimp::Logger::Warn);
   if (missing.seen()) throw std::runtime_error("a triangle refers to a missing vertex. Remedy: export it again");
+
   ImportedMesh mesh;
   optional<MeshMaterials> materials;
   if (painted) {
     check_count(scene->mNumMeshes, limits.parts, "parts of different materials");
     materials.emplace(*scene, *files, ending, limits);
   }
+
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     append(*scene->mMeshes[i], materials ? &*materials : nullptr, mesh, limits);
   if (mesh.triangles.empty()) throw std::runtime_error("it has no triangles");
+
   if (materials) mesh.paint.textures = materials->take_textures();
   return mesh;
 }

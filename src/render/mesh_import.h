@@ -1,7 +1,7 @@
 #pragma once
 // The part of read_mesh that uses assimp. It runs in the child process only.
 
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "std.h"
 
 namespace carom {

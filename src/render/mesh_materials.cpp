@@ -81,9 +81,11 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
   if (mesh.mMaterialIndex >= scene_.mNumMaterials) return source;
   const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
   if (!gives_color(mesh, material)) return source;
+
   MeshPart& part = source.part;
   part.colored = 1;
   source.srgb_tint = wavefront_;
+
   if (wavefront_) {
     aiColor3D color(1, 1, 1);
     if (files_.defines(material.GetName().C_Str())) material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
@@ -92,6 +94,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
     aiColor4D color(1, 1, 1, 1);
     material.Get(AI_MATKEY_BASE_COLOR, color);
     for (unsigned c = 0; c < 4; ++c) part.factor[c] = color_share(color[c]);
+
     const string alpha = alpha_mode(material);
     if (alpha == "BLEND") part.cutoff = blend_cutoff;
     if (alpha == "MASK") {
@@ -100,6 +103,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
       part.cutoff = std::isfinite(part.cutoff) ? std::max(part.cutoff, 0.0F) : 0;
     }
   }
+
   add_texture(material, part.cutoff == 0, source);
   if (wavefront_) source.uv = uv_of(files_.placement(material.GetName().C_Str()));
   return source;
@@ -108,23 +112,28 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
 void MeshMaterials::add_texture(const aiMaterial& material, bool opaque, PartSource& source) {
   const string name = texture_name(material);
   if (name.empty()) return;
+
   const auto number = [&](const char* key, unsigned type, unsigned index) {
     int value = 0;
     return material.Get(key, type, index, value) == AI_SUCCESS ? value : 0;
   };
+
   MeshPart& part = source.part;
   source.uv_set = static_cast<unsigned>(std::max(number(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0)), 0));
   part.wrap = {wrap_of(number(AI_MATKEY_MAPPINGMODE_U(aiTextureType_DIFFUSE, 0))),
                wrap_of(number(AI_MATKEY_MAPPINGMODE_V(aiTextureType_DIFFUSE, 0)))};
+
   if (!wavefront_) {
     part.sharp = number(AI_MATKEY_GLTF_MAPPINGFILTER_MAG(aiTextureType_DIFFUSE, 0)) == nearest_pixel ? 1 : 0;
     aiUVTransform transform;
     if (material.Get(AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0), transform) == AI_SUCCESS)
       add_transform(transform, source);
   }
+
   const auto [found, is_new] = known_.try_emplace({name, opaque}, static_cast<uint32_t>(textures_.size() + 1));
   part.texture = found->second;
   if (!is_new) return;
+
   textures_.push_back(texture(name));
   if (opaque)
     for (size_t i = 3; i < textures_.back().rgba.size(); i += 4) textures_.back().rgba[i] = 255;

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "render/mesh_files.h"
 #include "std.h"
 

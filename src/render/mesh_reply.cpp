@@ -63,20 +63,24 @@ MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head
   MeshPaint paint;
   paint.parts.resize(head.parts);
   receive(source, paint.parts);
+
   uint64_t triangles = 0;
   for (const MeshPart& part : paint.parts) {
     check_part(part, head.textures);
     triangles += part.triangles;
   }
   if (triangles != head.triangles) refuse();
+
   paint.uv.resize(head.vertices);
   receive(source, paint.uv);
   for (const auto& uv : paint.uv)
     if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) refuse();
+
   paint.tint.resize(head.vertices);
   receive(source, paint.tint);
   for (const auto& tint : paint.tint)
     if (!std::ranges::all_of(tint, is_share)) refuse();
+
   uint64_t bytes_left = limits.texture_bytes;
   for (uint32_t i = 0; i < head.textures; ++i) paint.textures.push_back(receive_texture(source, bytes_left));
   return paint;
@@ -87,24 +91,29 @@ MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head
 Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   MeshReplyHead head;
   if (!source.receive(&head, sizeof head)) throw std::runtime_error(source.trouble());
+
   if (head.text > 0) {
     string text(std::min(head.text, longest_mesh_trouble), ' ');
     source.receive(text.data(), text.size());
     throw std::runtime_error(printable(text));
   }
+
   if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0) refuse();
   if (head.parts > limits.parts || head.textures > limits.parts) refuse();
+
   vector<float> positions(3 * size_t{head.vertices}), normals(positions.size());
   Mesh mesh;
   mesh.triangles.resize(3 * size_t{head.triangles});
   receive(source, positions);
   receive(source, normals);
   receive(source, mesh.triangles);
+
   const auto finite = [](float x) { return std::isfinite(x); };
   if (!std::ranges::all_of(positions, finite) || !std::ranges::all_of(normals, finite))
     throw std::runtime_error("a vertex is not finite");
   for (uint32_t i : mesh.triangles)
     if (i >= head.vertices) throw std::runtime_error("a triangle refers to a missing vertex");
+
   mesh.vertices = vectors(positions);
   mesh.normals = vectors(normals);
   if (head.parts > 0) mesh.paint = receive_paint(source, head, limits);

@@ -2,7 +2,7 @@
 // The message through the pipe from the process that reads a mesh file, and its conversion to a Mesh. The file may have
 // corrupted that process, so every part of the message is checked.
 
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "std.h"
 
 namespace carom {

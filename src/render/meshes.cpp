@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "raster/silhouettes.h"
-#include "render/renderer.h"
+#include "render/render_error.h"
 #include "std.h"
 
 namespace carom {
@@ -183,15 +183,18 @@ Meshes::Meshes(const vector<DrawnFile>& files, Size size, bool smooth)
       what_(gl::make_texture(GL_RG32UI, tile_side * fine_, tile_side * fine_)),
       depth_(gl::make_texture(GL_DEPTH_COMPONENT32F, tile_side * fine_, tile_side * fine_)),
       buffer_(gl::make_framebuffer(array{what_.name()}, depth_.name())) {
+  // By pixel.
   const size_t pixels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
   pixels_.depth.resize(pixels);
   pixels_.cover.resize(pixels);
   pixels_.solid.resize(pixels);
   pixels_.normal.resize(pixels);
   pixels_.color.resize(pixels);
+
   bool colored = false;
   for (size_t i = 0; i < shapes_.count(); ++i) colored |= shapes_.colors(i) != nullptr;
   if (!colored) return;
+
   gl::Texture color = gl::make_texture(GL_R32UI, tile_side * fine_, tile_side * fine_);
   gl::Framebuffer both = gl::make_framebuffer(array{what_.name(), color.name()}, depth_.name());
   colored_.emplace(Colored{gl::Program({with_colors, vertex_shader}, {with_colors, fragment_shader}),
@@ -228,10 +231,13 @@ void Meshes::draw_outline(size_t file) const {
 void Meshes::draw_outlines(raster::Shot& shot) {
   const raster::Float3& l = shot.lighting.lamps[0].vector;
   const array<raster::Float3, 4> now{l, shot.lens.axes[0], shot.lens.axes[1], shot.lens.axes[2]};
+
+  // The outlines stay as long as light and camera have these directions.
   if (outlines_.of_files.empty() || now != outlined_) {
     outlined_ = now;
     outlines_.across = raster::across(l);
     outlines_.of_files.assign(shapes_.count(), {});
+
     for (const gl::Program* program : {&outline_program_, colored_ ? &colored_->outline_program : nullptr}) {
       if (!program) continue;
       program->use();
@@ -239,46 +245,57 @@ void Meshes::draw_outlines(raster::Shot& shot) {
       gl::Uniform3fv(program->at("across_u"), 1, outlines_.across.u.data());
       gl::Uniform3fv(program->at("across_v"), 1, outlines_.across.v.data());
     }
+
     shapes_.fill_instances(array<float, Shapes::row>{});
     const gl::Texture texture = gl::make_texture(GL_R32F, outline_side, outline_side);
     const gl::Framebuffer framebuffer = gl::make_framebuffer(array{texture.name()}, 0);
     gl::Viewport(0, 0, outline_side, outline_side);
     gl::Disable(GL_DEPTH_TEST);
+
     for (size_t i = 0; i < shapes_.count(); ++i) {
       const float nothing[4] = {};
       gl::ClearBufferfv(GL_COLOR, 0, nothing);
       draw_outline(i);
+
       raster::OutlineLevels& outline = outlines_.of_files[i];
       outline.side = outline_side;
       outline.levels.emplace_back(size_t{outline_side} * outline_side);
       gl::ReadPixels(0, 0, outline_side, outline_side, GL_RED, GL_FLOAT, outline.levels[0].data());
       add_levels(outline);
     }
+
     gl::check("drawing the meshes' outlines");
   }
+
   shot.outlines = &outlines_;
 }
 
 void Meshes::draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const vector<Rect>& bounds) {
   used_ = {tile.right, tile.bottom, tile.left, tile.top};
+
+  // The meshes in this tile, and the part of it that they may cover.
   vector<size_t> inside;
   for (size_t i = 0; i < meshes.size(); ++i) {
     const Rect& b = bounds[i];
     if (b.left >= tile.right || b.right <= tile.left || b.top >= tile.bottom || b.bottom <= tile.top) continue;
     inside.push_back(i);
+
     used_ = {std::min(used_.left, std::max(b.left, tile.left)), std::min(used_.top, std::max(b.top, tile.top)),
              std::max(used_.right, std::min(b.right, tile.right)),
              std::max(used_.bottom, std::min(b.bottom, tile.bottom))};
   }
+
   if (inside.empty()) {
     used_ = {};
     return;
   }
+
   // Meshes of one file are together. Those in colours of their own hide the farther ones before these are coloured.
   std::ranges::stable_sort(inside, [&](size_t a, size_t b) {
     const PlacedMesh &m = meshes[a], &n = meshes[b];
     return m.file != n.file ? m.file < n.file : shapes_.colors(m.file) && m.middle.z() < n.middle.z();
   });
+
   vector<float> rows;
   for (const size_t i : inside) {
     const PlacedMesh& m = meshes[i];
@@ -296,11 +313,14 @@ void Meshes::draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const
   const float infinitely_far = 0;
   gl::ClearBufferuiv(GL_COLOR, 0, nothing);
   gl::ClearBufferfv(GL_DEPTH, 0, &infinitely_far);
+
   const double x = 1.0 / wide, y = 1.0 / high;
   program_.use();
   const array<float, 4> to_tile{f(size_.width * x), f(size_.height * y), f((size_.width - 2 * tile.left) * x - 1),
                                 f((size_.height - 2 * tile.top) * y - 1)};
   gl::Uniform4f(program_.at("to_tile"), to_tile[0], to_tile[1], to_tile[2], to_tile[3]);
+
+  // One call draws all meshes of one file.
   vector<FileRows> colored;
   for (size_t first = 0, end = 0; first < inside.size(); first = end) {
     const size_t file = meshes[inside[first]].file;
@@ -311,17 +331,20 @@ void Meshes::draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const
       shapes_.draw(file, first, end - first);
     }
   }
+
   if (colored_) draw_colored(colored, to_tile);
 }
 
 void Meshes::draw_colored(const vector<FileRows>& rows, const array<float, 4>& to_tile) {
   colored_->used = !rows.empty();
   if (rows.empty()) return;
+
   gl::BindFramebuffer(GL_FRAMEBUFFER, colored_->buffer.name());
   for (const gl::Program* program : {&colored_->program, &colored_->holes_program}) {
     program->use();
     gl::Uniform4f(program->at("to_tile"), to_tile[0], to_tile[1], to_tile[2], to_tile[3]);
   }
+
   for (const FileRows& of_file : rows) {
     const MeshColors& colors = *shapes_.colors(of_file.file);
     shapes_.draw_parts(of_file.file, of_file.first, of_file.count, [&](const MeshPart& part) {
@@ -335,13 +358,16 @@ void Meshes::draw_colored(const vector<FileRows>& rows, const array<float, 4>& t
 void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
   const int wide = (used_.right - used_.left) * fine_, high = (used_.bottom - used_.top) * fine_;
   if (wide <= 0) return;
+
   const size_t points = static_cast<size_t>(wide) * static_cast<size_t>(high);
   what_read_.resize(2 * points);
   depth_read_.resize(points);
+
   const int left = (used_.left - tile.left) * fine_, top = (used_.top - tile.top) * fine_;
   gl::PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl::ReadPixels(left, top, wide, high, GL_RG_INTEGER, GL_UNSIGNED_INT, what_read_.data());
   gl::ReadPixels(left, top, wide, high, GL_DEPTH_COMPONENT, GL_FLOAT, depth_read_.data());
+
   const bool colored = colored_ && colored_->used;
   if (colored) {
     colored_->read.resize(points);
@@ -349,6 +375,7 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
     gl::ReadPixels(left, top, wide, high, GL_RED_INTEGER, GL_UNSIGNED_INT, colored_->read.data());
     gl::ReadBuffer(GL_COLOR_ATTACHMENT0);
   }
+
   gl::check("drawing meshes");
   for (int y = used_.top; y < used_.bottom; ++y)
     for (int x = used_.left; x < used_.right; ++x) {
@@ -356,25 +383,31 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
       float nearest = 0, farthest = 2;
       uint32_t solid = 0;
       int covered = 0;
+
+      // The mean over the places of the pixel.
       for (int k = 0; k < fine_ * fine_; ++k) {
         const auto at =
             static_cast<size_t>(((y - used_.top) * fine_ + k / fine_) * wide + (x - used_.left) * fine_ + k % fine_);
         const uint32_t number = what_read_[2 * at] & ~colored_bit, q = what_read_[2 * at + 1];
         if (number == 0) continue;
+
         const bool own = (what_read_[2 * at] & colored_bit) != 0;
         ++covered;
         if (depth_read_[at] > nearest) nearest = depth_read_[at], solid = number;
         farthest = std::min(farthest, depth_read_[at]);
+
         for (size_t i = 0; i < 3; ++i) {
           normal[i] += (static_cast<float>(q >> 10 * i & 1023U) - 512) / 511;
           color[i] += own ? light_at(colored_->read[at], i) : shot.solids[number - 1].color[i];
         }
       }
+
       if (covered == 0) continue;
       const auto pixel = static_cast<size_t>(y) * static_cast<size_t>(size_.width) + static_cast<size_t>(x);
       pixels_.depth[pixel] = shot.lens.near / (0.5F * (nearest + farthest));
       pixels_.cover[pixel] = static_cast<float>(covered) / static_cast<float>(fine_ * fine_);
       pixels_.solid[pixel] = static_cast<int32_t>(solid) - 1;
+
       // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
       // there that would not on either face.
       const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
@@ -388,13 +421,16 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
 
 void Meshes::draw(const vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot) {
   context_.make_current();
+
   if (!shot.lighting.lamps[0].near) {
     draw_outlines(shot);
   } else {
     for (raster::MeshShadow& mesh : shot.meshes) mesh.outline = -1;
   }
+
   std::ranges::fill(pixels_.depth, 0.0F);
   shot.mesh_pixels = &pixels_;
+
   vector<const gl::Program*> programs{&program_};
   if (colored_) programs.insert(programs.end(), {&colored_->program, &colored_->holes_program});
   for (const gl::Program* program : programs) {
@@ -403,12 +439,14 @@ void Meshes::draw(const vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot
     gl::Uniform2f(program->at("tangent"), f(eye.tan_x), f(eye.tan_y));
     gl::Uniform1f(program->at("near"), shot.lens.near);
   }
+
   vector<Rect> bounds;
   for (const PlacedMesh& m : meshes) {
     const raster::Solid& solid = shot.solids[static_cast<size_t>(m.solid)];
     const raster::PixelBounds b = raster::bounds_of_ball(shot.lens, solid.center, solid.radius);
     bounds.push_back({b.left, b.top, b.right, b.bottom});
   }
+
   for (int y = 0; y < size_.height; y += tile_side)
     for (int x = 0; x < size_.width; x += tile_side) {
       const Rect tile{x, y, std::min(x + tile_side, size_.width), std::min(y + tile_side, size_.height)};

@@ -6,7 +6,7 @@
 #include "physics/entity.h"
 #include "physics/state.h"
 #include "physics/volume.h"
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "scene/colors.h"
 #include "scene/scene.h"
 #include "std.h"

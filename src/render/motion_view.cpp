@@ -54,19 +54,25 @@ void MotionView::add(const State& state) {
     middle_ /= static_cast<double>(state.position.size());
     start_ = time_ = state.time;
   }
+
   const double since = state.time - std::exchange(time_, state.time);
   for (Entity body = 0; body < state.position.size(); ++body) {
     Departure& departure = departures_[body];
     const Vec3& position = state.position[body];
+
+    // A body departs while it moves away from where all were at the start.
     const double distance2 = (position - middle_).squaredNorm();
     const double before = std::exchange(departure.distance2, distance2);
     const bool part = is_gone(state, body);
     const bool departs = !part && before >= 0 && distance2 > before;
+
     if (!departs && !departure.content.empty()) core_.add(std::exchange(departure.content, {}));
     if (part) continue;
+
     const Volume volume = volume_now(scene_.world, state, body);
     Content& content = departs ? departure.content : core_;
     add(content, position, volume);
+
     // Straight back to what the body has met since the previous instant.
     content.near.include(position, 3 * volume.half);
     content.near.include(position - since * state.velocity[body], 3 * volume.half);
@@ -82,6 +88,7 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
   // The width of a view is proportional to the depth of one point.
   const Vec3 middle = core_.bodies.middle();
   const auto depth = [&](const Content& content) { return frustum.depth(content.reach[direction], middle); };
+
   vector<std::pair<double, size_t>> leaving;  // by depth
   for (size_t body = 0; body < departures_.size(); ++body) {
     if (departures_[body].content.empty()) continue;
@@ -99,9 +106,11 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
   for (const auto& [alone, body] : leaving) {
     Content with = content;
     with.add(departures_[body].content);
+
     const double deep = depth(with);
     const bool has_half = 2 * in_view >= departures_.size();
     if (has_half && deep > 2 * with_half && deep * largest_dot > 1) break;
+
     content = with;
     ++in_view;
     if (!has_half) with_half = deep;
@@ -124,43 +133,55 @@ void MotionView::add_surroundings(Content& content) const {
   const World& world = scene_.world;
   const Extent bodies = content.bodies;
   const double size = (bodies.high - bodies.low).norm();
+
+  // Floors below the bodies.
   Entity fixed = world.body_count();
   for (size_t i = 0; i < world.planes.size(); ++i) {
     const Plane& plane = world.planes[i];
     const bool is_floor = plane.normal.dot(directions_[0].up()) > 0.5;
+
     for (const Vec3& point : places_of(fixed++)) {
       const double above = plane.normal.dot(bodies.middle() - point);
       if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
         add(content, bodies.middle() - above * plane.normal, {});
     }
   }
+
+  // Small walls and obstacles that bodies come near.
   for (size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
     const vector<Vec3> places = places_of(fixed++);
     if (!is_drawn(scene_, world.planes.size() + i) || 2 * std::max(wall.half_width, wall.half_height) > size) continue;
+
     Extent box;
     for (const Vec3& center : places)
       for (const Vec3& corner : corners(wall, center)) box.include(corner);
     if (!meet(box, content.near)) continue;
+
     for (const Vec3& center : places)
       for (const Vec3& corner : corners(wall, center)) add(content, corner, {});
   }
+
   for (size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     const vector<Vec3> places = places_of(fixed++);
     const bool drawn = is_drawn(scene_, world.planes.size() + world.walls.size() + i);
     if (!drawn || 2 * obstacle.volume.half.maxCoeff() > size) continue;
+
     Extent box;
     for (const Vec3& center : places) box.include(center, obstacle.volume.half);
     if (!meet(box, content.near)) continue;
     for (const Vec3& center : places) add(content, center, obstacle.volume);
   }
+
+  // Anchors of strings.
   const vector<size_t>& hidden = scene_.overlay.hidden_strings;
   for (size_t k = 0; k < world.strings.size(); ++k) {
     const String& string = world.strings[k];
     if (string.other == no_entity && !std::binary_search(hidden.begin(), hidden.end(), k))
       add(content, string.anchor, {});
   }
+
   content.bodies = bodies;
 }
 

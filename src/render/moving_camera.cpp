@@ -39,17 +39,20 @@ MovingCamera::MovingCamera(const Scene& scene, Size size) : scene_(scene), size_
 
 Camera MovingCamera::at(const State& state) const {
   Camera camera = camera_;
+
   if (path_) {
     const Keyframe view = path_->at(state.time);
     camera.eye = view.eye;
     camera.target = view.target;
     camera.fov = view.fov;
   }
+
   if (followed_) {
     const Vec3 way = center_of_mass(scene_.world, followed_->first, followed_->count, state.position) - center_;
     camera.eye += way;
     camera.target += way;
   }
+
   return camera;
 }
 

@@ -47,12 +47,15 @@ struct Renderer::Impl {
     shot.lens.smooth = samples > 1;
     shot.lens.width = size.width, shot.lens.height = size.height;
     if (scene.background) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background);
+
     if (!things.files().empty()) {
       meshes.emplace(things.files(), size, shot.lens.smooth);
       things.measure([&](const MeshUse& use, size_t file) { return meshes->size_of(use, file); });
     }
+
     shot.backdrop.none = scene.transparent;
     shot.pattern.unit = static_cast<float>(pattern_unit(s, size));
+
     image.width = size.width, image.height = size.height;
     image.channels = scene.transparent ? 4 : 3;
     image.pixels.resize(static_cast<size_t>(size.height) * image.row_size());
@@ -109,16 +112,20 @@ void Renderer::Impl::draw(const State& state, Drawing drawing) {
   const bool placed = moved && place_fixed_things(given.world, state.time, moved->world);
   if (drawn > 0 && !placed && last.is_of(state, drawing)) return;
   if (placed) edges = room_edges(scene);
+
   const Eye eye(drawing.camera, size);
   if (drawn == 0 || placed || last.drawing.camera != drawing.camera) place_camera(eye);
   ++drawn;
+
   things.place(state, drawing, eye, shot);
   if (meshes) meshes->draw(things.meshes(), eye, shot);
   if (!threads) threads.emplace(raster::drawing_threads());
   prepare();
+
   lines.begin(size);
   lines.add(edges, eye);
   lines.add(drawing.strokes, eye);
+
   const raster::Picture picture{&shot,          &silhouettes,        &bins,         &lights, &lines.all,
                                 &lines.by_tile, image.pixels.data(), image.channels};
   threads->draw(picture);

@@ -1,21 +1,15 @@
 #pragma once
 // From the look of a scene and a State to pixels.
-#include <stdexcept>
-
 #include "physics/state.h"
 #include "render/drawing.h"
 #include "render/image.h"
+#include "render/render_error.h"
 #include "scene/output.h"
 #include "std.h"
 
 namespace carom {
 
 struct Scene;
-
-/// Drawing cannot continue. The text is for the user.
-struct RenderError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 class Renderer {
  public:

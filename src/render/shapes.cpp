@@ -7,7 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "render/renderer.h"
+#include "render/mesh.h"
+#include "render/render_error.h"
 #include "std.h"
 
 namespace carom {
@@ -31,6 +32,8 @@ void Shapes::upload(const Mesh& mesh) {
   for (const Vec3& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
   shape.middle = 0.5 * (low + high);
   shape.half = 0.5 * (high - low);
+
+  // A row for each vertex: position and normal.
   vector<float> rows;
   rows.reserve(6 * mesh.vertices.size());
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -38,31 +41,37 @@ void Shapes::upload(const Mesh& mesh) {
     for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(p[k]));
     for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(mesh.normals[i][k]));
   }
+
   shape.array = gl::make_vertices();
   shape.vertices = gl::make_buffer();
   shape.triangles = gl::make_buffer();
   shape.indices = static_cast<GLsizei>(mesh.triangles.size());
+
   gl::BindVertexArray(shape.array.name());
   gl::BindBuffer(GL_ARRAY_BUFFER, shape.vertices.name());
   gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
   gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.triangles.name());
   gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(uint32_t)),
                  mesh.triangles.data(), GL_STATIC_DRAW);
+
   const auto attribute = [](GLuint index, GLint floats, size_t stride, size_t offset) {
     gl::EnableVertexAttribArray(index);
     gl::VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
                             reinterpret_cast<const void*>(offset * sizeof(float)));
   };
+
   attribute(0, 3, 6, 0);
   attribute(1, 3, 6, 3);
   gl::BindBuffer(GL_ARRAY_BUFFER, instances_.name());
   attribute(2, 4, row, 0);
   attribute(3, 4, row, 4);
   for (const GLuint index : {2U, 3U}) gl::VertexAttribDivisor(index, 1);
+
   if (!mesh.paint.parts.empty()) {
     shape.colors.emplace(mesh);
     shape.mean = mean_color(mesh);
   }
+
   gl::BindVertexArray(0);
   shapes_.push_back(std::move(shape));
 }

@@ -2,8 +2,8 @@
 // The triangles of the scene's meshes. Each file is read and uploaded once.
 
 #include "render/gl.h"
-#include "render/mesh.h"
 #include "render/mesh_colors.h"
+#include "render/mesh_data.h"
 #include "render/things.h"
 #include "std.h"
 

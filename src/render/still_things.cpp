@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "physics/world.h"
-#include "render/renderer.h"
+#include "render/mesh.h"
+#include "render/render_error.h"
 #include "render/surfaces.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -74,17 +75,22 @@ class Collector {
       const Vec3 half = wall.half_width * wall.right.cwiseAbs() + wall.half_height * wall.up.cwiseAbs();
       if (name(world_.planes.size() + i).visible) all.include(wall.center, half);
     }
+
     for (size_t i = 0; i < world_.obstacles.size(); ++i)
       if (name_of_obstacle(scene_, i).visible) all.include(world_.obstacles[i].center, world_.obstacles[i].volume.half);
+
+    // Without any of these, the planes' own points.
     if ((all.low.array() > all.high.array()).any()) {
       for (const Plane& plane : world_.planes) all.include(plane.point);
       all.include(Vec3::Zero());
     }
+
     const Vec3 middle = 0.5 * (all.low + all.high);
     for (size_t i = 0; i < world_.planes.size(); ++i) {
       const Plane& plane = world_.planes[i];
       if (name(i).visible) all.include(middle - plane.normal.dot(middle - plane.point) * plane.normal);
     }
+
     center_ = 0.5 * (all.low + all.high);
     half_ = std::max(1.5 * (0.5 * (all.high - all.low)).maxCoeff(), 1e-9);
   }
@@ -163,6 +169,7 @@ Mesh round_ball() {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   mesh.triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+
   for (int i = 0; i < times; ++i) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
@@ -170,6 +177,7 @@ Mesh round_ball() {
       if (is_new) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]).normalized());
       return found->second;
     };
+
     vector<uint32_t> finer;
     for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
       const uint32_t a = mesh.triangles[t], b = mesh.triangles[t + 1], c = mesh.triangles[t + 2];
@@ -178,6 +186,7 @@ Mesh round_ball() {
     }
     mesh.triangles = std::move(finer);
   }
+
   mesh.normals = mesh.vertices;
   return mesh;
 }
@@ -193,6 +202,7 @@ Mesh round_cylinder() {
     }
     circle = std::move(finer);
   }
+
   const Vec3 up(0, 1, 0);
   const auto sides = static_cast<uint32_t>(circle.size());
   Mesh mesh;
@@ -202,11 +212,13 @@ Mesh round_cylinder() {
       mesh.vertices.push_back(circle[k] + y * up);
       mesh.normals.push_back(circle[k]);
     }
+
     // Vertices of the ends.
     for (const double y : {-1.0, 1.0}) {
       mesh.vertices.push_back(circle[k] + y * up);
       mesh.normals.push_back(y * up);
     }
+
     const uint32_t a = 4 * k, b = 4 * ((k + 1) % sides);
     mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, b + 1, a, b + 1, b});
     if (k > 0 && k + 1 < sides) mesh.triangles.insert(mesh.triangles.end(), {2, a + 2, b + 2, 3, b + 3, a + 3});

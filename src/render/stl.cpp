@@ -116,6 +116,7 @@ vector<array<float, 3>> binary_corners(string_view bytes) {
   for (size_t t = 0; t < count; ++t) {
     const char* const triangle = bytes.data() + header_bytes + t * triangle_bytes;
     std::memcpy(&corners[3 * t], triangle + 12, 36);  // behind the normal
+
     for (size_t k = 3 * t; k < 3 * t + 3; ++k)
       for (const float x : corners[k])
         if (!std::isfinite(x))

@@ -30,6 +30,7 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
   for (const Stroke& stroke : strokes) {
     const bool joined = last && last->to == stroke.from;
     last = nullptr;
+
     Vec3 a = eye.point(stroke.from), b = eye.point(stroke.to);
     const double near = eye.camera.near;
     if (a.z() <= near && b.z() <= near) continue;
@@ -38,20 +39,25 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
     const double way = b.z() - a.z();
     if (a.z() < near) from = (near - a.z()) / way;
     if (b.z() < near) to = (near - a.z()) / way;
+
     const Vec3 start = a;
     const auto at = [&](double t, double x, double y) { return x + t * (y - x); };
     a = start + from * (b - start), b = start + to * (b - start);
+
     raster::Line line{};
     const auto pixels = [&](double r, double z) {
       return static_cast<float>(std::max(r / (z * eye.pixel), 0.5 * stroke.least_width));
     };
+
     line.x0 = static_cast<float>(0.5 * width + a.x() / (a.z() * eye.pixel));
     line.y0 = static_cast<float>(0.5 * height - a.y() / (a.z() * eye.pixel));
     line.x1 = static_cast<float>(0.5 * width + b.x() / (b.z() * eye.pixel));
     line.y1 = static_cast<float>(0.5 * height - b.y() / (b.z() * eye.pixel));
+
     line.radius0 = pixels(at(from, stroke.from_radius, stroke.to_radius), a.z());
     line.radius1 = pixels(at(to, stroke.from_radius, stroke.to_radius), b.z());
     line.depth0 = static_cast<float>(1 / a.z()), line.depth1 = static_cast<float>(1 / b.z());
+
     line.color = linear(stroke.color);
     line.opacity0 = static_cast<float>(at(from, stroke.from_opacity, stroke.to_opacity));
     line.opacity1 = static_cast<float>(at(to, stroke.from_opacity, stroke.to_opacity));
@@ -65,9 +71,11 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
     const int right = std::min(tile(std::max(line.x0, line.x1) + wide, columns), columns - 1);
     const int top = std::max(tile(std::min(line.y0, line.y1) - wide, rows), 0);
     const int bottom = std::min(tile(std::max(line.y0, line.y1) + wide, rows), rows - 1);
+
     const auto number = static_cast<uint32_t>(all.size());
     all.push_back(line);
     last = &stroke;
+
     // A long slanting line passes few of the tiles in the box around it.
     const double dx = line.x1 - line.x0, dy = line.y1 - line.y0, length = std::hypot(dx, dy);
     for (int y = top; y <= bottom; ++y)

@@ -35,11 +35,15 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
   const raster::Float3 up = floats(eye.direction(Vec3(0, 1, 0)));
   using raster::dot;
   shot.floor.present = false;
+
   for (const raster::Ground& g : shot.grounds) {
     if (g.height <= 0 || dot(g.normal, up) < 0.7F || (shot.floor.present && g.height >= shot.floor.height)) continue;
+
     shot.floor.present = true;
     shot.floor.normal = g.normal;
     shot.floor.height = g.height;
+
+    // What it sends up.
     for (size_t i = 0; i < 3; ++i) {
       const auto sent = [&](const raster::Lamp& lamp) {
         return lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
@@ -82,12 +86,14 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     const FixedName& name = name_of_fixed(scene, i);
     if (!name.visible) continue;
     const Plane& plane = scene.world.planes[i];
+
     Vec3 right, up;
     pattern_axes(plane.normal, right, up);
     raster::Ground g{};
     g.normal = floats(eye.direction(plane.normal));
     g.height = static_cast<float>(plane.normal.dot(eye.camera.eye - plane.point));
     g.right = floats(eye.direction(right)), g.up = floats(eye.direction(up));
+
     // The pattern repeats after two squares. Only this remainder of the eye's own coordinates has an effect, and only
     // this fits into a float.
     g.right_offset = static_cast<float>(std::fmod(right.dot(eye.camera.eye), 2 * unit));
@@ -95,6 +101,7 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     g.color = linear(name.color);
     shot.grounds.push_back(g);
   }
+
   for (raster::Ground& g : shot.grounds) g.corners = shot.grounds.size() > 1;
   find_floor(eye, shot);
 }

@@ -100,6 +100,7 @@ MeshTexture jpeg_texture(string_view bytes, uint64_t most_pixels) {
 MeshTexture decoded_texture(string_view bytes, uint64_t most_pixels, uint64_t most_kept) {
   using namespace std::string_view_literals;
   MeshTexture texture;
+
   if (bytes.starts_with("\x89PNG"sv)) {
     texture = png_texture(bytes, most_pixels);
   } else if (bytes.starts_with("\xff\xd8\xff"sv)) {
@@ -107,6 +108,8 @@ MeshTexture decoded_texture(string_view bytes, uint64_t most_pixels, uint64_t mo
   } else {
     throw std::runtime_error("is neither PNG nor JPEG. Remedy: convert it, or give the body a `color`");
   }
+
+  // Halved until it is small enough.
   uint32_t width = texture.width, height = texture.height;
   while (width > longest_texture_side || height > longest_texture_side || uint64_t{width} * height > most_kept) {
     width = std::max(width / 2, 1U);

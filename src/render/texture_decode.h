@@ -1,7 +1,7 @@
 #pragma once
 // PNG and JPEG files of textures to pixels, in the child process only.
 
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "std.h"
 
 namespace carom {

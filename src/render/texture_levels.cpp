@@ -64,17 +64,22 @@ MeshTexture reduced(const MeshTexture& texture, uint32_t width, uint32_t height)
   MeshTexture out{width, height, vector<uint8_t>(size_t{4} * width * height)};
   const vector<Share> across = shares(texture.width, width), down = shares(texture.height, height);
   vector<Pixel> row(width), sum(width);
+
   for (size_t k = 0; k < down.size(); ++k) {
     const uint8_t* from = texture.rgba.data() + size_t{4} * texture.width * down[k].from;
     std::ranges::fill(row, Pixel{});
+
     for (const Share& share : across) {
       const Pixel pixel = loaded(from + size_t{4} * share.from);
       // Colours are weighted by opacity.
       for (size_t c = 0; c < 4; ++c) row[share.to][c] += share.weight * pixel[c] * (c < 3 ? pixel[3] : 1);
     }
+
     if (k == 0 || down[k].to != down[k - 1].to) std::ranges::fill(sum, Pixel{});
     for (uint32_t x = 0; x < width; ++x)
       for (size_t c = 0; c < 4; ++c) sum[x][c] += down[k].weight * row[x][c];
+
+    // The row is done when the next one adds nothing to it.
     if (k + 1 < down.size() && down[k + 1].to == down[k].to) continue;
     for (uint32_t x = 0; x < width; ++x) store(sum[x], &out.rgba[4 * (size_t{width} * down[k].to + x)]);
   }

@@ -1,7 +1,7 @@
 #pragma once
 // Coarser versions of a texture, in linear light: the mean of what a place shows from afar.
 
-#include "render/mesh.h"
+#include "render/mesh_data.h"
 #include "std.h"
 
 namespace carom {

@@ -56,6 +56,7 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   solid.half = floats(volume.half);
   solid.kind = kind_of(volume.shape);
   solid.color = look.color;
+
   double around = radius;
   if (mesh) {
     around = std::max(radius, look.size.radius);
@@ -63,23 +64,27 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
     raster::MeshShadow shadow;
     shadow.volume = solid.kind;
     shadow.middle = floats(eye.point(position + look.size.middle));
+
     if (look.size.reach > 0)
       shadow.outline = static_cast<int32_t>(look.file), shadow.reach = static_cast<float>(look.size.reach);
     solid.kind = raster::SolidKind::mesh;
     solid.part = static_cast<uint32_t>(shot.meshes.size());
     shot.meshes.push_back(shadow);
   }
+
   // A thing around the eye would show only its own inside.
   const double distance2 = center.squaredNorm();
   const Vec3 off = (eye.camera.eye - position).cwiseAbs();
   const bool inside =
       solid.kind == raster::SolidKind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
   solid.shadow_only = inside || !eye.may_see(center, around);
+
   // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
   if (solid.kind != raster::SolidKind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
     solid.kind = raster::SolidKind::ball;
     solid.radius = static_cast<float>(std::cbrt(0.2387 * volume.size()));
   }
+
   if (solid.kind == raster::SolidKind::mesh && !solid.shadow_only)
     meshes_.push_back({look.file, eye.point(position + look.size.middle), look.mesh->scale,
                        static_cast<int32_t>(shot.solids.size())});
@@ -99,16 +104,20 @@ void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
   for (size_t i = 0; i < world.walls.size(); ++i) {
     const FixedName& name = name_of_fixed(scene_, world.planes.size() + i);
     if (!name.visible) continue;
+
     const Wall& wall = world.walls[i];
     const double height = wall.normal.dot(eye.camera.eye - wall.center);
+
     raster::Solid solid;
     solid.kind = raster::SolidKind::wall;
     solid.center = floats(eye.point(wall.center));
     solid.radius = static_cast<float>(std::hypot(wall.half_width, wall.half_height));
     solid.half = {static_cast<float>(wall.half_width), static_cast<float>(wall.half_height), 0};
+
     solid.part = static_cast<uint32_t>(shot.walls.size());
     shot.walls.push_back({floats(eye.direction(wall.right)), floats(eye.direction(wall.up)),
                           floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal))});
+
     solid.color = linear(name.color);
     solid.shadow_only = height == 0;
     shot.solids.push_back(solid);
@@ -118,23 +127,27 @@ void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
 void Things::place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot) {
   shot.solids.clear(), shot.walls.clear(), shot.meshes.clear();
   meshes_.clear();
+
   const World& world = scene_.world;
   for (uint32_t i = 0; i < world.body_count(); ++i) {
     if (is_gone(state, i)) continue;
     Volume volume = world.volume_of(i);
     double radius = world.radius[i];
     bool mesh = looks_[i].mesh.has_value();
+
     if (!state.volume.empty() && state.volume[i] != volume) {
       // This is a joint body.
       volume = state.volume[i];
       radius = volume.reach();
       mesh = false;
     }
+
     add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
     if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
     take_mean(looks_[i], shot);
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
+
   size_t look = world.body_count();
   for (const uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
@@ -143,6 +156,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     take_mean(looks_[look], shot);
     ++look;
   }
+
   add_walls(eye, shot);
 }
 

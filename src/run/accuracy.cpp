@@ -28,13 +28,10 @@ using namespace accuracy_tolerance;
 /// The positions of all bodies: by instant, by body (m).
 using Track = vector<vector<Vec3>>;
 
-/// In s: instants at irrational fractions of `end`, which no period of the scene matches, and `end` itself.
+/// In s, of a run until `end`, and `end` itself.
 vector<double> instants_of(const Scene& scene, double end) {
-  const double bodies = std::max<double>(scene.world.body_count(), 1);
-  const int count = static_cast<int>(std::clamp(places_kept / bodies, 8.0, double{most_instants}));
-  vector<double> instants;
-  for (int k = 0; k + 1 < count; ++k) instants.push_back(end * (k + golden) / count);
-  instants.push_back(end);
+  vector<double> instants = uneven_instants(0, end, scene.world.body_count());
+  instants.back() = end;
   return instants;
 }
 
@@ -276,6 +273,14 @@ Vec3 rounded_otherwise(Vec3 place) {
 }
 
 }  // namespace
+
+vector<double> uneven_instants(double from, double to, size_t bodies) {
+  const int count = static_cast<int>(
+      std::clamp(places_kept / std::max(static_cast<double>(bodies), 1.0), 8.0, double{most_instants}));
+  vector<double> instants;
+  for (int k = 0; k < count; ++k) instants.push_back(from + (to - from) * (k + golden) / count);
+  return instants;
+}
 
 Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
                          const function<void()>& stop_check) {

@@ -26,6 +26,10 @@ struct Accuracy {
   bool reached = true;
 };
 
+/// In s: instants between two times, at irrational fractions, which no period of a scene matches. The fewer, the more
+/// bodies there are, so that their places take little memory.
+vector<double> uneven_instants(double from, double to, size_t bodies);
+
 /// Finds the steps with which positions are within `tolerance` (m). `way`: its engine must be exact or stepped.
 /// - dop853: runs with ever smaller step errors, until one agrees with a finer one, which is then used.
 /// - integrators of fixed steps: steps are halved until a run agrees with that of dop853.

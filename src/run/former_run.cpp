@@ -96,9 +96,7 @@ double FormerRun::end() const {
   if (!file) throw ExportError(fmt::format("{}/summary.csv is missing", folder));
   StoredTable table(std::move(file));
   const optional<size_t> column = table.find("duration_s");
-  const vector<string_view>* row = table.next();
-  const optional<double> time =
-      column && row != nullptr && *column < row->size() ? number_in((*row)[*column]) : nullopt;
+  const optional<double> time = table.next() != nullptr ? number_in(table.cell(column)) : nullopt;
   if (!time) throw ExportError(fmt::format("{}/summary.csv has no duration_s", folder));
   return *time;
 }

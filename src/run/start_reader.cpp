@@ -14,7 +14,6 @@
 #include "files/publication.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
-#include "files/stored_table.h"
 #include "physics/world.h"
 #include "run/former_run.h"
 #include "run/stored_trajectory.h"
@@ -81,85 +80,41 @@ struct Nearest {
       true);
 }
 
-/// The rows of a trajectory at one time, in either layout.
-class TableState {
- public:
-  TableState(Descriptor file, const vector<string>& names)
-      : table_(std::move(file)), names_(names), wide_(!table_.find("body")) {
-    state_.position.assign(names.size(), Vec3::Zero());
-    state_.velocity.assign(names.size(), Vec3::Zero());
-    state_.part_of.assign(names.size(), no_entity);
-  }
-
-  State at(double time) {
-    Nearest near;
-    for (row_ = table_.next(); row_ != nullptr; row_ = table_.next()) {
-      const optional<double> now = number_in(row_->front());
-      if (!now) refuse_row();
-      if (*now == time) {
-        take();
-        return std::move(state_);
-      }
-      if (*now > time) {
-        near.after = now;
-        break;
-      }
-      near.before = now;
-    }
-    refuse_time(time, near);
-  }
-
- private:
-  [[noreturn]] static void refuse_row() {
-    throw StartError(fmt::format("{} has a row that is not one of its scene's", table_name), "run it again");
-  }
-
-  void take() {
-    constexpr size_t cells = 6;  // of a motion
-    state_.time = *number_in(row_->front());
-    if (wide_) {
-      if (row_->size() != 1 + cells * names_.size()) refuse_row();
-      for (size_t body = 0; body < names_.size(); ++body) take_body(body, 1 + cells * body);
-    } else {
-      // Rows are in the order of the bodies. Those that are gone have none.
-      const string instant(row_->front());
-      for (size_t body = 0; row_ != nullptr && row_->front() == instant; row_ = table_.next(), ++body) {
-        if (row_->size() != 2 + cells) refuse_row();
-        while (body < names_.size() && names_[body] != (*row_)[1]) ++body;
-        if (body == names_.size()) refuse_row();
-        take_body(body, 2);
-      }
-    }
-    bool gone = false;
-    for (const Entity part : state_.part_of) gone = gone || part == no_entity;
-    if (!gone) state_.part_of.clear();
-  }
-
-  void take_body(size_t body, size_t first) {
-    if (read_motion(*row_, first, state_.position[body], state_.velocity[body]))
-      state_.part_of[body] = static_cast<Entity>(body);
-    else if (!(*row_)[first].empty())
-      refuse_row();
-  }
-
-  StoredTable table_;
-  const vector<string>& names_;
-  bool wide_;  // a row for each instant, and none for each body
-  const vector<string_view>* row_ = nullptr;
-  State state_;
-};
-
 State state_in_flights(const FormerRun& run, double at) {
   const unique_ptr<Simulator> replay = run.motion(run.scene);
   while (replay->time() < at) replay->advance_to(at);
   return replay->state();
 }
 
-State state_in_table(const FormerRun& run, double at, const vector<string>& names) {
+State state_in_table(const FormerRun& run, double at) {
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   Descriptor file = folder ? open_stored(folder.get(), table_name) : Descriptor();
   if (!file) throw StartError(fmt::format("{} is missing", table_name), "run it again");
-  return TableState(std::move(file), names).at(at);
+  StoredTrajectory trajectory(std::move(file), run.scene);
+  Nearest near;
+  while (!near.after && trajectory.next()) {
+    if (trajectory.time() != at) {
+      (trajectory.time() < at ? near.before : near.after) = trajectory.time();
+      continue;
+    }
+
+    // Bodies that are gone have no rows, or empty ones.
+    const size_t bodies = run.scene.world.body_count();
+    State state;
+    state.time = at;
+    state.position.assign(bodies, Vec3::Zero());
+    state.velocity.assign(bodies, Vec3::Zero());
+    state.part_of.assign(bodies, no_entity);
+    trajectory.read([&](Entity body, const vector<string_view>& row, size_t first) {
+      if (read_motion(row, first, state.position[body], state.velocity[body]))
+        state.part_of[body] = body;
+      else if (!row[first].empty())
+        throw ForeignRow();
+    });
+    if (std::ranges::count(state.part_of, no_entity) == 0) state.part_of.clear();
+    return state;
+  }
+  refuse_time(at, near);
 }
 
 /// The book's engine applies the impulses of time 0 in its first frame, so that its velocities at time 0 lack them.
@@ -183,8 +138,7 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
   FormerState former;
   for (Entity body = 0; body < run.scene.world.body_count(); ++body)
     former.names.push_back(run.scene.roster.name(body));
-  former.state =
-      run.has_flights() ? state_in_flights(run, at.value_or(end)) : state_in_table(run, at.value_or(end), former.names);
+  former.state = run.has_flights() ? state_in_flights(run, at.value_or(end)) : state_in_table(run, at.value_or(end));
   const vector<Entity>& part_of = former.state.part_of;
   bool gone = false;
   for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
@@ -223,6 +177,8 @@ function<FormerState(const string& folder, optional<double> at)> start_reader(co
       return *last->state;
     } catch (const SceneError&) {
       throw StartError("its scene.yaml has errors", fmt::format("carom check {}/scene.yaml shows them", path));
+    } catch (const ForeignRow&) {
+      throw StartError(fmt::format("{} has a row that is not one of its scene's", table_name), "run it again");
     } catch (const ExportError& error) {
       throw in_parts(error.what());
     }

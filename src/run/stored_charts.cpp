@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "export/tables.h"
 #include "files/open_folder.h"
@@ -34,6 +34,9 @@ constexpr ChartSource chart_sources[] = {{"energy", "energy.csv", "energy", true
 
 /// Rows between two calls of the watch.
 constexpr uint64_t rows_between = 1000;
+
+/// The height of a body that has merged into another.
+constexpr double merged = std::numeric_limits<double>::quiet_NaN();
 
 class ChartReader {
  public:
@@ -73,29 +76,38 @@ class ChartReader {
     StoredTable table = open("energy.csv");
     const size_t time = column(table, "time_s"), kinetic = column(table, "kinetic_J"),
                  potential = column(table, "potential_J");
-    while (const auto* row = table.next()) {
-      watch_now_and_then(number(*row, time));
-      charts_.energy.add(number(*row, time), number(*row, kinetic), number(*row, potential));
+    while (table.next() != nullptr) {
+      watch_now_and_then(number(table, time));
+      charts_.energy.add(number(table, time), number(table, kinetic), number(table, potential));
     }
   }
 
   void trajectory() {
     StoredTrajectory trajectory(file("trajectory.csv"), scene_);
+    vector<double> heights(scene_.world.body_count());
     while (trajectory.next()) {
       watch_(share(trajectory.time()));
-      charts_.heights.add(trajectory.time(), trajectory.heights());
-      for (size_t body = 0; body < trajectory.velocities().size(); ++body)
-        if (std::isfinite(trajectory.heights()[body]))
-          charts_.speeds.add(scene_.world.mass[body], trajectory.velocities()[body]);
+
+      // Heights alone are needed before the end, and reading numbers takes most of the time.
+      const bool is_end = trajectory.time() >= end_of(scene_);
+      std::ranges::fill(heights, merged);
+      trajectory.read([&](Entity body, const vector<string_view>& row, size_t first) {
+        heights[body] = number_in(row[first + 1]).value_or(merged);
+        Vec3 position, velocity;
+        if (is_end && read_motion(row, first, position, velocity))
+          charts_.speeds.add(scene_.world.mass[body], velocity);
+      });
+      charts_.heights.add(trajectory.time(), heights);
     }
   }
 
   void collisions() {
     StoredTable table = open("collisions.csv");
     const size_t time = column(table, "time_s"), kind = column(table, "kind");
-    while (const auto* row = table.next()) {
-      watch_now_and_then(number(*row, time));
-      if (const auto known = collision_kind_named(cell(*row, kind))) charts_.collisions.add(number(*row, time), *known);
+    while (table.next() != nullptr) {
+      watch_now_and_then(number(table, time));
+      if (const auto known = collision_kind_named(table.cell(kind)))
+        charts_.collisions.add(number(table, time), *known);
     }
   }
 
@@ -117,12 +129,9 @@ class ChartReader {
     if (rows_++ % rows_between == 0) watch_(share(time));
   }
 
-  static string_view cell(const vector<string_view>& row, size_t column) {
-    return column < row.size() ? row[column] : string_view();
-  }
-  static double number(const vector<string_view>& row, size_t column) {
-    const auto value = number_in(cell(row, column));
-    if (!value) throw ExportError(fmt::format("a table has {} where a number is expected", cell(row, column)));
+  static double number(const StoredTable& table, size_t column) {
+    const auto value = number_in(table.cell(column));
+    if (!value) throw ExportError(fmt::format("a table has {} where a number is expected", table.cell(column)));
     return *value;
   }
 

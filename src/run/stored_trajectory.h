@@ -1,8 +1,10 @@
 #pragma once
-// trajectory.csv of a finished run, instant by instant, in either layout. One instant is in memory.
+// trajectory.csv of a finished run, in either layout: a row for each body, or (wide) one for each instant.
 
+#include "files/run_folder.h"
 #include "files/stored_table.h"
 #include "numerics/vec3.h"
+#include "physics/entity.h"
 #include "std.h"
 
 namespace carom {
@@ -13,32 +15,67 @@ struct Scene;
 /// False: a cell is empty, because the body has merged into another.
 bool read_motion(const vector<string_view>& cells, size_t first, Vec3& position, Vec3& velocity);
 
-class StoredTrajectory {
+/// Where the motions are in a row.
+class TrajectoryLayout {
  public:
-  /// `file`: the open table. `scene`: that of its run, which must outlive this object.
-  StoredTrajectory(Descriptor file, const Scene& scene);
-  /// Reads the next instant. False: the end. Throws ExportError for a row that is not one of the scene's.
-  bool next();
-  double time() const { return time_; }  // s
-  /// y of the centres in m, by body. NaN: the body has merged into another.
-  span<const double> heights() const { return heights_; }
-  /// In m/s, by body, and only at the end of the run; empty before.
-  span<const Vec3> velocities() const { return velocities_; }
+  explicit TrajectoryLayout(const StoredTable& table);
+  bool is_wide() const { return wide_; }
+
+  /// Calls take(body, first) for each motion in a row: the body's name, and the first of the six cells.
+  template <typename Take>
+  void for_each(const vector<string_view>& row, const Take& take) const {
+    if (row.size() != columns_) return;
+    if (!wide_) take(row[1], 2);
+    for (size_t k = 0; k < bodies_.size(); ++k) take(bodies_[k], 1 + motion_cells * k);
+  }
 
  private:
-  void begin_instant();
-  void read_long();
-  void read_body(size_t body, size_t first);
-
-  const Scene& scene_;
-  StoredTable table_;
+  static constexpr size_t motion_cells = 6;
+  size_t columns_;
   bool wide_;
-  vector<string> names_;  // by body; of the long layout
-  /// The row that follows, which may belong to another instant. Null: none.
-  const vector<string_view>* row_ = nullptr;
+  vector<string> bodies_;  // of the wide layout
+};
+
+/// Thrown for a row that is not one of the scene's.
+struct ForeignRow : ExportError {
+  ForeignRow() : ExportError("trajectory.csv has a row that is not one of this scene's") {}
+};
+
+/// The motions of a scene's bodies, instant by instant. One row is in memory.
+class StoredTrajectory {
+ public:
+  /// `file`: the open table. `scene`: that of its run.
+  StoredTrajectory(Descriptor file, const Scene& scene);
+
+  /// Goes on to the next instant. False: the end. Throws ForeignRow.
+  bool next();
+  double time() const { return time_; }  // s
+
+  /// Calls take(body, row, first) for the motions of this instant. A body that has merged into another has none, or
+  /// empty cells. Throws ForeignRow.
+  template <typename Take>
+  void read(const Take& take) {
+    Entity body = 0;
+    for (; is_here(); row_ = table_.next()) {
+      if (row_->size() != table_.columns().size()) throw ForeignRow();
+      layout_.for_each(*row_, [&](string_view name, size_t first) {
+        while (body < names_.size() && names_[body] != name) ++body;
+        if (body == names_.size()) throw ForeignRow();
+        take(body++, *row_, first);
+      });
+    }
+  }
+
+ private:
+  bool is_here() const { return row_ != nullptr && row_->front() == instant_; }
+
+  StoredTable table_;
+  TrajectoryLayout layout_;
+  vector<string> names_;  // by body
+  /// The first row that has not been read. Null: none.
+  const vector<string_view>* row_;
+  string instant_;
   double time_ = 0;
-  vector<double> heights_;
-  vector<Vec3> velocities_;
 };
 
 }  // namespace carom

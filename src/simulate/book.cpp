@@ -158,8 +158,8 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
 
   const double approach = ua - ub;
   const double separation = after_b - after_a;
-  record(make_collision(world_, CollisionKind::body_body, frame_time(frames_), a, b, x_[a] + world_.radius[a] * n, n,
-                        approach, separation, e));
+  record(with_effect(world_, {frame_time(frames_), CollisionKind::body_body, a, b, x_[a] + world_.radius[a] * n, n,
+                              approach, separation, e}));
 }
 
 /// The plane test of the text: a body above the plane and nearer than its radius has collided. `normal` points to the
@@ -172,8 +172,8 @@ void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, co
   if (approach <= 0) return;
   const double e = pair_restitution(world_, i, surface);
   v_[i] += (1 + e) * approach * normal;
-  record(make_collision(world_, CollisionKind::body_fixed, frame_time(frames_), i, surface,
-                        x_[i] - world_.radius[i] * normal, -normal, approach, e * approach, e));
+  record(with_effect(world_, {frame_time(frames_), CollisionKind::body_fixed, i, surface,
+                              x_[i] - world_.radius[i] * normal, -normal, approach, e * approach, e}));
 }
 
 /// One frame of listing 8.3: forces, overlaps, update.

@@ -57,6 +57,7 @@ void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before,
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
 
+  // Recorded impacts have their own energy.
   bool any = false;
   bool any_recorded = false;
   double of_recorded = 0;  // J

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/compensated.h"
-#include "solver/contact_problem.h"
+#include "solver/contact_constraint.h"
 #include "std.h"
 
 namespace carom {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "compare/charts.h"
 #include "compare/outcomes.h"
+#include "compare/plan.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"

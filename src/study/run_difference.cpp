@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "compare/compared_run.h"
+#include "compare/end_of_trajectory.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "std.h"
@@ -21,7 +22,7 @@ class Collisions {
  public:
   explicit Collisions(const RunRecord& run) : table_(open_table(run, "collisions.csv")) {
     for (const char* name : {"time_s", "kind", "a", "b", "separation_speed_m_per_s"})
-      columns_.push_back(table_.find(name).value_or(table_.columns().size()));
+      columns_.push_back(table_.find(name));
   }
 
   bool next() {
@@ -44,21 +45,19 @@ class Collisions {
   bool ends_the_same(const Collisions& other) const { return *cells_ == *other.cells_; }
   /// The first column with different cells, and the two cells.
   std::tuple<string, string, string> first_difference(const Collisions& other) const {
-    size_t column = columns_[4];
+    size_t column = columns_[4].value_or(table_.columns().size());
     if (cell(4) == other.cell(4))
       for (column = 0; column < cells_->size() && column < other.cells_->size(); ++column)
         if ((*cells_)[column] != (*other.cells_)[column]) break;
-    const auto text = [column](const Collisions& of) {
-      return column < of.cells_->size() ? string((*of.cells_)[column]) : string();
-    };
+    const auto text = [column](const Collisions& of) { return string(of.table_.cell(column)); };
     return {column < table_.columns().size() ? table_.columns()[column] : string(), text(*this), text(other)};
   }
 
  private:
-  string_view cell(size_t k) const { return columns_[k] < cells_->size() ? (*cells_)[columns_[k]] : string_view(); }
+  string_view cell(size_t k) const { return table_.cell(columns_[k]); }
 
   StoredTable table_;
-  vector<size_t> columns_;
+  vector<optional<size_t>> columns_;
   const vector<string_view>* cells_ = nullptr;
   uint64_t count_ = 0;
 };
@@ -98,24 +97,14 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
   return difference;
 }
 
-double last_time(const RunRecord& run) {
-  double time = 0;
-  const Descriptor file = open_stored(run.folder.get(), "trajectory.csv");
-  lines_from_end(file.get(), [&](string_view line) {
-    time = number_in(line.substr(0, line.find(','))).value_or(0);
-    return false;
-  });
-  return time;
-}
-
 EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
+  const TrajectoryEnd a = end_of_trajectory(run_a.folder.get()), b = end_of_trajectory(run_b.folder.get());
   EndDifference difference;
-  difference.time_a = last_time(run_a);
-  difference.time_b = last_time(run_b);
-  const vector<EndMotion> a = end_of_trajectory(run_a.folder.get()), b = end_of_trajectory(run_b.folder.get());
+  difference.time_a = a.time;
+  difference.time_b = b.time;
   std::map<string_view, const EndMotion*> of_b;
-  for (const EndMotion& motion : b) of_b.emplace(motion.body, &motion);
-  for (const EndMotion& motion : a) {
+  for (const EndMotion& motion : b.bodies) of_b.emplace(motion.body, &motion);
+  for (const EndMotion& motion : a.bodies) {
     const auto found = of_b.find(motion.body);
     if (found == of_b.end()) {
       difference.only_a.push_back(motion.body);
@@ -128,7 +117,7 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
     }
     of_b.erase(found);
   }
-  for (const EndMotion& motion : b)
+  for (const EndMotion& motion : b.bodies)
     if (of_b.contains(motion.body)) difference.only_b.push_back(motion.body);
   return difference;
 }

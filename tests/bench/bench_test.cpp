@@ -120,9 +120,12 @@ TEST(Bench, IslandsHaveNoIndependentCheckButAnErrorOfTheirSteps) {
   scene.initial.velocity = {Vec3(0, 0, 0.6 * std::sqrt(9.75 / 0.8))};
   scene.world.strings = {{0, no_entity, Vec3::Zero(), 1}};
   scene.simulate.duration = 500;
+
   const BenchResult result = bench(scene, 0x1p-3, 0x1p-4);
   EXPECT_TRUE(result.inexact_islands);
   ASSERT_EQ(result.reference.engine, Engine::exact);
+
+  // The string's body goes around in a circle.
   const auto simulator = make_simulator(scene);
   while (simulator->time() < 500) simulator->advance_to(500);
   const double angle = 500 * std::sqrt(9.75 / 0.8);
@@ -161,6 +164,7 @@ TEST(Bench, AGasIsChaoticAndComparedByItsStatistics) {
   EXPECT_GT(result.horizon, 0.2);
   EXPECT_LT(result.horizon, 2);
   EXPECT_EQ(result.members, 13u);
+
   for (const BenchRow& row : result.rows) {
     if (row.method.engine == Engine::book) {
       EXPECT_GT(row.deviation.value, 10);  // measured: 170; most collisions of a frame are not seen
@@ -222,10 +226,12 @@ TEST(WorkPrecisionPlot, HasALineForEachMethodAndNoZeros) {
   const Scene scene = scene_of("pyramid");  // nothing moves: the stepped engine's errors are 0
   const BenchResult result = bench(scene, 0.01, 0.0025);
   EXPECT_EQ(rows_of(result, Engine::stepped).back().errors->position, 0);
+
   const Plot plot = work_precision_plot(scene, result);
   vector<string> names;
   for (const PlotSeries& series : plot.series) names.push_back(series.name);
   EXPECT_EQ(names, (vector<string>{"exact, stepped", "book"}));
+
   EXPECT_EQ(plot.title, scene.title);
   EXPECT_GT(plot.floor, 1e-17);
   EXPECT_LT(plot.floor, 1e-15);

@@ -30,6 +30,7 @@ class ComparisonOfSix : public ::testing::Test {
         place->run(two_balls, id, {string("restitution.default=") + e, string("balls.red.mass=") + mass});
         runs.push_back({id, *place / id, {e, mass}});
       }
+
     plan.title = "Six runs";
     plan.parameters = {{"restitution.default", ""}, {"balls.red.mass", "kg"}};
     plan.measures = {"energy_lost_J", "collisions", "balls.red.speed_m_per_s", "balls.blue.kinetic_J"};
@@ -61,10 +62,12 @@ TEST_F(ComparisonOfSix, SummaryIsEachRunsRowThenWhatVariedThenMeasures) {
   const size_t columns = of_run[0].size();
   ASSERT_EQ(rows[0].size(), columns + 4);
   for (size_t k = 0; k < columns; ++k) EXPECT_EQ(rows[0][k], of_run[0][k]);
+
   EXPECT_EQ(rows[0][columns], "restitution.default");
   EXPECT_EQ(rows[0][columns + 1], "balls.red.mass");
   EXPECT_EQ(rows[0][columns + 2], "balls.red.speed_m_per_s");
   EXPECT_EQ(rows[0][columns + 3], "balls.blue.kinetic_J");
+
   EXPECT_EQ(rows[3][0], "r3");
   for (size_t k = 1; k < columns; ++k) EXPECT_EQ(rows[3][k], of_run[1][k]) << rows[0][k];
   EXPECT_EQ(rows[3][columns], "0.75");
@@ -121,6 +124,7 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
 TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
   const Json& summary = sheet("Summary");
   const auto csv = rows_of(place->read("out/summary.csv"));
+
   // The columns of the table, by their heads.
   const vector<std::pair<string, string>> first = {{"run", "run"},
                                                    {"restitution.default", "restitution.default"},
@@ -129,6 +133,7 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
                                                    {"collisions", "collisions"},
                                                    {"balls.red speed (m/s)", "balls.red.speed_m_per_s"},
                                                    {"balls.blue kinetic energy (J)", "balls.blue.kinetic_J"}};
+
   const Json& heads = summary["rows"][1];
   ASSERT_GT(heads.size(), first.size());
   for (size_t k = 0; k < first.size(); ++k) {
@@ -142,6 +147,7 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
         EXPECT_NEAR(value.get<double>(), std::stod(csv[i][column]), 1e-15 * std::abs(std::stod(csv[i][column])));
     }
   }
+
   // A column that is the same in all runs stands in the line above, and no other does.
   const string folded = summary["rows"][0][0];
   EXPECT_TRUE(
@@ -150,6 +156,7 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
   for (size_t k = 1; k < csv[0].size(); ++k) {
     bool same = true;
     for (size_t i = 2; i < csv.size(); ++i) same = same && csv[i][k] == csv[1][k];
+
     const bool is_first = std::ranges::any_of(first, [&](auto& one) { return one.second == csv[0][k]; });
     const string label = k < 2 ? csv[0][k] : label_of(csv[0][k]);
     EXPECT_EQ(folded.find("; " + label + ": ") != string::npos || k == 1, same && !is_first && !csv[1][k].empty())
@@ -157,10 +164,12 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
     const bool is_column = std::ranges::find(heads, Json(label)) != heads.end();
     EXPECT_TRUE(is_first || is_column != same) << label;
   }
+
   EXPECT_EQ(summary["tables"].begin().key(), "Runs");
   EXPECT_TRUE(summary["tables"]["Runs"].get<string>().starts_with("A2:"));
   EXPECT_TRUE(summary["tables"]["Runs"].get<string>().ends_with("8"));
   EXPECT_EQ(summary["frozen"], "B3");
+
   // Varied columns are tinted, measured ones are not.
   EXPECT_EQ(summary["fills"][1], "FFFFF2CC");
   EXPECT_EQ(summary["fills"][2], "FFFFF2CC");
@@ -227,11 +236,13 @@ TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   EXPECT_EQ(series[0][1], "kinetic energy (J): default = 0.5, mass = 10 kg");
   EXPECT_EQ(series[1][1], 40);
   EXPECT_EQ(series[11][0], 1);
+
   const Json& collisions = sheet("Collisions")["rows"];
   EXPECT_EQ(collisions.size(), 7u);
   EXPECT_EQ(collisions[1][0], "r1");
   EXPECT_EQ(collisions[1][2], "body-body");
   EXPECT_EQ(sheet("Collisions")["filter"], "A1:P7");
+
   const Json& parameters = sheet("Parameters")["rows"];
   EXPECT_EQ(parameters[2], Json({"restitution.default", nullptr, 3, 0.5, 1}));
   EXPECT_EQ(parameters[3], Json({"balls.red.mass", "kg", 2, 10, 20}));
@@ -299,11 +310,13 @@ TEST_F(ComparisonOfSix, WhatCannotBeReadIsReportedWithItsRemedy) {
     }
     return string();
   };
+
   EXPECT_TRUE(error({"x", *place / "nowhere", {"1", "1"}}).ends_with("cannot be opened: there is no such folder"));
   std::filesystem::create_directories(*place / "empty");
   EXPECT_TRUE(error({"x", *place / "empty", {"1", "1"}})
                   .ends_with("holds no whole run: run its scene again, or leave it "
                              "out"));
+
   place->run(two_balls, "silent", {"output={collisions: true}"});
   EXPECT_NE(
       error({"x", *place / "silent", {"1", "1"}}).find("silent has no trajectory.csv, needed for balls.red.speed_"),
@@ -328,6 +341,7 @@ TEST_F(ComparisonOfSix, ManyRunsAreStreamed) {
     many.push_back({"r" + std::to_string(i),
                     runs[static_cast<size_t>(i % 6)].folder,
                     {std::to_string(i / 6) + ".5", runs[static_cast<size_t>(i % 6)].values[1]}});
+
   place->compare(plan, many, "many");
   const Json sheets = place->workbook("many", true)["sheets"];
   EXPECT_TRUE(sheets["Summary"]["tables"].empty());
@@ -343,6 +357,7 @@ TEST_F(ComparisonOfSix, ChartsOfThePlanAreDrawn) {
   own.charts = {{"balls.red.mass", "max_speed_m_per_s", ""}, {"energy_lost_J", "balls.red.x_m", "restitution.default"}};
   place->compare(own, runs, "own");
   const Json charts = place->workbook("own")["sheets"]["Compare"]["charts"];
+
   ASSERT_EQ(charts.size(), 3u);
   EXPECT_EQ(charts[0]["x"], "balls.red.mass (kg)");
   EXPECT_EQ(charts[0]["series"].size(), 1u);
@@ -350,6 +365,8 @@ TEST_F(ComparisonOfSix, ChartsOfThePlanAreDrawn) {
   EXPECT_EQ(charts[1]["series"].size(), 3u);
   EXPECT_EQ(charts[1]["series"][1]["name"], "restitution.default = 0.75");
   EXPECT_EQ(sheet("Compare")["charts"][0]["series"][1]["name"], "balls.red.mass = 20 kg");
+
+  // Charts of what is not there are refused.
   own.charts = {{"balls.red.mas", "max_speed_m_per_s", ""}};
   EXPECT_THROW(check_charts(own), MeasureError);
   own.charts = {{"balls.red.mass", "max_speed", ""}};
@@ -366,6 +383,7 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
       "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 2}\n"
       "output: {energy: {every: 0.1}, collisions: true}\n",
       "cube");
+
   ComparisonPlan plan;
   plan.parameters = {{"balls.red.mass", "kg"},
                      {"balls.red.radius", "m"},
@@ -375,15 +393,18 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
   place.compare(
       plan, {{"balls", place / "balls", {"10", "0.11", "1", "", ""}}, {"cube", place / "cube", {"", "", "2", "1", ""}}},
       "out");
+
   const Json book = place.workbook("out");
   EXPECT_EQ(book["order"], Json({"Compare", "Summary", "Series", "Parameters", "About"}));
   const Json& compare = book["sheets"]["Compare"];
   EXPECT_EQ(compare["charts"].size(), 4u);
+
   for (size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(compare["charts"][k]["kind"], "BarChart");
     EXPECT_EQ(compare["charts"][k]["x"], "run");
   }
   EXPECT_EQ(compare["charts"][3]["series"][1]["name"], "cube");
+
   EXPECT_EQ(compare["rows"][3][0], "What differs");
   EXPECT_EQ(compare["rows"][3][4], "cube");
   EXPECT_EQ(compare["rows"][4][0], "simulate.duration (s)");
@@ -391,6 +412,7 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
   EXPECT_EQ(compare["rows"][4][4], 2);
   EXPECT_EQ(compare["rows"][5][0], "balls.red.mass (kg)");
   EXPECT_EQ(compare["rows"][5][4], "-");
+
   for (const Json& head : book["sheets"]["Summary"]["rows"][1]) EXPECT_NE(head, "balls.red.mass (kg)");
   EXPECT_NE(place.read("out/summary.csv").find(",balls.red.mass,"), string::npos);
 }
@@ -402,12 +424,14 @@ TEST(Collisions, OfEachRunHaveTheSameShareOfTheSheet) {
       "groups: {gas: {count: 40, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: 1}}\n"
       "simulate: {duration: 5}\noutput: {collisions: true}\n";
   place.run(gas, "gas");
+
   ComparisonPlan plan;
   plan.collisions = true;
   vector<ComparedRun> runs;
   for (int i = 0; i < 100; ++i) runs.push_back({"r" + std::to_string(i), place / "gas", {}});
   ASSERT_GT(rows_of(place.read("gas/collisions.csv")).size(), 201u);
   place.compare(plan, runs, "out");
+
   const Json rows = place.workbook("out")["sheets"]["Collisions"]["rows"];
   ASSERT_EQ(rows.size(), 20'001u);
   EXPECT_EQ(rows[200][0], "r0");
@@ -421,16 +445,19 @@ TEST(NumberLook, HasFiveDigitsOfTheGreatestAndTwoOfTheLeast) {
     for (const double number : numbers) look.add(number);
     return look.format();
   };
+
   EXPECT_EQ(format({}), "General");
   EXPECT_EQ(format({std::nan("")}), "General");
   EXPECT_EQ(format({0}), "0");
   EXPECT_EQ(format({0.5, 0.75, 1}), "0.00");
   EXPECT_EQ(format({1, 2, 300}), "0");
   EXPECT_EQ(format({1, 123456}), "#,##0");
+
   EXPECT_EQ(format({13.450413223140497, 3.8}), "0.000");
   EXPECT_EQ(format({13.450413223140497, 7e-15, 0}), "0.000") << "rounding noise";
   EXPECT_EQ(format({0.9103908980619376, -2.5}), "0.0000");
   EXPECT_EQ(format({150.00000001, 0.0012345678}), "0.0000");
+
   EXPECT_EQ(format({1e7 + 0.1}), "#,##0");
   EXPECT_EQ(format({1e9 + 0.5}), "0.0000E+00");
   EXPECT_EQ(format({8.881784197001252e-16, 0}), "0.0000E+00");
@@ -444,6 +471,7 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
   plan.parameters = {{"defaults.ball.restitution", ""}, {"balls.red.position.z", "m"}, {"seed", ""}};
   plan.seed = 2;
   Outcomes outcomes(plan, 0, 25 * 40 * 2);
+
   vector<size_t> points;
   for (int e = 0; e < 25; ++e)
     for (int z = 0; z < 40; ++z)
@@ -451,6 +479,7 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
         points.push_back(outcomes.add(
             points.size(), {"r", "", {std::to_string(e), std::to_string(z) + ".5", std::to_string(seed)}}, false, {}));
   outcomes.finish();
+
   const ChosenScenarios chosen = chosen_scenarios(plan, outcomes, points, false);
   EXPECT_EQ(chosen.all, 1000u);
   ASSERT_EQ(chosen.names.size(), ChosenScenarios::most);
@@ -458,6 +487,7 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
   for (const char* corner : {"restitution = 0, position.z = 0.5 m", "restitution = 0, position.z = 39.5 m",
                              "restitution = 24, position.z = 0.5 m", "restitution = 24, position.z = 39.5 m"})
     EXPECT_NE(std::ranges::find(chosen.names, corner), chosen.names.end()) << corner;
+
   // Both repeats of a scenario belong to it.
   EXPECT_EQ(chosen.of_run[0], 0u);
   EXPECT_EQ(chosen.of_run[1], 0u);
@@ -493,6 +523,7 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
       "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1]}\n"
       "groups: {gas: {count: 5, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: 1}}\n"
       "simulate: {duration: 0.5}\noutput: {collisions: true}\n";
+
   vector<ComparedRun> runs;
   vector<double> speeds;
   // The seed varies slowest: a scenario's runs are not adjacent.
@@ -503,11 +534,13 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
       if (string(e) == "0.9") speeds.push_back(result.summary.max_speed);
       runs.push_back({id, place / id, {e, seed}});
     }
+
   place.compare(plan, runs, "out");
   const auto rows = rows_of(place.read("out/repeats.csv"));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0], (vector<string>{"restitution.default", "n", "max_speed_m_per_s.mean", "max_speed_m_per_s.sd",
                                      "max_speed_m_per_s.min", "max_speed_m_per_s.max"}));
+
   const double mean = (speeds[0] + speeds[1] + speeds[2]) / 3;
   double squares = 0;
   for (const double speed : speeds) squares += (speed - mean) * (speed - mean);
@@ -517,6 +550,8 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
   EXPECT_NEAR(std::stod(rows[1][3]), std::sqrt(squares / 2), 1e-14);
   EXPECT_EQ(std::stod(rows[1][4]), *std::ranges::min_element(speeds));
   EXPECT_EQ(std::stod(rows[1][5]), *std::ranges::max_element(speeds));
+
+  // In the workbook: a sheet, and error bars.
   const Json book = place.workbook("out");
   EXPECT_EQ(book["order"][2], "Repeats");
   EXPECT_EQ(book["sheets"]["Repeats"]["rows"].size(), 3u);

@@ -50,6 +50,7 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
   EXPECT_EQ(error_of("energy_lost", scene), "no measure `energy_lost`; did you mean `energy_lost_J`?");
   EXPECT_EQ(error_of("title", scene), "`title` of summary.csv is text, not a measure");
   EXPECT_EQ(error_of("balls.rde.x_m", scene), "`balls.rde.x_m`: balls has no `rde`; did you mean `red`?");
+
   EXPECT_EQ(
       error_of("balls.red.speed", scene),
       "`balls.red.speed`: no quantity `speed`; the quantities are x_m, y_m, z_m, vx_m_per_s, vy_m_per_s, vz_m_per_s, "
@@ -59,21 +60,25 @@ TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
             "`max(balls.red)` has no quantity: expected one such as balls.NAME.speed_m_per_s");
   EXPECT_EQ(error_of("max(balls.red.y_m, 3)", scene),
             "`max(balls.red.y_m, 3)`: expected one quantity, such as max(balls.NAME.y_m)");
+
   EXPECT_EQ(error_of("hits(red, rde)", scene), "`hits(red, rde)`: nothing is named `rde`; did you mean `red`?");
   EXPECT_EQ(error_of("hits()", scene), "`hits()`: expected one or two names, such as hits(red, blue)");
   EXPECT_EQ(error_of("max(balls.red.y_m) / 2", scene),
             "`max(balls.red.y_m) / 2`: arithmetic begins with `=`, such as '= max(balls.red.y_m) / 2'");
   EXPECT_EQ(error_of("count(y_m)", scene), "`count(y_m)`: expected a comparison, such as count(y_m < 0)");
+
   EXPECT_EQ(error_of("first(red", scene),
             "`first(red` lacks a closing parenthesis; in YAML, a measure with a comma needs quotes");
   EXPECT_EQ(error_of("= 1 +", scene), "`= 1 +`: the expression ends too early; expected a number or a name after it");
   EXPECT_EQ(error_of("= let.r", scene), "`let` has no `r`");
   EXPECT_EQ(error_of("= hits(red) + nothing", scene),
             "`= hits(red) + nothing`: no number is named `nothing`; expected a measure, let.NAME or a number");
+
   EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member; expected one such as groups.gas.0.x_m");
   EXPECT_EQ(error_of("groups.gas.3.x_m", scene), "`groups.gas.3.x_m`: the members of `gas` are 0 to 2");
   EXPECT_EQ(error_of("balls.red.0.x_m", scene), "`balls.red.0.x_m`: balls has no `red.0`; did you mean `red`?");
   EXPECT_EQ(error_of("regions.hole.entries", scene), "`regions.hole.entries`: no region is named `hole`");
+
   EXPECT_NE(error_of("", scene), "");
   EXPECT_NE(error_of("...", scene), "");
 }
@@ -103,6 +108,7 @@ TEST(OwnMeasures, ErrorsMarkTheFaultyPartOfAnExpression) {
       {"= max(1, 2) + balls.red.speed", "balls.red.speed"},
       {"= hits(red) ** 2", "**"},
       {"= collisions + sqrt(1, 2)", "sqrt"},
+      // Within a product, a count or a sum.
       {"= 2 * groups.gas.3.x_m", "groups.gas.3.x_m"},
       {"= 1 + count(y_m < let.h)", "let.h"},
       {"count(y_m < 2 * let.h)", "let.h"},
@@ -113,6 +119,7 @@ TEST(OwnMeasures, ErrorsMarkTheFaultyPartOfAnExpression) {
       {"balls.rde.x_m", "\"balls.rde.x_m\""},
       {"=", "\"=\""},
   };
+
   for (const auto& [measure, text] : all) EXPECT_EQ(marked(place, measure), text) << measure;
 }
 
@@ -138,16 +145,19 @@ TEST(MeasureValues, AreTheSameFromTheRunAndFromItsTables) {
                                 "count(x_m > 7.5)",
                                 "count(groups.gas.y_m <= 1 / 2)",
                                 "= hits(room) / max(1, collisions)"};
+
   const string yaml = mixed + "room: {min: [-2, -1, -1], max: [9, 1, 2]}\n";
   const string long_run =
       std::regex_replace(yaml, std::regex("duration: 1\\}\noutput: \\{"), "duration: 40}\noutput: {collisions: true, ");
   const vector<Measured> of_run = measured(place, long_run, names);
   ASSERT_EQ(of_run.size(), names.size());
   const RunRecord with = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
+
   // The same run without its own measures: its tables have them.
   place.write("run/manifest.json", std::regex_replace(place.read("run/manifest.json"),
                                                       std::regex("\"measures\": \\{[^}]*\\}"), "\"measures\": {}"));
   const RunRecord without = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
+
   for (size_t k = 0; k < names.size(); ++k) {
     EXPECT_EQ(with.measures[k], of_run[k].value) << names[k];
     EXPECT_EQ(without.measures[k], of_run[k].value) << names[k];
@@ -159,6 +169,7 @@ TEST(MeasureValues, OfAStringCountForBothOfItsBodies) {
   const Place place;
   const vector<string> names = {"first(red, line)", "first(line, blue)", "hits(red, line)", "hits(blue, line)",
                                 "hits(line)",       "hits(blue)",        "first(red, blue)"};
+
   // 3 m apart after 2 s, they exchange their velocities, and again where they meet.
   const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\n"
@@ -167,11 +178,13 @@ TEST(MeasureValues, OfAStringCountForBothOfItsBodies) {
       "  blue: {mass: 1, radius: 0.1, position: [1, 0, 0]}\n"
       "strings: {line: {from: red, to: blue, length: 3, restitution: 1}}\n"
       "simulate: {duration: 6}\noutput: {collisions: true}\n";
+
   const double expected[] = {2, 2, 1, 1, 1, 2, 4.8};
   const vector<Measured> of_run = measured(place, yaml, names);
   place.write("run/manifest.json", std::regex_replace(place.read("run/manifest.json"),
                                                       std::regex("\"measures\": \\{[^}]*\\}"), "\"measures\": {}"));
   const RunRecord stored = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
+
   for (size_t k = 0; k < names.size(); ++k) {
     EXPECT_NEAR(of_run[k].value, expected[k], 1e-14) << names[k];
     EXPECT_EQ(stored.measures[k], of_run[k].value) << names[k];
@@ -201,12 +214,14 @@ TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
                                                  {"min(KIND.THING.x_m)", "nan"},
                                                  {"max(KIND.THING.x_m)", "nan"},
                                                  {"= hits(THING) + 1", "1"},
+                                                 // Of strings, planes and regions.
                                                  {"hits(s)", "0"},
                                                  {"hits(p)", "0"},
                                                  {"regions.r.entries", "0"},
                                                  {"regions.r.inside", "0"},
                                                  {"regions.r.first_s", "nan"},
                                                  {"time_of_max(KIND.THING.y_m)", "nan"}};
+
   const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\n"
       "balls: {v: {mass: 1, radius: 0.1, position: [0, 0, 0]},\n"
@@ -216,15 +231,19 @@ TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
       "strings: {s: {repeat: 0, from: [= i, 1, 0], to: v}}\n"
       "regions: {r: {repeat: 0, radius: 1, position: [= i, 0, 0]}}\n"
       "simulate: {duration: 1, stop: [{region: r}]}\noutput: {collisions: true}\n";
+
+  // Each measure of a ball, and of a group.
   for (const auto& [kind, thing] : {std::pair("balls", "w"), std::pair("groups", "g")}) {
     vector<string> names;
     for (const auto& [name, value] : all)
       names.push_back(
           std::regex_replace(std::regex_replace(name, std::regex("THING"), thing), std::regex("KIND"), kind));
+
     const vector<Measured> values = measured(place, yaml, names);
     ASSERT_EQ(values.size(), all.size());
     for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(fmt::format("{}", values[i].value), all[i].second) << names[i];
   }
+
   const Scene scene = scene_of(place, yaml);
   EXPECT_TRUE(scene.world.regions.empty());
   EXPECT_NE(error_of("max(groups.w.x_m)", scene), "") << "a ball is no group";
@@ -261,6 +280,7 @@ TEST(MeasureValues, OfAJointBodyArePartOfNoOther) {
       "  red: {mass: 1, radius: 0.1, position: [-1, 0, 0], velocity: [2, 0, 0]}\n"
       "  blue: {mass: 1, radius: 0.1, position: [1, 0, 0]}\n"
       "simulate: {duration: 2, contact: merge}\noutput: {trajectory: {every: 0.5}}\n";
+
   place.run(sticking, "run");
   const auto measures =
       measures_of({"", {}, {"balls.red.vx_m_per_s", "balls.blue.vx_m_per_s", "balls.red.kinetic_J"}, {}, {}});

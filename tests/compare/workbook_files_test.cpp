@@ -66,12 +66,14 @@ TEST_F(WorkbookFilesTest, APartThatIsNotToTheByteWhatWasWrittenIsFound) {
   files_.begin_parts();
   put("<one/>");
   put("<two/>");
+
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/>"})), "no error");
   EXPECT_EQ(checked(archive(place_, {"<two/>", "<one/>"})), "no error");  // their order does not matter
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/"})), other);
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<twi/>"})), other);
   EXPECT_EQ(checked(archive(place_, {"<one/>"})), other);
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/>", "rows"})), other);
+
   const Descriptor cut = archive(place_, {"<one/>", "<two/>"});
   ASSERT_EQ(ftruncate(cut.get(), lseek(cut.get(), 0, SEEK_END) - 1), 0);
   EXPECT_EQ(checked(cut), other);

@@ -144,12 +144,14 @@ TEST(ThinnedLine, KeepsEveryExtremeWithAFewPointsForEachColumn) {
     highest = std::max(highest, y);
     line.add(i / static_cast<double>(instants), y);
   }
+
   const vector<PlotPoint> points = line.points();
   EXPECT_LE(points.size(), 4u * ThinnedLine::columns);
   const auto [low, high] =
       std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
   EXPECT_EQ(low->y, lowest);
   EXPECT_EQ(high->y, highest);
+
   EXPECT_TRUE(std::is_sorted(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; }));
   EXPECT_EQ(points.front().x, 0);
   EXPECT_EQ(points.back().x, 1);
@@ -211,10 +213,12 @@ TEST(PlotAxis, TicksAreRoundAndTheirTextsExact) {
     for (const PlotTick& tick : axis.ticks) all.push_back(tick.text);
     return all;
   };
+
   using Texts = vector<string>;
   EXPECT_EQ(texts(linear_axis(0, 0.3, 6)), (Texts{"0", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30"}));
   EXPECT_EQ(texts(linear_axis(-1, 1, 6)), (Texts{"-1.0", "-0.5", "0", "0.5", "1.0"}));
   EXPECT_EQ(texts(linear_axis(0, 3, 6, 1)), (Texts{"0", "1", "2", "3"}));
+
   const PlotAxis large = linear_axis(0, 2.5e6, 6), small = linear_axis(0, 4e-5, 6);
   EXPECT_EQ(texts(large), (Texts{"0", "0.5", "1.0", "1.5", "2.0", "2.5"}));
   EXPECT_EQ(large.label("energy", "J"), "energy (10⁶ J)");
@@ -261,9 +265,11 @@ TEST(Charts, OfARunAreFilesOfItsFolderWithTheSameBytesEachTime) {
   const TempFolder here;
   run(scene, here / "a");
   run(scene, here / "b");
+
   std::set<string> listed;
   const auto manifest = nlohmann::json::parse(read(here / "a/manifest.json"));
   for (const auto& file : manifest["files"]) listed.insert(file["name"]);
+
   for (const string_view name : parts_of(plot_files.names)) {
     const string path = "plots/" + string(name), bytes = read(here / ("a/" + path));
     EXPECT_EQ(bytes, read(here / ("b/" + path))) << path;

@@ -60,15 +60,18 @@ inline Scene small_scene() {
   Scene scene;
   scene.file = "scenes/small.yaml";
   scene.title = "Small";
+
   scene.world.mass = {2, 1, 1, 1};
   scene.world.radius = {0.1, 0.1, 0.1, 0.1};
   scene.world.restitution = {1, 1, 1, 1};
   scene.world.gravity = Vec3(0, -10, 0);
   scene.world.planes = {{Vec3(0, 0, 0), Vec3(0, 1, 0), {}}};
+
   scene.initial.position = {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(2, 1, 0), Vec3(3, 1, 0)};
   scene.initial.velocity = {Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
   scene.roster.bodies = {{"red", 0, 1, false, {}}, {"blue", 1, 1, false, {}}, {"gas", 2, 2, true, {}}};
   scene.roster.fixed = {{"floor", {}, true}};
+
   scene.simulate.duration = 0.2;
   scene.resolved = "scene: 1\ntitle: Small\n";
   return scene;

@@ -91,6 +91,7 @@ TEST(Film, ColoursComeBack) {
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const vector<array<int, 3>> colours = {{255, 255, 255}, {0, 0, 0},   {128, 128, 128}, {255, 0, 0},
                                          {0, 255, 0},     {0, 0, 255}, {220, 20, 60},   {65, 105, 225}};
+
   VideoOutput video;
   video.size = {16 * static_cast<int>(colours.size()), 16};
   video.crf = 1;
@@ -99,10 +100,12 @@ TEST(Film, ColoursComeBack) {
     for (const auto& colour : colours)
       for (int x = 0; x < 16; ++x)
         for (const int c : colour) image.pixels.push_back(static_cast<uint8_t>(c));
+
   Film film({folder.get(), temp.path()}, video, find_film_tools());
   film.add(image);
   film.complete();
   film.file().publish();
+
   const string pixels = first_frame(temp / "animation.mp4");
   ASSERT_EQ(pixels.size(), image.pixels.size());
   int worst = 0;
@@ -120,11 +123,13 @@ TEST(Film, OddSizesRepeatTheirLastPixel) {
   scene.output.video->size = {65, 37};
   scene.output.video->crf = 1;
   run(scene, temp / "run");
+
   EXPECT_EQ(probe(temp / "run/animation.mp4", "width,height"), "66\n38\n");
   const string pixels = first_frame(temp / "run/animation.mp4");
   ASSERT_EQ(pixels.size(), 66u * 38 * 3);
   EXPECT_NEAR(static_cast<unsigned char>(pixels[3 * (66 * 20 + 65)]),
               static_cast<unsigned char>(pixels[3 * (66 * 20 + 64)]), 3);
+
   scene.output.video->size = {1, 1};
   run(scene, temp / "run");
   EXPECT_EQ(probe(temp / "run/animation.mp4", "width,height"), "2\n2\n");
@@ -136,12 +141,14 @@ TEST(Film, TheSamePicturesGiveTheSameBytesOnAnyNumberOfCores) {
   scene.output.video->size = {320, 180};
   scene.simulate.duration = 1;
   run(scene, temp / "a");
+
   cpu_set_t all, one;
   ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
   CPU_ZERO(&one);
   for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
     if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+
   run(scene, temp / "b");
   sched_setaffinity(0, sizeof all, &all);
   EXPECT_TRUE(read(temp / "a/animation.mp4") == read(temp / "b/animation.mp4"));
@@ -155,9 +162,12 @@ TEST(Film, FramesAndFilmOfOneKindAreDrawnOnce) {
     const Exports exports(scene, temp / "run");
     EXPECT_EQ(exports.pictures().size(), 1u);
   }
+
   run(scene, temp / "run");
   EXPECT_EQ(probe(temp / "run/animation.mp4", "nb_read_frames"), "6\n");
   EXPECT_TRUE(fs::exists(temp / "run/frames/frame_00005.png"));
+
+  // Of any other kind they are drawn twice.
   for (const FramesOutput& frames :
        {FramesOutput{50, small, 4, 0, {}}, FramesOutput{25, {64, 38}, 4, 0, {}}, FramesOutput{25, small, 1, 0, {}},
         FramesOutput{25, small, 4, 0.1, {}}, FramesOutput{25, small, 4, 0, 0.1}}) {
@@ -210,14 +220,17 @@ TEST(Film, AGifsColoursAreThoseOfThePictures) {
   video.file = "film.gif";
   video.fps = 25;
   video.size = {64, 16};
+
   Image image{64, 16, {}};
   const array<array<int, 3>, 4> colours = {{{255, 255, 255}, {220, 20, 60}, {65, 105, 225}, {0, 0, 0}}};
   for (int i = 0; i < 64 * 16; ++i)
     for (const int c : colours[static_cast<size_t>(i % 64 / 16)]) image.pixels.push_back(static_cast<uint8_t>(c));
+
   Film film({folder.get(), temp.path()}, video, find_film_tools());
   for (int i = 0; i < 3; ++i) film.add(image);
   film.complete();
   film.file().publish();
+
   const string pixels = first_frame(temp / "film.gif");
   ASSERT_EQ(pixels.size(), image.pixels.size());
   EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), image.pixels.begin(),
@@ -278,6 +291,7 @@ TEST(Film, OpacityStaysInAGifAndAWebp) {
     video.fps = 25;
     video.size = {32, 32};
     video.crf = 1;
+
     Film film({folder.get(), temp.path()}, video, find_film_tools());
     for (int i = 0; i < 3; ++i) {
       Image image{32, 32, {}, 4};
@@ -288,16 +302,20 @@ TEST(Film, OpacityStaysInAGifAndAWebp) {
     EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << name;
     film.file().publish();
   }
+
   const string rgb = first_frame(temp / "film.mp4");
   EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * (32 * 16 + 4)]), 0, 8);  // on black
   EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * (32 * 16 + 12)]), 200, 8);
+
   const string webp = read(temp / "film.webp");
   ASSERT_EQ(webp.substr(12, 4), "VP8X");
   EXPECT_TRUE(webp[20] & 0x10) << "the container names no opacity";
+
   Child child({find_film_tools().ffmpeg, "-nostdin", "-v", "error", "-i", "film.gif", "-frames:v", "1", "-pix_fmt",
                "rgba", "-f", "rawvideo", "pipe:1"},
               folder.get(), false);
   EXPECT_EQ(child.wait(std::chrono::seconds(60)), 0) << child.errors();
+
   const string rgba = child.output();
   ASSERT_EQ(rgba.size(), 32U * 32 * 4);
   EXPECT_EQ(static_cast<unsigned char>(rgba[4 * (32 * 16 + 4) + 3]), 0);
@@ -331,14 +349,17 @@ TEST(Film, WithoutFfmpegNothingIsBegun) {
   const string path = std::getenv("PATH");
   const string remedy =
       ", which is not on the PATH\n  install it (on Debian: apt install ffmpeg), or leave the video out";
+
   setenv("PATH", "", 1);
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffmpeg" + remedy);
   unsetenv("PATH");
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffmpeg" + remedy);
+
   write(temp / "bin/ffmpeg", "#!/bin/sh\n");
   chmod((temp / "bin/ffmpeg").c_str(), 0755);
   setenv("PATH", (temp / "bin").c_str(), 1);
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffprobe" + remedy);
+
   setenv("PATH", path.c_str(), 1);
   EXPECT_FALSE(fs::exists(temp / "run"));
 }
@@ -374,6 +395,7 @@ class ScriptedFfmpeg : public ::testing::Test {
     chmod((temp_ / "ffmpeg").c_str(), 0755);
     fs::create_directory(temp_ / "out");
     const Descriptor folder(open((temp_ / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+
     VideoOutput video;
     video.size = {320, 180};
     const string error = error_of([&] {
@@ -382,6 +404,7 @@ class ScriptedFfmpeg : public ::testing::Test {
       film.complete();
       film.file().publish();
     });
+
     EXPECT_EQ(names_in(temp_ / "out"), error == "no error" ? vector<string>{"animation.mp4"} : vector<string>{});
     return error;
   }
@@ -430,6 +453,7 @@ TEST_F(ScriptedFfmpeg, OneThatTakesNothingDelaysNoOtherError) {
   const Descriptor folder(open(temp_.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   VideoOutput video;
   video.size = {640, 360};  // more than a socket holds
+
   const auto start = std::chrono::steady_clock::now();
   {
     Film film({folder.get(), "out"}, video, {temp_ / "ffmpeg", find_film_tools().ffprobe});
@@ -439,6 +463,7 @@ TEST_F(ScriptedFfmpeg, OneThatTakesNothingDelaysNoOtherError) {
               }),
               "cannot make the film out/animation.mp4: a picture is of another size");
   }
+
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
 }
 
@@ -457,6 +482,7 @@ TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
   const Scene scene = scene_with_film();
   run(scene, temp / "whole");
   const string whole = read(temp / "whole/animation.mp4");
+
   for (const int pictures : {1, 3, 6}) {
     const pid_t child = fork();
     if (child == 0) {
@@ -468,6 +494,7 @@ TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
       }
       kill(getpid(), SIGKILL);
     }
+
     int status = 0;
     waitpid(child, &status, 0);
     run(scene, temp / "run");  // its ffmpeg has just reached the end of its input

@@ -24,11 +24,13 @@ vector<PathPiece> pieces() {
   for (Entity i = 0; i < 4; ++i) all.push_back({i, 0, {0, 0}, Vec3(i, 1, -0.0), Vec3(1, -0.0, 0), Vec3(0, -10, 0)});
   all.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -0.0, 0)});
   all.push_back({2, 0.125, {0.0625, 0}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -10, 0)});
+
   PathPiece step{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
   step.kicked = true;
   step.until = {0.175, 1e-19};
   step.kick = Vec3(0, -1, 0);
   all.push_back(step);
+
   PathPiece curved{2, 0.17, {0.17, 0}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3(0, -10, 0)};
   PolynomialPath curve;
   curve.length = 0.5;
@@ -36,6 +38,7 @@ vector<PathPiece> pieces() {
     curve.displacement[k] = Vec3(0.25, -0.0, -3) / static_cast<double>(k + 1);
   curved.curve = std::make_shared<PolynomialPath>(curve);
   all.push_back(curved);
+
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -45,19 +48,23 @@ vector<PathPiece> pieces() {
   joint.half = Vec3(0.125, 0.125, 0.125);
   all.push_back(part);
   all.push_back(joint);
+
   PathPiece fading{2, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
   fading.fade = 0.25;
+
   PathPiece verlet = curved;
   verlet.from = verlet.start.hi = 0.19;
   verlet.law = PathLaw::verlet;
   curve = PolynomialPath::parabola(0.25, verlet.v, verlet.a);
   curve.ahead = Vec3(0, -0.0, 1e-9);
   verlet.curve = std::make_shared<PolynomialPath>(curve);
+
   PathPiece closed{3, 0.19, {0.19, 0}, Vec3(1, -1, 1), Vec3(3, 1e-300, 0), Vec3(0, -10, 0)};
   closed.law = PathLaw::closed;
   PathPiece frame{3, 0.19, {0.2, 0}, Vec3(1, -1, 1), Vec3(-3, 0, 0), Vec3(0, 0, 0)};
   frame.law = PathLaw::frame;
   frame.rounding = 0x1p-40;
+
   PathPiece removed{1, 0.195, {0.195, 0}, Vec3(1, -1, 1), Vec3(-3, 0, 0), Vec3(0, 0, 0)};
   removed.removed = true;
   for (const PathPiece& piece : {fading, verlet, closed, frame, removed}) all.push_back(piece);
@@ -114,6 +121,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_TRUE(store(folder, scene).empty());
   const Descriptor opened = open(folder);
   FlightsReader reader(opened.get(), folder.path(), scene);
+
   Recorded recorded;
   for (const PathPiece& piece : pieces()) {
     ASSERT_TRUE(reader.next(recorded));
@@ -121,6 +129,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
     EXPECT_TRUE(same_bits(recorded.piece, piece)) << "body " << piece.body << " from " << piece.from;
   }
   EXPECT_FALSE(reader.next(recorded));
+
   EXPECT_EQ(reader.tally().body_body, 7u);
   EXPECT_EQ(reader.tally().merges, 1u);
   EXPECT_EQ(reader.tally().tautened, 2u);
@@ -128,9 +137,11 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_EQ(reader.tally().last_collision, 0.1875);
   EXPECT_EQ(reader.tally().fastest.speed, 12);
   EXPECT_EQ(reader.tally().stepped_contact, 0.5);
+
   EXPECT_EQ(reader.tally().taken_up.impacts, 4u);
   EXPECT_EQ(reader.tally().taken_up.fastest, 0.125);
   EXPECT_EQ(reader.tally().taken_up.energy, 0.375);
+
   const SharedImpacts& shared = reader.tally().shared;
   const SharedImpacts stored = some_tally().shared;
   EXPECT_TRUE(shared.instants == stored.instants && shared.ties == stored.ties && shared.first == stored.first);
@@ -147,6 +158,7 @@ vector<PathPiece> falling_crowd(int steps) {
     for (Entity i = 0; i < 4; ++i) {
       const Vec3 before(i, k == 0 ? 0 : -10 * (k - 0.5) * length, 0), drift(i, -10 * (k + 0.5) * length, 0);
       x[i] = k == 0 ? Vec3(i, 1, 0) : Vec3(x[i] + length * before);
+
       PathPiece piece{i, k * length, {k * length, 0}, x[i], drift, Vec3::Zero()};
       piece.kicked = true;
       piece.until = {(k + 0.5) * length, 0};
@@ -167,15 +179,19 @@ TEST(Flights, TakeHardlyAByteForAStepThatFollowsFromTheStepBefore) {
 TEST(Flights, TakeFewBytesForAnImpactOfTwo) {
   vector<PathPiece> all = {pieces()[0], pieces()[1]};
   for (PathPiece& piece : all) piece.a = Vec3::Zero();
+
   double time = 0;
   const int impacts = 1'000;
   const Vec3 n = Vec3(1, 2, 2) / 3;
+
+  // They approach each other, and turn at their impact.
   for (int k = 0; k < impacts; ++k) {
     const double dt = 0x1p-20 * (1 + k % 7);
     for (Entity i = 0; i < 2; ++i) {
       const double side = i == 0 ? -1 : 1;
       all.push_back({i, time, {time, 0}, (0.1 + dt) * side * n, -side * n, Vec3::Zero()});
     }
+
     time += dt;
     for (Entity i = 0; i < 2; ++i) {
       PathPiece piece = all[all.size() - 2];
@@ -185,6 +201,7 @@ TEST(Flights, TakeFewBytesForAnImpactOfTwo) {
       all.push_back(piece);
     }
   }
+
   const TempFolder folder;
   Scene scene = small_scene();
   scene.world.mass[0] = 1;
@@ -285,19 +302,23 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
   store(folder, scene);
   const string whole = read(folder / "flights.bin");
   EXPECT_EQ(refusal(folder, scene), "");
+
   scene.simulate.duration = 3;
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it belongs to another scene");
   scene = small_scene();
+
   const auto with = [&](size_t at, char byte) {
     string other = whole;
     other[at] = byte;
     write(folder / "flights.bin", other);
     return refusal(folder, scene);
   };
+
   EXPECT_EQ(with(0, 'C'), "cannot use run/flights.bin: it is not a file of flights");
   EXPECT_EQ(with(8, 6),
             "cannot use run/flights.bin: another version of carom wrote it\n"
             "  carom run run/scene.yaml -o run --force runs it again");
+
   fs::remove(folder / "flights.bin");
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it cannot be opened, or is not a file");
 }
@@ -325,8 +346,10 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
     store(folder, scene, changed);
     return refusal(folder, scene) == "cannot use run/flights.bin: it is damaged";
   };
+
   const size_t first = 0, step = 6, curve = 7, part = 8, joint = 9, fading = 10, frame = 13;
   EXPECT_FALSE(refused_with(first, [](PathPiece&) {}));
+
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.from = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.hi = -infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.lo = infinite; }));
@@ -334,12 +357,14 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.x[0] = std::nan(""); }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.v[1] = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.a[2] = -infinite; }));
+
   EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.until.hi = infinite; }));
   EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.kick[0] = infinite; }));
   EXPECT_TRUE(refused_with(part, [&](PathPiece& piece) { piece.part_of = piece.body; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.mass = 0; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.radius = infinite; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.half[1] = -1; }));
+
   EXPECT_TRUE(refused_with(fading, [&](PathPiece& piece) { piece.fade = infinite; }));
   EXPECT_TRUE(refused_with(frame, [&](PathPiece& piece) { piece.rounding = infinite; }));
 
@@ -394,15 +419,19 @@ TEST(Flights, FromATimeOnBeginWithThePresentPieceOfEveryBody) {
   store(folder, scene);
   const Descriptor opened = open(folder);
   FlightsReader reader(opened.get(), folder.path(), scene);
+
   const vector<PathPiece> all = pieces();
   for (const double time : {0.19, 0.0, 0.15, 0.16, 1.0}) {
     SCOPED_TRACE(time);
     reader.seek(time);
+
+    // Pieces that no later one has replaced by then.
     vector<PathPiece> expected;
     for (size_t k = 0; k < all.size(); ++k) {
       const auto replaced = [&](const PathPiece& later) { return later.body == all[k].body && later.from <= time; };
       if (std::none_of(all.begin() + static_cast<ptrdiff_t>(k) + 1, all.end(), replaced)) expected.push_back(all[k]);
     }
+
     Recorded recorded;
     for (const PathPiece& piece : expected) {
       ASSERT_TRUE(reader.next(recorded));
@@ -433,9 +462,11 @@ TEST(Flights, ThatWereLeftOutDoNotMakeARunIncomplete) {
     facts.left_out = {{"flights.bin", "larger than 1 GB"}};
     exports.finish(some_summary(scene), facts);
   }
+
   fs::remove(folder / "run/flights.bin");
   string manifest = read(folder / "run/manifest.json");
   EXPECT_NE(manifest.find("\"left_out\": {\n    \"flights.bin\": \"larger than 1 GB\"\n  }"), string::npos);
+
   const size_t entry = manifest.find("    {\n      \"name\": \"flights.bin\"");
   manifest.erase(manifest.rfind(',', entry), manifest.find('}', entry) + 1 - manifest.rfind(',', entry));
   write(folder / "run/manifest.json", manifest);

@@ -15,12 +15,15 @@ TEST(Forecast, CountsWhatARunWillWrite) {
   Scene scene = small_scene();
   EXPECT_EQ(forecast(scene).rows, 0u);
   EXPECT_EQ(forecast(scene).frames, 0u);
+
   scene.output.trajectory = TrajectoryOutput{0.01, false};
   EXPECT_EQ(forecast(scene).rows, 84u);  // 21 instants of 4 bodies
+
   scene.output.frames = FramesOutput{30, {1280, 720}, 4, 0, {}};
   EXPECT_EQ(forecast(scene).frames, 7u);
   scene.output.video = VideoOutput{};
   EXPECT_EQ(forecast(scene).frames, 7u);  // the same pictures
+
   scene.output.video->fps = 60;
   EXPECT_EQ(forecast(scene).frames, 7u + 13u);
   scene.output.sheet = SheetOutput{4, 3};

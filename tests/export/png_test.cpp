@@ -157,16 +157,19 @@ TEST(Sheet, ShowsThePicturesInOrderWithGaps) {
   Scene scene = small_scene();
   scene.output.sheet = SheetOutput{3, 2};
   scene.output.frames = FramesOutput{10, {400, 300}, 1, 0, {}};
+
   Exports exports(scene, temp / "run");
   ASSERT_EQ(exports.pictures().size(), 2u);
   const Size size = exports.pictures()[1].size;
   EXPECT_EQ(size.width, 480);
   EXPECT_EQ(size.height, 360);  // the frames' shape
+
   play(scene, exports);
   exports.finish(some_summary(scene), {});
   const Image sheet = decode(read(temp / "run/sheet.png"));
   ASSERT_EQ(sheet.width, 3 * 480 + 4 * 8);
   ASSERT_EQ(sheet.height, 2 * 360 + 3 * 8);
+
   for (int number = 0; number < 6; ++number) {
     const Image one = picture(size, number);
     const int left = 8 + number % 3 * 488, top = 8 + number / 3 * 368;
@@ -174,6 +177,8 @@ TEST(Sheet, ShowsThePicturesInOrderWithGaps) {
       ASSERT_EQ(std::memcmp(sheet.row(top + y) + 3 * left, one.row(y), static_cast<size_t>(one.width) * 3), 0)
           << "picture " << number << ", row " << y;
   }
+
+  // Between them is the ground.
   for (const int x : {0, 7, 488, 495, 1471}) EXPECT_EQ(sheet.row(20)[3 * x], 24) << x;
   for (const int y : {0, 7, 368, 375, 743}) EXPECT_EQ(sheet.row(y)[3 * 20], 24) << y;
   EXPECT_EQ(exports.frames(), 3u);  // the sheet's pictures are no frames
@@ -266,6 +271,7 @@ TEST(Frames, AnyNumberOfThreadsWritesTheSameFiles) {
   TempFolder temp;
   const vector<FileRecord> one = frames_by(1, temp / "one");
   ASSERT_EQ(one.size(), 40U);
+
   for (const size_t threads : {2U, 5U}) {
     const string path = temp / std::to_string(threads);
     const vector<FileRecord> several = frames_by(threads, path);
@@ -328,8 +334,10 @@ TEST(PictureStreams, OfFramesAndASlowFilmAreOneUnlessTheirFlashesDiffer) {
   scene.output.frames.emplace().fps = 240;
   scene.output.video.emplace().speed = 0.125;  // at 30 a second: the same times
   EXPECT_EQ(plan_pictures(scene).streams.size(), 1U);
+
   scene.overlay.shutter = 0.5;
   EXPECT_EQ(plan_pictures(scene).streams.size(), 1U);
+
   scene.overlay.flash = true;
   const PictureStreams plan = plan_pictures(scene);
   ASSERT_EQ(plan.streams.size(), 2U);

@@ -58,16 +58,19 @@ TEST(Tables, TrajectoryIsByTimeThenBody) {
   scene.output.trajectory = TrajectoryOutput{0.15, false};
   scene.initial.velocity[3] = Vec3(-0.0, 1e-7, std::nan(""));
   run(scene, temp / "run");
+
   EXPECT_EQ(read(temp / "run/trajectory.csv"),
             "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n"
             "0,red,0,1,0,1,0,0\n"
             "0,blue,1,1,0,0,0,0\n"
             "0,gas.0,2,1,0,0,0,0\n"
             "0,gas.1,3,1,0,0,1e-07,\n"
+
             "0.15,red,0,1,0,1,0,0\n"
             "0.15,blue,1,1,0,0,0,0\n"
             "0.15,gas.0,2,1,0,0,0,0\n"
             "0.15,gas.1,3,1,0,0,1e-07,\n"
+
             "0.2,red,0,1,0,1,0,0\n"
             "0.2,blue,1,1,0,0,0,0\n"
             "0.2,gas.0,2,1,0,0,0,0\n"
@@ -92,6 +95,7 @@ TEST(Tables, CollisionsNameBothBodies) {
   TempFolder temp;
   Scene scene = small_scene();
   scene.output.collisions = true;
+
   {
     Exports exports(scene, temp / "run");
     const vector<Collision> first = {
@@ -100,12 +104,14 @@ TEST(Tables, CollisionsNameBothBodies) {
     const vector<Collision> second = {
         {0.15, CollisionKind::rest, 1, 4, Vec3(0, 0, 0), Vec3(0, -1, 0), 0, 0, std::nan(""), 0, 1e-9},
         {0.2, CollisionKind::merge, 0, 1, Vec3(0, 0, 0), Vec3(0, 0, 1), 1, 0, 0, 1, 1}};
+
     exports.tables().record(first);
     exports.tables().record({});
     exports.tables().record(second);
     play(scene, exports);
     exports.finish(some_summary(scene), {});
   }
+
   EXPECT_EQ(read(temp / "run/collisions.csv"),
             "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,"
             "impulse_N_s,energy_lost_J\n"
@@ -121,6 +127,7 @@ TEST(Tables, CollisionsNameStrings) {
   scene.output.collisions = true;
   scene.world.strings = {{0, no_entity, Vec3(0, 2, 0), 1, 0, false}};
   scene.roster.strings = {"line"};
+
   {
     Exports exports(scene, temp / "run");
     const Collision taut{0.1, CollisionKind::taut, 0, 5, Vec3(0, 1, 0), Vec3(0, 1, 0), 2, 0, 0, 3, 4};
@@ -128,6 +135,7 @@ TEST(Tables, CollisionsNameStrings) {
     play(scene, exports);
     exports.finish(some_summary(scene), {});
   }
+
   const string text = read(temp / "run/collisions.csv");
   EXPECT_EQ(text.substr(text.find('\n') + 1), "0.1,string,red,line,0,1,0,0,1,0,2,0,0,3,4\n");
 }
@@ -139,11 +147,13 @@ TEST(Tables, BodiesThatHaveBecomePartOfAnotherHaveNoRows) {
   scene.output.trajectory = TrajectoryOutput{1, false};
   scene.initial.part_of = {0, 1, 0, 3};
   run(scene, temp / "long");
+
   EXPECT_EQ(read(temp / "long/trajectory.csv"),
             "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n"
             "0,red,0,1,0,1,0,0\n"
             "0,blue,1,1,0,0,0,0\n"
             "0,gas.1,3,1,0,0,0,0\n");
+
   scene.output.trajectory->wide = true;
   run(scene, temp / "wide");
   const string wide = read(temp / "wide/trajectory.csv");
@@ -155,6 +165,7 @@ TEST(Tables, ContactsAreARowAnInstantAndPair) {
   Scene scene = small_scene();
   scene.output.contacts = ContactsOutput{0.15};
   run(scene, temp / "run", {{0, 4, 9.80665}, {1, 3, 0.5}});
+
   EXPECT_EQ(read(temp / "run/contacts.csv"),
             "time_s,a,b,force_N\n"
             "0,red,floor,9.80665\n"
@@ -180,6 +191,7 @@ TEST(Tables, EnergyIsKineticPlusPotential) {
 TEST(Tables, TheSummaryIsOneRow) {
   TempFolder temp;
   Scene scene = small_scene();
+
   Summary summary;
   summary.run =
       "r\xff"
@@ -188,12 +200,14 @@ TEST(Tables, TheSummaryIsOneRow) {
   summary.engine = "exact";
   summary.status = "done";
   summary.duration = 0.2;
+
   summary.bodies = 4;
   summary.collisions = 3;
   summary.body_body = 2;
   summary.body_fixed = 1;
   summary.first_collision = std::nan("");
   summary.last_collision = 0.125;
+
   summary.energy.start = 51;
   summary.energy.end = 50;
   summary.energy.lost = 1;
@@ -203,16 +217,19 @@ TEST(Tables, TheSummaryIsOneRow) {
   summary.max_speed = 4;
   summary.resting = 5;
   summary.frames = 18446744073709551615ULL;
+
   summary.stepped_contact = 0.75;
   summary.energy.removed = 0.5;
   summary.ended_by = "region pocket";
   summary.contact.taken_up.energy = 0.25;
   summary.contact.made = 0.125;
+
   {
     Exports exports(scene, temp / "run");
     play(scene, exports);
     exports.finish(summary, {});
   }
+
   EXPECT_EQ(
       read(temp / "run/summary.csv"),
       "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,"
@@ -228,12 +245,14 @@ TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {
   TempFolder temp;
   Scene scene = small_scene();
   const Entity count = 200'000;
+
   scene.world.mass.assign(count, 1);
   scene.initial.position.assign(count, Vec3(0, 0, 0));
   scene.initial.velocity.assign(count, Vec3(0, 0, 0));
   scene.roster.bodies = {{"gas", 0, count, true, {}}};
   scene.simulate.duration = 0;
   scene.output.trajectory = TrajectoryOutput{0.1, false};
+
   run(scene, temp / "run");
   const string text = read(temp / "run/trajectory.csv");
   EXPECT_EQ(std::ranges::count(text, '\n'), 200'001);

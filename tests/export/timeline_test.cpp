@@ -133,11 +133,13 @@ TEST(Ticks, FramesLieWithinFromAndUntilEndsIncluded) {
   EXPECT_EQ(ticks.last(), 21);
   EXPECT_EQ(Ticks::rate(30, 0.11, 0.69).first(), 4);
   EXPECT_EQ(Ticks::rate(30, 0.11, 0.69).last(), 20);
+
   EXPECT_EQ(Ticks::rate(10, 5, 5).count(), 1);
   EXPECT_EQ(Ticks::rate(10, 0.01, 0.09).count(), 0);
   EXPECT_EQ(Ticks::rate(10, 5, 4).count(), 0);
   EXPECT_EQ(Ticks::rate(10, -5, 0.2).first(), 0);
   EXPECT_EQ(Ticks::rate(10, -5, -1).count(), 0);
+
   for (const double fps : {24.0, 25.0, 29.97, 30.0, 59.94, 60.0, 120.0})
     for (int i = 0; i < 3000; i += 7) {
       const Ticks one = Ticks::rate(fps, i / fps, i / fps);
@@ -162,11 +164,14 @@ TEST(Ticks, AreWrittenWithAllTheirDecimalsOrToATwentiethOfTheirInterval) {
   EXPECT_EQ(Ticks::rate(30, 0, 9).decimals(), 3);   // 0.0333... s
   EXPECT_EQ(Ticks::rate(240, 0, 9).decimals(), 4);  // 0.0041666... s
   EXPECT_EQ(Ticks::rate(30, 0.5, 0.5).decimals(), 1);
+
   EXPECT_EQ(Ticks::even(1, 0.12345678, 0.12345678).decimals(), 6);
   EXPECT_EQ(Ticks::even(12, 0, 2.8).decimals(), 2);  // 0.2545... s
   EXPECT_EQ(Ticks::even(5, 0, 2).decimals(), 1);
+
   EXPECT_EQ(Ticks::film(25, 0.125, 0.5, 2).decimals(), 3);  // 0.005 s
   EXPECT_EQ(Ticks::film(30, 0.1, 0, 2).decimals(), 4);      // 0.00333... s
+
   for (const double fps : {24.0, 30.0, 60.0, 240.0, 144.0}) {
     const Ticks ticks = Ticks::rate(fps, 0, 3);
     const double unit = std::pow(10, -ticks.decimals());
@@ -195,15 +200,18 @@ TEST(Timeline, MergesStreamsInOrderAndJoinsEqualInstants) {
   Timeline timeline(0.5);
   const int a = timeline.add(Ticks::every(0.2, 0.5));     // 0 0.2 0.4 0.5
   const int b = timeline.add(Ticks::rate(10, 0.1, 0.4));  // 0.1 0.2 0.3 0.4: ticks 1 .. 4
+
   struct Step {
     double time;
     int64_t a, b;  // -1: not due
     bool operator==(const Step&) const = default;
   };
+
   vector<Step> steps;
   EXPECT_FALSE(timeline.due(a));
   while (timeline.advance())
     steps.push_back({timeline.time(), timeline.due(a).value_or(-1), timeline.due(b).value_or(-1)});
+
   const vector<Step> expected = {{0, 0, -1}, {0.1, -1, 1}, {0.2, 1, 2}, {0.3, -1, 3}, {0.4, 2, 4}, {0.5, 3, -1}};
   EXPECT_TRUE(steps == expected);
   EXPECT_FALSE(timeline.due(a));

@@ -42,6 +42,7 @@ TEST(Yuv, LumaOfEveryColourIsTheExactOneRounded) {
     for (int g = 0; g < 256; ++g)
       for (int b = 0; b < 256; ++b)
         for (const int c : {r, g, b}) image.pixels.push_back(static_cast<uint8_t>(c));
+
     to_yuv420p(image, planes);
     size_t wrong = 0;
     for (int g = 0; g < 256; ++g)
@@ -57,15 +58,18 @@ TEST(Yuv, ChromaIsThatOfTheMeanOfFourPixelsRoundedOnce) {
   for (int i = 0; i < side * side * 3; ++i)
     // Extreme values, too, so that the largest and the smallest results occur.
     image.pixels.push_back(static_cast<uint8_t>(random() % 3 == 0 ? 255 * (random() % 2) : random() % 256));
+
   const Planes planes = planes_of(image);
   const uint8_t* const u = planes.data() + side * side;
   const uint8_t* const v = u + side * side / 4;
+
   for (int y = 0; y < side / 2; ++y)
     for (int x = 0; x < side / 2; ++x) {
       array<int64_t, 3> sum{};
       for (const int dy : {0, 1})
         for (const int dx : {0, 1})
           for (int c = 0; c < 3; ++c) sum[static_cast<size_t>(c)] += image.row(2 * y + dy)[3 * (2 * x + dx) + c];
+
       const auto [r, g, b] = sum;
       ASSERT_EQ(u[side / 2 * y + x], exact_chroma(b, r, g, b, 722, 4)) << x << ", " << y;
       ASSERT_EQ(v[side / 2 * y + x], exact_chroma(r, r, g, b, 2126, 4)) << x << ", " << y;

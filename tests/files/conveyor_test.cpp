@@ -35,11 +35,13 @@ TEST(Conveyor, UsesWhatIsSentInOrder) {
         items.insert(&item);
       },
       0);
+
   for (int i = 0; i < 1000; ++i) {
     conveyor.item() = i;
     conveyor.send();
   }
   conveyor.finish();
+
   ASSERT_EQ(used.size(), 1000U);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(used[static_cast<size_t>(i)], i);
   EXPECT_EQ(items.size(), conveyor.items());
@@ -94,6 +96,7 @@ TEST(Conveyor, OfSeveralFailuresTheFirstItemsIsThrown) {
           if (item >= 7) throw std::runtime_error(std::to_string(item));
         },
         0, 4);
+
     string failure;
     try {
       for (int i = 0; i < 20; ++i) {
@@ -140,6 +143,7 @@ TEST(Conveyor, WhatFailsThereIsThrownHere) {
           if (++used == 5) throw std::runtime_error("the disk is full");
         },
         alone);
+
     const auto send_all = [&] {
       for (int i = 0; i < 20; ++i) conveyor.send();
       conveyor.finish();
@@ -158,6 +162,7 @@ TEST(Conveyor, IsLeftWithoutUsingWhatWaits) {
           std::this_thread::sleep_for(std::chrono::milliseconds(20));
         },
         0);
+
     conveyor.send();
     while (used == 0) std::this_thread::yield();
     conveyor.send();
@@ -190,19 +195,24 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
     TempFolder temp;
     Scene scene = many_bodies_scene(count);
     scene.output.trajectory = TrajectoryOutput{0.1, wide};
+
     string expected = wide ? "" : "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n";
     const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
     TrajectoryTable table({folder.get(), temp.path()}, scene);
     char text[number_size];
     const auto number = [&](double x) { return string(text, put_number(text, x)); };
+
+    // At the last instants each fifth body has become part of the one before it.
     for (const double time : {0.0, 0.1, 0.2, 0.3}) {
       State state = many_bodies(count, time);
       if (time > 0.1) {
         state.part_of.resize(count);
         for (Entity i = 0; i < count; ++i) state.part_of[i] = i % 5 == 4 ? i - 1 : i;
       }
+
       table.add(time, state, {});
       if (wide) expected += number(time);
+
       for (Entity i = 0; i < count; ++i) {
         const bool part = !state.part_of.empty() && state.part_of[i] != i;
         if (part && !wide) continue;
@@ -211,8 +221,10 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
           for (int axis = 0; axis < 3; ++axis) expected += "," + (part ? "" : number((*vector)[axis]));
         if (!wide) expected += "\n";
       }
+
       if (wide) expected += "\n";
     }
+
     table.files().front()->publish();
     string written = read(temp / "trajectory.csv");
     if (wide) written.erase(0, written.find('\n') + 1);
@@ -229,6 +241,7 @@ TEST(Conveyor, ALongFileOfWhichNothingIsPublishedLeavesNothing) {
     made.output.trajectory = TrajectoryOutput{0.1, false};
     return made;
   }();
+
   {
     const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
     TrajectoryTable table({folder.get(), temp.path()}, scene);
@@ -247,6 +260,7 @@ TEST(Conveyor, AFullDiskIsAnErrorOfTheRun) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{rlim_t{1} << 20, before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
+
   for (const size_t size : {size_t{2} << 20, size_t{8} << 20}) {  // without a thread; with one
     OutputFile file({folder.get(), temp.path()}, "large.csv");
     const auto fill = [&] {
@@ -255,6 +269,7 @@ TEST(Conveyor, AFullDiskIsAnErrorOfTheRun) {
     };
     EXPECT_THROW(fill(), ExportError);
   }
+
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_TRUE(names_in(temp.path()).empty());

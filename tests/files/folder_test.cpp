@@ -77,6 +77,7 @@ TEST(Exports, StateIsNeededOnlyWhenAnOutputIsDue) {
   ASSERT_TRUE(nothing.tables().timeline().advance());
   EXPECT_FALSE(nothing.tables().needs_state());
   EXPECT_FALSE(nothing.draws());
+
   scene.output.energy = EnergyOutput{0.15};
   Exports energy(scene, temp / "energy");
   Timeline& timeline = energy.tables().timeline();
@@ -85,6 +86,7 @@ TEST(Exports, StateIsNeededOnlyWhenAnOutputIsDue) {
     EXPECT_EQ(timeline.time(), due);
     EXPECT_TRUE(energy.tables().needs_state());
   }
+
   EXPECT_FALSE(timeline.advance());
 }
 
@@ -152,6 +154,7 @@ TEST(Manifest, NamesEveryFileWithItsSizeAndHash) {
   scene.output.frames = FramesOutput{10, {32, 18}, 1, 0, {}};
   scene.output.sheet = SheetOutput{2, 1};
   run(scene, temp / "run");
+
   const auto manifest = nlohmann::json::parse(read(temp / "run/manifest.json"));
   EXPECT_EQ(manifest["tool"], "carom");
   EXPECT_EQ(manifest["version"], CAROM_VERSION);
@@ -159,6 +162,7 @@ TEST(Manifest, NamesEveryFileWithItsSizeAndHash) {
   EXPECT_EQ(manifest["scene"]["title"], "Two \"balls\" \xEF\xBF\xBD");
   EXPECT_EQ(manifest["scene"]["sha256"], sha256(scene.resolved));
   EXPECT_EQ(manifest["counts"]["frames"], 3);
+
   Names names;
   for (const auto& file : manifest["files"]) {
     const string text = read(temp / "run/" + file["name"].get<string>());
@@ -166,6 +170,7 @@ TEST(Manifest, NamesEveryFileWithItsSizeAndHash) {
     EXPECT_EQ(file["bytes"], text.size()) << file["name"];
     EXPECT_EQ(file["sha256"], sha256(text)) << file["name"];
   }
+
   std::ranges::sort(names);
   EXPECT_EQ(names, (Names{"collisions.csv", "energy.csv", "frames/frame_00000.png", "frames/frame_00001.png",
                           "frames/frame_00002.png", "scene.yaml", "sheet.png", "summary.csv", "trajectory.csv"}));
@@ -226,14 +231,18 @@ TEST(Folder, ForeignFilesAreAnotherRun) {
   const Scene scene = small_scene();
   write(temp / "a/thesis.tex", "x");
   EXPECT_EQ(inspect_folder(temp / "a", scene), FolderContent::other_run);
+
   write(temp / "b/manifest.json", "{\"tool\": \"another\"}");
   EXPECT_EQ(inspect_folder(temp / "b", scene), FolderContent::other_run);
+
   write(temp / "c/manifest.json", "{\"tool\": \"carom\", ");
   EXPECT_EQ(inspect_folder(temp / "c", scene), FolderContent::other_run);
   write(temp / "d/manifest.json", string(1 << 20, '['));
   EXPECT_EQ(inspect_folder(temp / "d", scene), FolderContent::other_run);
+
   write(temp / "e/scene.yaml", "scene: 1\n");
   EXPECT_EQ(inspect_folder(temp / "e", scene), FolderContent::other_run);
+
   run(scene, temp / "a");  // as --force does: files that are not a run's stay
   EXPECT_EQ(read(temp / "a/thesis.tex"), "x");
 }
@@ -245,14 +254,17 @@ TEST(Folder, AChangedFileMakesItTouchedAndALostOneIncomplete) {
     const string file = temp / "run/" + name;
     run(scene, temp / "run");
     const string text = read(file);
+
     string changed = text;
     changed[changed.size() / 2] ^= 1;  // one bit, the same size
     write(file, changed);
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::touched) << name;
+
     write(file, text.substr(1));
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::touched) << name;
     write(file, text);
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::this_run) << name;
+
     fs::remove(file);
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete) << name;
   }
@@ -262,6 +274,7 @@ TEST(Folder, AManifestThatLeavesAFileOutIsNotWhole) {
   TempFolder temp;
   const Scene scene = scene_with_tables();
   run(scene, temp / "run");
+
   auto manifest = nlohmann::json::parse(read(temp / "run/manifest.json"));
   auto& files = manifest["files"];
   for (auto it = files.begin(); it != files.end(); ++it)
@@ -270,6 +283,7 @@ TEST(Folder, AManifestThatLeavesAFileOutIsNotWhole) {
       break;
     }
   write(temp / "run/manifest.json", manifest.dump());
+
   FolderChanges changes;
   EXPECT_EQ(inspect_folder(temp / "run", scene, &changes), FolderContent::touched);
   EXPECT_EQ(changes.foreign, "energy.csv");
@@ -339,6 +353,7 @@ TEST(Folder, AHostileManifestRemovesNothingOutside) {
     manifest["files"].push_back({{"name", name}, {"bytes", 4}, {"sha256", sha256("mine")}});
     write(temp / "run/manifest.json", manifest.dump());
     EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::other_run) << name;
+
     run(scene, temp / "run");
     EXPECT_EQ(read(temp / "victim"), "mine") << name;
     EXPECT_EQ(read(temp / "run/sub/victim"), "mine") << name;
@@ -402,11 +417,13 @@ TEST(OutputFile, AnySizeArrivesWhole) {
   for (const size_t size : {0u, 1u, 262143u, 262144u, 262145u, 1000000u}) {
     string text;
     for (size_t i = 0; i < size; ++i) text += static_cast<char>(i * i % 251);
+
     OutputFile file({folder.get(), temp.path()}, "file");
     file.write(string_view(text).substr(0, size / 3));
     file.written(put_text(file.room(size - size / 3), string_view(text).substr(size / 3)));
     EXPECT_FALSE(fs::exists(temp / "file") && size == 0);
     file.publish();
+
     EXPECT_EQ(read(temp / "file"), text);
     EXPECT_EQ(file.record().bytes, size);
     EXPECT_EQ(file.record().sha256, sha256(text));
@@ -445,9 +462,11 @@ TEST(OutputFile, KilledAtAnyMomentNoFinalFileIsIncomplete) {
   Scene scene = scene_with_tables();
   scene.output.frames = FramesOutput{100, {64, 36}, 1, 0, {}};
   run(scene, temp / "whole");
+
   vector<std::pair<string, string>> expected;
   for (const string& name : names_in(temp / "whole"))
     if (fs::is_regular_file(temp / "whole/" + name)) expected.emplace_back(name, read(temp / "whole/" + name));
+
   for (int i = 0; i < 40; ++i) {
     const pid_t child = fork();
     if (child == 0) {
@@ -457,6 +476,7 @@ TEST(OutputFile, KilledAtAnyMomentNoFinalFileIsIncomplete) {
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
+
     for (const auto& [name, text] : expected) {
       if (!fs::exists(temp / "run/" + name)) continue;
       ASSERT_EQ(read(temp / "run/" + name), text) << name << " after " << i;
@@ -464,6 +484,7 @@ TEST(OutputFile, KilledAtAnyMomentNoFinalFileIsIncomplete) {
     const FolderContent content = inspect_folder(temp / "run", scene);
     ASSERT_NE(content, FolderContent::other_run) << i;
   }
+
   run(scene, temp / "run");
   EXPECT_EQ(names_in(temp / "run"), names_in(temp / "whole"));
 }

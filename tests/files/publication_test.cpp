@@ -53,6 +53,7 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
   const auto wanted = bytes_in(temp / "next");
+
   // Each step that a publication makes, one after the other; the rest is settled after each.
   const vector<function<void(const string&)>> steps = {
       [](const string& at) { fs::rename(at + "/.collisions.csv.part", at + "/collisions.csv"); },
@@ -66,6 +67,7 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
       [](const string& at) { fs::remove(at + "/frames/frame_00004.png"); },
       [](const string& at) { fs::remove(at + "/.frames.part"); },
   };
+
   for (size_t made = 0; made <= steps.size(); ++made) {
     const string at = temp / std::to_string(made);
     commit(temp / "former", temp / "next", at);
@@ -105,12 +107,14 @@ TEST(Publication, WhatStandsInTheWayIsNamedAndOnceItIsGoneTheNextCommandGoesOn) 
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
   commit(temp / "former", temp / "next", temp / "run");
+
   fs::remove(temp / "run/summary.csv");
   fs::create_directories(temp / "run/summary.csv/x");
   const string message =
       "cannot write " + (temp / "run/summary.csv") + ": a folder of that name stands there; remove it";
   EXPECT_EQ(error_of([&] { settle_folder(temp / "run"); }), message);
   EXPECT_EQ(error_of([&] { settle_folder(temp / "run"); }), message);
+
   fs::remove_all(temp / "run/summary.csv");
   settle_folder(temp / "run");
   EXPECT_EQ(bytes_in(temp / "run"), bytes_in(temp / "next"));

@@ -109,7 +109,7 @@ TEST(FarContact, ASmallBallMeetsAWallsEdgesAndCornersToTheRoundingOfTheWay) {
     const Vec3 v = random.uniform(1, 10) * random.direction(), a(0, -random.log_uniform(1e-2, 10), 0);
     const Vec3 target(1, k % 2 == 0 ? 1 : random.uniform(-1, 1), 0);
     const Vec3 x = target + random.vector(radius) - (v + 0.5 * a);
-    const WallContact c = wall_contact_time(wall, x, v, a, radius, no_feature, 3);
+    const FeatureTime c = wall_contact_time(wall, x, v, a, radius, no_feature, 3);
     if (c.feature == no_feature || c.feature < wall_edges) continue;
     ++(c.feature < wall_corners ? edges : corners);
 

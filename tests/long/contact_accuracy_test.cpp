@@ -1,6 +1,7 @@
 // Two hundred random scenes with contact, strings and far places, of which an independent method knows the motion:
-// check
-// --accuracy, a tolerance and the bench state errors that contain the true ones.
+// check --accuracy, a tolerance and the bench state errors that contain the true ones.
+// Measured: true errors are at most 3.6 times those of --accuracy, 2.2 times those of the bench, and 1.2 times a
+// tolerance that is met.
 #include <gtest/gtest.h>
 
 #include <algorithm>

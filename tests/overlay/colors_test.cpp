@@ -120,11 +120,13 @@ TEST(Flash, LastsATenthOfASecondOfTheFilm) {
     const vector<Collision> one = {hit(0.5, 0, 2)};
     history.record(one);
     const DrawingMaker maker(scene, history, {64, 36}, speed);
+
     State state = scene.initial;
     const auto glow_at = [&](double time, size_t body) {
       state.time = time;
       return maker.at(state, camera_of(scene)).glow[body];
     };
+
     EXPECT_EQ(glow_at(0.5, 0), 1);
     EXPECT_FLOAT_EQ(glow_at(0.5 + 0.05 * speed, 0), 0.5F);
     EXPECT_GT(glow_at(0.5 + 0.099 * speed, 2), 0);

@@ -39,16 +39,19 @@ Coverage by_freetype(const string& text, double size, double x, double y, Size p
   EXPECT_EQ(FT_Init_FreeType(&library), 0);
   EXPECT_EQ(FT_New_Face(library, find_font().c_str(), 0, &face), 0);
   FT_Set_Char_Size(face, 0, std::lround(size * 64), 72, 72);
+
   FT_UInt before = 0;
   for (const char c : text) {
     const FT_UInt glyph = FT_Get_Char_Index(face, static_cast<unsigned char>(c));
     FT_Vector kerning{};
     FT_Get_Kerning(face, before, glyph, FT_KERNING_UNFITTED, &kerning);
     x += kerning.x / 64.0;
+
     FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING);
     FT_Outline_Translate(&face->glyph->outline, std::lround((x - std::floor(x)) * 64),
                          -std::lround((y - std::floor(y)) * 64));
     FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL);
+
     const FT_Bitmap& bitmap = face->glyph->bitmap;
     for (unsigned row = 0; row < bitmap.rows; ++row)
       for (unsigned column = 0; column < bitmap.width; ++column) {
@@ -57,9 +60,11 @@ Coverage by_freetype(const string& text, double size, double x, double y, Size p
         pixel = static_cast<uint8_t>(
             std::min(255, pixel + bitmap.buffer[row * static_cast<unsigned>(bitmap.pitch) + column]));
       }
+
     x += face->glyph->linearHoriAdvance / 65536.0;
     before = glyph;
   }
+
   FT_Done_Face(face);
   FT_Done_FreeType(library);
   return all;
@@ -77,10 +82,12 @@ TEST(Caption, HasThePixelsOfItsGlyphsAtItsPlace) {
   const Font font(find_font(), letters);
   const Coverage glyphs = by_freetype("AVAST Balls, t = 0.25 s", letters, inscription.margin() + padding,
                                       inscription.margin() + padding + font.ascent(), size);
+
   int covered = 0, bare = 0;
   const int left = inscription.margin() + static_cast<int>(padding) + 1;
   const int right = left + static_cast<int>(font.width("AVAST Balls, t = 0.25 s")) - 2;
   const int top = left, bottom = top + static_cast<int>(font.ascent() + font.descent()) - 2;
+
   for (int y = top; y < bottom; ++y) {
     for (int x = left; x < right; ++x) {
       const double part = glyphs.at(x, y) / 255.0;
@@ -92,6 +99,7 @@ TEST(Caption, HasThePixelsOfItsGlyphsAtItsPlace) {
       bare += glyphs.at(x, y) == 0;
     }
   }
+
   EXPECT_GT(covered, 50);
   EXPECT_GT(bare, 500);
 }
@@ -118,6 +126,7 @@ TEST(Caption, NeverLeavesThePicture) {
   Font font(find_font());
   string text = "a";
   for (int i = 0; i < 60; ++i) text += i % 7 == 0 ? " Donaudampfschifffahrt" : " bounces of a ball";
+
   for (const auto& [width, height] :
        {std::pair(16, 16), {32, 18}, {64, 36}, {480, 20}, {20, 480}, {640, 360}, {1280, 720}}) {
     for (const string& its : {text, string(500, 'W'), string("x")}) {
@@ -126,6 +135,7 @@ TEST(Caption, NeverLeavesThePicture) {
       EXPECT_LE(block.canvas()->width(), width) << width << " x " << height;
       EXPECT_LE(block.canvas()->height(), height) << width << " x " << height;
     }
+
     Inscription inscription(load_text(start + "output: {frames: true}\n"), {width, height});
     EXPECT_FALSE(inscription.any());
   }
@@ -163,6 +173,7 @@ TEST(Caption, IsOpaqueWhereAPictureIsTransparent) {
 TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
   const Scene scene = load_text(start + "caption: true\noutput: {frames: true}\n");
   const Scene without = load_text(start + "output: {frames: true}\n");
+
   const string folder = test_folder();
   const char* names[] = {"HOME", "XDG_DATA_HOME", "XDG_DATA_DIRS"};
   vector<string> kept;
@@ -170,6 +181,7 @@ TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
     kept.emplace_back(std::getenv(name) != nullptr ? std::getenv(name) : "");
     setenv(name, folder.c_str(), 1);
   }
+
   string error;
   try {
     check_font(scene);
@@ -177,6 +189,7 @@ TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
     error = thrown.what();
   }
   EXPECT_NO_THROW(check_font(without));
+
   for (size_t i = 0; i < 3; ++i) setenv(names[i], kept[i].c_str(), 1);
   EXPECT_EQ(error,
             "text in pictures needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n  install it "
@@ -190,10 +203,12 @@ TEST(Legend, HasTheEndsOfItsMapAtTheEndsOfItsStrip) {
     string text = two_balls;
     for (size_t i = text.find("max: 2.5"); i != string::npos; i = text.find("max: 2.5", i + 20))
       text.insert(i, string("map: ") + map + ", ");
+
     const Scene scene = load_text(text);
     Inscription inscription(scene, size);
     Image image = noise(size);
     inscription.write({}, image);
+
     ASSERT_EQ(inscription.legends()->strips().size(), 1u);
     const PixelBox strip = inscription.legends()->strips()[0];
     const ColorMap its = scene.roster.bodies[0].coloring->map;
@@ -202,6 +217,7 @@ TEST(Legend, HasTheEndsOfItsMapAtTheEndsOfItsStrip) {
                          3 * (inscription.margin() + strip.left + column);
       return hex_text({p[0] / 255.0, p[1] / 255.0, p[2] / 255.0});
     };
+
     EXPECT_EQ(color_at(0), hex_text(color_in(its, 0))) << map;
     EXPECT_EQ(color_at(strip.width - 1), hex_text(color_in(its, 1))) << map;
     EXPECT_GT(strip.width, 80);

@@ -31,6 +31,7 @@ TEST(HangingCurve, HasStrokesWithinTheError) {
   const double length = 2 * std::sinh(1.0), error = 1e-3;
   vector<Vec3> points = hanging_curve(Vec3(-1, 0, 0), Vec3(1, 0, 0), length, down, error);
   points.insert(points.begin(), Vec3(-1, 0, 0));
+
   const auto height = [](double x) { return std::cosh(x) - std::cosh(1.0); };
   double worst = 0;
   for (size_t i = 0; i + 1 < points.size(); ++i)
@@ -38,6 +39,7 @@ TEST(HangingCurve, HasStrokesWithinTheError) {
       const Vec3 p = points[i] + k / 50.0 * (points[i + 1] - points[i]);
       worst = std::max(worst, std::abs(p.y() - height(p.x())) / std::cosh(p.x()));
     }
+
   EXPECT_LT(worst, 1.01 * error);
   EXPECT_GT(worst, error / 3);
   EXPECT_LT(points.size(), 30u);
@@ -62,6 +64,7 @@ TEST(HangingCurve, KeepsItsLengthInEveryShape) {
     for (const double rise : {-1.0, 0.0, 0.3, 1.2}) {
       const Vec3 to(width, rise, 0);
       const double least = to.norm();
+
       for (const double slack : {1e-12, 1e-6, 0.1, 10.0, 1e6}) {
         const double length = least * (1 + slack);
         Vec3 last = Vec3::Zero();
@@ -71,6 +74,7 @@ TEST(HangingCurve, KeepsItsLengthInEveryShape) {
           sum += (point - last).norm();
           last = point;
         }
+
         EXPECT_EQ(last, to);
         EXPECT_NEAR(sum, length, 0.02 * length) << width << " " << rise << " " << slack;
       }

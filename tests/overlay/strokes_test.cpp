@@ -56,14 +56,17 @@ TEST(Trail, LiesWithinAQuarterPixelOfTheParabola) {
   History history(scene, picture_needs(scene));
   const PathPiece path = piece(0, {-1, 0, 0}, {1, 4, 0.5}, {0, -9.80665, 0});
   history.record_paths({&path, 1});
+
   State state = scene.initial;
   state.time = 1;
   const vector<Stroke> strokes = trails_of(scene, history, state);
+
   const Eye eye(*scene.camera, size);
   const auto exact = [&](double t) { return Vec3(path.x + t * (path.v + t / 2 * path.a)); };
   double worst = 0;
   for (int i = 0; i <= 300; ++i) worst = std::max(worst, pixels_off(exact(0.2 + 0.8 * i / 300), strokes, eye));
   EXPECT_LT(worst, 0.25);  // 0.115
+
   EXPECT_GT(strokes.size(), 10u);
   EXPECT_LT(strokes.size(), 100u);  // 30
   EXPECT_EQ(strokes.front().from, exact(1 - 0.8));
@@ -75,9 +78,11 @@ TEST(Trail, FadesWithAgeAndIsOneLine) {
   History history(scene, picture_needs(scene));
   const PathPiece path = piece(0, {0, 0, 0}, {1, 2, 0}, {0, -9.80665, 0});
   history.record_paths({&path, 1});
+
   State state = scene.initial;
   state.time = 1;
   const vector<Stroke> strokes = trails_of(scene, history, state);
+
   EXPECT_EQ(strokes.front().from_opacity, 0.5);  // 1 s of 2 s
   EXPECT_EQ(strokes.back().to_opacity, 1);
   for (size_t i = 0; i < strokes.size(); ++i) {
@@ -145,6 +150,7 @@ TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
   const Scene scene = load_text(
       ball_scene("gravity: [0, 0, 0]\ntrails: {seconds: 3}\nforces: [{spring: {anchor: [0, 0, 0], stiffness: 72}}]\n"));
   EXPECT_TRUE(overlay_needs(scene).states && overlay_needs(scene).collisions && !overlay_needs(scene).paths);
+
   History history(scene, picture_needs(scene));
   const auto at = [&](double time) {
     State state = scene.initial;
@@ -153,10 +159,12 @@ TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
     state.velocity[0] = Vec3(-6 * std::sin(6 * time), 4.2 * std::cos(6 * time), 0);
     return state;
   };
+
   int samples = 0;
   for (double time = 0; time < 2; time = history.next_sample(), ++samples) history.sample(at(time));
   history.sample(at(2));
   const vector<Stroke> strokes = trails_of(scene, history, at(2));
+
   const Eye eye(*scene.camera, size);
   double worst = 0;
   for (int i = 0; i <= 200; ++i) worst = std::max(worst, pixels_off(at(0.01 * i).position[0], strokes, eye));
@@ -174,6 +182,7 @@ TEST(Trail, FromStatesDoesNotDependOnThePicturesBefore) {
     state.velocity[0] = Vec3(-6 * std::sin(6 * time), 0, 0);
     return state;
   };
+
   const auto strokes = [&](double interval) {
     History history(scene, picture_needs(scene));
     double picture = interval;
@@ -184,6 +193,7 @@ TEST(Trail, FromStatesDoesNotDependOnThePicturesBefore) {
     history.sample(at(1));
     return trails_of(scene, history, at(1));
   };
+
   const vector<Stroke> few = strokes(2), many = strokes(0.013);
   ASSERT_EQ(few.size(), many.size());
   for (size_t i = 0; i < few.size(); ++i) EXPECT_TRUE(few[i].from == many[i].from && few[i].to == many[i].to);
@@ -194,6 +204,7 @@ TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
   ASSERT_TRUE(overlay_needs(scene).states);
   History history(scene, picture_needs(scene));
   State state = scene.initial;
+
   const Vec3 g(0, -9.80665, 0), corner(0.1, -0.4, 0), before(0.5, -3, 0), after(0.5, 2, 0);
   const auto sample = [&](double t) {  // the collision is at 1 s
     state.time = t;
@@ -202,10 +213,12 @@ TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
     state.velocity[0] = v + (t - 1) * g;
     history.sample(state);
   };
+
   sample(0.99);
   const Collision hit{1, CollisionKind::body_fixed, 0, 1, corner, -Vec3::UnitY(), 3, 2, 1, 1, 0};
   history.record({&hit, 1});
   sample(1.02);
+
   const vector<Stroke> strokes = trails_of(scene, history, state);
   double nearest = 1e9;
   for (const Stroke& stroke : strokes) nearest = std::min(nearest, (stroke.to - corner).norm());
@@ -233,11 +246,13 @@ TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
   const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
   const History history(scene, picture_needs(scene));
   const DrawingMaker maker(scene, history, size);
+
   const auto turns = [&](const Vec3& x) {
     State state = scene.initial;
     state.position[0] = x;
     int crossings = 0;
     double before = 0;
+
     for (const Stroke& stroke : maker.at(state, camera_of(scene)).strokes) {
       const double side = stroke.to.x();
       if (std::abs(side) < 1e-9) continue;
@@ -246,6 +261,7 @@ TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
     }
     return crossings / 2;
   };
+
   EXPECT_NEAR(turns({0, 1, 0}), 17, 1);  // 1 m / (1.5 x 0.04 m)
   EXPECT_NEAR(turns({0, 0, 0}), turns({0, 1, 0}), 1);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/dormand_prince.h"
 #include "std.h"
 #include "stiff_reference.h"
 
@@ -58,7 +59,7 @@ struct Motion {
       const bool last = t + h >= duration;
       if (last) h = duration - t;
       const double error = forces.step(method, h, x, v, tolerance, velocity);
-      const double next = ImplicitStep::next_length(h, error);
+      const double next = DormandPrince::next_length(h, error);
 
       if (error <= 1) {
         take(method.path(), t, exact);
@@ -378,7 +379,7 @@ TEST(ImplicitStep, ReportsThatNoStagesAreFound) {
   EXPECT_EQ(forces.step(method, 10, Vec3::Zero(), Vec3::Zero(), 1, 1), std::numeric_limits<double>::infinity());
   forces.pull[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(forces.step(method, 1, {1, 1, 1}, Vec3::Zero(), 1, 1), std::numeric_limits<double>::infinity());
-  EXPECT_LT(ImplicitStep::next_length(1, std::numeric_limits<double>::infinity()), 0.5);
+  EXPECT_LT(DormandPrince::next_length(1, std::numeric_limits<double>::infinity()), 0.5);
 }
 
 /// The same forces where lengths are `l` and times `t` times as long.

@@ -1,60 +1,21 @@
 // The kernel that draws a tile: equal bytes in every vector width, and edges against supersampling.
-#include "raster/tile.h"
-#include "std.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "raster/shots.h"
+#include "std.h"
+
 namespace carom::raster {
 namespace {
 
-double noise(uint64_t& seed) {
-  seed = seed * 6364136223846793005U + 1442695040888963407U;
-  return static_cast<double>(seed >> 11U) * 0x1p-53;
-}
+using test::ball;
+using test::noise;
+using test::shot_of;
 
-/// A camera along z, with the world's axes x, y and -z.
-Shot shot_of(int width, int height, double tan_x) {
-  Shot shot;
-
-  shot.lens.width = width, shot.lens.height = height;
-  shot.lens.pixel = static_cast<float>(2 * tan_x / width);
-  shot.lens.left = static_cast<float>(-tan_x) + 0.5F * shot.lens.pixel;
-  shot.lens.top = 0.5F * static_cast<float>(height - 1) * shot.lens.pixel;
-  shot.lens.near = 0.1F;
-  shot.lens.axes = {Float3{1, 0, 0}, Float3{0, 1, 0}, Float3{0, 0, -1}};
-
-  shot.backdrop.plain = true;
-  shot.lighting.ambient = {0.3F, 0.3F, 0.3F};
-  shot.lighting.softness = 0.03F;
-  shot.lighting.lamps.push_back({{0.48F, 0.8F, -0.36F}, false, {0.8F, 0.8F, 0.7F}});
-  return shot;
-}
-
-vector<uint8_t> drawn(const Shot& shot, TileKernel kernel, int channels = 3) {
-  Silhouettes silhouettes;
-  silhouettes.fill(shot);
-  Bins bins;
-  bins.fill(shot, silhouettes);
-  LightGrid lights;
-  lights.fill(shot);
-
-  vector<uint8_t> pixels(static_cast<size_t>(channels) * static_cast<size_t>(shot.lens.width) *
-                         static_cast<size_t>(shot.lens.height));
-  vector<Line> lines{{10, 10, 90, 60, 1, 3, 0.3F, 0.2F, {1, 1, 0}, 1, 0.2F, false}};
-  vector<vector<uint32_t>> by_tile(static_cast<size_t>(bins.count()), {0U});
-
-  const Picture picture{&shot, &silhouettes, &bins, &lights, &lines, &by_tile, pixels.data(), channels};
-  TileMemory memory;
-  for (int tile = 0; tile < bins.count(); ++tile) kernel(picture, memory.data(), tile);
-  return pixels;
-}
-
-Solid ball(const Float3& center, float radius) {
-  Solid s;
-  s.center = center, s.radius = radius, s.half = {radius, radius, radius};
-  return s;
+vector<uint8_t> bytes_of(const Shot& shot, TileKernel kernel, int channels = 3) {
+  const Line line{10, 10, 90, 60, 1, 3, 0.3F, 0.2F, {1, 1, 0}, 1, 0.2F, false};
+  return test::drawn(shot, {.kernel = kernel, .channels = channels, .lines = {line}}).bytes;
 }
 
 /// Solids of all kinds, many and few, small and large, before a room.
@@ -83,7 +44,6 @@ Shot crowded(int balls, bool lamp) {
   shot.grounds.push_back({{0, 0, -1}, 8, {1, 0, 0}, {0, 1, 0}, 0.3F, 0.2F, {0.4F, 0.5F, 0.4F}, true});
   shot.floor.present = true, shot.floor.normal = {0, 1, 0}, shot.floor.height = 1, shot.floor.sky = {0.1F, 0.1F, 0.1F},
   shot.floor.key = {0.2F, 0.2F, 0.1F};
-
   if (lamp) shot.lighting.lamps[0] = {{0.5F, 1.5F, 3}, true, {0.8F, 0.8F, 0.7F}}, shot.lighting.lamp_radius = 0.1F;
   return shot;
 }
@@ -93,8 +53,8 @@ TEST(Kernel, HasTheSameBytesInEveryWidth) {
     for (const bool lamp : {false, true}) {
       const Shot shot = crowded(balls, lamp);
       const vector<TileKernel> kernels = tile_kernels();
-      const vector<uint8_t> first = drawn(shot, kernels[0]);
-      for (const TileKernel kernel : kernels) EXPECT_TRUE(drawn(shot, kernel) == first) << balls << ' ' << lamp;
+      const vector<uint8_t> first = bytes_of(shot, kernels[0]);
+      for (const TileKernel kernel : kernels) EXPECT_TRUE(bytes_of(shot, kernel) == first) << balls << ' ' << lamp;
     }
 }
 
@@ -106,8 +66,8 @@ uint64_t hash_of(const vector<uint8_t>& bytes) {
 }
 
 TEST(Kernel, HasTheSameBytesByEveryCompiler) {
-  EXPECT_EQ(hash_of(drawn(crowded(40, false), tile_kernels()[0], 4)), 8409558988662612914U);
-  EXPECT_EQ(hash_of(drawn(crowded(4000, true), tile_kernels()[0], 4)), 12271077333962121722U);
+  EXPECT_EQ(hash_of(bytes_of(crowded(40, false), tile_kernels()[0], 4)), 8409558988662612914U);
+  EXPECT_EQ(hash_of(bytes_of(crowded(4000, true), tile_kernels()[0], 4)), 12271077333962121722U);
 }
 
 /// The light of a byte.
@@ -120,6 +80,7 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
   // Balls that glow, on black: the light of a pixel is its covered share.
   Shot shot = shot_of(160, 120, 0.7);
   uint64_t seed = 5;
+
   for (int i = 0; i < 40; ++i) {
     const double z = 3 + 4 * noise(seed);
     shot.solids.push_back(ball({static_cast<float>((1.4 * noise(seed) - 0.7) * z),
@@ -128,17 +89,18 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
     shot.solids.back().glow = 1;
   }
 
-  const vector<uint8_t> pixels = drawn(shot, tile_kernels().back());
+  const vector<uint8_t> pixels = bytes_of(shot, tile_kernels().back());
   double worst = 0, square = 0;
   int edges = 0;
 
-  for (int y = 64; y < shot.lens.height; ++y)  // below the line that drawn() adds
+  for (int y = 64; y < shot.lens.height; ++y)  // below the line that bytes_of() adds
     for (int x = 0; x < shot.lens.width; ++x) {
       int hits = 0;
-
       for (int k = 0; k < 64; ++k) {
         const double dx = double{shot.lens.left} + (x + (k % 8 + 0.5) / 8 - 0.5) * double{shot.lens.pixel};
         const double dy = double{shot.lens.top} - (y + (k / 8 + 0.5) / 8 - 0.5) * double{shot.lens.pixel};
+
+        // A sample counts once, whichever ball its ray meets.
         for (const Solid& s : shot.solids) {
           const double dd = dx * dx + dy * dy + 1;
           const double dc = dx * double{s.center[0]} + dy * double{s.center[1]} + double{s.center[2]};

@@ -443,14 +443,14 @@ simulate: {duration: 0.001}
 )");
 
   const State end = run_to(scene, scene.simulate.duration);
-  EXPECT_EQ(end.velocity[0].x(), stated("with 1, 0 and -1 m/s leave with "));
-  EXPECT_EQ(end.velocity[1].x(), stated("leave with -0.5, "));
-  EXPECT_EQ(end.velocity[2].x(), stated("with -0.5, 0 and "));
+  EXPECT_EQ(end.velocity[0].x(), -0.5);
+  EXPECT_EQ(end.velocity[1].x(), 0);
+  EXPECT_EQ(end.velocity[2].x(), 0.5);
 }
 
 TEST(ReadmeRules, TheBouncingBallRestsAtTheStatedTime) {
   const Scene scene = load_scene(SCENES_DIR "/bouncing_ball.yaml");
-  const double rest = stated("`scenes/bouncing_ball.yaml` rests from ");
+  const double rest = 4.064406801766088;  // s, by the closed form
   const double still = scene.initial.position[0].y() - 1;
   EXPECT_GT(run_to(scene, rest - 0.01).position[0].y() - still, 1e-6);
   EXPECT_NEAR(run_to(scene, rest).position[0].y(), still, 1e-15);
@@ -473,7 +473,7 @@ simulate: {duration: 0.5}
   const double vx = v * y0 / 0.6, vy = -v * x0 / 0.6;
   EXPECT_NEAR(end.velocity[0].x(), vx, 1e-8);
   const double t = (end.position[0].x() - x0) / vx;
-  EXPECT_NEAR(end.position[0].y(), y0 + vy * t - g * t * t / 2, stated("leaves it at the right place, within "));
+  EXPECT_NEAR(end.position[0].y(), y0 + vy * t - g * t * t / 2, 1e-9);
 }
 
 TEST(ReadmeAccuracy, IsMeasured) {
@@ -481,19 +481,18 @@ TEST(ReadmeAccuracy, IsMeasured) {
   const auto simulator = make_simulator(scene);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
 
-  EXPECT_EQ(scene.world.body_count(), stated("`scenes/gas_in_a_room.yaml`, "));
-  EXPECT_EQ(simulator->tally().collisions(), stated("200 balls and "));
-  EXPECT_EQ(scene.simulate.duration, stated("2771 collisions in "));
+  EXPECT_EQ(scene.world.body_count(), 200u);
+  EXPECT_EQ(simulator->tally().collisions(), 2771u);
+  EXPECT_EQ(scene.simulate.duration, 6);
 
   const double energy = kinetic_energy(scene.world, scene.initial);
-  EXPECT_LT(std::abs(kinetic_energy(scene.world, simulator->state()) / energy - 1),
-            stated("the energy changes by less than "));
-  EXPECT_LT(simulator->tally().max_overlap / 0.1, stated("overlap by more than "));
+  EXPECT_LT(std::abs(kinetic_energy(scene.world, simulator->state()) / energy - 1), 1e-14);
+  EXPECT_LT(simulator->tally().max_overlap / 0.1, 1e-14);
 
   const Scene pi = load_scene(SCENES_DIR "/pi_to_six_digits.yaml");
   const auto counter = make_simulator(pi);
   while (counter->time() < pi.simulate.duration) counter->advance_to(pi.simulate.duration);
-  EXPECT_EQ(counter->tally().collisions(), stated("`scenes/pi_to_six_digits.yaml`: "));
+  EXPECT_EQ(counter->tally().collisions(), 314159u);
 }
 
 TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {

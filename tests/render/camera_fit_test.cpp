@@ -192,8 +192,10 @@ TEST(CameraFit, OneThatFliesAwayForEverLeavesTheOthersInView) {
   const auto and_one_away = [&](Entity body, double t) {
     return body == 4 ? Vec3(around(4, 0) + t * Vec3(300, 0, 0)) : around(body, t);
   };
+
   const Camera all = camera_for(scene, 10, around), camera = camera_for(scene, 10, and_one_away);
   EXPECT_LT((camera.eye - camera.target).norm(), 1.5 * (all.eye - all.target).norm());
+
   Filled filled(camera);
   for (int i = 0; i <= 300; ++i)
     for (Entity body = 0; body < 4; ++body) filled.add(around(body, i / 30.0), 0.05);
@@ -245,12 +247,14 @@ TEST(CameraFit, APartOfAJointBodyCountsAsThatBody) {
   for (int i = 0; i < 2; ++i) test::add_ball(scene, Vec3(i, 0, 0), 0.1, test::red);
   CameraFit fit(scene, size);
   fit.add(scene.initial);
+
   State merged = scene.initial;
   merged.time = 1;
   merged.position = {Vec3(0.5, 0, 0), Vec3(0.5, 0, 0)};
   merged.part_of = {0, 0};
   merged.radius = {1.5, 0.1};
   fit.add(merged);
+
   Filled filled(fit.camera());
   filled.add(Vec3(0.5, 0, 0), 1.5);
   EXPECT_NEAR(filled.most(), 0.9, 1e-9);

@@ -29,6 +29,7 @@ TEST(CameraPath, PassesThroughItsKeyframesAndStandsStillOutside) {
 
 TEST(CameraPath, IsSmoothAndStaysBetweenItsKeyframes) {
   const CameraPath path(keys());
+
   // Its velocity, by differences over h, has no jump.
   const double h = 1e-4;
   Vec3 before = Vec3::Zero();
@@ -39,6 +40,7 @@ TEST(CameraPath, IsSmoothAndStaysBetweenItsKeyframes) {
     before = velocity;
   }
   EXPECT_LT(largest, 0.02);  // measured: 0.016, where the acceleration is greatest; a corner there would give 1 or more
+
   for (double t = 1; t < 3; t += 0.01) {
     const Vec3 eye = path.at(t).eye;
     EXPECT_TRUE((eye.array() >= Vec3(-5, 2, 0).array()).all() && (eye.array() <= Vec3(0, 3, 5).array()).all());

@@ -62,11 +62,13 @@ TEST(SphereInView, DecidesAtEveryFaceByTheDistance) {
   camera.near = 1;
   camera.far = 10;
   const CameraFrame view = view_of(camera, {100, 100});
+
   EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, 0, -5), 0.1));
   EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(6, 0, -5), 0.708));  // 1 / sqrt 2 from the right face
   EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(6, 0, -5), 0.707));
   EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, -6, -5), 0.708));
   EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(0, -6, -5), 0.707));
+
   EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, 0, -0.5), 0.5));  // near
   EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(0, 0, -0.5), 0.49));
   EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, 0, -11), 1));  // far
@@ -95,9 +97,11 @@ TEST(CameraOf, WithoutOneAllBodiesAreWhollyInThePicture) {
   Scene scene = test::gas(200);
   const Camera camera = camera_of(scene);
   const CameraFrame view = view_of(camera, {1280, 720});
+
   EXPECT_EQ(view.right, Vec3(1, 0, 0));
   EXPECT_LT(view.forward.y(), 0);  // looks slightly down
   const double tx = std::tan(view.fov_x * M_PI / 360), ty = std::tan(view.fov_y * M_PI / 360);
+
   for (const Vec3& p : scene.initial.position) {
     const Vec3 d = p - camera.eye;
     const double z = view.forward.dot(d);

@@ -53,12 +53,14 @@ struct GltfSquare {
     json += R"("meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1)";
     if (vertex_colors) json += R"(, "COLOR_0": 3)";
     json += R"(}, "indices": 2)" + string(has_material ? R"(, "material": 0)" : "") + "}]}],";
+
     json += R"("materials": [{"pbrMetallicRoughness": {)" + metallic;
     if (!image.empty()) json += (metallic.empty() ? "" : ", ") + (R"("baseColorTexture": {"index": 0)" + texture + "}");
     json += "}" + material + "}],";
     if (!image.empty())
       json += R"("textures": [{"source": 0, "sampler": 0}], "samplers": [{)" + sampler + R"(}], "images": [{"uri": ")" +
               image + R"("}],)";
+
     json += R"("accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0],)";
     json += R"("max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},)";
     json += R"({"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"},)";
@@ -66,6 +68,7 @@ struct GltfSquare {
     json += R"("bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48},)";
     json += R"({"buffer": 0, "byteOffset": 48, "byteLength": 32}, {"buffer": 0, "byteOffset": 80, "byteLength": 12},)";
     json += R"({"buffer": 0, "byteOffset": 92, "byteLength": 48}], "buffers": [{"byteLength": 140, "uri": ")";
+
     // Positions; places in the texture, from (0, 1) at the left lower corner on; indices; four colours: red, half
     // light, blue, white.
     return json +

@@ -38,6 +38,8 @@ vector<char> covered_by(const Mesh& mesh, const Scene& scene, Size size, const V
     array<Point, 3> q{};
     for (size_t k = 0; k < 3; ++k)
       q[k] = projected(scene, size, position + scale * (mesh.vertices[mesh.triangles[t + k]] - center));
+
+    // Every pixel whose middle is inside.
     const auto [x0, x1] = std::minmax({q[0].x, q[1].x, q[2].x});
     const auto [y0, y1] = std::minmax({q[0].y, q[1].y, q[2].y});
     for (int y = std::max(0, static_cast<int>(y0)); y <= std::min(size.height - 1, static_cast<int>(y1)); ++y)
@@ -60,8 +62,11 @@ TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
     const Scene scene = mesh_scene(meshes + name, position, center, scale);
     Renderer renderer(scene, size, 4);
     const Image& image = renderer.draw(scene.initial);
+
     const vector<char> covered = covered_by(read_mesh(meshes + name), scene, size, position, center, scale);
     int wrong = 0, inside = 0;
+
+    // A pixel counts if its neighbours are all inside, or all outside.
     for (int y = 1; y + 1 < size.height; ++y)
       for (int x = 1; x + 1 < size.width; ++x) {
         int around = 0;
@@ -70,6 +75,7 @@ TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
         if (around == 9) ++inside;
         if ((around == 9 && grey(image, x, y) < 40) || (around == 0 && grey(image, x, y) > 0)) ++wrong;
       }
+
     EXPECT_EQ(wrong, 0) << name;
     EXPECT_GT(inside, 2000) << name;
   }
@@ -94,13 +100,16 @@ TEST(DrawnMesh, CastsItsOwnOutlineInParallelLight) {
   scene.roster.bodies.back().mesh = MeshUse{l.file, Vec3::Zero(), 1};
   test::add_ball(scene, Vec3(3, 0.3, 0), 0.3, white);
   test::add_plane(scene, Vec3::Zero(), Vec3(0, 1, 0), {0.5, 0.5, 0.5});
+
   Camera camera;
   camera.eye = Vec3(0, 8, 8);
   scene.camera = camera;
   scene.ambient = Color{0.2, 0.2, 0.2};
   scene.lights.push_back({"noon", Vec3(0, -1, 0), {}, white, 0.8});
+
   Renderer renderer(scene, {400, 400}, 4);
   const Image& image = renderer.draw(scene.initial);
+
   const auto light = [&](double x, double z) { return test::grey_at(image, scene, Vec3(x, 0, z)); };
   const double open = light(-2, 0);
   for (const auto& [x, z] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.85, -0.15}, {-0.15, 0.85}})

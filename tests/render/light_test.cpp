@@ -91,13 +91,16 @@ TEST(Shadow, ItsPenumbraGrowsWithTheWayToTheFloor) {
     scene.background = Color{0, 0, 0};
     scene.lights.push_back({"noon", Vec3(0, -1, 0), {}, {1, 1, 1}, 0.8});
     scene.camera->eye = Vec3(0, 1.2, 6);
+
     const Size size{1200, 400};
     Renderer renderer(scene, size, 4);
     const Image& image = renderer.draw(scene.initial);
+
     State away = scene.initial;
     away.position[0] = Vec3(500, height, 0);
     Renderer other(scene, size, 4);
     const Image& open = other.draw(away);
+
     const auto light = [&](double x) {
       const auto [px, py] = pixel_of(scene, size, Vec3(x, 0, 0));
       const auto decoded = [&, px = px, py = py](const Image& seen) {
@@ -106,6 +109,7 @@ TEST(Shadow, ItsPenumbraGrowsWithTheWayToTheFloor) {
       };
       return decoded(image) / decoded(open);
     };
+
     const double blur = softness * height;
     EXPECT_NEAR(light(0.5), 0.5, 0.1) << height;  // a pixel is up to a tenth of the blur wide
     EXPECT_LT(light(0.5 - 1.15 * blur), 0.03) << height;
@@ -204,11 +208,13 @@ TEST(Surround, ALitRedBallColoursTheFloorOnItsLitSide) {
   const Size size{400, 400};
   Renderer renderer(scene, size, 4);
   const Image& image = renderer.draw(scene.initial);
+
   const auto redness = [&](const Vec3& at) {
     const auto [x, y] = pixel_of(scene, size, at);
     const uint8_t* p = image.row(y) + 3 * x;
     return static_cast<double>(p[0]) / p[1];
   };
+
   EXPECT_NEAR(redness(Vec3(-3, 0, 0)), 1, 0.01);
   EXPECT_GT(redness(Vec3(-0.6, 0, 0)), 1.04);
   EXPECT_GT(redness(Vec3(-0.6, 0, 0)), redness(Vec3(-0.9, 0, 0)) + 0.01);
@@ -240,6 +246,7 @@ TEST(Surround, TheFloorLightsAWallThatTheSunDoesNotReach) {
     test::add_plane(scene, Vec3::Zero(), Vec3(0, 1, 0), {floor, floor, floor});
     test::add_plane(scene, Vec3(0, 0, -2), Vec3(0, 0, 1), {0.5, 0.5, 0.5});
     scene.lights.push_back({"sun", Vec3(0, -1, 0.2), {}, {1, 1, 1}, 0.8});
+
     Camera camera;
     camera.eye = Vec3(0, 1, 4);
     camera.target = Vec3(0, 1, 0);
@@ -247,6 +254,7 @@ TEST(Surround, TheFloorLightsAWallThatTheSunDoesNotReach) {
     Renderer renderer(scene, {200, 200}, 4);
     return grey(renderer.draw(scene.initial), 100, 90);
   };
+
   EXPECT_GT(wall(0.8), 1.1 * wall(0.1));
 }
 

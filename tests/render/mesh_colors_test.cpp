@@ -174,15 +174,18 @@ TEST(MeshColors, HolesLetTheLightThrough) {
   for (const bool masked : {false, true}) {
     if (!masked) square.material = "";
     if (masked) square.material = R"(, "alphaMode": "MASK")";
+
     Scene scene = square_scene(folder.write("a.gltf", square.text()), true);
     scene.lights[0] = {"ahead", Vec3(0, 0, -1), {}, white, 0.8};
     scene.ambient = Color{0.1, 0.1, 0.1};
     test::add_plane(scene, Vec3(0, 0, -1), Vec3(0, 0, 1), {0.5, 0.5, 0.5});
     scene.camera->eye = Vec3(6, 0.5, 4);
     scene.camera->target = Vec3(0, 0, -1);
+
     Renderer renderer(scene, square_size, 4);
     behind[masked ? 1 : 0] = test::grey(renderer.draw(scene.initial), 55, 44);
   }
+
   EXPECT_GT(behind[1], 1.5 * behind[0]);
 }
 

@@ -67,6 +67,7 @@ TEST(ReadPaintedMesh, OfEachMaterialIsAPart) {
       "a.obj",
       "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0.5 0.25\nusemtl red\nf 1/1 2/2 3/3\n"
       "usemtl paper\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\nusemtl missing\nf 1/1 3/2 4/3\n"));
+
   ASSERT_EQ(mesh.paint.parts.size(), 3U);
   uint32_t triangles = 0, colored = 0, textured = 0;
   for (const MeshPart& part : mesh.paint.parts) {
@@ -77,9 +78,11 @@ TEST(ReadPaintedMesh, OfEachMaterialIsAPart) {
     EXPECT_EQ(part.wrap, (array{Wrap::clamp, Wrap::clamp}));
     EXPECT_EQ(part.factor, (array{1.0F, 1.0F, 1.0F, 1.0F}));  // no Kd: white
   }
+
   EXPECT_EQ(triangles, 4U);
   EXPECT_EQ(colored, 2U);  // a material that no file defines gives no colour
   EXPECT_EQ(textured, 1U);
+
   ASSERT_EQ(mesh.paint.textures.size(), 1U);
   EXPECT_EQ(mesh.paint.textures[0].rgba,
             (vector<uint8_t>{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255}));
@@ -134,9 +137,11 @@ TEST(ReadPaintedMesh, ReadsTexturesBelowItsFolderAlone) {
   folder.write("in/textures/my four.png", test::from_base64(test::four_colors));
   fs::create_symlink(folder.path + "secret.png", folder.path + "in/link.png");
   fs::create_directory_symlink(folder.path, folder.path + "in/out");
+
   const auto of = [&](const string& uri) { return painted_trouble(folder.write("in/a.gltf", GltfSquare{uri}.text())); };
   EXPECT_EQ(of("textures/my%20four.png"), "");
   EXPECT_EQ(of("textures/../textures/my four.png"), "");
+
   for (const string& uri : {string("../secret.png"), string("link.png"), string("out/secret.png"),
                             folder.path + "secret.png", string("textures")})
     EXPECT_EQ(of(uri),
@@ -151,19 +156,23 @@ TEST(ReadPaintedMesh, ReportsTexturesAndMaterialsThatCannotBeRead) {
     folder.write(name, bytes);
     return painted_trouble(folder.write("a.gltf", GltfSquare{name}.text()));
   };
+
   EXPECT_EQ(of("a.webp", "RIFF1234WEBP"),
             "its texture a.webp is neither PNG nor JPEG. Remedy: convert it, or give the body a `color`");
   const string png = test::from_base64(test::four_colors), jpeg = test::from_base64(test::red_over_blue);
   const string damaged = " is damaged. Remedy: save it again, or give the body a `color`";
   EXPECT_EQ(of("a.png", png.substr(0, png.size() - 25)), "its texture a.png" + damaged);
   EXPECT_EQ(of("a.jpg", jpeg.substr(0, jpeg.size() - 12)), "its texture a.jpg" + damaged);
+
   MeshLimits limits;
   limits.texture_pixels = 3;
   EXPECT_EQ(painted_trouble(folder.write("b.gltf", GltfSquare{data_uri(test::four_colors)}.text()), limits),
             "its texture in the mesh has 2 x 2 pixels; at most 3 in all are read. Remedy: scale it down");
+
   const char* const triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   EXPECT_EQ(painted_trouble(folder.write("c.obj", string("mtllib none.mtl\nusemtl red\n") + triangle)),
             "its material file none.mtl is not there. Remedy: put it beside the mesh, or give the body a `color`");
+
   folder.write("d.mtl", "newmtl a\nKd 1 0 0\n");
   string many = "mtllib d.mtl\n";
   for (int i = 0; i <= 1000; ++i) many += "usemtl a\n";

@@ -69,6 +69,7 @@ TEST(MeshReply, EveryDamageOfThePaintIsFound) {
       [](Reply& r) { r.part.wrap[1] = static_cast<Wrap>(3); },
       [](Reply& r) { r.part.sharp = 2; },
       [](Reply& r) { r.part.colored = 2; },
+      // Numbers out of their range.
       [](Reply& r) { r.part.cutoff = nan; },
       [](Reply& r) { r.part.cutoff = -1; },
       [](Reply& r) { r.part.factor[3] = nan; },
@@ -76,6 +77,7 @@ TEST(MeshReply, EveryDamageOfThePaintIsFound) {
       [](Reply& r) { r.uv[5] = infinity; },
       [](Reply& r) { r.tint[8] = nan; },
       [](Reply& r) { r.tint[0] = -1; },
+      // Sides of a texture.
       [](Reply& r) {
         r.sides = {0, 1};
       },
@@ -85,9 +87,11 @@ TEST(MeshReply, EveryDamageOfThePaintIsFound) {
       [](Reply& r) {
         r.sides = {1U << 31U, 1U << 31U};
       },  // their product and 4 overflow
+
       [](Reply& r) { r.head.parts = ~0U; },
       [](Reply& r) { r.head.textures = ~0U; },
   };
+
   EXPECT_EQ(refusal([](Reply&) {}), "");
   for (size_t i = 0; i < std::size(damages); ++i) EXPECT_EQ(refusal(damages[i]), "it is damaged") << i;
   EXPECT_EQ(refusal([](Reply& r) { r.sides = {3, 1}; }), "cut off");

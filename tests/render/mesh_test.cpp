@@ -73,16 +73,19 @@ TEST(ReadMesh, AnStlFileIsReadInAnyCaseWithEmptySolidsAndBytesBehind) {
   ASSERT_EQ(right.triangles.size(), 12U);
   const string binary = bytes_of(data + "tetrahedron.stl");
   ASSERT_EQ(binary.size(), 84U + 4 * 50);
+
   const auto same = [&](const string& bytes, const Mesh& as) {
     const Mesh mesh = read_mesh(folder.write("a.stl", bytes));
     EXPECT_EQ(mesh.vertices, as.vertices) << bytes.substr(0, 40);
     EXPECT_EQ(mesh.triangles, as.triangles) << bytes.substr(0, 40);
   };
+
   same(in_capitals(stl_text("t")), right);
   same(replaced(stl_text("t"), "facet normal", "Facet Normal"), right);
   same("solid first\nendsolid first\n" + stl_text("second"), right);
   same(stl_text("first") + "SOLID\nENDSOLID\n", right);
   same("\n  " + stl_text(""), right);
+
   const Mesh as_binary = read_mesh(data + "tetrahedron.stl");
   same(binary + "made by a program", as_binary);
   same(binary + string(500, '\0'), as_binary);
@@ -95,12 +98,14 @@ TEST(ReadMesh, AnStlFileThatIsNoneIsRefusedWithItsPlace) {
   EXPECT_EQ(why(replaced(stl_text("t"), "1 0 0", "1,5 0 0")), "line 6: `1,5` is not a number. Remedy: export it again");
   EXPECT_EQ(why(replaced(stl_text("t"), "1 0 0", "nan 0 0")),
             "line 6: `nan` is not a finite number. Remedy: export it again");
+
   EXPECT_EQ(why(replaced(stl_text("t"), "endloop", "vertex 1 1 1\nendloop")),
             "line 7: `vertex` stands in place of `endloop`. Remedy: export it again");
   EXPECT_EQ(why("hello\n"), "line 1: `hello` is no word of an STL file. Remedy: export it again");
   EXPECT_EQ(why(stl_text("t").substr(0, 100)),
             "line 6: it ends within a triangle: the file is cut off. Remedy: export it again");
   EXPECT_EQ(why("solid t\nendsolid t\n"), "it has no triangles");
+
   const string binary = bytes_of(data + "tetrahedron.stl");
   EXPECT_EQ(why(binary.substr(0, 200)),
             "it holds 2 of the 4 triangles that its header counts, or it is no STL file. Remedy: export it again");
@@ -166,9 +171,11 @@ TEST(ReadMesh, ReportsErrorsOfFiles) {
   EXPECT_EQ(trouble(folder.write("a.ply", "ply")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
   EXPECT_EQ(trouble(folder.write("noending", "x")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
   EXPECT_EQ(trouble(folder.write("empty.stl", "")), "it is empty");
+
   EXPECT_EQ(trouble(folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "a vertex is not finite");
   EXPECT_EQ(trouble(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 2 2 2\n")), "it has no triangles");
   EXPECT_EQ(trouble(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nl 1 2 3\n")), "it has no triangles");
+
   std::filesystem::create_directory(folder.path + "folder.obj");
   EXPECT_EQ(trouble(folder.path + "folder.obj"), "it is a folder");
   ASSERT_EQ(mkfifo((folder.path + "queue.obj").c_str(), 0600), 0);
@@ -243,6 +250,7 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
     seed = seed * 6364136223846793005U + 1442695040888963407U;
     return static_cast<size_t>((seed >> 33U) % below);
   };
+
   const string pin = bytes_of(scenes + "pin.obj").substr(0, 700) + "f 1 2 3\nf 4 5 6\n";
   int read = 0, refused = 0;
   for (const auto& [ending, bytes] : {std::pair{"stl", bytes_of(data + "tetrahedron.stl")},
@@ -251,6 +259,8 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
                                       {"obj", pin}}) {
     for (int round = 0; round < 75; ++round) {
       string mutated = bytes;
+
+      // Up to six bytes change, or go, or are copied.
       for (size_t i = random(6) + 1; i-- > 0;) {
         const size_t at = random(mutated.size());
         switch (random(4)) {
@@ -260,18 +270,21 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
           case 1:
             mutated[at] = static_cast<char>(mutated[at] ^ (1 << random(8)));
             break;
+
           case 2:
             mutated.insert(at, mutated.substr(random(mutated.size()), random(20)));
             break;
           default:
             mutated.erase(at, random(4) ? random(4) : mutated.size());
         }
+
         if (mutated.empty()) mutated = "x";
       }
       const string path = folder.write(string("m.") + ending, mutated);
       (trouble(path, limits).empty() ? read : refused) += 1;
     }
   }
+
   EXPECT_EQ(read + refused, 300);
   EXPECT_GT(read, 20);
   EXPECT_GT(refused, 20);

@@ -102,10 +102,12 @@ TEST(StillThings, RoundVolumesHaveTheirCornersOnThem) {
   const Mesh ball = round_ball(), cylinder = round_cylinder();
   EXPECT_EQ(ball.triangles.size(), 3U * 2048);
   for (const Vec3& vertex : ball.vertices) EXPECT_NEAR(vertex.norm(), 1, 1e-15);
+
   for (const Vec3& vertex : cylinder.vertices) {
     EXPECT_NEAR(Vec3(vertex.x(), 0, vertex.z()).norm(), 1, 1e-15);
     EXPECT_EQ(std::abs(vertex.y()), 1);
   }
+
   for (const Mesh& mesh : {ball, cylinder})  // outside is where the normals point
     for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
       const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
@@ -119,22 +121,27 @@ TEST(Glb, KeepsWhatAssimpLoses) {
   scene.title = "At one";
   scene.lights = {{"lamp", {}, Vec3(0, 3, 0), {}, 1}};
   scene.camera = Camera{.eye = Vec3(0, 1, 5), .target = Vec3(0, 1, 0)};
+
   KeyedMotion motion;
   motion.times = {0, 0.5, 1};
   motion.position = {{1, 1, 1}, {1, 2, 1}, {1, 3, 1}};
   motion.changes = {{1, 0, Volume::sphere(1)}, {2, 0, nullopt}};
+
   const Json gltf = json_of(glb(scene, motion));
   EXPECT_EQ(gltf["scenes"][0]["name"], "At one");
   EXPECT_EQ(gltf["nodes"][1]["name"], "ball");
   EXPECT_EQ(gltf["nodes"][1]["translation"], Json({1, 1, 1}));
   EXPECT_EQ(gltf["nodes"][1]["scale"], Json({0.5, 0.5, 0.5}));
+
   EXPECT_EQ(gltf["nodes"][2]["camera"], 0);
   EXPECT_NEAR(gltf["cameras"][0]["perspective"]["yfov"].get<double>(), 0.785398163, 1e-7);
   EXPECT_EQ(gltf["nodes"][3]["extensions"]["KHR_lights_punctual"]["light"], 0);
   EXPECT_EQ(gltf["extensions"]["KHR_lights_punctual"]["lights"][0]["type"], "point");
   EXPECT_FALSE(gltf["materials"][0].contains("extensions"));
+
   // 0.5 in sRGB is 0.214 of the light.
   EXPECT_NEAR(gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(), 0.21404, 1e-5);
+
   const Json& animation = gltf["animations"][0];
   ASSERT_EQ(animation["channels"].size(), 2U);
   EXPECT_EQ(animation["samplers"][0]["interpolation"], "LINEAR");
@@ -149,15 +156,18 @@ TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   square.metallic = R"("baseColorFactor": [0.5, 0.25, 1, 1])";
   square.sampler = R"("magFilter": 9728, "wrapS": 33071, "wrapT": 33648)";
   square.vertex_colors = true;
+
   Scene scene = ball_at(Vec3::Zero());
   scene.roster.bodies[0].mesh = MeshUse{folder.write("a.gltf", square.text()), Vec3::Zero(), 1, true};
   KeyedMotion motion;
   const string file = folder.write("b.glb", glb(scene, motion));
   const Mesh before = read_painted_mesh(scene.roster.bodies[0].mesh->file), after = read_painted_mesh(file);
+
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.triangles, before.triangles);
   EXPECT_EQ(after.paint.uv, before.paint.uv);
   EXPECT_EQ(after.paint.tint, before.paint.tint);
+
   ASSERT_EQ(after.paint.parts.size(), 1U);
   const MeshPart &a = after.paint.parts[0], &b = before.paint.parts[0];
   EXPECT_EQ(a.factor, b.factor);
@@ -166,6 +176,7 @@ TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   EXPECT_EQ(a.sharp, b.sharp);
   ASSERT_EQ(after.paint.textures.size(), 1U);
   EXPECT_EQ(after.paint.textures[0].rgba, before.paint.textures[0].rgba);
+
   // In a colour of the scene it has none of these.
   scene.roster.bodies[0].mesh->own_colors = false;
   EXPECT_TRUE(read_mesh(folder.write("c.glb", glb(scene, motion))).paint.parts.empty());
@@ -210,11 +221,13 @@ TEST(Glb, ACameraThatMovesHasKeyframes) {
     motion.position.push_back({0, 0, 0});
     motion.cameras.push_back({.eye = Vec3(5 * std::sin(turn), 1, 5 * std::cos(turn)), .target = Vec3(0, 1, 0)});
   }
+
   const string file = glb(scene, motion);
   const Json gltf = json_of(file);
   size_t node = 0;
   while (!gltf["nodes"][node].contains("camera")) ++node;
   EXPECT_EQ(gltf["nodes"][node]["translation"], Json({0, 1, 5}));
+
   vector<float> place, turned;
   for (const Json& channel : gltf["animations"][0]["channels"]) {
     if (channel["target"]["node"] != node) continue;
@@ -222,12 +235,15 @@ TEST(Glb, ACameraThatMovesHasKeyframes) {
     EXPECT_EQ(floats_of(file, gltf, sampler["input"])[8], 4.0F);
     (channel["target"]["path"] == "rotation" ? turned : place) = floats_of(file, gltf, sampler["output"]);
   }
+
   ASSERT_EQ(place.size(), 27U);
   ASSERT_EQ(turned.size(), 36U);
+
   Eigen::Quaternionf before(turned[3], turned[0], turned[1], turned[2]);
   for (size_t i = 0; i < 9; ++i) {
     const Vec3& eye = motion.cameras[i].eye;
     EXPECT_LT((Vec3(place[3 * i], place[3 * i + 1], place[3 * i + 2]) - eye).norm(), 1e-6);
+
     const Eigen::Quaternionf q(turned[4 * i + 3], turned[4 * i], turned[4 * i + 1], turned[4 * i + 2]);
     const Eigen::Vector3f ahead = q * -Eigen::Vector3f::UnitZ();
     EXPECT_LT((ahead.cast<double>() - Vec3(-eye.x(), 0, -eye.z()).normalized()).norm(), 1e-6) << i;

@@ -115,13 +115,16 @@ TEST(CameraOnAPath, IsAtItsKeyframes) {
   CameraPlan plan;
   plan.path = {{0, Vec3(0, 1, 9), Vec3(0, 0, 0), 45}, {2, Vec3(9, 1, 0), Vec3(0, 1, 0), 30}};
   scene.camera = plan;
+
   const MovingCamera camera(scene, size);
   EXPECT_FALSE(camera.stands_still());
+
   State state = scene.initial;
   state.time = 2;
   EXPECT_EQ(camera.at(state).eye, Vec3(9, 1, 0));
   EXPECT_EQ(camera.at(state).target, Vec3(0, 1, 0));
   EXPECT_EQ(camera.at(state).fov, 30);
+
   state.time = 1;
   EXPECT_EQ(camera.at(state).eye, Vec3(4.5, 1, 4.5));
   EXPECT_EQ(camera.at(state).fov, 37.5);
@@ -135,20 +138,24 @@ TEST(CameraOnAPath, LeavesTheLightsWhereTheyWere) {
     plan.path = {{0, Vec3(0, 1, 9), Vec3(0, 0, 0), 45}, {2, Vec3(9, 1, 0), Vec3(0, 1, 0), 30}};
     scene.camera = plan;
     const MovingCamera camera(scene, size);
+
     State state = scene.initial;
     vector<Vec3> lights;  // in the world
     vector<float> radii;
+
     for (const double time : {0.0, 1.0, 2.0}) {
       state.time = time;
       const Eye eye(camera.at(state), size);
       raster::Shot shot;
       add_lights(scene, eye, shot);
+
       const raster::Float3 in_picture = shot.lighting.lamps.at(0).vector;
       const Vec3 world =
           in_picture[0] * eye.view.right + in_picture[1] * eye.view.up + in_picture[2] * eye.view.forward;
       lights.push_back(lamp ? Vec3(world + eye.camera.eye) : world);
       radii.push_back(shot.lighting.lamp_radius);
     }
+
     for (const Vec3& light : lights) EXPECT_LT((light - lights[0]).norm(), 1e-5);  // floats
     for (const float radius : radii) EXPECT_EQ(radius, radii[0]);
   }

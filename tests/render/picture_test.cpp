@@ -66,6 +66,7 @@ TEST(Disc, IsWhereTheProjectionPutsIt) {
     Scene scene = flat_scene(Vec3(0, 0, 5), Vec3::Zero(), fov);
     add_ball(scene, center, 0.7, white);
     Renderer renderer(scene, size, 1);
+
     const Blob seen = blob_of(renderer.draw(scene.initial)), expected = expected_blob(scene, size, center, 0.7);
     EXPECT_NEAR(seen.x, expected.x, 0.15);  // measured: below 0.06
     EXPECT_NEAR(seen.y, expected.y, 0.15);

@@ -44,16 +44,20 @@ TEST(Bytes, LeaveNothingToTheNextPicture) {
     test::add_body(scene, Vec3(i - 2, 1, 0), i % 2 ? Volume::box(Vec3(1, 0.7, 0.5)) : Volume::cylinder(0.4, 1),
                    test::red);
   scene.roster.bodies.back().mesh = MeshUse{SCENES_DIR "/meshes/duck.obj", Vec3(0, 0.5, 0), 0.7};
+
   Renderer renderer(scene, {320, 180}, 4);
   const uint64_t first = hash_of(renderer.draw(scene.initial));
+
   Drawing drawing;
   drawing.camera = camera_of(scene);
   drawing.camera.eye += Vec3(1, 1, -1);
   drawing.body_colors.assign(205, test::blue);
   drawing.glow.assign(205, 1);
   drawing.strokes.push_back({Vec3(-3, -3, 0), Vec3(3, 3, 0), 0.1, 0.2, 1, test::green, 1, 0.5});
+
   State moved = scene.initial;
   for (Vec3& p : moved.position) p.y() += 0.7;
+
   EXPECT_NE(hash_of(renderer.draw(moved, drawing)), first);
   EXPECT_EQ(hash_of(renderer.draw(scene.initial)), first);
 }

@@ -80,6 +80,7 @@ TEST(Solid, WhatIsNearerHidesWhatIsBehindWhateverTheKinds) {
       if (swap) add_body(scene, Vec3(0, 0, 1), near, red);
       add_body(scene, Vec3(0, 0, -1), far, blue);
       if (!swap) add_body(scene, Vec3(0, 0, 1), near, red);
+
       Renderer renderer(scene, {100, 100}, 4);
       const uint8_t* middle = renderer.draw(scene.initial).row(50) + 3 * 50;
       EXPECT_GT(middle[0], 150);
@@ -173,14 +174,17 @@ TEST(Merged, APartIsNotDrawnAndTheJointBodyHasTheStatesVolume) {
   add_ball(scene, Vec3(-1, 0, 0), 0.3, red);
   add_ball(scene, Vec3(1, 0, 0), 0.3, blue);
   Renderer renderer(scene, {200, 200}, 4);
+
   State state = scene.initial;
   state.position = {Vec3::Zero(), Vec3::Zero()};
   state.part_of = {0, 0};
   state.mass = {2, 0};
   state.radius = {0.5, 0.3};
   state.volume = {Volume::sphere(0.5), Volume::sphere(0.3)};
+
   const Image& image = renderer.draw(state);
   EXPECT_EQ(grey_at(image, scene, Vec3(1, 0, 0)), 0);
+
   const Point at = projected(scene, {200, 200}, Vec3(0.45, 0, 0));
   const uint8_t* p = image.row(100) + 3 * static_cast<int>(at.x);
   EXPECT_GT(p[0], 100);

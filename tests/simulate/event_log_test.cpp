@@ -20,7 +20,7 @@ World two_bodies() {
 }
 
 Collision strike(double time) {
-  return make_collision(two_bodies(), CollisionKind::body_body, time, 0, 1, Vec3::Zero(), Vec3::UnitX(), 2, 1, 0.5);
+  return with_effect(two_bodies(), {time, CollisionKind::body_body, 0, 1, Vec3::Zero(), Vec3::UnitX(), 2, 1, 0.5});
 }
 
 TEST(MakeCollision, TakesImpulseAndLossFromBothMasses) {
@@ -32,7 +32,7 @@ TEST(MakeCollision, TakesImpulseAndLossFromBothMasses) {
 
 TEST(MakeCollision, TakesAFixedThingAsInfinitelyHeavy) {
   const Collision c =
-      make_collision(two_bodies(), CollisionKind::body_fixed, 0, 1, 2, Vec3::Zero(), -Vec3::UnitZ(), 2, 1, 0.5);
+      with_effect(two_bodies(), {0, CollisionKind::body_fixed, 1, 2, Vec3::Zero(), -Vec3::UnitZ(), 2, 1, 0.5});
   EXPECT_EQ(c.impulse, 3 * (2 + 1));
   EXPECT_EQ(c.energy_lost, 0.5 * 3 * (2 * 2 - 1));
 }

@@ -69,7 +69,7 @@ void ContactList::check_room(const ExactBodies& bodies, const vector<Vec3>& velo
   if (other > 0) bodies.fail_squeezed(body, {thing, around[other]});
 }
 
-void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first, double beside) {
+void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first) {
   const World& world = bodies.world;
   const auto fixed = [&](size_t c) { return world.is_fixed(names[c].e); };
   const auto flat = [&](size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
@@ -77,9 +77,7 @@ void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t f
   // Whether contact number `floor` is with a flat surface that hides the thing of contact c.
   const auto hides = [&](size_t floor, size_t c) {
     const Vec3& n = pairs[floor].normal;
-    if (floor == c || gaps[floor] > beside || !flat(floor) ||
-        (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level))
-      return false;
+    if (floor == c || !flat(floor) || (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level)) return false;
     return bodies.hidden(names[c].i, x, names[c].e, -n, bodies.fixed_velocity(names[floor].e));
   };
 

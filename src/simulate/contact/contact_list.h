@@ -20,12 +20,11 @@ struct Contact {
   void keep(auto& archive) { archive(i, e, feature); }
 };
 
-/// By body: the first of the bodies that pairs connect with it. `connects`: whether pair number c does.
-template <typename Connects>
-vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs, const Connects& connects) {
+/// By body: the first of the bodies that pairs connect with it.
+inline vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs) {
   DisjointSets sets(bodies);
-  for (size_t c = 0; c < pairs.size(); ++c)
-    if (pairs[c].b != ContactConstraint::fixed && connects(c)) sets.join(pairs[c].a, pairs[c].b);
+  for (const ContactConstraint& pair : pairs)
+    if (pair.b != ContactConstraint::fixed) sets.join(pair.a, pair.b);
 
   vector<uint32_t> part(bodies);
   vector<uint32_t> first(bodies, ContactConstraint::fixed);
@@ -47,8 +46,8 @@ struct ContactList {
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
   /// Drops contacts of a body at x (m), from number `first` on, with things that lie wholly behind a flat fixed surface
-  /// beside it. The surface must be no farther away than `beside` (m). Surfaces level with it stay.
-  void drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first, double beside = never);
+  /// beside it. Surfaces level with it stay.
+  void drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t first);
   /// Throws SimulationError if things that move leave a body no room: the one with the fastest approach at these
   /// velocities (m/s), which contacts could not prevent.
   void check_room(const ExactBodies& bodies, const vector<Vec3>& velocities) const;

@@ -149,6 +149,7 @@ void ExactGroup::join_initial(Entity first) {
       const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
 
+      // Both then belong to one island.
       for (const Entity k : {i, e}) {
         if (!world.is_body(k) || in_lasting_contact(bodies_.mode(k))) continue;
         join_at_rest(k);
@@ -218,6 +219,7 @@ void ExactGroup::join_by_strings() {
   for (size_t k = 0; k < rows.size(); ++k)
     if (!rows[k].bilateral && rows[k].force > 0) held.push_back(strings[k]);
 
+  // Those that hold unite their ends.
   for (const Entity string : held) {
     const String& s = world.string(string);
     join_at_rest(s.body);

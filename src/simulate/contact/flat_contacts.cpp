@@ -217,6 +217,12 @@ void FlatContacts::find_initial(Entity i) {
   if (bodies_.moving.any()) bodies_.contact_work.change(i, bodies_.now, power(i));
 }
 
+/// The point at which body i touches the surface of a contact (m).
+Vec3 FlatContacts::place_of(Entity i, const FlatContact& contact) const {
+  const Vec3 point = bodies_.fixed_position(contact.surface);
+  return bodies_.touch_at(i, bodies_.position(i), contact.surface, point, contact.feature).point;
+}
+
 void FlatContacts::end_bounces(Entity i) {
   for (size_t k = 0; k < contacts_[i].count; ++k) {
     FlatContact& contact = contacts_.write(i).at[k];
@@ -226,13 +232,9 @@ void FlatContacts::end_bounces(Entity i) {
     note_mode(i);
 
     const World& world = bodies_.world;
-    const Vec3 point =
-        bodies_
-            .touch_at(i, bodies_.position(i), contact.surface, bodies_.fixed_position(contact.surface), contact.feature)
-            .point;
-    bodies_.log.record(make_collision(world, CollisionKind::rest, bodies_.now.hi, i, contact.surface, point,
-                                      -contact.normal, contact.residual_speed, 0,
-                                      pair_restitution(world, i, contact.surface)));
+    bodies_.log.record(
+        with_effect(world, {bodies_.now.hi, CollisionKind::rest, i, contact.surface, place_of(i, contact),
+                            -contact.normal, contact.residual_speed, 0, pair_restitution(world, i, contact.surface)}));
     break;
   }
 }
@@ -240,13 +242,8 @@ void FlatContacts::end_bounces(Entity i) {
 /// Records a bounce that ends at once: an impact that leaves no speed. lost: J, that of a single surface or its part of
 /// what several take together.
 void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost) {
-  const World& world = bodies_.world;
-  const Vec3 point =
-      bodies_
-          .touch_at(i, bodies_.position(i), contact.surface, bodies_.fixed_position(contact.surface), contact.feature)
-          .point;
-  Collision met = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, contact.surface, point,
-                                 -contact.normal, approach, 0, e);
+  Collision met = with_effect(bodies_.world, {bodies_.now.hi, CollisionKind::body_fixed, i, contact.surface,
+                                              place_of(i, contact), -contact.normal, approach, 0, e});
   met.energy_lost = lost;
   bodies_.log.record(met);
 }
@@ -358,6 +355,7 @@ vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const 
   vector<SurfaceForce> surfaces;
   for (size_t k = 0; k < contacts.count; ++k) surfaces.push_back({contacts.at[k].surface, -contacts.at[k].normal});
 
+  // Others that it touches without speed along the normal.
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity(i);
   for (const Entity e : bodies_.neighbours_of(i)) {

@@ -114,6 +114,7 @@ class FlatContacts {
   vector<SurfaceForce> forces_on(Entity i) const;
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);
+  Vec3 place_of(Entity i, const FlatContact& contact) const;
   void record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost);
   static void keep(FlatContactList& contacts, const array<bool, FlatContactList::most>& which);
 

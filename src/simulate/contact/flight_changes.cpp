@@ -102,14 +102,14 @@ void FlightChanges::curve(Entity i, Flight from, bool free) {
 }
 
 Vec3 FlightChanges::position_of_method(Entity i, const Instant& at) const {
-  if (follows_closed_form(i)) [[unlikely]]
+  if (curved_.follows_closed_form(i)) [[unlikely]]
     return curved_.closed_place(i, at).x;
   const Flight f = bodies_.flights[i];
   return f.position(at - f.start);
 }
 
 Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
-  if (follows_closed_form(i)) [[unlikely]]
+  if (curved_.follows_closed_form(i)) [[unlikely]]
     return curved_.closed_place(i, at).v;
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   const Flight f = bodies_.flights[i];
@@ -118,18 +118,10 @@ Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
   return v + bodies_.verlet_change(i, f, at - f.start);
 }
 
-void FlightChanges::end_verlets(Entity i) {
-  if (in_lasting_contact(bodies_.mode(i)) || bodies_.flights.curve(i) == nullptr) return;
+void FlightChanges::end_by_method(Entity i) {
   paths_.note_change(i);
-  const Vec3 x = bodies_.position(i);
+  const Vec3 x = position_of_method(i, bodies_.now);
   const Vec3 v = velocity_of_method(i, bodies_.now);
-  book(i, x, bodies_.now);
-  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
-}
-
-void FlightChanges::end_closed(Entity i) {
-  paths_.note_change(i);
-  const auto [x, v] = curved_.closed_place(i, bodies_.now);
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
 }
@@ -209,9 +201,7 @@ double FlightChanges::book_work(Entity i, double time, const Vec3& displacement,
       // The force on a body at rest, wind included, and the drag on its motion.
       const Vec3 any = Vec3::Zero();
       const Vec3 standing = working_acceleration(world, force, part, any, any);
-      const Drag* const drag = std::get_if<Drag>(&force.law);
-      const double work =
-          world.mass[part] * standing.dot(displacement) - (drag != nullptr ? drag->linear * squared_speed : 0);
+      const double work = world.mass[part] * standing.dot(displacement) - fade_of(force.law) * squared_speed;
       if (work != 0) bodies_.log.add_work(k, work);
       all += work;
     }

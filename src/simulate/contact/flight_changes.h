@@ -28,10 +28,9 @@ class FlightChanges {
   /// Ends body i's step at an impact. A motion in closed form has its own position and velocity.
   /// Verlet's method changes the velocity where its step ends, at an impact or not.
   [[gnu::always_inline]] void end_step(Entity i) {
-    if (follows_closed_form(i)) [[unlikely]]
-      return end_closed(i);
-    if (bodies_.options.integrator == Integrator::verlet) [[unlikely]]
-      end_verlets(i);
+    const bool verlet = bodies_.options.integrator == Integrator::verlet;
+    if (curved_.follows_closed_form(i) || (verlet && bends_freely(i))) [[unlikely]]
+      end_by_method(i);
   }
   /// Ends a step of body i's own flight, and begins the next.
   void take_step(Entity i);
@@ -75,10 +74,12 @@ class FlightChanges {
   void keep(auto& archive) { archive(curved_, in_contact_, ended_); }
 
  private:
-  bool follows_closed_form(Entity i) const { return curved_.follows_closed_form(i) && !is_member(bodies_.mode(i)); }
+  /// Whether a free flight of body i follows a curve.
+  bool bends_freely(Entity i) const {
+    return bodies_.flights.curve(i) != nullptr && !in_lasting_contact(bodies_.mode(i));
+  }
   [[gnu::noinline]] void count_anew(Entity i);
-  void end_verlets(Entity i);
-  void end_closed(Entity i);
+  void end_by_method(Entity i);
   void curve(Entity i, Flight from, bool free);
   [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
   [[gnu::noinline]] void note_power(Entity i);

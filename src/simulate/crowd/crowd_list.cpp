@@ -105,6 +105,8 @@ void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& 
   ContactList fixed;  // to find those that others hide
 
   const double soon = 2 * crowd.list.reach / tol::steps_of_list;  // m
+
+  // A pair of this member, without forces yet.
   const auto add = [&](uint32_t b, Entity e, bool balls, double gap) {
     CrowdRows::Pair pair;
     pair.a = k;
@@ -124,6 +126,7 @@ void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& 
     pairs.push_back(pair);
   };
 
+  // Later members, and sleepers within reach.
   for (const Entity e : bodies_.neighbours.bodies(i)) {
     const uint32_t b = numbers_[e];
     const bool asleep = b == Numbering::none && bodies_.mode(e) == Mode::asleep;
@@ -138,6 +141,7 @@ void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& 
     if (gap < within) add(b, e, balls, gap);
   }
 
+  // Fixed things that no other one hides.
   for (const Entity e : bodies_.neighbours.surfaces(i)) {
     const Vec3 xe = bodies_.fixed_position(e);
     const Touch there = touch(world, i, x, e, xe);
@@ -160,6 +164,7 @@ void CrowdList::take_over_forces(const Crowd& crowd, size_t members) {
     double shell;
   };
 
+  // The rows of `crowd` are sorted by their first members.
   vector<uint32_t> start(members + 2, 0);
   const auto number = [&](size_t g, size_t lane) { return numbers_[crowd.rows.names[g][lane].a]; };
   crowd.rows.for_each([&](size_t g, size_t lane) {
@@ -175,6 +180,7 @@ void CrowdList::take_over_forces(const Crowd& crowd, size_t members) {
     kept[start[a + 1]++] = {crowd.rows.names[g][lane].e, state.force[lane], state.shell[lane]};
   });
 
+  // The same pair has the same second thing.
   for (CrowdRows::Pair& pair : pairs_)
     for (uint32_t k = start[pair.a]; k < start[pair.a + 1]; ++k)
       if (kept[k].e == pair.name.e) {
@@ -262,6 +268,7 @@ Touch CrowdList::closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe,
   Touch best = touch(world, i, x, e, xe);
   if (world.is_plane(e)) return best;
 
+  // A normal counts if it leaves a wider gap after the displacement.
   double after = best.gap + best.normal.dot(moved);  // m
   const auto offer = [&](double gap, const Vec3& normal) {
     const double then = gap + normal.dot(moved);
@@ -271,6 +278,7 @@ Touch CrowdList::closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe,
     after = then;
   };
 
+  // The face of a wall, or the axes along which two boxes are apart.
   const Volume volume = world.volume_of(i);
   if (world.is_wall(e)) {
     const Vec3& n = world.wall(e).normal;

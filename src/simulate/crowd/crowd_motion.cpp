@@ -229,6 +229,7 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, vector<uint8_t>&
   crowd.step.last_length = std::min(crowd.step.last_length, last);
   if (part) crowd.list.most = std::min(crowd.list.most, earlier.list.reach);
 
+  // Members share the balance of energy.
   const double share = static_cast<double>(common) / static_cast<double>(earlier.members.size());
   crowd.balance.taken += share * earlier.balance.taken;
   crowd.balance.made += share * earlier.balance.made;
@@ -288,6 +289,7 @@ bool CrowdMotion::take_guests(Entity i) {
   const double length = crowd->step.length;
   const double need = std::max(list.need, length * (greatest(crowd->v) + 0.5 * length * crowd->load));
 
+  // Beyond its reach the list is made anew.
   const bool anew = !(list.gone + need <= list.reach);
   if (anew) {
     list_.begin(*crowd, need);
@@ -377,6 +379,7 @@ bool CrowdMotion::let_go(Crowd& crowd) {
     });
   };
 
+  // Those that nothing holds fly on alone.
   vector<Entity> stay;
   for (const uint32_t k : crowd.by_name) {
     const Entity i = crowd.members[k];
@@ -419,6 +422,7 @@ bool CrowdMotion::split(Crowd& crowd) {
   uint32_t rest = ContactConstraint::fixed;
   size_t parts = 0;
 
+  // Each member gets the label of its part.
   for (uint32_t k = 0; k < n; ++k) {
     const size_t root = sets.root(crowd.by_name[k]);
     uint32_t& of_part = presses[root] != 0 ? first[root] : rest;

@@ -29,6 +29,7 @@ void CrowdRows::clear() {
 void CrowdRows::add_part(span<const Pair> pairs, uint32_t movable, uint32_t dummy) {
   RowPart part{groups(), groups(), groups()};
 
+  // Writes a pair into a lane.
   const auto fill = [&](size_t group, size_t lane, const Pair& pair) {
     hot[group].a[lane] = pair.a;
     hot[group].b[lane] = pair.b;
@@ -41,6 +42,7 @@ void CrowdRows::add_part(span<const Pair> pairs, uint32_t movable, uint32_t dumm
     names[group][lane] = pair.name;
   };
 
+  // Lanes of a new group are empty.
   const auto open_group = [&] {
     hot.push_back({});
     change.push_back({});

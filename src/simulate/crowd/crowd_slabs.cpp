@@ -108,6 +108,7 @@ void arrange_in_slabs(Crowd& crowd, double beyond_radii) {
   const AxisCoordinates spread = widest(crowd);
   const size_t count = count_of_slabs(crowd, spread.extent, beyond_radii);
 
+  // Places are slabs and the gaps between them, in turn.
   vector<uint32_t> place(n, 0);
   vector<uint32_t> next(2 * count + 1, 0);  // number of the next member with a place
   const vector<double> cuts = cuts_between(spread.at, count);
@@ -127,6 +128,7 @@ void arrange_in_slabs(Crowd& crowd, double beyond_radii) {
     order[number] = std::exchange(k, number);
   }
 
+  // All data of members follow.
   crowd.x.resize(n);
   crowd.v.resize(n);
   reorder(crowd.members, order);

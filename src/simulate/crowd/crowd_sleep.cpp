@@ -85,6 +85,7 @@ CrowdSleep::Holding CrowdSleep::touching(const Crowd& crowd, span<const uint8_t>
       holding.members.push_back(k);
     }
 
+  // Their pairs that touch.
   crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
     const bool body = row.b[lane] < crowd.movable();

@@ -199,8 +199,8 @@ void CrowdSteps::strike(Crowd& crowd, size_t group, size_t lane, Strikes& strike
   const double restitution = crowd.rows.state[group].e[lane];
   const double separation = restitution * speed;
   const Vec3 point = crowd.position(a) + bodies_.world.volume_of(i).support(normal) * normal;
-  strikes.met.push_back(make_collision(bodies_.world, body ? CollisionKind::body_body : CollisionKind::body_fixed,
-                                       bodies_.now.hi, i, e, point, normal, speed, separation, restitution));
+  strikes.met.push_back(with_effect(bodies_.world, {bodies_.now.hi, impact_kind(bodies_.world, e), i, e, point, normal,
+                                                    speed, separation, restitution}));
   strikes.lost += strikes.met.back().energy_lost;
   strikes.work += push(crowd, group, lane, strikes.met.back().impulse, crowd.v);
 }
@@ -383,6 +383,7 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
     inverse_mass.push_back(free_[k].at[3]);
   }
 
+  // Rows as contacts that may close their gaps in the step.
   vector<ContactConstraint> pairs;
   crowd.rows.for_each([&](size_t g, size_t lane) {
     const RowGroup& row = crowd.rows.hot[g];
@@ -395,6 +396,7 @@ bool CrowdSteps::solve_exactly(Crowd& crowd) const {
   });
   if (!carom::solve({inverse_mass, motion, pairs}).solved()) return false;
 
+  // The answer's impulses and drifts.
   auto pair = pairs.cbegin();
   crowd.rows.for_each([&](size_t g, size_t lane) { crowd.rows.hot[g].impulse[lane] = pair++->force; });
   for (size_t k = 0; k < motion.size(); ++k)

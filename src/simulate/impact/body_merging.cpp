@@ -70,13 +70,10 @@ Collision BodyMerging::meeting(Entity a, Entity b, const Touch& there) const {
 
   const Vec3 w = bodies_.velocity(b) - bodies_.velocity(a);
   const double approach = std::max(-w.dot(there.normal), 0.0);
-  Collision met =
-      make_collision(world, CollisionKind::merge, bodies_.now.hi, a, b, there.point, there.normal, approach, 0, 0);
-
-  met.impulse = approach * (mw * mp / mass);
   // The energy of the motion along the surfaces is lost too.
-  met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
-  return met;
+  const double impulse = approach * (mw * mp / mass);
+  const double lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
+  return {bodies_.now.hi, CollisionKind::merge, a, b, there.point, there.normal, approach, 0, 0, impulse, lost};
 }
 
 /// The joint body continues from the centre of mass with the common momentum. Forces continue to act on the parts.

@@ -21,16 +21,13 @@ namespace carom {
 void ExactImpacts::bounce_off(const PairImpact& impact, Entity striker, Entity struck) {
   const Touch& there = impact.there;
   const double mass = bodies_.world.mass[striker];
-  const double e = impact.e;
   const double approach = impact.approach;
-  const double separation = e * approach;
-
-  Collision met = make_collision(bodies_.world, CollisionKind::body_body, bodies_.now.hi, std::min(striker, struck),
-                                 std::max(striker, struck), there.point, there.normal, approach, separation, e);
-  met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, separation);
-  met.energy_lost = impact_loss(mass, ExactBodies::immovable, approach, separation);
-  bodies_.log.record(met);
-  bodies_.log.lose(met.energy_lost);
+  const double separation = impact.e * approach;
+  const double impulse = impact_impulse(mass, ExactBodies::immovable, approach, separation);
+  const double lost = impact_loss(mass, ExactBodies::immovable, approach, separation);
+  rules_.book({bodies_.now.hi, CollisionKind::body_body, impact.a, impact.b, there.point, there.normal, approach,
+               separation, impact.e, impulse, lost},
+              false, impact.press, impact.length);
 
   // The normal points from the lower number to the higher one.
   const Vec3 away = striker < struck ? Vec3(-there.normal) : there.normal;
@@ -40,7 +37,6 @@ void ExactImpacts::bounce_off(const PairImpact& impact, Entity striker, Entity s
 }
 
 void ExactImpacts::collide_pair(Entity a, Entity b, uint8_t feature) {
-  const World& world = bodies_.world;
   const PairImpact impact = rules_.find_pair(a, b, feature);
   bodies_.log.note_overlap(-impact.there.gap);
   bodies_.note_speed(a, impact.va);
@@ -52,24 +48,12 @@ void ExactImpacts::collide_pair(Entity a, Entity b, uint8_t feature) {
     return bounce_off(impact, struck == b ? a : b, struck);
 
   // The impulse, by which the two separate at e times their approach, or not at all.
-  const double ma = world.mass[a];
-  const double mb = world.mass[b];
-  const Vec3& n = impact.there.normal;
-  const double approach = impact.approach;
   const bool ends = rules_.ends(impact, false);
-  const double separation = ends ? 0 : impact.e * approach;
-  const double impulse = impact_impulse(ma, mb, approach, separation);
-
-  // The energy is booked, and the impact is recorded or counted.
-  bodies_.log.lose(impact_loss(ma, mb, approach, separation));
-  const Collision collision = make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, impact.there.point,
-                                             n, approach, separation, impact.e);
-  if (!ends || rules_.is_plastic(collision, impact.press, impact.length))
-    bodies_.log.record(collision);
-  else if (approach > 0)
-    bodies_.log.take_up(approach, collision.energy_lost);
-
-  apply_pair(impact, impulse, ends);
+  const double separation = ends ? 0 : impact.e * impact.approach;
+  const Collision met = with_effect(bodies_.world, {bodies_.now.hi, CollisionKind::body_body, a, b, impact.there.point,
+                                                    impact.there.normal, impact.approach, separation, impact.e});
+  rules_.book(met, ends, impact.press, impact.length);
+  apply_pair(impact, met.impulse, ends);
 }
 
 /// Begins the flights of two bodies after their impact. Where it ends in contact, they join one island.
@@ -102,7 +86,6 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, uint8_t feature) {
   const Vec3& v = impact.v;
   const Vec3& n = impact.there.normal;
   const double approach = impact.approach;
-  const double mass = world.mass[i];
 
   parts_.guard.note_restitution(impact.e, world.moves(surface));
   bodies_.log.note_overlap(-impact.there.gap);
@@ -118,17 +101,13 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, uint8_t feature) {
   if (ends || bodies_.mode(i) == Mode::asleep) parts_.group.join(i);
   parts_.group.note_needed(i);
 
-  // The energy is booked, and the impact is recorded or counted.
   if (approach > 0 || separation > 0) {
-    const double impulse = mass * (rests ? approach : approach + separation);
+    const double impulse = world.mass[i] * (rests ? approach : approach + separation);
     if (bodies_.moving.any()) bodies_.log.add_work(-impulse * n.dot(impact.u));
-    bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach, separation));
-    const Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
-                                               impact.there.point, n, approach, separation, impact.e);
-    if (!leaves_nothing || (ends && rules_.is_plastic(collision, impact.press, world.radius[i])))
-      bodies_.log.record(collision);
-    else if (approach > 0)
-      bodies_.log.take_up(approach, collision.energy_lost);
+    const Collision met = with_effect(world, {bodies_.now.hi, CollisionKind::body_fixed, i, surface, impact.there.point,
+                                              n, approach, separation, impact.e});
+    // What a level surface takes over is not plastic.
+    rules_.book(met, leaves_nothing, taken_over ? 0 : impact.press, world.radius[i]);
   }
 
   // The next flight begins: on the flat surface, or after the impulse.

@@ -110,9 +110,16 @@ bool ImpactRules::move_as_one(Entity a, Entity b, double approach) const {
          approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
 }
 
-bool ImpactRules::is_plastic(const Collision& met, double press, double length) const {
+void ImpactRules::book(const Collision& met, bool ends, double press, double length) const {
   const bool pressed = press > 0 || met.kind == CollisionKind::taut;
-  return met.restitution == 0 && pressed && met.approach_speed > bodies_.slow_speed(std::max(press, 0.0), length);
+  const auto plastic = [&] {
+    return met.restitution == 0 && pressed && met.approach_speed > bodies_.slow_speed(std::max(press, 0.0), length);
+  };
+  const bool recorded = !ends || plastic();
+  if (!recorded && !(met.approach_speed > 0)) return bodies_.log.absorb(met.energy_lost);
+
+  bodies_.log.lose(met.energy_lost);
+  recorded ? bodies_.log.record(met) : bodies_.log.take_up(met.approach_speed, met.energy_lost);
 }
 
 FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, uint8_t feature) const {

@@ -84,8 +84,9 @@ class ImpactRules {
   double pressed(Entity i, Entity e) const;
   /// The one of two bodies that sleeps, and that the impact is too slow to wake; no_entity: none.
   Entity left_asleep(const PairImpact& impact) const;
-  /// Whether an impact ends in contact because its restitution is zero, at any speed.
-  bool is_plastic(const Collision& met, double press, double length) const;
+  /// Books the energy of an impact, and records it. `ends`: in contact. Then it is only counted, unless it is fast and
+  /// its restitution zero. `press` (m/s^2) drives the two together, and they are slow on `length` (m).
+  void book(const Collision& met, bool ends, double press, double length) const;
   /// Throws SimulationError where the thing that a body strikes and a surface opposite to it certainly leave the body
   /// no room, unless something else happens to it. Elastic impacts between the two would never end.
   void check_room(const FixedImpact& impact) const;

@@ -153,6 +153,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, span<const uint32_t> links, 
     return number[body];
   };
 
+  // The rows as constraints on velocities.
   vector<ContactConstraint> constraints;
   for (const uint32_t c : order) {
     const RowState& r = rows_[c];
@@ -168,6 +169,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, span<const uint32_t> links, 
     constraints.push_back(constraint);
   }
 
+  // The nearest velocities that they allow.
   vector<double> inverse_mass;
   for (const uint32_t body : p.bodies) {
     inverse_mass.push_back(1 / bodies_[body].mass);
@@ -193,6 +195,7 @@ ImpactSet::Projection ImpactSet::response(uint32_t c, span<const uint32_t> links
     return static_cast<uint32_t>(p.bodies.size() - 1);
   };
 
+  // The row's own bodies come first.
   vector<ContactConstraint> constraints;
   place(r.a);
   if (r.b != fixed) place(r.b);
@@ -204,6 +207,7 @@ ImpactSet::Projection ImpactSet::response(uint32_t c, span<const uint32_t> links
     constraints.push_back(constraint);
   }
 
+  // The impulse, and what the links make of it.
   vector<double> inverse_mass;
   for (const uint32_t body : p.bodies) inverse_mass.push_back(1 / bodies_[body].mass);
   p.v.assign(p.bodies.size(), Vec3::Zero());
@@ -250,6 +254,7 @@ bool ImpactSet::waits(uint32_t c, const vector<uint8_t>& approaching) {
   Projection through;
   if (!links.empty()) through = response(c, links);
 
+  // All rows that push these bodies along the same line.
   const double u = approach(c);
   const double e = rows_[c].restitution;
   for (const uint32_t at : near)
@@ -384,6 +389,7 @@ void ImpactSet::strike_inelastic(const Together& set) {
   Rows all = rows;
   all.insert(all.end(), set.links.begin(), set.links.end());
 
+  // The velocities without the earlier impulses.
   vector<Vec3> start = velocities();
   for (const uint32_t c : all) {
     const RowState& r = rows_[c];
@@ -397,6 +403,7 @@ void ImpactSet::strike_inelastic(const Together& set) {
   share_rounding(p);
   for (size_t k = 0; k < p.bodies.size(); ++k) change(p.bodies[k], p.v[k]);
 
+  // The impulses that this adds to them.
   const size_t first = impacts_.size();
   for (size_t k = 0; k < all.size(); ++k) {
     RowState& r = rows_[all[k]];

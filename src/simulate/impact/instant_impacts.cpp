@@ -50,6 +50,7 @@ bool InstantImpacts::strike(const Due& due) {
   if (!string && (!meets || (approaching.size() == 1 && !now.set.linked() && !stays && !endless))) return false;
   if (!meets) hold_string(now);
 
+  // Round follows round until nothing approaches.
   while (!approaching.empty()) {
     if (now.set.may_be_endless()) {
       gather_all(now);
@@ -498,29 +499,13 @@ void InstantImpacts::book(Moment& now) {
     const Touching& row = now.touching[of.row];
     if (in_lasting_contact(bodies_.mode(row.a)))
       parts_.group.note_parted(row.a, row.thing, of.separation > 0 && !row.pressed);
-    const bool string = world.is_string(row.thing);
-    const bool fixed = !string && !world.is_body(row.thing);
-    if (fixed && bodies_.moving.any())
+    const CollisionKind kind = impact_kind(world, row.thing);
+    if (kind == CollisionKind::body_fixed && bodies_.moving.any())
       bodies_.log.add_work(-of.impulse * row.there.normal.dot(bodies_.fixed_velocity(row.thing)));
 
-    const CollisionKind kind = string  ? CollisionKind::taut
-                               : fixed ? CollisionKind::body_fixed
-                                       : CollisionKind::body_body;
-    Collision met = make_collision(world, kind, bodies_.now.hi, row.a, row.thing, row.there.point, row.there.normal,
-                                   of.approach, of.separation, of.e);
-    met.impulse = of.impulse;
-    met.energy_lost = of.lost;
-
-    // An impact that ends in contact is counted, unless it is fast and plastic.
-    if (!of.ends || rules_.is_plastic(met, row.press, row.length)) {
-      bodies_.log.lose(of.lost);
-      bodies_.log.record(met);
-    } else if (of.approach > 0) {
-      bodies_.log.lose(of.lost);
-      bodies_.log.take_up(of.approach, of.lost);
-    } else {
-      bodies_.log.absorb(of.lost);
-    }
+    rules_.book({bodies_.now.hi, kind, row.a, row.thing, row.there.point, row.there.normal, of.approach, of.separation,
+                 of.e, of.impulse, of.lost},
+                of.ends, row.press, row.length);
   }
 }
 

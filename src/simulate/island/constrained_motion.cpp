@@ -59,13 +59,14 @@ bool ConstrainedMotion::advance(Entity i) {
   {
     IslandStep step = begin_step(island.members, undisturbed);
     if (may_be_busy && !count_change(island, step.load, step.smallest)) return false;
-    part = connected_parts(step.members.size(), step.contacts.pairs, [](size_t) { return true; });
+    part = connected_parts(step.members.size(), step.contacts.pairs);
     if (std::ranges::all_of(part, [](uint32_t first) { return first == 0; })) {
       apply(step);
       return true;
     }
   }
 
+  // Parts that nothing connects become islands of their own.
   for (const Entity first : bodies_.islands.split(i, part)) {
     IslandStep step = begin_step(bodies_.islands.of(first).members, undisturbed);
     apply(step);
@@ -85,6 +86,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
     const Vec3 x = bodies_.position(k);
     const Vec3 v = bodies_.velocity(k);
 
+    // Bodies that fall beside it, and touch it.
     for (const Entity e : bodies_.neighbours_of(k)) {
       if (!world.is_body(e) || !is_free(bodies_.mode(e))) continue;
       if (!bodies_.falls_freely(e) || bodies_.applied[e] != bodies_.applied[k]) continue;
@@ -272,6 +274,7 @@ void ConstrainedMotion::report(const Island& island, double time, vector<Contact
     }
   }
 
+  // The forces that keep them together.
   solve({step.inverse_mass, step.a, pairs, true});
   for (size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0 || pairs[c].bilateral) forces.push_back({names[c].first, names[c].second, pairs[c].force});

@@ -78,11 +78,13 @@ void ConstrainedSteps::take_approaches(IslandStep& step) const {
     p.surface = bodies_.world.moves(e) ? p.normal.dot(bodies_.fixed_velocity(e)) : 0;
   }
 
+  // The contact solver ends the approaches.
   const vector<Vec3> met = step.v;
   const Certificate certificate = solve({step.inverse_mass, step.v, step.contacts.pairs});
   if (certificate.verdict == Certificate::Verdict::infeasible) step.contacts.check_room(bodies_, step.v);
   step.bookings.solutions.push_back(certificate);
 
+  // What that absorbs is booked with the step.
   vector<AbsorbedImpact> impacts = absorbed_impacts(step, met);
   record_fast(step, impacts);
   step.bookings.absorbed = {met, step.v, step.contacts.pairs, std::move(impacts)};
@@ -157,17 +159,11 @@ void ConstrainedSteps::record_fast(IslandStep& step, vector<AbsorbedImpact>& imp
     if (!(presses && impacts[c].approach > std::max(slow, step.contacts.slow[c]))) continue;
 
     const double sign = p.force < 0 ? -1 : 1;
-    const CollisionKind kind = world.is_string(e) ? CollisionKind::taut
-                               : world.is_body(e) ? CollisionKind::body_body
-                                                  : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, step.position_of(bodies_, e), feature);
-    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, sign * p.normal,
-                                     impacts[c].approach, 0, pair_restitution(world, i, e));
-
-    // Shared among all struck bodies.
-    taken.impulse = sign * p.force;
-    taken.energy_lost = impacts[c].lost;
-    step.bookings.collisions.push_back(taken);
+    // The energy is shared among all struck bodies.
+    step.bookings.collisions.push_back({bodies_.now.hi, impact_kind(world, e), i, e, there.point, sign * p.normal,
+                                        impacts[c].approach, 0, pair_restitution(world, i, e), sign * p.force,
+                                        impacts[c].lost});
     impacts[c].recorded = true;
   }
 }
@@ -242,6 +238,7 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   bool parts = false;
   const double rounding = share_of_errors() * tol::velocity_rounding * step.fastest;  // m/s
 
+  // What presses is to stay closed.
   for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const ContactConstraint& p = step.contacts.pairs[c];
     parts = parts || (p.force > 0 && step.parting_speed(bodies_, c) > rounding);
@@ -252,6 +249,7 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   }
   if (!parts) return false;
 
+  // More energy than errors may have made is no error.
   vector<Vec3> stopped = step.v;  // m/s
   const Certificate certificate = solve({step.inverse_mass, stopped, kept});
   const double errors = parting_speed(step) * (step.fastest + std::sqrt(step.load * step.smallest));  // m^2/s^2
@@ -345,7 +343,7 @@ void ConstrainedSteps::fail_jammed(Entity i, double force) const {
 void ConstrainedSteps::find_resting(IslandStep& step) const {
   const size_t n = step.x.size();
   const vector<ContactConstraint>& pairs = step.contacts.pairs;
-  const vector<uint32_t> part = connected_parts(n, pairs, [](size_t) { return true; });
+  const vector<uint32_t> part = connected_parts(n, pairs);
   vector<uint8_t> moves(n, 1);  // by part
   for (const ContactConstraint& p : pairs) moves[part[p.a]] = 0;
 
@@ -485,6 +483,7 @@ double ConstrainedSteps::rim_time(const IslandStep& step, size_t pair, double le
   const Vec3 w = ve - step.v[k];
   const Vec3 a = step.pull_of(bodies_, e) - step.a[k];
 
+  // Motion and acceleration that are mere rounding do not count.
   RelativeMotion m{step.position_of(bodies_, e) - step.x[k], w, a, w.norm(), true};
   const double speeds = step.v[k].norm() + ve.norm();
   for (int axis = 0; axis < 3; ++axis) {

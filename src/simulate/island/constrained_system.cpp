@@ -10,7 +10,9 @@
 
 #include "numerics/cube_root.h"
 #include "numerics/dormand_prince.h"
+#include "numerics/gauss.h"
 #include "numerics/radau_collocation.h"
+#include "physics/closed_motion.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
@@ -21,16 +23,6 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 namespace {
-
-/// Gauss's rule of six points on [0, 1], exact to degree 11.
-struct WorkPoint {
-  double at;      // in [0, 1]
-  double weight;  // of a sum of 1
-};
-constexpr WorkPoint work_points[] = {
-    {0.033765242898423986, 0.085662246189585178}, {0.16939530676686774, 0.18038078652406931},
-    {0.38069040695840154, 0.23395696728634552},   {0.61930959304159846, 0.23395696728634552},
-    {0.83060469323313226, 0.18038078652406931},   {0.96623475710157601, 0.085662246189585178}};
 
 // Samples of a step at which rims and opened contacts are examined.
 constexpr int samples = 6;
@@ -479,6 +471,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const vector<Vec3>& 
   for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
   forces.resize(forces.size() + carriers_.size(), {Vec3::Zero(), 0});
 
+  // Each stage stays on the surfaces.
   vector<ContactConstraint> rows = held_;
   vector<double> inverse_mass(members_.size());
   const auto hold = [&](const vector<Vec3>& at, double s, vector<Vec3>& u) {
@@ -519,7 +512,7 @@ double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
   double work = 0;
   vector<Vec3> x;
   vector<Vec3> v;
-  for (const WorkPoint& point : work_points) {
+  for (const GaussPoint& point : gauss_6) {
     motion.at(point.at * length, x, v);
     Certificate certificate;
     solve_rows(x, v, rows, certificate);

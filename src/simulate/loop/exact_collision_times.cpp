@@ -52,6 +52,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
   const bool balls = world.volume.empty();
   if (balls && m.a.isZero(0) && p.fade == q.fade && m.d.dot(m.w) >= 0) return {never, 0};
 
+  // The horizon is the end of a step, or of the run.
   const double s = world.radius[a] + world.radius[b];
   const bool curved = p.curve != nullptr || q.curve != nullptr;
   const bool parabolas = p.is_parabola() && q.is_parabola();
@@ -78,6 +79,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
   }
 
+  // The time by the kind of paths and volumes.
   double t;
   if (!parabolas) {
     const FeatureTime first = time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
@@ -284,7 +286,7 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, uint8_t& featu
     const double reach = world.radius[i] + horizon * (sum_of_speeds(f.v) + horizon * sum_of_speeds(f.a));
     if (step && (f.x - nearest_on_wall(world.wall(surface), f.x)).squaredNorm() > reach * reach) return {never, 0};
 
-    const WallContact contact = wall_contact_time(world.wall(surface), f.x, f.v, f.a, world.radius[i],
+    const FeatureTime contact = wall_contact_time(world.wall(surface), f.x, f.v, f.a, world.radius[i],
                                                   left ? bodies_.body[i].origin_feature : no_feature, horizon);
     t = contact.time;
     feature = contact.feature;

@@ -237,6 +237,7 @@ uint32_t ExactSimulator::process(Entity i) {
       break;
   }
 
+  // What has changed gets its next events.
   predict_changed();
   guard_.count(ExactEvent::is_impact(event.kind) ? StallGuard::Happened::impact : StallGuard::Happened::other,
                bodies_.now.hi);

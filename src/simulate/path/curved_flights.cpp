@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "numerics/dormand_prince.h"
+#include "numerics/gauss.h"
 #include "numerics/whole.h"
 #include "physics/force.h"
 #include "physics/implicit_step.h"
@@ -25,19 +26,6 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 namespace {
-
-/// Gauss's rule of ten points on [0, 1], exact to degree 19.
-/// Power is a velocity to the second or third power, which may fall by decades within a step.
-struct GaussPoint {
-  double at;      // in [0, 1]
-  double weight;  // of a sum of 1
-};
-constexpr GaussPoint gauss[] = {
-    {0.013046735741414140, 0.033335672154344069}, {0.067468316655507745, 0.074725674575290297},
-    {0.16029521585048780, 0.10954318125799102},   {0.28330230293537640, 0.13463335965499818},
-    {0.42556283050918439, 0.14776211235737644},   {0.57443716949081561, 0.14776211235737644},
-    {0.71669769706462360, 0.13463335965499818},   {0.83970478414951220, 0.10954318125799102},
-    {0.93253168334449226, 0.074725674575290297},  {0.98695326425858586, 0.033335672154344069}};
 
 /// A value in place of a number of steps: the last step was implicit.
 constexpr uint8_t implicit_method = 255;
@@ -212,17 +200,14 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
 
     PolynomialPath path;
     double error;
-    double next;
 
     if (implicit) {
       ImplicitStep motion;
       error = motion.step(h, x, v, acceleration, jacobian, place, speed);
-      next = ImplicitStep::next_length(h, error);
       if (error <= 1) path = motion.path();
     } else {
       DormandPrince motion({x}, {v}, {a});
       error = motion.step(h, accelerations, place, speed);
-      next = DormandPrince::next_length(h, error);
       if (error <= 1) {
         motion.interpolate(accelerations);
         path = motion.path(0);
@@ -230,6 +215,7 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
     }
 
     // A step that is accurate enough is taken.
+    const double next = DormandPrince::next_length(h, error);
     if (error <= 1) {
       next_.write(i) = next;
       note_method(i, implicit);
@@ -289,7 +275,7 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
 
 double CurvedFlights::squared_speed(const Flight& flight, double length) {
   double sum = 0;
-  for (const GaussPoint& node : gauss) sum += node.weight * flight.velocity(node.at * length).squaredNorm();
+  for (const GaussPoint& node : gauss_10) sum += node.weight * flight.velocity(node.at * length).squaredNorm();
   return length * sum;
 }
 
@@ -300,9 +286,10 @@ double CurvedFlights::book_work(Entity i, const Flight& flight, double length) {
     const Force& force = world.forces[k];
     if (!acts(force, i, flight.start.hi)) continue;
 
-    // The mean power for each unit of mass, by Gauss's rule.
+    // The mean power for each unit of mass. It is a velocity to the second or third power, which may fall by decades
+    // within a step.
     double sum = 0;
-    for (const GaussPoint& node : gauss) {
+    for (const GaussPoint& node : gauss_10) {
       const double t = node.at * length;
       const Vec3 x = flight.position(t);
       const Vec3 v = flight.velocity(t);

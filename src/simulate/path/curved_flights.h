@@ -43,7 +43,8 @@ class CurvedFlights {
     if (closed_.empty()) [[likely]]
       return false;
     const PolynomialPath* const curve = bodies_.flights.curve(i);
-    return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next;
+    return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next &&
+           !is_member(bodies_.mode(i));
   }
   /// Whether such a motion begins with the present flight.
   bool begins_closed_form(Entity i) const {

@@ -66,7 +66,7 @@ void PathLog::end(double time) {
 
 /// Whether body i's path is a further step of the motion in closed form that its last piece began.
 bool PathLog::goes_on(Entity i) {
-  const bool closed = follows_closed_form(i);
+  const bool closed = curved_->follows_closed_form(i);
   const bool goes_on = closed && closed_[i] != 0 && !curved_->begins_closed_form(i);
   if (closed != (closed_[i] != 0)) closed_.write(i) = closed;
   return goes_on;
@@ -86,7 +86,7 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
     piece.kick = bodies_.kick[i].a;
   }
 
-  if (follows_closed_form(i) && curved_->begins_closed_form(i)) {
+  if (curved_->begins_closed_form(i)) {
     piece.law = PathLaw::closed;
   } else if (f.curve != nullptr) {
     // The velocities of contact are those of the path.

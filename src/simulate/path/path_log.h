@@ -45,7 +45,6 @@ class PathLog {
 
  private:
   void note(Entity i);
-  bool follows_closed_form(Entity i) const { return curved_->follows_closed_form(i) && !is_member(bodies_.mode(i)); }
   bool goes_on(Entity i);
   PathPiece piece_of(Entity i, double from) const;
 

@@ -224,6 +224,7 @@ size_t RegionGrid::near(const Region& region, vector<Entity>& found) const {
       cells[k] = all ? grid.cells[k] : high - low + 1;
     }
 
+    // Room for all that may be there.
     const auto most = static_cast<size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
     const size_t room = count + most + slack;
     if (found.size() < room) found.resize(2 * room);

@@ -1,8 +1,8 @@
 #pragma once
-// The memory of one thread for a tile. A tile has blocks of 4 x 4 pixels, one for each vector; pixel i of block b is
-// number 16 b + i.
+// What is known of a tile while it is drawn. A tile has blocks of 4 x 4 pixels, one for each vector; pixel i of block b
+// is number 16 b + i.
 
-#include "raster/tile.h"
+#include "raster/bins.h"
 #include "std.h"
 
 namespace carom::raster {
@@ -72,7 +72,8 @@ struct TileNeighbours {
   uint32_t mark = 0;                       // of this tile
 };
 
-struct TileMemory::Data {
+/// The memory of one thread for the tiles that it draws.
+struct TileMemory {
   TileLayers layers;
   TilePixels pixels;
   LightQueue queue;
