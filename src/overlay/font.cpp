@@ -13,7 +13,7 @@
 
 #include "render/renderer.h"
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {

@@ -213,6 +213,7 @@ class Reader {
       case '(':
         parentheses(token);
         break;
+
       case '+':
       case '-':
         if (ahead() == '+' || ahead() == '-') fail(next(), "two signs in a row", "expected one");
@@ -339,6 +340,7 @@ double Formula::value(span<const double> values) const {
       if (!std::isfinite(result))
         refuse(fmt::format("this {} makes a number too large for a double", step.operation->noun),
                "the largest is about 1.8e308");
+
       stack.resize(first);
       stack.push_back(result);
     } catch (FormulaError& error) {
