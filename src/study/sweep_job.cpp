@@ -428,7 +428,7 @@ size_t SweepJob::left() const {
 
 /// The result of a unit as JSON: the reason for each failed run.
 string SweepJob::work(const Unit& unit) {
-  nlohmann::ordered_json failures = nlohmann::ordered_json::object();
+  Json failures = Json::object();
   const auto fail = [&](size_t number, const string& why) { failures[std::to_string(number)] = why; };
 
   const auto copy_to_all = [&](size_t from, const vector<size_t>& runs) {
@@ -516,7 +516,7 @@ void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
 
   tasks.done = [&](const TaskOutcome& outcome) {
     const bool whole = outcome.kind == TaskOutcome::Kind::done;
-    const nlohmann::ordered_json failures = whole ? json_of_text(outcome.text) : nlohmann::ordered_json::object();
+    const Json failures = whole ? json_of_text(outcome.text) : Json::object();
 
     for (const auto& scenario : all[outcome.task].scenarios) {
       for (const size_t number : scenario) {

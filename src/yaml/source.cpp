@@ -31,10 +31,6 @@ struct OpenFile {
   }
 };
 
-void refuse_file(Diagnostics& diagnostics, const string& path, const string& why, const string& remedy = {}) {
-  diagnostics.add_unplaced(path, why, remedy);
-}
-
 /// Removes the byte order mark and turns "\r\n" into "\n". Columns and shown lines then need no special case.
 void normalise(string& text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
@@ -61,39 +57,28 @@ Place one_byte(uint32_t index, size_t offset) {
 
 bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   source.name = path;
-  if (path.find('\0') != string::npos) {
-    refuse_file(diagnostics, path, "no such file");
+  const auto refuse = [&](const string& why, const string& remedy = {}) {
+    diagnostics.add_unplaced(path, why, remedy);
     return false;
-  }
+  };
+  if (path.find('\0') != string::npos) return refuse("no such file");
 
   const OpenFile file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   struct stat info {};
   if (file.fd < 0 || fstat(file.fd, &info) != 0) {
     const int error = errno;
-    if (error == ENOENT || error == ENOTDIR) {
-      refuse_file(diagnostics, path, "no such file");
-    } else {
-      refuse_file(diagnostics, path, fmt::format("cannot be opened: {}", std::strerror(error)));
-    }
-    return false;
+    const bool absent = error == ENOENT || error == ENOTDIR;
+    return refuse(absent ? "no such file" : fmt::format("cannot be opened: {}", std::strerror(error)));
   }
-
-  if (S_ISDIR(info.st_mode)) {
-    refuse_file(diagnostics, path, "this is a folder, not a scene file", "name the scene file in it");
-    return false;
-  }
-  if (!S_ISREG(info.st_mode)) {
-    refuse_file(diagnostics, path, "this is not a regular file", "write the scene to a file and name that");
-    return false;
-  }
+  if (S_ISDIR(info.st_mode)) return refuse("this is a folder, not a scene file", "name the scene file in it");
+  if (!S_ISREG(info.st_mode)) return refuse("this is not a regular file", "write the scene to a file and name that");
 
   // The size can change during reading. The limit therefore applies to what was read, not to what fstat returned.
   string& text = source.text;
   text.clear();
   const auto too_big = [&] {
-    refuse_file(diagnostics, path, fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
-                "many balls of one kind are a group: `groups`");
-    return false;
+    return refuse(fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
+                  "many balls of one kind are a group: `groups`");
   };
   if (static_cast<uint64_t>(info.st_size) > max_source_bytes) return too_big();
   text.reserve(static_cast<size_t>(info.st_size) + 8);
@@ -102,20 +87,14 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   for (;;) {
     const ssize_t got = read(file.fd, buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) {
-      refuse_file(diagnostics, path, fmt::format("cannot be read: {}", std::strerror(errno)));
-      return false;
-    }
+    if (got < 0) return refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
     if (got == 0) break;
     text.append(buffer, static_cast<size_t>(got));
     if (text.size() > max_source_bytes) return too_big();
   }
 
-  if (!has_utf8_form(text)) {
-    refuse_file(diagnostics, path, "this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
-                "save it as UTF-8");
-    return false;
-  }
+  if (!has_utf8_form(text))
+    return refuse("this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)", "save it as UTF-8");
   normalise(text);
   return true;
 }

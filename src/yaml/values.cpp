@@ -104,11 +104,12 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   const string& text = node.text;
   const string& wanted = number.expected;
   const string shown = in_backticks(text);
+  const Complaint none{fmt::format("{} is not a number", shown), wanted};
 
   if (node.quoted) {
     if (parse_number(text))
       return {fmt::format("{} in quotes is text, not a number", shown), fmt::format("without quotes: {}", text)};
-    return {fmt::format("{} is not a number", shown), wanted};
+    return none;
   }
 
   // Spellings of other languages.
@@ -123,7 +124,7 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   }
 
   const string_view prefix = number_prefix(text);
-  if (prefix.empty()) return {fmt::format("{} is not a number", shown), wanted};
+  if (prefix.empty()) return none;
   if (prefix.size() == text.size()) {
     if (has_leading_zero(text)) {
       string better(bare.substr(std::min(bare.find_first_not_of('0'), bare.size() - 1)));
@@ -133,7 +134,7 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
     }
 
     // What remains is a number beyond the range of a double.
-    if (is_zero(prefix)) return {fmt::format("{} is not a number", shown), wanted};
+    if (is_zero(prefix)) return none;
     const size_t e = lower.find('e');
     const bool tiny = e != string::npos ? lower[e + 1] == '-' : bare.starts_with('0') || bare.starts_with('.');
     return {fmt::format("{} is too {} for a double", shown, tiny ? "small" : "large"),
@@ -143,7 +144,7 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   // A number, and what follows it.
   const string_view rest = string_view(text).substr(prefix.size());
   if (rest[0] == '_' && parse_number(without(text, '_')))
-    return {fmt::format("{} is not a number", shown), fmt::format("write {}", without(text, '_'))};
+    return {none.message, fmt::format("write {}", without(text, '_'))};
   if (rest[0] == ',') {
     string point = text;
     point[prefix.size()] = '.';
@@ -164,7 +165,7 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
     return {fmt::format("{} carries a unit", shown),
             fmt::format("{} is always in {}: write the number alone", in_backticks(number.key), number.unit)};
   }
-  return {fmt::format("{} is not a number", shown), wanted};
+  return none;
 }
 
 string shortest(double value) {
