@@ -13,8 +13,8 @@
 #include <initializer_list>
 
 #include "std.h"
+#include "yaml/letters.h"
 #include "yaml/printable.h"
-#include "yaml/source.h"
 
 namespace carom {
 

@@ -13,7 +13,7 @@
 
 #include "render/render_error.h"
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {

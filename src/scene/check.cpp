@@ -15,6 +15,7 @@
 #include "scene/view.h"
 #include "std.h"
 #include "yaml/joined.h"
+#include "yaml/letters.h"
 #include "yaml/lookalikes.h"
 #include "yaml/other_case.h"
 #include "yaml/printable.h"

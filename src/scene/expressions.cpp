@@ -34,11 +34,13 @@ class LetReader {
                        fmt::format("expected at most {}", most_names));
       let_.bad = true;
     }
+
     for (size_t i = 0; i < std::min(let_.keys.size(), most_names); ++i) {
       check_name(let_.keys[i]);
       numbers_.add(let_.keys[i].text, 0);
       numbers_.known.back() = false;
     }
+
     states_.resize(numbers_.names.size(), State::fresh);
     for (size_t i = 0; i < states_.size(); ++i) settle(i);
     return std::move(numbers_);
@@ -74,6 +76,7 @@ class LetReader {
       if (value) set(i, *value);
       return;
     }
+
     try {
       const Formula formula(string_view(node.text).substr(1), numbers_.names);
       for (const size_t used : formula.used()) {
@@ -82,6 +85,7 @@ class LetReader {
         settle(used);
         if (!numbers_.known[used]) node.bad = true;
       }
+
       if (node.bad) return;
       set(i, formula.value(numbers_.values));
       node.text = shortest(numbers_.values[i]);
@@ -150,11 +154,13 @@ optional<Slot> Slot::of(Node& node, const NamedNumbers& numbers, Diagnostics& di
   try {
     const string_view text = node.text;
     const string hint = hint_for(numbers);
+
     if (is_expression(node)) {
       at = 1;
       slot.pieces_.push_back({"", at, Formula(text.substr(at), numbers.names, hint)});
       return slot;
     }
+
     slot.is_name_ = true;
     for (size_t i = 0; i < text.size();) {
       const size_t open = text.find('{', i), close = text.find('}', i);
@@ -162,6 +168,7 @@ optional<Slot> Slot::of(Node& node, const NamedNumbers& numbers, Diagnostics& di
         slot.pieces_.push_back({string(text.substr(i)), 0, nullopt});
         break;
       }
+
       at = open + 1;
       if (close == string_view::npos || close < open)
         throw FormulaError{0, 1, "this brace is not closed", "expected an expression in braces, as in ball.{i}"};
@@ -169,6 +176,7 @@ optional<Slot> Slot::of(Node& node, const NamedNumbers& numbers, Diagnostics& di
           {string(text.substr(i, open - i)), at, Formula(text.substr(at, close - at), numbers.names, hint)});
       i = close + 1;
     }
+
     return slot;
   } catch (const FormulaError& error) {
     diagnostics.add(place_in(node, at, error), error.message, error.remedy);
@@ -199,6 +207,7 @@ bool Slot::fill(const NamedNumbers& numbers, Diagnostics& diagnostics) {
   for (const Piece& piece : pieces_) {
     text += piece.before;
     if (!piece.formula) continue;
+
     const optional<double> value = evaluate(piece, numbers, diagnostics);
     if (!value) {
       node_->bad = true;
@@ -206,6 +215,7 @@ bool Slot::fill(const NamedNumbers& numbers, Diagnostics& diagnostics) {
     }
     text += is_name_ ? fmt::format("{}", static_cast<long long>(*value)) : shortest(*value);
   }
+
   node_->text = std::move(text);
   node_->quoted = false;
   return true;

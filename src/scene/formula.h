@@ -1,5 +1,5 @@
 #pragma once
-// An expression of a scene file, such as `r * sin(a) + 0.1`, and its value. Only formula.cpp includes muParser.
+// An expression of a scene file, such as `r * sin(a) + 0.1`, and its value.
 
 #include "std.h"
 
@@ -22,11 +22,9 @@ class Formula {
   /// Throws FormulaError. `names`: the names that may stand in it, distinct from functions and `pi`.
   /// `hint`: the remedy for a name that is none of them and near none of them.
   Formula(string_view text, span<const string> names, string_view hint = {});
-  ~Formula();
-  Formula(Formula&&) noexcept;
 
   /// The names in it: indices into the names of the constructor, each once, in the order of the text.
-  const vector<size_t>& used() const;
+  const vector<size_t>& used() const { return used_; }
   /// The place of a name's first use.
   FormulaError at_name(size_t name, string message, string remedy) const;
 
@@ -34,9 +32,20 @@ class Formula {
   /// or a number too large for a double.
   double value(span<const double> values) const;
 
+  struct Operation;
+
+  /// Adds a number to the end of a list, or replaces the last numbers by their result.
+  struct Step {
+    size_t at, length;  // in the text
+    double number = 0;  // of neither a name nor an operation
+    optional<size_t> name = {};
+    const Operation* operation = nullptr;
+    size_t arguments = 0;  // of the operation
+  };
+
  private:
-  struct Parts;
-  unique_ptr<Parts> parts_;
+  vector<size_t> used_;
+  vector<Step> steps_;
 };
 
 /// "sqrt", "abs", ...

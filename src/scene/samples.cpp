@@ -128,14 +128,17 @@ vector<string> samples(const SampledRange& range, Sampling sampling, uint64_t co
   const bool latin = sampling == Sampling::latin;
   const Wide parts = latin ? static_cast<Wide>(count) : 1;
   const Wide needed = std::max(fewest, fewest_in_part * parts);
+
   const double from = parse_number(to_text(range.from)).value_or(0), to = parse_number(to_text(range.to)).value_or(0);
   const Logarithmic logarithmic(range.log ? from : 1, range.log ? to + (range.whole ? 1 : 0) : 2);
   const int digits = logarithmic.digits(needed);
   optional<DecimalLattice> lattice;
   if (range.whole ? to >= 1e15 : range.log && digits > most_digits) return {};
   if (!range.whole && !range.log && !(lattice = lattice_of(range, needed))) return {};
+
   vector<Wide> order;
   if (latin) order = shuffled(count, random);
+
   vector<string> out;
   for (uint64_t i = 0; i < count; ++i) {
     const RangePart part{latin ? order[i] : 0, parts};

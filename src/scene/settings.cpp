@@ -12,6 +12,7 @@
 #include "scene/fields.h"
 #include "scene/view.h"
 #include "std.h"
+#include "yaml/source.h"
 #include "yaml/values.h"
 
 namespace carom {

@@ -16,6 +16,8 @@
 #include "yaml/decimal.h"
 #include "yaml/document.h"
 #include "yaml/joined.h"
+#include "yaml/letters.h"
+#include "yaml/source.h"
 #include "yaml/value_json.h"
 #include "yaml/values.h"
 
@@ -40,21 +42,26 @@ class SweepReader {
     const View whole(&root_, kind_named("sweep"), Place{});
     sweep_.title = whole.text("title").value_or("");
     sweep_.base = beneath_folder(whole.text("base").value_or(""));
+
     if (const Node* set = usable(root_.find("set"))) {
       for (size_t i = 0; i < set->keys.size(); ++i)
         sweep_.set_values.push_back({set->keys[i].text + "=" + flow_text(set->items[i]), where(set->keys[i].place)});
     }
+
     const Node* base = usable(root_.find("base"));
     if (base != nullptr && !sources_.front().option) {
       if (const string why = why_no_file(sweep_.base); !why.empty())
         diagnostics_.add(base->place, fmt::format("{} {}", why, in_backticks(base->text)),
                          "expected the path of a scene file, relative to the folder of this file");
     }
+
     sweep_.skip_invalid = whole.flag("skip_invalid").value_or(false);
     seed_ = options_.seed.value_or(whole.whole("seed").value_or(0));
+
     blocks();
     unused_seed();
     repeat();
+
     if (const Node* only = usable(root_.find("only"))) {
       for (const Node& item : only->items) sweep_.only.push_back({item.text, where(item.place)});
     }
@@ -91,13 +98,15 @@ class SweepReader {
     return fmt::format("{}:{}:{}", sources_.front().name, line_, column_);
   }
 
+  /// As many as there are paths: it is none of them.
+  size_t index_of(string_view path) const {
+    return static_cast<size_t>(std::ranges::find(sweep_.paths, path) - sweep_.paths.begin());
+  }
+
   uint32_t path(const string& text) {
-    const auto found = std::ranges::find(sweep_.paths, text);
-    if (found == sweep_.paths.end()) {
-      sweep_.paths.push_back(text);
-      return static_cast<uint32_t>(sweep_.paths.size() - 1);
-    }
-    return static_cast<uint32_t>(found - sweep_.paths.begin());
+    const size_t index = index_of(text);
+    if (index == sweep_.paths.size()) sweep_.paths.push_back(text);
+    return static_cast<uint32_t>(index);
   }
 
   void blocks() {
@@ -180,6 +189,7 @@ class SweepReader {
       const Key& key = zip.keys[i];
       vector<SweepValue> column = values(key, zip.items[i]);
       if (i == 0) axis.cases.resize(column.size());
+
       if (zip.keys.size() * axis.cases.size() > most_values) {
         diagnostics_.add(key.place,
                          fmt::format("{} of {}", how_many(axis.cases.size(), "value", "values"),
@@ -187,6 +197,7 @@ class SweepReader {
                          fmt::format("expected at most {} values in all", most_values));
         return {Axis::Kind::zip, {}};
       }
+
       if (column.size() != axis.cases.size()) {
         diagnostics_.add(
             key.place,
@@ -195,6 +206,7 @@ class SweepReader {
             "expected as many for each path: they vary in step");
         column.resize(axis.cases.size());
       }
+
       for (size_t k = 0; k < column.size(); ++k) axis.cases[k].values.emplace_back(path(key.text), column[k]);
       take(key);
     }
@@ -208,6 +220,7 @@ class SweepReader {
     const char* key = latin ? "latin" : "random";
     const Node* number = usable(node.find(key));
     if (number == nullptr || !over.is(Node::Kind::map)) return axis;
+
     const uint64_t count = parse_whole(number->text).value_or(1);
     if (over.keys.size() * count > most_values) {
       diagnostics_.add(node.find_key(key)->place,
@@ -215,24 +228,28 @@ class SweepReader {
                        fmt::format("expected at most {} values in all", most_values));
       return axis;
     }
+
     axis.cases.resize(count);
     for (size_t i = 0; i < over.keys.size(); ++i) {
       const Key& its = over.keys[i];
       take(its);
       // The same path in another block draws other numbers.
       Random random(seed_, fmt::format("samples {} {}", sweep_.blocks.size(), its.text));
+
       const optional<SampledRange> range = span(its, over.items[i]);
       vector<string> drawn;
       if (range) drawn = samples(*range, latin ? Sampling::latin : Sampling::random, count, random);
       if (range && drawn.empty())
         diagnostics_.add(its.place, fmt::format("the numbers of {} have more than 15 digits", in_backticks(its.text)),
                          "expected ends that differ more, or have fewer digits");
+
       drawn.resize(count);
       const string place = where(its.place);
       const uint32_t path_number = path(its.text);
       for (size_t k = 0; k < count; ++k)
         axis.cases[k].values.emplace_back(path_number, SweepValue{std::move(drawn[k]), place});
     }
+
     block.samples = fmt::format("    {}: {}\n    over:\n", key, count);
     for (size_t i = 0; i < over.keys.size(); ++i)
       block.samples += fmt::format("      {}: {}\n", over.keys[i].text, flow_text(over.items[i]));
@@ -243,28 +260,29 @@ class SweepReader {
   /// None: it is wrong, which is reported.
   optional<SampledRange> span(const Key& key, const Node& node) {
     if (node.bad || !node.is(Node::Kind::map)) return nullopt;
-    for (const Node& item : node.items)
-      if (item.bad) return nullopt;
-    if (node.find("from") == nullptr || node.find("to") == nullptr) return nullopt;
-    const optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
-    if (!from || !to) return nullopt;
+    const auto given = ends(node);
+    if (!given) return nullopt;
+
+    const auto& [from, to] = *given;
     const View view(&node, kind_named("span"), key.place);
-    SampledRange range{*from, *to, view.flag("log").value_or(false)};
+    SampledRange range{from, to, view.flag("log").value_or(false)};
     const Field* field = field_at(key.text);
     range.whole = field != nullptr && holds_whole_numbers(*field);
+
     const double low = parse_number(node.find("from")->text).value_or(0),
                  high = parse_number(node.find("to")->text).value_or(0);
     const auto refuse = [&](const char* end, const string& message, const char* remedy) {
       diagnostics_.add(node.find(end)->place, message, remedy);
       return nullopt;
     };
+
     if (!(low < high))
-      return refuse("to", fmt::format("no number lies between {} and {}", to_text(*from), to_text(*to)),
+      return refuse("to", fmt::format("no number lies between {} and {}", to_text(from), to_text(to)),
                     "expected `from` below `to`");
     if (range.log && !(low > 0))
-      return refuse("from", fmt::format("{} has no logarithm", to_text(*from)), "expected `from` above 0, or no `log`");
-    if (range.whole && (from->places > 0 || to->places > 0))
-      return refuse(from->places > 0 ? "from" : "to", fmt::format("{} takes whole numbers", in_backticks(key.text)),
+      return refuse("from", fmt::format("{} has no logarithm", to_text(from)), "expected `from` above 0, or no `log`");
+    if (range.whole && (from.places > 0 || to.places > 0))
+      return refuse(from.places > 0 ? "from" : "to", fmt::format("{} takes whole numbers", in_backticks(key.text)),
                     "expected whole ends");
     return range;
   }
@@ -286,6 +304,14 @@ class SweepReader {
     return number;
   }
 
+  /// None: an end is absent or wrong, which is reported.
+  optional<std::pair<Decimal, Decimal>> ends(const Node& range) {
+    const Node *from = range.find("from"), *to = range.find("to");
+    if (std::ranges::any_of(range.items, &Node::bad) || from == nullptr || to == nullptr) return nullopt;
+    const optional<Decimal> first = decimal(*from), last = decimal(*to);
+    return first && last ? optional(std::pair(*first, *last)) : nullopt;
+  }
+
   /// The values of a list or a range.
   vector<SweepValue> values(const Key& key, const Node& node) {
     vector<SweepValue> out;
@@ -294,32 +320,32 @@ class SweepReader {
       for (const Node& item : node.items) out.push_back({flow_text(item), where(item.place)});
       return out;
     }
-    for (const Node& item : node.items)
-      if (item.bad) return out;
-    if (node.find("from") == nullptr || node.find("to") == nullptr) return out;
     for (string& text : range(key, node)) out.push_back({std::move(text), where(key.place)});
     return out;
   }
 
   vector<string> range(const Key& key, const Node& node) {
-    const optional<Decimal> from = decimal(*node.find("from")), to = decimal(*node.find("to"));
-    if (!from || !to) return {};
+    const auto given = ends(node);
+    if (!given) return {};
+    const auto& [from, to] = *given;
+
     if (const Node* count = node.find("count")) {
       const uint64_t n = parse_whole(count->text).value_or(1);
-      if (n == 1 && to_text(*from) != to_text(*to))
+      if (n == 1 && to_text(from) != to_text(to))
         diagnostics_.add(count->place, "a single value cannot have two ends",
                          "expected `from` equal to `to`, or more values");
-      return spread(*from, *to, n);
+      return spread(from, to, n);
     }
+
     const Node* step = node.find("step");
     const optional<Decimal> width = step == nullptr ? nullopt : decimal(*step);
     if (!width) return {};
-    vector<string> out = steps(*from, *to, *width, most_runs);
+
+    vector<string> out = steps(from, to, *width, most_runs);
     if (out.empty())
-      diagnostics_.add(
-          step->place,
-          fmt::format("a step of {} does not lead from {} to {}", step->text, to_text(*from), to_text(*to)),
-          "expected a step that does");
+      diagnostics_.add(step->place,
+                       fmt::format("a step of {} does not lead from {} to {}", step->text, to_text(from), to_text(to)),
+                       "expected a step that does");
     if (out.size() > most_runs) {
       diagnostics_.add(key.place, fmt::format("{} has more than {} values", in_backticks(key.text), most_runs),
                        "expected a longer step");
@@ -339,9 +365,11 @@ class SweepReader {
       count *= axis.cases.size();
       if (count > most_runs) return refuse_runs(node.keys.front().place);
     }
+
     if (skip != nullptr) block.skip = flow_text(*skip);
     vector<size_t> skipped(skip == nullptr ? 0 : skip->items.size());
     vector<const SweepValue*> values(sweep_.paths.size());
+
     for (uint32_t k = 0; k < count; ++k) {
       size_t rest = k;
       for (size_t a = block.axes.size(); a-- > 0;) {
@@ -349,6 +377,7 @@ class SweepReader {
         for (const auto& [number, value] : cases[rest % cases.size()].values) values[number] = &value;
         rest /= cases.size();
       }
+
       bool left = true;
       for (size_t s = 0; s < skipped.size(); ++s) {
         if (!matches(skip->items[s], values)) continue;
@@ -358,11 +387,13 @@ class SweepReader {
       if (left) block.kept.push_back(k);
       std::ranges::fill(values, nullptr);
     }
+
     for (size_t s = 0; s < skipped.size(); ++s) {
       const Node& entry = skip->items[s];
       if (skipped[s] > 0 || entry.bad || !diagnostics_.empty()) continue;
       diagnostics_.add(entry.keys.front().place, "no run has these values", "expected paths and values of this block");
     }
+
     if (block.kept.empty() && diagnostics_.empty())
       diagnostics_.add(skip->items.front().keys.front().place, "every run is left out",
                        "expected at least one run to remain");
@@ -371,10 +402,10 @@ class SweepReader {
   bool matches(const Node& entry, const vector<const SweepValue*>& values) const {
     if (!entry.is(Node::Kind::map)) return false;
     for (size_t i = 0; i < entry.keys.size(); ++i) {
-      const auto found = std::ranges::find(sweep_.paths, entry.keys[i].text);
-      const SweepValue* value =
-          found == sweep_.paths.end() ? nullptr : values[static_cast<size_t>(found - sweep_.paths.begin())];
+      const size_t index = index_of(entry.keys[i].text);
+      const SweepValue* value = index < values.size() ? values[index] : nullptr;
       if (value == nullptr) return false;
+
       const Node& wanted = entry.items[i];
       const bool same = same_value(flow_text(wanted), value->text);
       const bool any = wanted.is(Node::Kind::sequence) && std::ranges::any_of(wanted.items, [&](const Node& one) {
@@ -389,13 +420,15 @@ class SweepReader {
     const Node* node = usable(root_.find("repeat"));
     const bool given = node != nullptr && node->is(Node::Kind::map);
     if (!given && !options_.repeat) return;
+
     const View view(given ? node : nullptr, kind_named("repeat"), Place{});
     sweep_.seeds = options_.repeat.value_or(view.whole("seeds").value_or(1));
     sweep_.first_seed = view.whole("first");
     if (sweep_.first_seed.value_or(0) > std::numeric_limits<uint64_t>::max() - sweep_.seeds)
       diagnostics_.add(node->find_key("first")->place, "there are too few seeds after this one",
                        "expected a smaller `first`");
-    if (std::ranges::find(sweep_.paths, "seed") != sweep_.paths.end()) {
+
+    if (index_of("seed") < sweep_.paths.size()) {
       diagnostics_.add(given ? root_.find_key("repeat")->place : root_.keys.front().place,
                        "`seed` is varied twice: here and by `repeat`", "remove one of them");
       return;
@@ -406,10 +439,12 @@ class SweepReader {
   void compare() {
     const Node* node = usable(root_.find("compare"));
     if (node == nullptr || !node->is(Node::Kind::map)) return;
+
     if (const Node* measures = usable(node->find("measures"))) {
       for (const Node& item : measures->items) sweep_.measures.push_back({item.text, where(item.place)});
     }
     sweep_.collisions = as_flag(usable(node->find("collisions"))).value_or(false);
+
     const Node* charts = usable(node->find("charts"));
     if (charts == nullptr) return;
     for (const Node& item : charts->items) {
@@ -439,6 +474,7 @@ Sweep read(vector<Source>& sources, Diagnostics& diagnostics, const SweepOptions
   const bool color = options.color;
   optional<Node> root;
   if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
+
   if (!root) stop_if_wrong(diagnostics, color);
   if (!root->is(Node::Kind::map)) {
     diagnostics.add(root->place, root->is(Node::Kind::null) ? "this file holds no sweep" : "this is not a sweep",
@@ -453,6 +489,7 @@ Sweep read(vector<Source>& sources, Diagnostics& diagnostics, const SweepOptions
     sweep.file = sources[0].name;
     return sweep;
   }
+
   stop_if_wrong(diagnostics, color);
   return {};
 }

@@ -24,6 +24,8 @@
 namespace carom {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr size_t most_labels = 4;  // values below a run's id
 
 /// Commands after which the film of this run has another setting. A sweep refuses a run that was drawn again, so its
@@ -40,23 +42,27 @@ FilmTile tile_of(const ListedRun& run) {
   FilmTile tile{run.folder, {}, 0, {run.id}};
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
-  const nlohmann::ordered_json outputs = manifest ? json_of_text(manifest->outputs) : nlohmann::ordered_json();
+  const Json outputs = manifest ? json_of_text(manifest->outputs) : Json();
+
   if (!outputs.is_object() || !outputs.contains("video"))
     throw ExportError(
         fmt::format("{} has no film: run its scene again with the output `video` (--only video)", run.folder));
-  const nlohmann::ordered_json& video = outputs["video"];
+
+  const Json& video = outputs["video"];
   const auto damaged = [&] {
     return ExportError(fmt::format("{}/{} is damaged: carom run --force runs it again", run.folder, manifest_name));
   };
   if (!video.is_object()) throw damaged();
-  const nlohmann::ordered_json file = video.value("file", nlohmann::ordered_json("animation.mp4")),
-                               from = video.value("from", nlohmann::ordered_json(0.0)),
-                               speed = video.value("speed", nlohmann::ordered_json(1.0));
+
+  const Json file = video.value("file", Json("animation.mp4")), from = video.value("from", Json(0.0)),
+             speed = video.value("speed", Json(1.0));
   if (!file.is_string() || !is_plain_name(file.get<string>()) || !from.is_number() || !speed.is_number())
     throw damaged();
+
   tile.file = file.get<string>();
   tile.from = from.get<double>();
   tile.speed = speed.get<double>();
+
   if (film_format(tile.file) == FilmFormat::webp)
     throw ExportError(fmt::format("{} has a film that ffmpeg cannot read, {}: draw it as .mp4 ({})", run.folder,
                                   tile.file, redrawing(run.folder, "file=animation.mp4")));
@@ -77,12 +83,15 @@ vector<FilmTile> film_tiles(const RunSet& runs) {
   if (count > most_tiles)
     throw ExportError(fmt::format("a film shows at most {} runs side by side, not {}: name fewer, or leave --video out",
                                   most_tiles, count));
+
+  // The parameters that no other determines.
   ComparisonPlan plan;
   plan.parameters = runs.parameters();
   Outcomes outcomes(plan, 0, count);
   for (size_t i = 0; i < count; ++i) outcomes.add(i, runs.run(i), true, {});
   outcomes.finish();
   const vector<size_t> varied = outcomes.independent();
+
   vector<FilmTile> tiles;
   for (size_t i = 0; i < count; ++i) {
     tiles.push_back(tile_of(runs.runs()[i]));

@@ -75,10 +75,12 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
   need_collisions(run_b);
   CollisionDifference difference;
   Collisions a(run_a), b(run_b);
+
   while (true) {
     a.next();
     b.next();
     if (a.ended() || b.ended() || !a.is_same(b)) break;
+
     if (!difference.outcome && !a.ends_the_same(b)) {
       difference.outcome = difference.same;
       difference.outcome_a = a.facts();
@@ -87,9 +89,12 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
     }
     if (a.is_collision()) ++difference.same;
   }
+
   difference.part = !a.ended() || !b.ended();
   if (!a.ended()) difference.next_a = a.facts();
   if (!b.ended()) difference.next_b = b.facts();
+
+  // The rest is only counted.
   while (!a.ended()) a.next();
   while (!b.ended()) b.next();
   difference.count_a = a.count();
@@ -102,14 +107,17 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
   EndDifference difference;
   difference.time_a = a.time;
   difference.time_b = b.time;
+
   std::map<string_view, const EndMotion*> of_b;
   for (const EndMotion& motion : b.bodies) of_b.emplace(motion.body, &motion);
+
   for (const EndMotion& motion : a.bodies) {
     const auto found = of_b.find(motion.body);
     if (found == of_b.end()) {
       difference.only_a.push_back(motion.body);
       continue;
     }
+
     const double distance = (motion.position - found->second->position).norm();
     if (difference.bodies++ == 0 || distance > difference.greatest) {
       difference.greatest = distance;
@@ -117,6 +125,7 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
     }
     of_b.erase(found);
   }
+
   for (const EndMotion& motion : b.bodies)
     if (of_b.contains(motion.body)) difference.only_b.push_back(motion.body);
   return difference;
@@ -140,13 +149,16 @@ RunDifference difference_of(const string& a, const string& b) {
   if (runs.size() != 2)
     throw ExportError(fmt::format("{} and {} are not two runs: name run folders, such as {}", a, b,
                                   runs.empty() ? "output/half" : runs.front().folder));
+
   RunDifference difference{runs[0], runs[1], {}, {}, {}, {}};
   const RunRecord record_a = whole_run(runs[0]), record_b = whole_run(runs[1]);
+
   const RunSet scenes(runs);
   const ComparedRun of_a = scenes.run(0), of_b = scenes.run(1);
   for (size_t k = 0; k < scenes.parameters().size(); ++k)
     difference.values.push_back(
         {scenes.parameters()[k].path, scenes.parameters()[k].unit, of_a.values[k], of_b.values[k]});
+
   difference.collisions = collision_difference(record_a, record_b);
   for (const RunRecord* run : {&record_a, &record_b})
     if (difference.no_end.empty() && !has_file(*run, "trajectory.csv")) difference.no_end = run->run.folder;

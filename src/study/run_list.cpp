@@ -51,6 +51,7 @@ string fault_of(ListedRun& run) {
   settle_folder(run.folder);
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   if (!folder) return "there is no such folder";
+
   const auto manifest = read_manifest(folder.get(), manifest_name);
   const bool has_summary = manifest && std::ranges::any_of(manifest->files, [](const FileRecord& file) {
                              return file.name == summary_name;
@@ -59,9 +60,11 @@ string fault_of(ListedRun& run) {
     if (stored_size(folder.get(), failure_file)) return "";
     return "it holds no whole run: run its scene again";
   }
+
   for (const FileRecord& file : manifest->files) {
     // It belongs to a series.
     if (!is_plain_name(file.name)) continue;
+
     // A file that the comparison reads is checked by its hash, unless that takes long.
     const bool is_read = file.bytes <= longest_hashed && (file.name.ends_with(".csv") || file.name == "scene.yaml");
     const bool same = stored_size(folder.get(), file.name) == file.bytes &&
@@ -105,11 +108,14 @@ void name_all(vector<ListedRun>& runs) {
     found->second.push_back(i);
     if (fresh) names.push_back(std::move(all));
   }
+
+  // Equal ids grow by a name of their paths, until none are equal or the names end.
   vector<string> ids;
   for (const auto& all : names) ids.push_back(all.empty() ? "run" : all[0]);
   vector<size_t> used(names.size(), 1);
   for (bool longer = true; longer;) {
     longer = false;
+
     std::map<string, vector<size_t>> same;
     for (size_t k = 0; k < ids.size(); ++k) same[ids[k]].push_back(k);
     for (const auto& [id, numbers] : same) {
@@ -120,6 +126,7 @@ void name_all(vector<ListedRun>& runs) {
       }
     }
   }
+
   std::map<string, int> taken;  // counts folders that are named twice
   for (size_t k = 0; k < names.size(); ++k)
     for (const size_t i : folders[names[k]]) {
@@ -163,17 +170,20 @@ vector<ListedRun> list_runs(const vector<string>& folders, const function<void()
     for (const string& run : below) runs.push_back({"", run, false});
     if (below.empty()) runs.push_back({"", folder, false});
   }
+
   vector<string> wrong;
   for (ListedRun& run : runs) {
     stop_check();
     if (const string why = fault_of(run); !why.empty()) wrong.push_back(fmt::format("{}: {}", run.folder, why));
   }
+
   if (wrong.size() > most_listed) {
     const size_t more = wrong.size() - most_listed;
     wrong.resize(most_listed);
     wrong.push_back(fmt::format("and {} more", more));
   }
   if (!wrong.empty()) throw ExportError(joined(wrong, "\n  "));
+
   name_all(runs);
   return runs;
 }
@@ -227,16 +237,19 @@ RunSet::RunSet(vector<ListedRun> runs, const function<void()>& stop_check) : run
   // Of all scenes, each path once, in the order of the first scene with it.
   vector<SceneValue> all;
   std::map<string, size_t> known;  // its paths
+
   // By path: the number of scenes with it.
   vector<size_t> counts;
   std::set<size_t> varying;
   size_t scenes = 0;
+
   for (const ListedRun& run : runs_) {
     stop_check();
     const vector<SceneValue> values = values_of(run);
     if (values.empty()) continue;
     ++scenes;
     expressions.add(run);
+
     for (const SceneValue& value : values) {
       if (!is_parameter(value.path)) continue;
       const auto [found, fresh] = known.emplace(value.path, all.size());
@@ -248,15 +261,19 @@ RunSet::RunSet(vector<ListedRun> runs, const function<void()>& stop_check) : run
       if (all[found->second].text != value.text) varying.insert(found->second);
     }
   }
+
+  // A path that a scene lacks varies too.
   for (size_t k = 0; k < all.size(); ++k) {
     if (counts[k] == scenes && !varying.contains(k)) continue;
     if (expressions.make(all[k].path, counts[k] == scenes)) continue;
     numbers_.emplace(all[k].path, parameters_.size());
     parameters_.push_back({all[k].path, all[k].unit});
   }
+
   // Runs are repeats if, without the seed, there are fewer scenarios than runs.
   const auto seed = numbers_.find("seed");
   if (seed == numbers_.end()) return;
+
   std::set<string> scenarios;
   for (size_t i = 0; i < runs_.size(); ++i) {
     Sha256 hash;

@@ -139,8 +139,10 @@ SweepFolder::SweepFolder(const string& path, Use use, const Sweep& sweep, const 
   folder_ = open_folder(AT_FDCWD, path, true);
   if (!folder_) fail("open", {-1, path}, "");
   place_ = {folder_.get(), path};
+
   const string busy =
       "another sweep, or another part of this one, is writing into it; wait for it, or name another folder with -o";
+
   if (use == Use::alone) {
     if (!lock_folder(place_, LockKind::alone)) fail("write", place_, "", busy);
     finish_publication(place_, Durability::synced);
@@ -148,12 +150,14 @@ SweepFolder::SweepFolder(const string& path, Use use, const Sweep& sweep, const 
     begin(sweep, base_text, skipped);
     return;
   }
+
   // Several parts may begin at once. One of them writes, and the others find the files complete.
   const auto start = std::chrono::steady_clock::now();
   while (true) {
     if (!lock(LockKind::shared, stop_check)) fail("write", place_, "", busy);
     if (has(stored_sweep, sweep.resolved(stored_base)) && has(stored_base, base_text) && has(stored_skipped, skipped))
       break;
+
     if (lock_folder(place_, LockKind::alone)) begin(sweep, base_text, skipped);
     if (std::chrono::steady_clock::now() - start > lock_patience) fail("write", place_, "", busy);
     flock(folder_.get(), LOCK_UN);
@@ -224,10 +228,12 @@ ComparedRun compared_run(const Sweep& sweep, size_t number, const string& folder
   const SweepRun run = sweep.run(number);
   ComparedRun out{run.id, folder, {}};
   optional<vector<SceneValue>> own;  // of the scene
+
   for (size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
     // The scene of a run has the number of an expression.
     if (!out.values.back().empty() && !out.values.back().starts_with('=')) continue;
+
     if (!own) {
       const Descriptor place = open_folder(AT_FDCWD, folder, true);
       const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : nullopt;
@@ -242,9 +248,11 @@ ComparedRun compared_run(const Sweep& sweep, size_t number, const string& folder
 void SweepFolder::finish(const Sweep& sweep, const vector<RunStatus>& statuses, const ComparisonWatch& watch) {
   // The runs must survive a power failure before the manifest lists them.
   sync_file_system(place_.path);
+
   vector<size_t> kept;
   for (size_t number = 0; number < statuses.size(); ++number)
     if (statuses[number] != RunStatus::left_out) kept.push_back(number);
+
   const auto compared = [&](size_t row) {
     const size_t number = kept[row];
     ComparedRun run = compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
@@ -261,6 +269,7 @@ void SweepFolder::finish(const Sweep& sweep, const vector<RunStatus>& statuses, 
   facts["counts"] = {{"runs", kept.size()}, {"done", kept.size() - failed.size()}, {"failed", failed.size()}};
   if (kept.size() < statuses.size()) facts["counts"]["skipped"] = statuses.size() - kept.size();
   facts["failed"] = std::move(failed);
+
   const Json outputs = {{sweep_key, {{"title", valid_utf8(sweep.title)}}}};
   vector<FileRecord> records = begun_;
   for (const auto& file : files) records.push_back(file->record());

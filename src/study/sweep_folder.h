@@ -8,7 +8,7 @@
 #include "files/output_file.h"
 #include "scene/sweep.h"
 #include "std.h"
-#include "study/sweep_job.h"
+#include "study/run_status.h"
 
 namespace carom {
 

@@ -51,11 +51,13 @@ constexpr double sync_every = 2;  // s
 std::pair<string, size_t> each_once(string_view text) {
   string out, head;
   std::set<string, std::less<>> known;
+
   for (size_t i = 0; i < text.size();) {
     size_t end = i;
     do {
       end = std::min(text.find('\n', end), text.size() - 1) + 1;
     } while (end < text.size() && text[end] == ' ');
+
     const string_view block = text.substr(i, end - i);
     i = end;
     if (block.ends_with(":\n")) {
@@ -65,6 +67,7 @@ std::pair<string, size_t> each_once(string_view text) {
       out += block;
     }
   }
+
   if (known.size() > errors_shown) out += fmt::format("and {} more\n", known.size() - errors_shown);
   return {out, known.size()};
 }
@@ -179,6 +182,7 @@ SweepJob::SweepJob(Sweep sweep, string folder, SweepSettings settings)
       base_(sweep_.base, load_options(sweep_, settings_.load)),
       runs_(sweep_.size()) {
   if (sweep_.seeds == 0 || sweep_.first_seed) return;
+
   Sweep once = sweep_;
   once.seeds = 0;
   // All runs have the same seed. If none is valid, plan() reports the errors.
@@ -209,6 +213,7 @@ Scene SweepJob::scene(size_t number) {
 string SweepJob::examine(size_t first, size_t last) {
   string out;
   Json errors = Json::array();
+
   for (size_t number = first; number < last; ++number) {
     settings_.stop_check();
     PlannedRun run;
@@ -216,6 +221,7 @@ string SweepJob::examine(size_t first, size_t last) {
       run.status = RunStatus::left_out;
       errors.push_back({number, error.what(), error.count, records_json(error.records), is_invalid});
     };
+
     try {
       const Scene its = scene(number);
       // The text contains only the names of meshes. Pictures with the run's name are not those of another run.
@@ -223,6 +229,7 @@ string SweepJob::examine(size_t first, size_t last) {
       run.scene = digest(its.resolved + meshes_text(its) + start_text(its, folder_) + (named ? sweep_.id(number) : ""));
       run.motion = digest(motion_text(its));
       run.measured = digest(measured_text(its, measures_));
+
       const string folder = run_folder(number);
       settle_folder(folder);
       run.content = inspect_folder(folder, its);
@@ -236,6 +243,7 @@ string SweepJob::examine(size_t first, size_t last) {
     } catch (const SceneError& error) {
       refuse(error, true);
     }
+
     out.append(reinterpret_cast<const char*>(&run), sizeof run);
   }
   return out + text_of_json(errors);
@@ -244,9 +252,11 @@ string SweepJob::examine(size_t first, size_t last) {
 void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress) {
   size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
+
   measures_ = measures_of(comparison_plan(sweep_, base_.text()));
   // By the first run of the batch.
   std::map<size_t, WrongRuns> wrong;
+
   Tasks tasks;
   tasks.next = [&]() -> optional<size_t> {
     if (next >= runs_.size() || (!sweep_.skip_invalid && wrong.size() >= most_wrong)) return nullopt;
@@ -254,6 +264,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
     next += examined_at_a_time;
     return task;
   };
+
   const auto end_of = [&](size_t first) { return std::min(first + examined_at_a_time, runs_.size()); };
   tasks.work = [&](size_t first) { return examine(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
@@ -263,6 +274,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
       wrong[first].lost(sweep_.id(first), message);
       return;
     }
+
     const size_t bytes = (last - first) * sizeof(PlannedRun);
     std::memcpy(static_cast<void*>(&runs_[first]), outcome.text.data(), bytes);
     for (const Json& errors : json_of_text(string_view(outcome.text).substr(bytes)))
@@ -270,8 +282,11 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
     progress.done += last - first;
     report_progress(progress);
   };
+
   tasks.stop_check = settings_.stop_check;
   work_off(tasks, std::min(settings_.jobs, (runs_.size() + examined_at_a_time - 1) / examined_at_a_time));
+
+  // Errors in the order of the runs, whatever the order of the tasks.
   size_t valid = runs_.size();
   bool any_lost = false;
   for (auto& [first, runs] : wrong) {
@@ -280,6 +295,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
     std::move(runs.invalid.begin(), runs.invalid.end(), std::back_inserter(invalid_));
   }
   if (wrong.empty() || (sweep_.skip_invalid && !any_lost && valid > 0)) return;
+
   WrongRuns all;
   for (const auto& [first, runs] : wrong) all.append(runs);
   const auto [text, count] = each_once(all.text);
@@ -303,15 +319,18 @@ vector<string> SweepJob::idle_paths() const {
     const string& path = sweep_.paths[p];
     const string_view head = string_view(path).substr(0, path.find('.'));
     if (head == "output" || head == "title" || is_drawn(path)) continue;
+
     std::map<string, size_t> first;  // by the other values
     size_t pairs = 0, alike = 0;
     for (size_t number = 0; number < std::min(runs_.size(), most); ++number) {
       if (runs_[number].status == RunStatus::left_out) continue;
+
       string others;
       const SweepRun run = sweep_.run(number);
       for (size_t q = 0; q < run.values.size(); ++q)
         if (q != p) others += run.values[q].value_or("-") + '\n';
       const auto [found, is_new] = first.emplace(std::move(others), number);
+
       // Equal values may differ in notation.
       if (is_new || runs_[number].scene == runs_[found->second].scene) continue;
       ++pairs;
@@ -319,6 +338,7 @@ vector<string> SweepJob::idle_paths() const {
       if (one.motion == other.motion && one.measured == other.measured) ++alike;
       if (alike < pairs) break;
     }
+
     if (pairs > 0 && alike == pairs) idle.push_back(path);
   }
   return idle;
@@ -334,13 +354,17 @@ vector<SweepJob::Motion> SweepJob::motions() const {
   std::ranges::sort(order, [&](size_t a, size_t b) {
     return std::tie(runs_[a].motion, runs_[a].scene, a) < std::tie(runs_[b].motion, runs_[b].scene, b);
   });
+
   vector<Motion> motions;
   for (size_t i = 0; i < order.size();) {
     Motion motion;
     Unit shared;
     const auto& moves = runs_[order[i]].motion;
+
     while (i < order.size() && runs_[order[i]].motion == moves) {
       const auto& scenario = runs_[order[i]].scene;
+
+      // The runs of one scenario.
       vector<size_t> to_do;
       size_t like = none;
       for (; i < order.size() && runs_[order[i]].motion == moves && runs_[order[i]].scene == scenario; ++i) {
@@ -350,19 +374,24 @@ vector<SweepJob::Motion> SweepJob::motions() const {
         else
           to_do.push_back(order[i]);
       }
+
       if (to_do.empty()) continue;
       if (like != none) {
         motion.units.push_back({{std::move(to_do)}, like});
         continue;
       }
+
       shared.scenarios.push_back(std::move(to_do));
       if (shared.scenarios.size() == most_shows) motion.units.push_back(std::exchange(shared, {}));
     }
+
     if (!shared.scenarios.empty()) motion.units.push_back(std::move(shared));
     motions.push_back(std::move(motion));
   }
+
   // The division into parts must not depend on what is already done.
   std::ranges::sort(motions, [](const Motion& a, const Motion& b) { return first(a) < first(b); });
+
   vector<Motion> mine;
   for (size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
     mine.push_back(std::move(motions[m]));
@@ -399,8 +428,9 @@ size_t SweepJob::left() const {
 
 /// The result of a unit as JSON: the reason for each failed run.
 string SweepJob::work(const Unit& unit) {
-  nlohmann::ordered_json failures = nlohmann::ordered_json::object();
+  Json failures = Json::object();
   const auto fail = [&](size_t number, const string& why) { failures[std::to_string(number)] = why; };
+
   const auto copy_to_all = [&](size_t from, const vector<size_t>& runs) {
     for (const size_t number : runs) {
       if (number == from) continue;
@@ -412,10 +442,13 @@ string SweepJob::work(const Unit& unit) {
       }
     }
   };
+
   if (unit.like != none) {
     copy_to_all(unit.like, unit.scenarios.front());
     return text_of_json(failures);
   }
+
+  // One scene of each scenario, all by one simulation.
   vector<Scene> scenes;
   scenes.reserve(unit.scenarios.size());
   vector<Show> shows;
@@ -423,6 +456,7 @@ string SweepJob::work(const Unit& unit) {
     scenes.push_back(scene(scenario.front()));
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
   }
+
   const RunWatch watch{settings_.stop_check, [](const RunProgress&) {}};
   RunSettings how;
   how.durability = Durability::deferred;
@@ -430,12 +464,14 @@ string SweepJob::work(const Unit& unit) {
   std::copy_if(measures_.begin(), measures_.end(), std::back_inserter(how.measures),
                [](const Measure& measure) { return !measure.is_stored(); });
   const vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
+
   for (size_t i = 0; i < results.size(); ++i) {
     const vector<size_t>& runs = unit.scenarios[i];
     if (!results[i].failure) {
       copy_to_all(runs.front(), runs);
       continue;
     }
+
     try {
       std::rethrow_exception(results[i].failure);
     } catch (const std::exception& error) {
@@ -450,15 +486,18 @@ void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
   const vector<Unit> all = units();
   // Of an earlier mesh.
   for (const InvalidRun& run : invalid_) remove_run(run_folder(run.number));
+
   SweepProgress progress{0, 0, runs_in(all)};
   size_t next = 0;
   auto synced = std::chrono::steady_clock::now();
   string full_disk;  // the first error that names one
+
   const auto fail = [&](size_t number, string why) {
     if (names_full_disk(why)) {
       if (full_disk.empty()) full_disk = std::move(why);
       return;
     }
+
     runs_[number].status = RunStatus::failed;
     try {
       store_failure(run_folder(number), why);
@@ -466,15 +505,19 @@ void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
       if (full_disk.empty() && names_full_disk(error.what())) full_disk = error.what();
       if (why != error.what()) why += fmt::format("; {}", error.what());
     }
+
     ++progress.failed;
     failed(number, why);
   };
+
   Tasks tasks;
   tasks.next = [&] { return next < all.size() && full_disk.empty() ? optional(next++) : nullopt; };
   tasks.work = [&](size_t task) { return work(all[task]); };
+
   tasks.done = [&](const TaskOutcome& outcome) {
     const bool whole = outcome.kind == TaskOutcome::Kind::done;
-    const nlohmann::ordered_json failures = whole ? json_of_text(outcome.text) : nlohmann::ordered_json::object();
+    const Json failures = whole ? json_of_text(outcome.text) : Json::object();
+
     for (const auto& scenario : all[outcome.task].scenarios) {
       for (const size_t number : scenario) {
         ++progress.done;
@@ -487,12 +530,14 @@ void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
           runs_[number].status = RunStatus::done;
       }
     }
+
     report_progress(progress);
     const auto now = std::chrono::steady_clock::now();
     if (std::chrono::duration<double>(now - synced).count() < sync_every) return;
     sync_file_system(folder_);
     synced = std::chrono::steady_clock::now();
   };
+
   tasks.stop_check = [&] {
     settings_.stop_check();
     report_progress(progress);

@@ -9,6 +9,7 @@
 #include "scene/load.h"
 #include "scene/sweep.h"
 #include "std.h"
+#include "study/run_status.h"
 #include "study/shard.h"
 #include "study/workers.h"
 
@@ -30,13 +31,6 @@ struct SweepSettings {
 /// `base_text`: the text of the base scene.
 bool may_read_files(const Sweep& sweep, const string& base_text);
 
-enum class RunStatus : uint8_t {
-  missing,
-  done,
-  failed,
-  left_out  // its scene is invalid, and the sweep leaves such runs out
-};
-
 /// A run after planning.
 struct PlannedRun {
   /// Digests. Scenarios with equal `scene` are equal, and those with equal `motion` move alike. Those with equal
@@ -44,13 +38,6 @@ struct PlannedRun {
   array<char, 16> scene{}, motion{}, measured{};
   FolderContent content = FolderContent::nothing;
   RunStatus status = RunStatus::missing;
-};
-
-/// A run that is left out.
-struct InvalidRun {
-  size_t number = 0;
-  string text;      // its errors, for a terminal
-  string messages;  // the errors on one line, without places
 };
 
 struct SweepProgress {

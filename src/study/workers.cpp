@@ -74,6 +74,7 @@ bool wait_for_any(vector<pollfd>& sockets) {
   while (receive_all(socket, &task, sizeof task)) {
     string text;
     TaskOutcome::Kind kind = TaskOutcome::Kind::done;
+
     try {
       text = tasks.work(task);
     } catch (const std::bad_alloc&) {
@@ -86,6 +87,7 @@ bool wait_for_any(vector<pollfd>& sockets) {
       // Interrupted together with its parent, which reports it.
       _exit(1);
     }
+
     const Head head{text.size(), kind};
     if (!send_all(socket, &head, sizeof head) || !send_all(socket, text.data(), text.size())) break;
   }
@@ -108,14 +110,17 @@ class Pool {
   void go() {
     for (Worker& worker : workers_)
       if (!give(worker)) break;
+
     vector<pollfd> sockets;
     while (true) {
       sockets.clear();
       for (const Worker& worker : workers_)
         if (worker.busy) sockets.push_back({worker.socket, POLLIN, 0});
       if (sockets.empty()) break;
+
       const bool ready = wait_for_any(sockets);
       tasks_.stop_check();
+
       for (const pollfd& socket : sockets) {
         Worker& worker = *std::ranges::find_if(workers_, [&](const Worker& w) { return w.socket == socket.fd; });
         if (ready ? socket.revents == 0 : !has_ended(worker)) continue;
@@ -179,7 +184,9 @@ class Pool {
         size -= static_cast<size_t>(n);
         continue;
       }
+
       if (n == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) return false;
+
       vector<pollfd> wanted = {{worker.socket, POLLIN, 0}};
       const bool ready = wait_for_any(wanted);
       tasks_.stop_check();
@@ -194,6 +201,7 @@ class Pool {
     if (!task) return false;
     worker.task = *task;
     worker.busy = true;
+
     const uint64_t number = *task;
     // A worker that has ended between two tasks is replaced.
     int status = 0;
@@ -202,6 +210,7 @@ class Pool {
       if (send_all(worker.socket, &number, sizeof number)) return true;
       status = end(worker);
     }
+
     lose(worker, status);
     return give(worker);
   }
@@ -210,6 +219,7 @@ class Pool {
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
       throw std::system_error(errno, std::generic_category(), "cannot talk to another process");
+
     std::fflush(nullptr);
     const pid_t parent = getpid();
     const pid_t process = fork();
@@ -219,6 +229,7 @@ class Pool {
       close(pair[1]);
       throw std::system_error(error, std::generic_category(), "cannot start another process");
     }
+
     if (process == 0) {
       // The worker dies with its parent, so that no process continues its work.
       prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -228,6 +239,7 @@ class Pool {
         if (other.socket >= 0) close(other.socket);
       serve(pair[1], tasks_);
     }
+
     close(pair[1]);
     worker.process = process;
     worker.socket = pair[0];
@@ -247,6 +259,7 @@ class Pool {
     TaskOutcome outcome;
     outcome.task = worker.task;
     Head head{};
+
     if (receive_all(worker, &head, sizeof head)) {
       outcome.kind = head.kind;
       outcome.text.resize(head.size);

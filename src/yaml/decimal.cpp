@@ -43,8 +43,11 @@ string digits_of(Wide value) {
 
 optional<Decimal> parse_decimal(string_view text) {
   if (!parse_number(text)) return nullopt;
+
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
+
+  // Digits without the point, and how many of them stand after it.
   string digits;
   int places = 0, exponent = 0;
   bool fraction = false;
@@ -63,14 +66,17 @@ optional<Decimal> parse_decimal(string_view text) {
     }
   }
   if (digits.find_first_not_of('0') == string::npos) return Decimal{};
+
   places -= exponent;
   while (digits.size() > 1 && digits.ends_with('0')) {
     digits.pop_back();
     --places;
   }
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+
   const int before = static_cast<int>(digits.size()) - places;  // digits before the point
   if (std::max(before, 0) + std::max(places, 0) > most_digits) return nullopt;
+
   Decimal value;
   for (const char c : digits) value.units = 10 * value.units + (c - '0');
   if (places < 0) {
@@ -100,6 +106,7 @@ string to_text(const Decimal& value) {
 vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
   Decimal a = from, b = to;
   align(a, b);
+
   vector<string> out;
   const auto last = static_cast<Wide>(count) - 1;
   for (Wide i = 0; i <= last; ++i) {
@@ -107,6 +114,7 @@ vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
       out.push_back(to_text(i == 0 ? a : b));
       continue;
     }
+
     // The value is (a (last - i) + b i) / last, in units. It is exact in at most 18 further digits, or not at all.
     // Ends that have both 18 digits above and 18 below the point overflow.
     Wide whole = 0, part = 0;
@@ -118,6 +126,8 @@ vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
           (static_cast<long double>(a.units) * (1 - share) + static_cast<long double>(b.units) * share) / scale)));
       continue;
     }
+
+    // Further places, until the division leaves no rest.
     Wide sum = whole;
     Decimal value{0, a.places};
     const Wide limit = power(most_digits);
@@ -125,6 +135,7 @@ vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
       sum *= 10;
       ++value.places;
     }
+
     if (sum % last == 0) {
       value.units = sum / last;
       out.push_back(to_text(value));

@@ -10,6 +10,7 @@
 
 #include "std.h"
 #include "yaml/joined.h"
+#include "yaml/letters.h"
 #include "yaml/lookalikes.h"
 #include "yaml/printable.h"
 
@@ -44,6 +45,7 @@ vector<Character> characters(string_view line) {
   for (size_t i = 0; i < line.size();) {
     char32_t code = 0;
     const int length = utf8_length(line, i, code);
+
     if (length == 0 || is_unprintable(code)) {
       out.push_back({code == '\t' ? " " : "?", 1, i});
       i += static_cast<size_t>(std::max(length, 1));
@@ -78,21 +80,18 @@ string alike(const Place& place, string_view text) {
   return out;
 }
 
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-}
-
 /// The edit distance of `a` and `b`: letters inserted, removed, replaced or swapped with a neighbour.
 /// This is the optimal string alignment distance.
 size_t edits(string_view a, string_view b) {
   vector<size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) last[j] = j;
+
   for (size_t i = 1; i <= a.size(); ++i) {
     now[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      const bool same = a[i - 1] == b[j - 1];
       now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1])) {
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
         now[j] = std::min(now[j], before[j - 2] + 1);
       }
     }
@@ -120,15 +119,6 @@ LineSpot spot_of(const Source& source, const Place& place) {
 
 }  // namespace
 
-size_t count_characters(string_view text) {
-  size_t count = 0;
-  for (size_t i = 0; i < text.size(); ++count) {
-    char32_t code = 0;
-    i += static_cast<size_t>(std::max(utf8_length(text, i, code), 1));
-  }
-  return count;
-}
-
 string in_backticks(string_view text) {
   constexpr size_t longest = 60;
   const vector<Character> all = characters(text);
@@ -147,11 +137,13 @@ string suggestion_in(string_view text) {
 
 string nearest(string_view name, const vector<string_view>& candidates) {
   if (name.empty() || name.size() > 64) return {};
+
   size_t best = std::min<size_t>(3, (name.size() + 2) / 3);
   string_view found;
   for (const string_view candidate : candidates) {
     if (candidate.size() > name.size() + best || name.size() > candidate.size() + best) continue;
-    const size_t distance = edits(name, candidate);
+
+    const size_t distance = edits(in_lower_case(name), in_lower_case(candidate));
     const bool nothing_kept = distance >= std::max(name.size(), candidate.size());
     if (!nothing_kept && (distance < best || (distance == best && found.empty()))) {
       best = distance;
@@ -169,6 +161,7 @@ string names_text(const vector<string_view>& names, size_t most) {
     const string_view whole = is_member ? name.substr(0, dot) : name;
     if (shown.empty() || shown.back() != whole) shown.push_back(whole);
   }
+
   const size_t count = shown.size() > most ? most : shown.size();
   string text;
   for (size_t i = 0; i < count; ++i) {
@@ -234,11 +227,13 @@ string Diagnostics::show(const Error& error, bool color) const {
   const string label = paint("error:", "1;31", color);
   string gutter = "   ";
   string out;
+
   if (!error.placed) {
     out = fmt::format("{}: {} {}\n", paint(printable(error.name), "1", color), label, error.message);
   } else {
     const Source& source = sources_[error.place.source];
     const auto [line_number, column, before, after] = spot_of(source, error.place);
+
     // A long line is shown through a window around the caret. Characters outside it are only counted.
     const string_view near = before.substr(before.size() - std::min(before.size(), 4 * max_width));
     vector<Character> left = characters(near.substr(first_whole_character(near)));
@@ -261,6 +256,8 @@ string Diagnostics::show(const Error& error, bool color) const {
       shown += c.text;
       under.append(static_cast<size_t>(c.width), ' ');
     }
+
+    // The caret and its line stand below what is marked.
     for (const Character& c : right) {
       shown += c.text;
       if (c.at < error.place.length) marks.append(static_cast<size_t>(c.width), '~');
@@ -268,11 +265,13 @@ string Diagnostics::show(const Error& error, bool color) const {
     if (cut_right) shown += "...";
     if (marks.empty()) marks = "~";
     marks[0] = '^';
+
     const string number = source.option ? "" : std::to_string(line_number);
     gutter = string(std::max<size_t>(number.size(), 4), ' ');
     out += fmt::format("{:>4} | {}\n", number, shown);
     out += fmt::format("{} | {}{}\n", gutter, under, paint(marks, "1;32", color));
   }
+
   const string remedy = remedy_of(error);
   for (size_t i = 0; i < remedy.size();) {
     const size_t end = std::min(remedy.find('\n', i), remedy.size());
@@ -305,9 +304,11 @@ string Diagnostics::text(bool color) const {
 vector<ErrorRecord> Diagnostics::records() const {
   vector<const Error*> order = in_order();
   order.resize(std::min(order.size(), max_shown));
+
   vector<ErrorRecord> records;
   for (const Error* error : order) {
     ErrorRecord record{error->name, 0, 0, error->message, remedy_of(*error), suggestion_in(error->remedy)};
+
     if (error->placed) {
       const Source& source = sources_[error->place.source];
       record.file = source.name;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/place.h"
 
 namespace carom {
 
@@ -85,9 +85,6 @@ class Diagnostics {
   /// By place and message without numbers: the number of the error.
   std::map<string, size_t> first_of_alike_;
 };
-
-/// The number of UTF-8 characters. A byte that is not part of one counts as one.
-size_t count_characters(string_view text);
 
 /// `text` between backticks, for use inside a message: shortened and free of control characters.
 string in_backticks(string_view text);

@@ -15,6 +15,7 @@
 
 #include "std.h"
 #include "yaml/diagnostics.h"
+#include "yaml/letters.h"
 #include "yaml/syntax.h"
 
 namespace carom {
@@ -39,6 +40,7 @@ class DocumentBuilder : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents == 1) return;
+
     // A setting begins with its value. What follows a bracket shows that a text is meant.
     const size_t first = text_.find_first_not_of(' ', base_);
     if (source_ > 0 && first != string_view::npos && (text_[first] == '{' || text_[first] == '[')) {
@@ -47,6 +49,7 @@ class DocumentBuilder : public YAML::EventHandler {
       refuse({source_, 0, 1}, "this is not a scene", "expected a map of keys, such as `scene: 1`");
     } else if (at(mark).offset == base_) {
       refuse(at(mark), "this is not a scene", "expected a map of keys, such as `scene: 1`");
+
     } else {
       const Place where = at(mark);
       const bool marker = text_.substr(where.offset, 3) == "---";
@@ -77,12 +80,15 @@ class DocumentBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const string& tag, YAML::anchor_t anchor, const string& value) override {
     check_anchor(mark, anchor);
     check_tag(mark, tag);
+
     const bool is_quoted = tag == "!";
     Place place = at(mark, 1);
+
     if (value.size() > max_text) {
       refuse(place, fmt::format("a text of {} bytes", value.size()), fmt::format("expected at most {}", max_text));
       throw Stop{};
     }
+
     // The raw text may be folded or escaped. Then the place is a single character.
     const string_view raw = text_.substr(place.offset);
     if (raw.starts_with(value) && !value.empty()) place.length = static_cast<uint32_t>(value.size());
@@ -90,6 +96,7 @@ class DocumentBuilder : public YAML::EventHandler {
         (raw[0] == '"' || raw[0] == '\'')) {
       place.length = static_cast<uint32_t>(value.size() + 2);
     }
+
     check_decoded(place, value);
     scalar(place, value, is_quoted, false);
   }
@@ -163,6 +170,7 @@ class DocumentBuilder : public YAML::EventHandler {
       open_.back().pending = Key{value, place};
       return;
     }
+
     Node node;
     node.kind = Node::Kind::scalar;
     node.quoted = is_quoted;
@@ -175,6 +183,7 @@ class DocumentBuilder : public YAML::EventHandler {
   void begin(Node::Kind kind, const YAML::Mark& mark, const string& tag, YAML::anchor_t anchor) {
     check_anchor(mark, anchor);
     check_tag(mark, tag);
+
     if (open_.size() >= max_depth) {
       refuse(at(mark), fmt::format("values are nested more than {} deep", max_depth), "expected a scene");
       throw Stop{};
@@ -183,6 +192,7 @@ class DocumentBuilder : public YAML::EventHandler {
       refuse(at(mark), "a list or map as a key", "expected a name");
       throw Stop{};
     }
+
     Open open;
     open.node.kind = kind;
     open.node.place = at(mark);
@@ -204,15 +214,18 @@ class DocumentBuilder : public YAML::EventHandler {
              "many balls of one kind are a group: `groups`");
       throw Stop{};
     }
+
     if (open_.empty()) {
       root = std::move(node);
       return;
     }
+
     Open& parent = open_.back();
     if (parent.node.is(Node::Kind::map)) {
       Key name = std::move(*parent.pending);
       parent.pending.reset();
       if (name.text == "<<" || name.text.empty()) return;  // reported
+
       const Key* first = first_with(parent, name.text);
       if (first != nullptr) {
         const auto line = 1 + std::count(text_.begin(), text_.begin() + first->place.offset, '\n');
@@ -220,6 +233,7 @@ class DocumentBuilder : public YAML::EventHandler {
                fmt::format("it is in line {} already", line));
         return;
       }
+
       parent.node.keys.push_back(std::move(name));
       index_last_key(parent);
     }
@@ -284,6 +298,7 @@ optional<Node> parse_document(const vector<Source>& sources, uint32_t index, siz
     explain_syntax(source, index, offset, std::min(offset + pos, source.text.size()), error.msg, diagnostics);
     return nullopt;
   }
+
   if (builder.documents == 0) return Node{};
   return std::move(builder.root);
 }

@@ -2,7 +2,7 @@
 // YAML text to a tree of nodes with their places. Only document.cpp includes yaml-cpp.
 
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/place.h"
 
 namespace carom {
 

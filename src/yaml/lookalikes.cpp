@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {

@@ -1,20 +1,15 @@
 // Follows the name folder by folder, and looks into a folder only where the name's own next part is missing.
 #include "yaml/other_case.h"
 
-#include <algorithm>
 #include <system_error>
 
 #include "std.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool differ_in_case(string_view a, string_view b) {
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return small(x) == small(y); });
-}
 
 /// The first entry of a folder whose name has these letters.
 string entry_like(const fs::path& folder, const string& name) {
@@ -23,7 +18,7 @@ string entry_like(const fs::path& folder, const string& name) {
   for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const string its = entry->path().filename().string();
-    if (differ_in_case(its, name) && (found.empty() || its < found)) found = its;
+    if (in_lower_case(its) == in_lower_case(name) && (found.empty() || its < found)) found = its;
   }
   return found;
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/letters.h"
 
 namespace carom {
 
@@ -36,6 +36,7 @@ string printable(string_view text) {
   for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);  // 0: not UTF-8
+
     if (length == 0)
       result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
     else if (is_unprintable(code))

@@ -13,6 +13,7 @@
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
@@ -29,10 +30,6 @@ struct OpenFile {
     if (fd >= 0) close(fd);
   }
 };
-
-void refuse_file(Diagnostics& diagnostics, const string& path, const string& why, const string& remedy = {}) {
-  diagnostics.add_unplaced(path, why, remedy);
-}
 
 /// Removes the byte order mark and turns "\r\n" into "\n". Columns and shown lines then need no special case.
 void normalise(string& text) {
@@ -58,88 +55,46 @@ Place one_byte(uint32_t index, size_t offset) {
 
 }  // namespace
 
-int utf8_length(string_view text, size_t i, char32_t& code) {
-  const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
-  const unsigned char first = byte(i);
-  if (first < 0x80) {
-    code = first;
-    return 1;
-  }
-  const int length = first >= 0xC2 && first <= 0xDF   ? 2
-                     : first >= 0xE0 && first <= 0xEF ? 3
-                     : first >= 0xF0 && first <= 0xF4 ? 4
-                                                      : 0;
-  if (length == 0 || i + static_cast<size_t>(length) > text.size()) return 0;
-  code = first & (0x7F >> length);
-  for (int k = 1; k < length; ++k) {
-    const unsigned char next = byte(i + static_cast<size_t>(k));
-    if ((next & 0xC0) != 0x80) return 0;
-    code = (code << 6) | (next & 0x3F);
-  }
-  // Overlong forms, surrogates, and code points beyond U+10FFFF.
-  if ((length == 3 && code < 0x800) || (length == 4 && (code < 0x10000 || code > 0x10FFFF))) return 0;
-  if (code >= 0xD800 && code <= 0xDFFF) return 0;
-  return length;
-}
-
-bool is_control(char32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 || code == 0xFEFF ||
-         (code & 0xFFFE) == 0xFFFE || (code >= 0xFDD0 && code <= 0xFDEF);
-}
-
 bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   source.name = path;
-  if (path.find('\0') != string::npos) {
-    refuse_file(diagnostics, path, "no such file");
+  const auto refuse = [&](const string& why, const string& remedy = {}) {
+    diagnostics.add_unplaced(path, why, remedy);
     return false;
-  }
+  };
+  if (path.find('\0') != string::npos) return refuse("no such file");
+
   const OpenFile file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   struct stat info {};
   if (file.fd < 0 || fstat(file.fd, &info) != 0) {
     const int error = errno;
-    if (error == ENOENT || error == ENOTDIR) {
-      refuse_file(diagnostics, path, "no such file");
-    } else {
-      refuse_file(diagnostics, path, fmt::format("cannot be opened: {}", std::strerror(error)));
-    }
-    return false;
+    const bool absent = error == ENOENT || error == ENOTDIR;
+    return refuse(absent ? "no such file" : fmt::format("cannot be opened: {}", std::strerror(error)));
   }
-  if (S_ISDIR(info.st_mode)) {
-    refuse_file(diagnostics, path, "this is a folder, not a scene file", "name the scene file in it");
-    return false;
-  }
-  if (!S_ISREG(info.st_mode)) {
-    refuse_file(diagnostics, path, "this is not a regular file", "write the scene to a file and name that");
-    return false;
-  }
+  if (S_ISDIR(info.st_mode)) return refuse("this is a folder, not a scene file", "name the scene file in it");
+  if (!S_ISREG(info.st_mode)) return refuse("this is not a regular file", "write the scene to a file and name that");
 
   // The size can change during reading. The limit therefore applies to what was read, not to what fstat returned.
   string& text = source.text;
   text.clear();
   const auto too_big = [&] {
-    refuse_file(diagnostics, path, fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
-                "many balls of one kind are a group: `groups`");
-    return false;
+    return refuse(fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
+                  "many balls of one kind are a group: `groups`");
   };
   if (static_cast<uint64_t>(info.st_size) > max_source_bytes) return too_big();
   text.reserve(static_cast<size_t>(info.st_size) + 8);
+
   char buffer[1 << 16];
   for (;;) {
     const ssize_t got = read(file.fd, buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) {
-      refuse_file(diagnostics, path, fmt::format("cannot be read: {}", std::strerror(errno)));
-      return false;
-    }
+    if (got < 0) return refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
     if (got == 0) break;
     text.append(buffer, static_cast<size_t>(got));
     if (text.size() > max_source_bytes) return too_big();
   }
-  if (!has_utf8_form(text)) {
-    refuse_file(diagnostics, path, "this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
-                "save it as UTF-8");
-    return false;
-  }
+
+  if (!has_utf8_form(text))
+    return refuse("this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)", "save it as UTF-8");
   normalise(text);
   return true;
 }
@@ -157,18 +112,22 @@ bool check_text(Source& source, uint32_t index, Diagnostics& diagnostics) {
   int tab_lines = 0;
   uint64_t brackets = 0;
   int open_brackets = 0;
-  // Only spaces so far in this line.
+
+  // Of this line: only spaces so far, and whether it has a tab already.
   bool indenting = true;
   bool tab_in_line = false;
+
   for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);
+
     if (length == 0) {
       diagnostics.add(one_byte(index, i),
                       fmt::format("byte 0x{:02X} is not valid UTF-8", static_cast<unsigned char>(text[i])),
                       "save the file as UTF-8");
       return false;
     }
+
     if (code == '\t') {
       if (!tab_in_line && ++tab_lines <= max_shown_tabs) {
         diagnostics.add(one_byte(index, i), "a tab",
@@ -188,10 +147,13 @@ bool check_text(Source& source, uint32_t index, Diagnostics& diagnostics) {
     } else if (code != ' ') {
       indenting = false;
     }
+
+    // What costs the parser memory.
     if (code < 0x80 && std::strchr("[]{},:?\"'*&!", static_cast<int>(code)) != nullptr && code != 0) {
       ++brackets;
       if (code == '[' || code == '{') ++open_brackets;
       if ((code == ']' || code == '}') && open_brackets > 0) --open_brackets;
+
       if (open_brackets > max_open_brackets) {
         diagnostics.add(one_byte(index, i), fmt::format("{} brackets are open here", open_brackets),
                         "expected a scene");
@@ -204,8 +166,10 @@ bool check_text(Source& source, uint32_t index, Diagnostics& diagnostics) {
         return false;
       }
     }
+
     i += static_cast<size_t>(length);
   }
+
   if (tab_lines > max_shown_tabs) {
     diagnostics.add_unplaced(
         source.name, fmt::format("tabs in {}",

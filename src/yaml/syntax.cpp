@@ -10,6 +10,7 @@
 
 #include "std.h"
 #include "yaml/diagnostics.h"
+#include "yaml/letters.h"
 #include "yaml/lookalikes.h"
 
 namespace carom {
@@ -30,9 +31,11 @@ Unpaired find_unpaired(string_view text, size_t begin) {
     const char before = i == begin ? '\n' : text[i - 1];
     const bool token_start =
         before == ' ' || before == '\n' || before == '[' || before == '{' || before == ',' || before == ':';
+
     if (c == '#' && (before == ' ' || before == '\n')) {
       i = std::min(text.find('\n', i), text.size());
     } else if ((c == '"' || c == '\'') && token_start) {
+      // The closing quote. Double quotes escape by a backslash, single ones by doubling.
       size_t j = i + 1;
       for (; j < text.size(); ++j) {
         if (c == '"' && text[j] == '\\') {
@@ -47,6 +50,7 @@ Unpaired find_unpaired(string_view text, size_t begin) {
       }
       if (j >= text.size()) return {i, string::npos};
       i = j;
+
     } else if ((c == '[' || c == '{') && (token_start || !open.empty())) {
       open.push_back(i);
     } else if ((c == ']' || c == '}') && !open.empty()) {
@@ -54,6 +58,7 @@ Unpaired find_unpaired(string_view text, size_t begin) {
       open.pop_back();
     }
   }
+
   if (!open.empty()) return {open.back(), string::npos};
   return {};
 }
@@ -174,9 +179,11 @@ class ParseFailure {
       if (c == '[' || c == '{') ++depth;
       if ((c == ']' || c == '}') && depth > 0) --depth;
       if (c != '#' || i == 0 || text_[i - 1] != ' ') continue;
+
       const size_t before = text_.find_last_not_of(' ', i - 1), end = text_.find_first_of(" ,]}\n", i);
       const size_t word = std::min(end, text_.size()) - i;
       const bool is_value = before != string_view::npos && string_view(":,[").find(text_[before]) < 3;
+
       if (depth > 0 && is_value && word > 1) {
         add(i,
             fmt::format("{} begins a comment, which hides the rest of the line", in_backticks(text_.substr(i, word))),
@@ -191,9 +198,11 @@ class ParseFailure {
   bool explain_unpaired() {
     const Unpaired unpaired = find_unpaired(text_, begin_);
     if (unpaired.open == string::npos) return false;
+
     const char c = text_[unpaired.open];
     const string open = in_backticks(text_.substr(unpaired.open, 1));
     const string closing = c == '[' ? "]" : c == '{' ? "}" : string(1, c);
+
     if (unpaired.close != string::npos) {
       const auto before = text_.begin() + static_cast<ptrdiff_t>(unpaired.open);
       add(unpaired.close,
@@ -225,12 +234,15 @@ class ParseFailure {
           "expected one `key: value` a line; text that holds ': ' needs quotes");
       return true;
     }
+
+    // The last line above that is neither empty nor a comment.
     size_t above = start;
     while (above > begin_) {
       above = line_start(text_, above - 1);
       const string_view line = line_at(text_, above);
       const size_t word = line.find_first_not_of(' ');
       if (word == string_view::npos || line[word] == '#') continue;
+
       if (!has_colon(line)) {
         add(above + word, "this line has no ':'", "expected `key: value`", line.find_last_not_of(' ') + 1 - word);
       } else {

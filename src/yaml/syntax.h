@@ -2,7 +2,7 @@
 // The cause of a syntax error, reported at the place where the author will look for it.
 
 #include "std.h"
-#include "yaml/source.h"
+#include "yaml/place.h"
 
 namespace carom {
 

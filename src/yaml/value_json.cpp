@@ -35,10 +35,12 @@ Json json_of(const Node& node) {
       if (!node.quoted && (node.text == "true" || node.text == "false")) return node.text == "true";
       if (const optional<double> number = parse_number(node.text); number && !node.quoted) return number_json(*number);
       return node.text;
+
     case Node::Kind::sequence:
       out = Json::array();
       for (const Node& item : node.items) out.push_back(json_of(item));
       break;
+
     case Node::Kind::map:
       out = Json::object();
       for (size_t i = 0; i < node.keys.size(); ++i) out[node.keys[i].text] = json_of(node.items[i]);

@@ -10,6 +10,7 @@
 
 #include "std.h"
 #include "yaml/diagnostics.h"
+#include "yaml/letters.h"
 #include "yaml/lookalikes.h"
 
 namespace carom {
@@ -23,9 +24,11 @@ bool is_digit(char c) {
 string_view number_prefix(string_view text) {
   size_t i = 0;
   if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+
   const size_t first = i;
   while (i < text.size() && is_digit(text[i])) ++i;
   size_t digits = i - first;
+
   if (i < text.size() && text[i] == '.') {
     size_t j = i + 1;
     while (j < text.size() && is_digit(text[j])) ++j;
@@ -33,6 +36,7 @@ string_view number_prefix(string_view text) {
     if (digits > 0) i = j;
   }
   if (digits == 0) return {};
+
   if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
     size_t j = i + 1;
     if (j < text.size() && (text[j] == '-' || text[j] == '+')) ++j;
@@ -62,12 +66,6 @@ string without(string_view text, char unwanted) {
     if (c != unwanted) out += c;
   }
   return out;
-}
-
-string in_lower_case(string_view text) {
-  string lower;
-  for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return lower;
 }
 
 }  // namespace
@@ -106,11 +104,15 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   const string& text = node.text;
   const string& wanted = number.expected;
   const string shown = in_backticks(text);
+  const Complaint none{fmt::format("{} is not a number", shown), wanted};
+
   if (node.quoted) {
     if (parse_number(text))
       return {fmt::format("{} in quotes is text, not a number", shown), fmt::format("without quotes: {}", text)};
-    return {fmt::format("{} is not a number", shown), wanted};
+    return none;
   }
+
+  // Spellings of other languages.
   string_view bare = text;
   if (bare.starts_with('-') || bare.starts_with('+')) bare.remove_prefix(1);
   const string lower = in_lower_case(bare);
@@ -120,8 +122,9 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   if (lower.starts_with("0x") || lower.starts_with("0o") || lower.starts_with("0b")) {
     return {fmt::format("{} is not a decimal number", shown), wanted};
   }
+
   const string_view prefix = number_prefix(text);
-  if (prefix.empty()) return {fmt::format("{} is not a number", shown), wanted};
+  if (prefix.empty()) return none;
   if (prefix.size() == text.size()) {
     if (has_leading_zero(text)) {
       string better(bare.substr(std::min(bare.find_first_not_of('0'), bare.size() - 1)));
@@ -129,26 +132,31 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
       return {fmt::format("{} has a leading zero", shown),
               fmt::format("write {}{}", text[0] == '-' ? "-" : "", better)};
     }
+
     // What remains is a number beyond the range of a double.
-    if (is_zero(prefix)) return {fmt::format("{} is not a number", shown), wanted};
+    if (is_zero(prefix)) return none;
     const size_t e = lower.find('e');
     const bool tiny = e != string::npos ? lower[e + 1] == '-' : bare.starts_with('0') || bare.starts_with('.');
     return {fmt::format("{} is too {} for a double", shown, tiny ? "small" : "large"),
             tiny ? wanted + "; the smallest is about 5e-324" : wanted + "; the largest is about 1.8e308"};
   }
+
+  // A number, and what follows it.
   const string_view rest = string_view(text).substr(prefix.size());
   if (rest[0] == '_' && parse_number(without(text, '_')))
-    return {fmt::format("{} is not a number", shown), fmt::format("write {}", without(text, '_'))};
+    return {none.message, fmt::format("write {}", without(text, '_'))};
   if (rest[0] == ',') {
     string point = text;
     point[prefix.size()] = '.';
     if (parse_number(point))
       return {fmt::format("{} has a comma", shown), fmt::format("the decimal point is a point: {}", point)};
   }
+
   const size_t unit = rest.find_first_not_of(' ');
   const bool letters =
       unit != string_view::npos && !lookalike_at(rest, unit) &&
       (((rest[unit] | 32) >= 'a' && (rest[unit] | 32) <= 'z') || rest[unit] == '%' || (rest[unit] & 0x80));
+
   if (letters) {
     if (number.unit.empty()) return {fmt::format("{} carries a unit", shown), wanted + ", the number alone"};
     if (rest.substr(unit) == number.unit)
@@ -157,7 +165,7 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
     return {fmt::format("{} carries a unit", shown),
             fmt::format("{} is always in {}: write the number alone", in_backticks(number.key), number.unit)};
   }
-  return {fmt::format("{} is not a number", shown), wanted};
+  return none;
 }
 
 string shortest(double value) {

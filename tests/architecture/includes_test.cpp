@@ -31,7 +31,6 @@ const std::map<string, vector<string>> library_words = {
     {"Eigen", {"Eigen/"}},
     {"vector intrinsics", {"immintrin.h"}},
     {"yaml-cpp", {"yaml-cpp/"}},
-    {"muParser", {"muParser"}},
     {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
     {"assimp", {"assimp/"}},
     {"libpng", {"png.h"}},

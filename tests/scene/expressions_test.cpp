@@ -53,6 +53,15 @@ TEST(Formulas, TakeTheRemainderWithTheSignOfTheDivisor) {
   EXPECT_EQ(value_of("5.5 % 2"), 1.5);
 }
 
+TEST(Formulas, AllowABlankBeforeParentheses) {
+  EXPECT_EQ(value_of("sqrt (4)"), 2);
+}
+
+TEST(Formulas, MayHoldLongNames) {
+  const vector<string> names = {string(200, 'n')};
+  EXPECT_EQ(Formula("2 * let." + names[0], names).value(vector<double>{3}), 6);
+}
+
 TEST(Formulas, DoNotDependOnTheLocale) {
   const string before = std::setlocale(LC_ALL, nullptr);
   for (const char* locale : {"de_DE.UTF-8", "C.UTF-8"}) {
