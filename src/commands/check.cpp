@@ -1,9 +1,8 @@
 // Combines the plan, the forecast of the outputs and a short trial simulation (foresight.h). A whole run would take as
 // long as `run`.
-#include "commands/check.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -255,8 +254,7 @@ string to_come_text(const PlannedScene& planned, const Findings& findings) {
                                       : "roughly " + wait_text(std::round(*seconds)));
 }
 
-string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, size_t width) {
-  Block block(palette, width);
+void describe(Block& block, const PlannedScene& planned, const Findings& findings) {
   block.heading(planned.name, planned.scene->title);
   block.line("bodies", bodies_text(*planned.scene));
   block.line("fixed", fixed_text(planned.scene->world));
@@ -288,7 +286,6 @@ string as_text(const PlannedScene& planned, const Findings& findings, const Pale
 
   block.line("to come", to_come_text(planned, findings));
   block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
-  return block.text();
 }
 
 Json collision_json(const Scene& scene, const Collision& c) {
@@ -372,24 +369,8 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   return entry;
 }
 
-}  // namespace
-
-const CommandText& check_text() {
-  static const CommandText text = {
-      "check",
-      "shows what a run would do and every error of its scene, and writes nothing",
-      "  carom check scenes/two_bowling_balls.yaml\n"
-      "  carom check scenes/*.yaml -q                          only errors\n"
-      "  carom check scene.yaml --set simulate.duration=60     how long would 60 s take?\n",
-      "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong, or its outputs need what\n"
-      "this machine lacks.",
-      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
-  return text;
-}
-
-int check_command(const Options& options) {
+int check_scenes(const Options& options) {
   const vector<PlannedScene> scenes = plan_scenes(options);
-  const Palette palette(uses_color(options.color, STDOUT_FILENO));
   Json entries = Json::array();
   for (const PlannedScene& planned : scenes) {
     if (planned.errors > 0) {
@@ -407,18 +388,32 @@ int check_command(const Options& options) {
       entries.push_back(as_json(planned, findings));
       if (options.accuracy) entries.back()["accuracy"] = accuracy.json;
     } else {
-      Block block(palette, terminal_width(STDOUT_FILENO));
+      Block block(options);
+      describe(block, planned, findings);
       for (const auto& [label, text] : accuracy.lines) block.line(label, text);
-      write_out(as_text(planned, findings, palette, terminal_width(STDOUT_FILENO)) + block.text());
+      write_out(block.text());
     }
   }
 
-  if (options.json) write_out(document("check", entries));
   const string errors = error_count(scenes);
+  ended(options, 0, std::move(entries));
   if (errors.empty()) return 0;
   flush_out();
   complain(options, errors);
   return 2;
 }
+
+}  // namespace
+
+const Command check_command = {
+    "check",
+    check_scenes,
+    "shows what a run would do and every error of its scene, and writes nothing",
+    "  carom check scenes/two_bowling_balls.yaml\n"
+    "  carom check scenes/*.yaml -q                          only errors\n"
+    "  carom check scene.yaml --set simulate.duration=60     how long would 60 s take?\n",
+    "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong, or its outputs need what\n"
+    "this machine lacks.",
+    {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
 
 }  // namespace carom

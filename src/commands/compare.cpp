@@ -1,13 +1,11 @@
 // Checks folders, measures and charts before the first file is written. The comparison itself is that of a sweep
 // (compare/).
-#include "commands/compare.h"
+#include "commands/commands.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
@@ -60,12 +58,10 @@ class CompareSession {
       throw;
     } catch (const MeasureError& error) {
       return fail("wrong", error.what(), 2);
-    } catch (const std::bad_alloc&) {
-      return fail("failed", "not enough memory", 1);
     } catch (const std::exception& error) {
       // Ctrl-C ends ffmpeg too: its error is then the interrupt.
       stop_if_interrupted();
-      return fail("failed", error.what(), 1);
+      return fail("failed", reason_of(error), 1);
     }
   }
 
@@ -142,7 +138,7 @@ class CompareSession {
 
   void write(const ComparisonPlan& plan, const RunSet& differences, vector<FilmTile> tiles, const string& request) {
     const size_t count = differences.runs().size();
-    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), "compare");
+    Progress progress(options_, "compare");
     const ComparisonWatch watch{stop_if_interrupted, [&](size_t read) { progress.update(read, count, "runs"); },
                                 [&](size_t runs) { doubtful_ = runs; }};
     ComparisonFolder folder(folder_);
@@ -161,10 +157,7 @@ class CompareSession {
     folder.publish(files, film.get(), request);
   }
 
-  int up_to_date() {
-    if (!options_.json && !options_.quiet) write_out(fmt::format("{}: up to date\n", printable(folder_)));
-    return end("up to date", 0);
-  }
+  int up_to_date() { return end("up to date", 0, fmt::format("{}: up to date\n", printable(folder_))); }
 
   int done(const ComparisonPlan& plan, const RunSet& differences) {
     const vector<ListedRun>& runs = differences.runs();
@@ -178,20 +171,18 @@ class CompareSession {
     document_["doubtful"] = doubtful_;
     document_["parameters"] = varied;
     document_["measures"] = measures;
-    document_["files"] = files_in(folder_);
-    if (!options_.json && !options_.quiet) {
-      constexpr size_t most = 12;
-      Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
-      block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
-      block.line("runs",
-                 failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
-      describe_doubtful(block, doubtful_);
-      block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
-      block.line("measures", listed(measures, most));
-      block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files_in(folder_), most)));
-      write_out(block.text());
-    }
-    return end("done", 0);
+    const vector<string> files = files_in(folder_);
+    document_["files"] = files;
+
+    constexpr size_t most = 12;
+    Block block(options_);
+    block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
+    block.line("runs", failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
+    describe_doubtful(block, doubtful_);
+    block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
+    block.line("measures", listed(measures, most));
+    block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files, most)));
+    return end("done", 0, block.text());
   }
 
   int fail(const char* status, const string& text, int code) {
@@ -200,10 +191,9 @@ class CompareSession {
     return end(status, code);
   }
 
-  int end(const char* status, int code) {
+  int end(const char* status, int code, string_view text = {}) {
     document_["status"] = status;
-    if (options_.json) write_out(document("compare", document_));
-    return code;
+    return ended(options_, code, document_, text);
   }
 
   const Options& options_;
@@ -214,35 +204,27 @@ class CompareSession {
 
 }  // namespace
 
-const CommandText& compare_text() {
-  static const CommandText text = {
-      "compare",
-      "compares any runs: a table, a workbook with charts, a film",
-      "  carom compare output/half output/full            writes output/comparison/\n"
-      "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
-      "  carom compare output/a output/b --video -o side  their films side by side too\n",
-      "A folder is that of a run, or of a sweep with all its runs. The parameters are the values in which the\n"
-      "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, manifest.json and, with\n"
-      "repeats (scenes that differ only in the seed), repeats.csv.\n\n"
-      "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
-      "interrupted.",
-      {{"--output", "the comparison's folder (output/comparison)"},
-       {"--measures"},
-       {"--charts"},
-       {"--collisions"},
-       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
-       {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
-       {"--progress"}},
-      "DIR",
-      "folders of runs, or of sweeps",
-      1,
-      std::numeric_limits<size_t>::max(),
-      "name the folders of runs: carom {} output/half output/full"};
-  return text;
-}
-
-int compare_command(const Options& options) {
-  return CompareSession(options).go();
-}
+const Command compare_command = {
+    "compare",
+    [](const Options& options) { return CompareSession(options).go(); },
+    "compares any runs: a table, a workbook with charts, a film",
+    "  carom compare output/half output/full            writes output/comparison/\n"
+    "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
+    "  carom compare output/a output/b --video -o side  their films side by side too\n",
+    "A folder is that of a run, or of a sweep with all its runs. The parameters are the values in which the\n"
+    "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, manifest.json and, with\n"
+    "repeats (scenes that differ only in the seed), repeats.csv.\n\n"
+    "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
+    "interrupted.",
+    {{"--output", "the comparison's folder (output/comparison)"},
+     {"--measures"},
+     {"--charts"},
+     {"--collisions"},
+     {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
+     {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
+     {"--progress"}},
+    "DIR",
+    "folders of runs, or of sweeps",
+    "name the folders of runs: carom {} output/half output/full"};
 
 }  // namespace carom

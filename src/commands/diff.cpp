@@ -1,11 +1,9 @@
 // Describes the differences found by study/run_difference.h. Numbers have all their digits, since two runs may differ
 // in the last one only.
-#include "commands/diff.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
@@ -149,53 +147,42 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int fail_diff(const Options& options, const string& text, int code, const vector<ErrorRecord>& errors) {
+int refuse(const Options& options, const string& text, const vector<ErrorRecord>& errors) {
   complain(options, text);
-  if (options.json)
-    write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"errors", errors_json(errors)}}));
-  return code;
+  return ended(options, 2, {{"status", "wrong"}, {"errors", errors_json(errors)}});
+}
+
+int show_difference(const Options& options) {
+  try {
+    const RunDifference difference = difference_of(options.operands[0], options.operands[1]);
+    Json json = {{"status", "done"}};
+    json.update(difference_json(difference));
+    Block block(options);
+    describe(block, difference);
+    return ended(options, 0, json, block.text());
+  } catch (const ExportError& error) {
+    return refuse(options, error.what(), error_of_text(error.what()));
+  } catch (const SceneError& error) {
+    return refuse(options, error.what(), error.records);
+  }
 }
 
 }  // namespace
 
-const CommandText& diff_text() {
-  static const CommandText text = {
-      "diff",
-      "shows where two runs diverge, and how far apart they end",
-      "  carom diff output/half output/full\n"
-      "  carom diff output/falls/runs/r0001 output/falls/runs/r0002 --json\n",
-      "Scenes are compared value by value, collisions by kind, bodies and time. Both runs need\n"
-      "collisions.csv, and trajectory.csv for their ends. Nothing is written.\n\n"
-      "Exit codes: 0 done, whether equal or not, 2 the command line or a folder is wrong.",
-      {},
-      "DIR",
-      "two runs' folders",
-      2,
-      2,
-      "name two runs' folders: carom {} output/half output/full"};
-  return text;
-}
-
-int diff_command(const Options& options) {
-  try {
-    const RunDifference difference = difference_of(options.operands[0], options.operands[1]);
-    if (options.json) {
-      Json json = {{"status", "done"}};
-      json.update(difference_json(difference));
-      write_out(document("diff", json));
-    } else if (!options.quiet) {
-      Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
-      describe(block, difference);
-      write_out(block.text());
-    }
-    return 0;
-  } catch (const ExportError& error) {
-    return fail_diff(options, error.what(), 2, error_of_text(error.what()));
-  } catch (const SceneError& error) {
-    return fail_diff(options, error.what(), 2, error.records);
-  } catch (const std::bad_alloc&) {
-    return fail_diff(options, "not enough memory", 1, error_of_text("not enough memory"));
-  }
-}
+const Command diff_command = {
+    "diff",
+    show_difference,
+    "shows where two runs diverge, and how far apart they end",
+    "  carom diff output/half output/full\n"
+    "  carom diff output/falls/runs/r0001 output/falls/runs/r0002 --json\n",
+    "Scenes are compared value by value, collisions by kind, bodies and time. Both runs need\n"
+    "collisions.csv, and trajectory.csv for their ends. Nothing is written.\n\n"
+    "Exit codes: 0 done, whether equal or not, 2 the command line or a folder is wrong.",
+    {},
+    "DIR",
+    "two runs' folders",
+    "name two runs' folders: carom {} output/half output/full",
+    2,
+    2};
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // A word may be a kind, a key at several places and an absent word. All its meanings are printed, because the program
 // cannot choose between them.
-#include "commands/explain.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -198,27 +198,7 @@ vector<string> words_of(const vector<string>& operands) {
                                near.empty() ? "; `carom explain` lists its kinds" : "; " + near.substr(0, line)));
 }
 
-}  // namespace
-
-const CommandText& explain_text() {
-  static const CommandText text = {
-      "explain",
-      "explains a key of the format",
-      "  carom explain simulate.rest_speed\n"
-      "  carom explain restitution                             every place with such a key\n"
-      "  carom explain balls.red.mass                          a path as in --set\n"
-      "  carom explain friction                                what the format has instead\n"
-      "  carom explain                                         the kinds of maps in a scene\n"
-      "  carom explain --page > format.md                      all keys on a page\n",
-      "Exit codes: 0 done, 2 there is no such key.",
-      {{"--page"}},
-      "KEY",
-      "a key, a path, a kind of map or another word",
-      0};
-  return text;
-}
-
-int explain_command(const Options& options) {
+int explain(const Options& options) {
   if (options.page) {
     if (!options.operands.empty()) throw UsageError("--page prints the whole format and takes no key");
     write_out(format_page());
@@ -256,12 +236,26 @@ int explain_command(const Options& options) {
       for (const Kind& kind : family) all.push_back(kind_json(kind));
     }
   }
-  if (options.json) {
-    write_out(document("explain", {{"fields", fields}, {"kinds", all}, {"words", words}}));
-  } else if (!options.quiet) {
-    write_out(joined(texts, "\n"));
-  }
-  return 0;
+  return ended(options, 0, {{"fields", fields}, {"kinds", all}, {"words", words}}, joined(texts, "\n"));
 }
+
+}  // namespace
+
+const Command explain_command = {
+    "explain",
+    explain,
+    "explains a key of the format",
+    "  carom explain simulate.rest_speed\n"
+    "  carom explain restitution                             every place with such a key\n"
+    "  carom explain balls.red.mass                          a path as in --set\n"
+    "  carom explain friction                                what the format has instead\n"
+    "  carom explain                                         the kinds of maps in a scene\n"
+    "  carom explain --page > format.md                      all keys on a page\n",
+    "Exit codes: 0 done, 2 there is no such key.",
+    {{"--page"}},
+    "KEY",
+    "a key, a path, a kind of map or another word",
+    "",
+    0};
 
 }  // namespace carom

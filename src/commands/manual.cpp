@@ -8,7 +8,7 @@
 #include <cctype>
 
 #include "commands/commands.h"
-#include "commands/options.h"
+#include "commands/option_table.h"
 #include "scene/field_places.h"
 #include "scene/fields.h"
 #include "std.h"
@@ -66,13 +66,13 @@ bool is_common(string_view name) {
   return name == "--color" || name == "--json" || name == "--quiet";
 }
 
-string operands(const CommandText& command) {
+string operands(const Command& command) {
   if (command.most == 0) return "";
   const string word = fmt::format("\\fI{}\\fR{}", roff(command.operand), command.most > 1 ? "..." : "");
   return command.least == 0 ? fmt::format(" [{}]", word) : " " + word;
 }
 
-string command_section(const CommandText& command) {
+string command_section(const Command& command) {
   string out = fmt::format(".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name),
                            roff(command.name), operands(command),
                            static_cast<char>(std::toupper(static_cast<unsigned char>(command.line[0]))),
@@ -126,7 +126,7 @@ string manual_page() {
       "Results go to standard output, progress and errors to standard error.\n"
       ".SH COMMANDS\n",
       CAROM_VERSION);
-  for (const Command& command : commands()) out += command_section(command.text);
+  for (const Command& command : commands()) out += command_section(command);
   out += ".SH OPTIONS OF EVERY COMMAND\n";
   for (const string_view name : {"--color", "--json", "--quiet"}) out += option_item({name, option_named(name).help});
   out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe help of the command, examples first\n";
@@ -150,16 +150,15 @@ string bash_completion() {
   vector<string> names;
   string of_command, of_value;
   for (const Command& command : commands()) {
-    const CommandText& text = command.text;
-    names.push_back(text.name);
+    names.push_back(command.name);
     vector<string_view> options;
-    for (const OptionUse& use : options_of(text)) {
+    for (const OptionUse& use : options_of(command)) {
       const Option& option = option_named(use.name);
       options.push_back(option.name);
       if (!option.letter.empty()) options.push_back(option.letter);
     }
-    const string offer = text.most > 0 ? offer_for(text.operand) : "";
-    of_command += fmt::format("    {}) options='{} --help -h' operand=\"{}\" ;;\n", text.name, list(options), offer);
+    const string offer = command.most > 0 ? offer_for(command.operand) : "";
+    of_command += fmt::format("    {}) options='{} --help -h' operand=\"{}\" ;;\n", command.name, list(options), offer);
   }
   for (const Option& option : all_options()) {
     if (option.value.empty()) continue;

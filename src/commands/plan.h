@@ -1,7 +1,7 @@
 #pragma once
 // Checks all scenes of the command line before the first is simulated. Changes nothing.
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "export/forecast.h"
 #include "files/run_folder.h"
 #include "run/engine.h"

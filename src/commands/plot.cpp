@@ -1,16 +1,16 @@
 // Plans the folders as render does, then reads and draws each run. Charts without data are reported with the key that
 // gives them; a run is never simulated for them.
-#include "commands/plot.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <new>
 
+#include "commands/batch.h"
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
-#include "commands/run.h"
 #include "commands/text.h"
 #include "export/plot.h"
 #include "files/manifest.h"
@@ -100,12 +100,12 @@ class PlotPlanner {
 };
 
 /// Lines and members about the charts.
-void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const Style& style) {
+void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const Options& options) {
   const PossibleCharts charts = possible_charts(*planned.former);
   vector<string> names(charts.names.begin(), charts.names.end());
   outcome.entry["plots"] = names;
   outcome.entry["left_out"] = Json::object();
-  Block block(style.palette, style.width);
+  Block block(options);
   block.heading(planned.name, planned.scene->title);
   const vector<string> files = files_in(planned.folder);
   for (const LeftOut& chart : charts.missing) {
@@ -121,7 +121,7 @@ void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const S
   outcome.out = block.text();
 }
 
-SceneOutcome plot_one(const PlannedScene& planned, const string& gnuplot, const Style& style, Progress& progress) {
+SceneOutcome plot_one(const PlannedScene& planned, const string& gnuplot, const Options& options, Progress& progress) {
   SceneOutcome outcome = without_run(planned, scene_status::failed);
   try {
     plot_run({planned.former.get(), planned.scene.get(), planned.folder, gnuplot}, [&](double done) {
@@ -129,7 +129,7 @@ SceneOutcome plot_one(const PlannedScene& planned, const string& gnuplot, const 
       progress.update(done, done < 1 ? "reading" : "drawing");
     });
     outcome = without_run(planned, scene_status::done);
-    describe_charts(outcome, planned, style);
+    describe_charts(outcome, planned, options);
     return outcome;
   } catch (const std::bad_alloc&) {
     outcome.complaint = "not enough memory";
@@ -143,44 +143,37 @@ SceneOutcome plot_one(const PlannedScene& planned, const string& gnuplot, const 
   return outcome;
 }
 
-}  // namespace
-
-const CommandText& plot_text() {
-  static const CommandText whole = [] {
-    CommandText text = {
-        "plot",
-        "draws charts of a run, without simulating again",
-        "  carom plot output/gas_in_a_room                      adds plots/ to the run\n"
-        "  carom plot output/two_bowling_balls -o charts        writes charts/plots/energy.svg, ...\n"
-        "  carom plot output/bowling.sweep/runs/*\n",
-        "The charts are energy over time, heights over time, speeds at the end, and collisions a second,\n"
-        "each as SVG and PNG by gnuplot. They are those of a run with output.plots: true. A run has what\n"
-        "a chart shows in energy.csv, trajectory.csv and collisions.csv; flights.bin replaces the first\n"
-        "two. A chart without data is left out, and the report names the key that gives it.\n"
-        "Without -o the charts are added to the run, and its other files stay. With -o the other folder\n"
-        "is that of carom run DIR/scene.yaml --only plots.\n\n"
-        "Exit codes: 0 done or up to date, 1 failed, 2 the command line or a folder is wrong, 130 or 143\n"
-        "interrupted.",
-        {{"--output", "the folder of the charts; with several runs, the folder\nthat holds theirs (the run's own)"},
-         {"--jobs", "N runs at a time (1); changes no result"},
-         {"--force", "overwrite other content of the folder, draw again what\nis up to date"},
-         {"--progress"}},
-        "DIR",
-        "folders of runs"};
-    text.missing = "name the folder of a run: carom {} output/two_bowling_balls";
-    return text;
-  }();
-  return whole;
-}
-
-int plot_command(const Options& options) {
+int plot_runs(const Options& options) {
   const string gnuplot = find_gnuplot();
   const PlotPlanner planner(options);
-  return run_planned(options, "plot",
-                     plan_scenes(planned_folders(options), [&](PlannedScene& run) { planner.check(run); }),
-                     [&](const PlannedScene& planned, const Style& style, Progress& progress) {
-                       return plot_one(planned, gnuplot, style, progress);
-                     });
+  return run_planned(
+      options, plan_scenes(planned_folders(options), [&](PlannedScene& run) { planner.check(run); }),
+      [&](const PlannedScene& planned, Progress& progress) { return plot_one(planned, gnuplot, options, progress); });
 }
+
+}  // namespace
+
+const Command plot_command = {
+    "plot",
+    plot_runs,
+    "draws charts of a run, without simulating again",
+    "  carom plot output/gas_in_a_room                      adds plots/ to the run\n"
+    "  carom plot output/two_bowling_balls -o charts        writes charts/plots/energy.svg, ...\n"
+    "  carom plot output/bowling.sweep/runs/*\n",
+    "The charts are energy over time, heights over time, speeds at the end, and collisions a second,\n"
+    "each as SVG and PNG by gnuplot. They are those of a run with output.plots: true. A run has what\n"
+    "a chart shows in energy.csv, trajectory.csv and collisions.csv; flights.bin replaces the first\n"
+    "two. A chart without data is left out, and the report names the key that gives it.\n"
+    "Without -o the charts are added to the run, and its other files stay. With -o the other folder\n"
+    "is that of carom run DIR/scene.yaml --only plots.\n\n"
+    "Exit codes: 0 done or up to date, 1 failed, 2 the command line or a folder is wrong, 130 or 143\n"
+    "interrupted.",
+    {{"--output", "the folder of the charts; with several runs, the folder\nthat holds theirs (the run's own)"},
+     {"--jobs", "N runs at a time (1); changes no result"},
+     {"--force", "overwrite other content of the folder, draw again what\nis up to date"},
+     {"--progress"}},
+    "DIR",
+    "folders of runs",
+    "name the folder of a run: carom {} output/two_bowling_balls"};
 
 }  // namespace carom

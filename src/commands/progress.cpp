@@ -15,6 +15,9 @@
 
 namespace carom {
 
+namespace {
+
+/// The choice of --progress for this stderr.
 ProgressChoice progress_choice(const Options& options) {
   const bool terminal = is_terminal(STDERR_FILENO);
   if (options.progress == ProgressChoice::automatic && options.quiet) return ProgressChoice::none;
@@ -22,20 +25,6 @@ ProgressChoice progress_choice(const Options& options) {
   // A bar redraws its line, which only a terminal can.
   return options.progress == ProgressChoice::bar && !terminal ? ProgressChoice::lines : options.progress;
 }
-
-Progress::Progress(ProgressChoice choice, bool color, string name)
-    : choice_(choice), color_(color), name_(std::move(name)) {}
-
-Progress::~Progress() {
-  clear();
-}
-
-void Progress::clear() {
-  if (drawn_) draw_line("");
-  drawn_ = false;
-}
-
-namespace {
 
 // Whole seconds: the estimate is no more precise.
 string left_text(double left) {
@@ -45,6 +34,20 @@ string left_text(double left) {
 }
 
 }  // namespace
+
+Progress::Progress(const Options& options, string name, bool shown)
+    : choice_(shown ? progress_choice(options) : ProgressChoice::none),
+      color_(uses_color(options.color, STDERR_FILENO)),
+      name_(std::move(name)) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::clear() {
+  if (drawn_) draw_line("");
+  drawn_ = false;
+}
 
 void Progress::draw_bar(double done, const string& counts, const string& left) {
   // One line, narrower than the terminal: a wrapped line cannot be drawn over.

@@ -1,6 +1,6 @@
 // Plans a run whose motion comes from the flights of a former run. It is then run as by `carom run`, so drawing has no
 // loop of its own.
-#include "commands/render.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "commands/batch.h"
 #include "commands/idle_settings.h"
 #include "commands/plan.h"
-#include "commands/run.h"
 #include "commands/still.h"
 #include "commands/text.h"
 #include "files/manifest.h"
@@ -177,52 +177,46 @@ class Planner {
   Requirements requirements_;
 };
 
-}  // namespace
-
-const CommandText& render_text() {
-  static const CommandText text = {
-      "render",
-      "draws other pictures of a run, without simulating again",
-      "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
-      "  carom render output/ten_pins --set output.video.speed=0.125 -o output/slow\n"
-      "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n"
-      "  carom render output/ten_pins --at 1.25                  still_1.25s.png, one picture\n",
-      "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
-      "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without -o\n"
-      "they replace the run's own, and its other files stay. --set may change the camera, lights,\n"
-      "colours, background and the pictures and their times. A change of the motion is an error.\n"
-      "A run without flights (engines stepped and book, or output.flights: false) is simulated again.\n\n"
-      "Exit codes: 0 done or up to date, 1 failed, 2 the command line, a folder or a change is wrong,\n"
-      "130 or 143 interrupted.",
-      {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
-       {"--set"},
-       {"--only",
-        "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
-        "settings;\nframes, video and sheet take theirs from each other"},
-       {"--at",
-        "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
-       {"--jobs", "N runs at a time (1); changes no result"},
-       {"--force"},
-       {"--progress"}},
-      "DIR",
-      "folders of runs"};
-  static const CommandText whole = [] {
-    CommandText it = text;
-    it.missing = "name the folder of a run: carom {} output/two_bowling_balls";
-    return it;
-  }();
-  return whole;
-}
-
-int render_command(const Options& options) {
+int render_runs(const Options& options) {
   refuse_tables(options);
   if (options.at && options.only) throw UsageError("--at draws one picture", "leave out --only");
   Planner planner(options);
   vector<PlannedScene> runs =
       plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); });
-  if (!options.at) return run_planned(options, "render", std::move(runs));
-  return run_planned(options, "render", std::move(runs),
-                     [&](const PlannedScene& planned, const Style&, Progress&) { return still_of(planned, options); });
+  if (!options.at) return run_planned(options, std::move(runs));
+  return run_planned(options, std::move(runs),
+                     [&](const PlannedScene& planned, Progress&) { return still_of(planned, options); });
 }
+
+}  // namespace
+
+const Command render_command = {
+    "render",
+    render_runs,
+    "draws other pictures of a run, without simulating again",
+    "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
+    "  carom render output/ten_pins --set output.video.speed=0.125 -o output/slow\n"
+    "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n"
+    "  carom render output/ten_pins --at 1.25                  still_1.25s.png, one picture\n",
+    "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
+    "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without -o\n"
+    "they replace the run's own, and its other files stay. --set may change the camera, lights,\n"
+    "colours, background and the pictures and their times. A change of the motion is an error.\n"
+    "A run without flights (engines stepped and book, or output.flights: false) is simulated again.\n\n"
+    "Exit codes: 0 done or up to date, 1 failed, 2 the command line, a folder or a change is wrong,\n"
+    "130 or 143 interrupted.",
+    {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
+     {"--set"},
+     {"--only",
+      "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
+      "settings;\nframes, video and sheet take theirs from each other"},
+     {"--at",
+      "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
+     {"--jobs", "N runs at a time (1); changes no result"},
+     {"--force"},
+     {"--progress"}},
+    "DIR",
+    "folders of runs",
+    "name the folder of a run: carom {} output/two_bowling_balls"};
 
 }  // namespace carom

@@ -121,6 +121,9 @@ Json number_or_null(double value) {
 
 }  // namespace
 
+Block::Block(const Options& options)
+    : Block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)) {}
+
 void Block::heading(string_view name, string_view title) {
   text_ += fmt::format("{}{}{}", palette_.bold, printable(name), palette_.reset);
   if (!title.empty() && title != name) text_ += ": " + wrapped(printable(title), letters_of(name) + 2, width_);
@@ -296,6 +299,14 @@ string document(string_view command, Json scenes) {
     whole["scenes"] = std::move(scenes);
   // A file's name may hold any bytes.
   return text_of_json(whole, 2) + "\n";
+}
+
+int ended(const Options& options, int code, Json members, string_view text) {
+  if (options.json)
+    write_out(document(options.command, std::move(members)));
+  else if (!options.quiet)
+    write_out(text);
+  return code;
 }
 
 void complain(const Options& options, string_view text) {

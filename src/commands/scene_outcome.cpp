@@ -51,11 +51,10 @@ SceneOutcome wrong_scene(const PlannedScene& planned) {
   return outcome;
 }
 
-SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options,
-                      const Style& style) {
+SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options) {
   SceneOutcome outcome = without_run(planned, scene_status::done);
   add_members(outcome.entry, planned, result);
-  Block block(style.palette, style.width);
+  Block block(options);
   block.heading(planned.name, planned.scene->title);
   describe(block, planned, result);
   if (options.accuracy) {
@@ -68,12 +67,12 @@ SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, cons
   return outcome;
 }
 
-SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
+SceneOutcome run_up_to_date(const PlannedScene& planned, const Options& options) {
   SceneOutcome outcome = without_run(planned, scene_status::up_to_date);
   outcome.entry["files"] = files_in(planned.folder);
   const vector<Warning> warnings = warnings_in(planned.folder);
   outcome.entry["warnings"] = warnings_json(warnings);
-  Block block(style.palette, style.width);
+  Block block(options);
   block.heading(planned.name, planned.scene->title);
   block.line("up to date", printable(planned.folder));
   describe(block, warnings);

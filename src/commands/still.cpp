@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <new>
-
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/run_one.h"
 #include "commands/text.h"
@@ -59,10 +58,8 @@ SceneOutcome still_of(const PlannedScene& planned, const Options& options) {
     outcome.entry["files"] = {name};
     outcome.out = fmt::format("{}/{}\n", printable(planned.folder), printable(name));
     return outcome;
-  } catch (const std::bad_alloc&) {
-    return run_failed(planned, "not enough memory");
   } catch (const std::exception& error) {
-    return run_failed(planned, error.what());
+    return run_failed(planned, reason_of(error));
   }
 }
 

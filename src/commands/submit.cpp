@@ -1,5 +1,5 @@
 // One task of the array does many runs: scheduling a task takes longer than most runs.
-#include "commands/submit.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,6 @@
 namespace carom {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -99,67 +98,57 @@ exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
 )",
       shell_word(name), parts, options.execution.jobs.value_or(1), batch, counted(runs, "run", "runs"),
       shell_word(words_of({program(), "gather", folder})), words_of(words), counted(parts, "part", "parts"));
-  if (options.json)
-    write_out(document("submit", Json{{"sweep", options.operands.front()},
-                                      {"folder", folder},
-                                      {"runs", runs},
-                                      {"parts", parts},
-                                      {"script", script}}));
-  else
-    write_out(script);
-  return 0;
+  if (!options.json) write_out(script);
+  return ended(
+      options, 0,
+      {{"sweep", options.operands.front()}, {"folder", folder}, {"runs", runs}, {"parts", parts}, {"script", script}});
 }
 
-}  // namespace
-
-const CommandText& submit_text() {
-  static const CommandText text = {
-      "submit",
-      "prints a script that runs a sweep as a Slurm job array",
-      "  carom submit sweep.yaml --slurm > job.sh\n"
-      "  sh job.sh                                             submits the parts and a job that gathers them\n"
-      "  sbatch job.sh                                         submits only the parts\n"
-      "  carom submit sweep.yaml --slurm --parts 8 -j 4 --batch=--time=1:00:00\n",
-      "Each task of the array runs one part of the sweep. A requeued task continues with the missing runs.\n"
-      "The sweep's folder must be on a file system that all tasks share. All scenarios are checked before\n"
-      "the script is printed.\n\n"
-      "Exit codes: 0 done, 2 the command line, the sweep or its scene is wrong.",
-      {{"--slurm"},
-       {"--parts"},
-       {"--batch"},
-       {"--output", "the sweep's folder (output/<sweep file's stem>)"},
-       {"--grid"},
-       {"--random"},
-       {"--latin"},
-       {"--repeat", repeat_help},
-       {"--skip-invalid"},
-       {"--measures", measures_help},
-       {"--jobs", "processors of a task, and runs at a time in it (1)"},
-       {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
-       {"--only"},
-       {"--seed", seed_help},
-       {"--force", "lift the budget"}},
-      "SWEEP",
-      "a sweep file (YAML), or a scene with --grid",
-      1,
-      1,
-      "name a sweep file: carom {} sweep.yaml --slurm"};
-  return text;
-}
-
-int submit_command(const Options& options) {
+int submit_sweep(const Options& options) {
   if (!options.submit.slurm) throw UsageError("name the batch system", "--slurm");
   try {
     return submit(options);
   } catch (const SceneError& error) {
     write_err(error.what());
     complain(options, fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")));
-    if (options.json)
-      write_out(document(
-          "submit",
-          Json{{"sweep", options.operands.front()}, {"status", "wrong"}, {"errors", errors_json(error.records)}}));
-    return 2;
+    return ended(options, 2,
+                 {{"sweep", options.operands.front()}, {"status", "wrong"}, {"errors", errors_json(error.records)}});
   }
 }
+
+}  // namespace
+
+const Command submit_command = {
+    "submit",
+    submit_sweep,
+    "prints a script that runs a sweep as a Slurm job array",
+    "  carom submit sweep.yaml --slurm > job.sh\n"
+    "  sh job.sh                                             submits the parts and a job that gathers them\n"
+    "  sbatch job.sh                                         submits only the parts\n"
+    "  carom submit sweep.yaml --slurm --parts 8 -j 4 --batch=--time=1:00:00\n",
+    "Each task of the array runs one part of the sweep. A requeued task continues with the missing runs.\n"
+    "The sweep's folder must be on a file system that all tasks share. All scenarios are checked before\n"
+    "the script is printed.\n\n"
+    "Exit codes: 0 done, 2 the command line, the sweep or its scene is wrong.",
+    {{"--slurm"},
+     {"--parts"},
+     {"--batch"},
+     {"--output", "the sweep's folder (output/<sweep file's stem>)"},
+     {"--grid"},
+     {"--random"},
+     {"--latin"},
+     {"--repeat", repeat_help},
+     {"--skip-invalid"},
+     {"--measures", measures_help},
+     {"--jobs", "processors of a task, and runs at a time in it (1)"},
+     {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
+     {"--only"},
+     {"--seed", seed_help},
+     {"--force", "lift the budget"}},
+    "SWEEP",
+    "a sweep file (YAML), or a scene with --grid",
+    "name a sweep file: carom {} sweep.yaml --slurm",
+    1,
+    1};
 
 }  // namespace carom

@@ -12,7 +12,7 @@
 #include <map>
 
 #include "commands/interrupt.h"
-#include "commands/options.h"
+#include "commands/option_table.h"
 #include "commands/text.h"
 #include "compare/comparison.h"
 #include "files/processors.h"

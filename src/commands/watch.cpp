@@ -8,11 +8,11 @@
 #include <iterator>
 #include <utility>
 
+#include "commands/batch.h"
 #include "commands/file_watch.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/report.h"
-#include "commands/run.h"
 #include "commands/scene_files.h"
 #include "commands/text.h"
 #include "std.h"
@@ -69,7 +69,7 @@ class WatchSession {
       complain(options_,
                fmt::format("{}: {}; not run", printable(planned.file), counted(planned.errors, "error", "errors")));
     }
-    return right.empty() ? 0 : run_planned(options_, "run", std::move(right));
+    return right.empty() ? 0 : run_planned(options_, std::move(right));
   }
 
   /// Textures and materials are not among what makes a run up to date.

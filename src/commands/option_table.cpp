@@ -1,5 +1,5 @@
 // A row has an option's names, its help and the function that stores its value. A new option is one row.
-#include "commands/options.h"
+#include "commands/option_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -269,7 +269,7 @@ const Option& option_named(string_view name) {
   std::abort();  // a command names an option that the table does not have
 }
 
-vector<OptionUse> options_of(const CommandText& command) {
+vector<OptionUse> options_of(const Command& command) {
   vector<OptionUse> options = command.options;
   for (const string_view name : {"--color", "--json", "--quiet"}) options.push_back({name});
   for (OptionUse& use : options)
