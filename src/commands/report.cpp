@@ -14,6 +14,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/series_folders.h"
+#include "files/summary_columns.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/letters.h"
@@ -226,32 +227,17 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
                   wait_text(std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s))));
 }
 
-Json summary_json(const Summary& s) {
-  return {{"title", s.title},
-          {"engine", s.engine},
-          {"status", s.status},
-          {"duration_s", s.duration},
-          {"bodies", s.bodies},
-          {"collisions", s.collisions},
-          {"body_body", s.body_body},
-          {"body_fixed", s.body_fixed},
-          {"first_collision_s", number_or_null(s.first_collision)},
-          {"last_collision_s", number_or_null(s.last_collision)},
-          {"energy_start_J", number_or_null(s.energy.start)},
-          {"energy_end_J", number_or_null(s.energy.end)},
-          {"energy_lost_J", number_or_null(s.energy.lost)},
-          {"work_J", number_or_null(s.energy.work)},
-          {"energy_residual_J", number_or_null(s.energy.residual)},
-          {"momentum_drift_kg_m_per_s", number_or_null(s.momentum_drift)},
-          {"max_overlap_m", number_or_null(s.max_overlap)},
-          {"max_speed_m_per_s", number_or_null(s.max_speed)},
-          {"resting", s.resting},
-          {"frames", s.frames},
-          {"stepped_contact_s", s.stepped_contact},
-          {"removed_J", number_or_null(s.energy.removed)},
-          {"ended_by", s.ended_by},
-          {"energy_absorbed_J", number_or_null(s.contact.taken_up.energy)},
-          {"contact_made_J", number_or_null(s.contact.made)}};
+Json summary_json(const Summary& summary) {
+  Json json;
+  // All but the run's name.
+  for (const SummaryColumn& column : summary_columns().subspan(1)) {
+    const auto value = column.value(summary);
+    if (const auto* number = std::get_if<double>(&value))
+      json[column.name] = number_or_null(*number);
+    else
+      std::visit([&](auto given) { json[column.name] = given; }, value);
+  }
+  return json;
 }
 
 Json warnings_json(const vector<Warning>& warnings) {

@@ -10,6 +10,7 @@
 #include "export/png.h"
 #include "files/open_folder.h"
 #include "overlay/history.h"
+#include "run/accuracy.h"
 #include "run/motion_record.h"
 #include "run/still.h"
 #include "scene/scene.h"

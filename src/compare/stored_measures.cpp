@@ -15,7 +15,7 @@
 #include "files/stored_file.h"
 #include "files/stored_table.h"
 #include "run/measure_scope.h"
-#include "run/summary_columns.h"
+#include "files/summary_columns.h"
 #include "scene/formula.h"
 #include "std.h"
 #include "yaml/diagnostics.h"

@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
 #include "std.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -111,6 +112,19 @@ StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps
   }
   return steps;
 }
+
+/// The steps with which positions are within a tolerance, and how far that holds.
+struct Accuracy {
+  StepChoice steps;  // of the stepped engine
+  /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
+  double difference = 0;
+  // In s: the time after which no steps give positions within the tolerance. Infinity: never.
+  double right_until = std::numeric_limits<double>::infinity();
+  /// In m: the difference of the finest runs after that.
+  double beyond = 0;
+  /// Whether the tolerance is met until then.
+  bool reached = true;
+};
 
 class Settling {
  public:
@@ -275,11 +289,51 @@ Vec3 rounded_otherwise(Vec3 place) {
   return place;
 }
 
+/// Describes how a run misses its tolerance; empty: it does not.
+string shortfall_of(const Scene& scene, const Accuracy& accuracy, const Growth& growth) {
+  const double tolerance = *scene.simulate.tolerance;
+  vector<string> texts;
+  if (!accuracy.reached)
+    texts.push_back(fmt::format(
+        "not converged: the shortest steps tried, {:.3g} s, leave an error of {:.2g} m in positions, not {} m",
+        *accuracy.steps.length, accuracy.difference, tolerance));
+
+  if (accuracy.right_until < scene.simulate.duration)
+    texts.push_back(fmt::format(
+        "positions are right to {} m until {:.4g} s, and differ by up to {:.2g} m later: {}", tolerance,
+        accuracy.right_until, accuracy.beyond,
+        growth.chaotic ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
+                       : "not converged, though not chaotic: the motion amplifies rounding, or forces change too fast "
+                         "for doubles"));
+  return joined(texts, "; ");
+}
+
 }  // namespace
 
-Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
-                         const function<void()>& stop_check) {
-  return Settling(scene, way, tolerance, stop_check).go();
+void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check) {
+  if (!scene.simulate.tolerance || engine.engine == Engine::book) return;
+  Simulate way = scene.simulate;
+  way.engine = engine.engine;
+  const Accuracy accuracy = Settling(scene, way, *way.tolerance, stop_check).go();
+  engine.steps = accuracy.steps;
+
+  // What the steps are, and what they reach.
+  vector<string> why;
+  if (!engine.why.empty()) why.push_back(engine.why);
+  const bool stepped = engine.engine == Engine::stepped;
+  if (stepped && way.integrator != Integrator::dop853)
+    why.push_back(fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+  else if (stepped || engine.steps.error > 0)
+    why.push_back(fmt::format("{} {:.1g} of a radius", stepped ? "dop853, step error" : "step error in islands",
+                              engine.steps.error));
+  const bool known = accuracy.right_until >= way.duration;
+  if (accuracy.reached && known)
+    why.push_back(fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
+  engine.why = joined(why, "; ");
+
+  if (!known) engine.growth = growth_of(scene, way, engine.steps, stop_check);
+  engine.right_until = accuracy.right_until;
+  engine.shortfall = shortfall_of(scene, accuracy, engine.growth);
 }
 
 Perturbed perturbed(const World& world, const State& initial, double share) {

@@ -311,7 +311,7 @@ void read_region(string_view text, Measure& measure) {
 [[noreturn]] void refuse_name(string_view name, span<const string> own) {
   vector<string_view> names(own.begin(), own.end());
   for (const SummaryColumn& column : summary_columns())
-    if (column.number != nullptr) names.push_back(column.name);
+    if (!column.is_text()) names.push_back(column.name);
   for (const Call& call : calls) names.push_back(call.name);
   const string near = near_name(name, names);
   throw MeasureError(fmt::format(
@@ -346,7 +346,7 @@ Measure parse_measure(string_view text, span<const string> own) {
   }
   measure.column = find_summary_column(name);
   if (measure.column != nullptr) {
-    if (measure.column->number == nullptr)
+    if (measure.column->is_text())
       throw MeasureError(fmt::format("{} of summary.csv is text, not a measure", in_backticks(name)));
     return measure;
   }

@@ -16,6 +16,7 @@
 
 #include "export/flights_file.h"
 #include "physics/archive.h"
+#include "run/accuracy.h"
 #include "run/checkpoints.h"
 #include "run/drawing_thread.h"
 #include "run/drawings.h"

@@ -18,8 +18,8 @@ SUFFIXES = (".h", ".cpp", ".inc")
 # Folders of src/ whose functions have longer blocks, and those whose files include each other.
 LONG_BLOCKS = {"bench", "commands", "compare", "export", "files", "geometry", "numerics", "overlay", "physics", "raster", "render", "run",
                "scene", "study", "yaml"}
-IN_CIRCLES = {"bench", "commands", "compare", "export", "files", "geometry", "physics", "raster", "render", "run", "scene", "solver",
-              "study", "yaml"}
+IN_CIRCLES = {"bench", "compare", "export", "files", "geometry", "physics", "raster", "render", "scene", "solver", "study",
+              "yaml"}
 TYPES = {"class", "struct", "union", "enum", "typedef"}
 CTAGS = ["ctags", "--output-format=json", "--fields=+neKZt", "--kinds-C++=cfgstum", "--langmap=C++:+.inc", "--language-force=C++",
          "-R", "-f", "-"]
