@@ -38,9 +38,9 @@ int refuse(const Options& options, const vector<PlannedScene>& scenes, const str
 RunAhead run_ahead(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
   return {.duration = scene.simulate.duration,
-          .pictures = planned.forecast.frames,
-          .crowd = crowd_ahead(scene, planned.engine.engine),
-          .draw_s = planned.forecast.seconds,
+          .pictures = planned.price.forecast.frames,
+          .crowd = crowd_ahead(scene, planned.price.engine.engine),
+          .draw_s = planned.price.forecast.seconds,
           .draws_after = draws_after_motion(scene)};
 }
 

@@ -30,6 +30,7 @@ class BenchSession {
   int go() {
     refuse_other_content(scenes_, options_);
     if (const string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
+
     int code = 0, interrupted = 0;
     for (PlannedScene& planned : scenes_) {
       Json entry = {{"scene", planned.file}, {"status", "not run"}, {"folder", planned.folder}};
@@ -42,9 +43,11 @@ class BenchSession {
           complain(options_, fmt::format("{}: interrupted; nothing was written", printable(planned.file)));
         }
       }
+
       document_.push_back(std::move(entry));
       planned.scene.reset();  // the next one may need the memory
     }
+
     return ended(options_, interrupted != 0 ? interrupted : code, document_);
   }
 
@@ -79,12 +82,15 @@ class BenchSession {
     Progress progress(options_, printable(planned.name));
     const BenchWatch watch{stop_if_interrupted, [&](double done, const string& what) { progress.update(done, what); }};
     const BenchResult result = run_bench(scene, options_.bench, watch);
+
     stop_if_interrupted();
     progress.clear();
     folder.write(scene, options_.bench, result);
+
     entry["status"] = "done";
     entry.update(bench_json(result));
     entry["files"] = files_in(planned.folder);
+
     if (options_.json || options_.quiet) return;
     Block block(options_);
     block.heading(planned.name, scene.title);

@@ -33,6 +33,9 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr size_t bodies_shown = 10, crossings_shown = 10, crossings_listed = 1000;
+/// By FolderContent.
+constexpr array content_names = {"new",         "up to date", "incomplete", "more outputs",
+                                 "earlier run", "changed",    "other run"};
 constexpr double trial_budget = 0.1;  // s of wall time
 constexpr const char* unknown_view = "not known: the camera frames the motion, which takes longer to simulate";
 
@@ -85,9 +88,9 @@ string regions_text(const Scene& scene) {
 
 string engine_text(const PlannedScene& planned) {
   const Simulate& simulate = planned.scene->simulate;
-  string text(name_of(planned.engine.engine));
+  string text(name_of(planned.price.engine.engine));
   if (simulate.as_printed) text += ", as printed";
-  if (!planned.engine.why.empty()) text += fmt::format(" ({})", planned.engine.why);
+  if (!planned.price.engine.why.empty()) text += fmt::format(" ({})", planned.price.engine.why);
   return text + fmt::format(", {} of motion", quantity(simulate.duration, "s"));
 }
 
@@ -99,12 +102,13 @@ string first_collision_text(const PlannedScene& planned, const Foresight& foresi
   // Smaller coordinates are rounding errors.
   const double nothing = 1e-9 * planned.scene->world.radius[c.a];
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
+
   const bool tautens = c.kind == CollisionKind::taut;
   string text =
       fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, {} at {}", roster.name(c.a), roster.name(c.b),
                   quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()), shown(c.position.z()),
                   tautens ? "which goes taut" : "closing", quantity(c.approach_speed, "m/s"));
-  if (planned.engine.engine == Engine::book) text += " (exact; the book engine detects it in a later frame)";
+  if (planned.price.engine.engine == Engine::book) text += " (exact; the book engine detects it in a later frame)";
   return text;
 }
 
@@ -172,69 +176,52 @@ string crossings_text(const PlannedScene& planned, const Findings& findings) {
 }
 
 string content_text(const PlannedScene& planned) {
-  switch (planned.content) {
+  switch (planned.found.content) {
     case FolderContent::nothing:
       return "new";
     case FolderContent::this_run:
       return "up to date";
+
     case FolderContent::incomplete:
       if (const optional<Checkpoint> kept = any_checkpoint(planned.folder))
         return fmt::format("interrupted at {} of its motion: the same command goes on there",
                            quantity(kept->time, "s"));
       return "incomplete, will be run again";
+
     case FolderContent::earlier:
       return "holds a run of the scene as it was, will be replaced";
     case FolderContent::touched:
-      return fmt::format("holds {}: run needs --force or another -o", planned.obstacle);
+      return fmt::format("holds {}: run needs --force or another -o", planned.found.obstacle);
     case FolderContent::more:
       return "holds more outputs of this scene: run needs --force or another -o";
     case FolderContent::other_run:
       break;
   }
-  return "holds another run, or files that no run wrote: run needs --force or another -o";
-}
 
-string content_name(FolderContent content) {
-  switch (content) {
-    case FolderContent::nothing:
-      return "new";
-    case FolderContent::this_run:
-      return "up to date";
-    case FolderContent::incomplete:
-      return "incomplete";
-    case FolderContent::earlier:
-      return "earlier run";
-    case FolderContent::touched:
-      return "changed";
-    case FolderContent::more:
-      return "more outputs";
-    case FolderContent::other_run:
-      break;
-  }
-  return "other run";
+  return "holds another run, or files that no run wrote: run needs --force or another -o";
 }
 
 Findings examine(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
   if (!scene.camera && !scene.output.pictures())
-    return {foresee(scene, planned.engine, nullptr, trial_budget), nullopt};
+    return {foresee(scene, planned.price.engine, nullptr, trial_budget), nullopt};
   MovingCamera camera(scene, picture_size(scene.output));
   const bool known = frame_motion(camera, trial_budget);
-  return {foresee(scene, planned.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
+  return {foresee(scene, planned.price.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
 }
 
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
 optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.simulate_s) return nullopt;
-  return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
+  return planned.load_s + *findings.foresight.simulate_s + planned.price.forecast.seconds;
 }
 
 /// Of all files: flights by the part that was simulated, all others by the scene.
 uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
-  if (!planned.scene->output.flights) return planned.forecast.bytes;
+  if (!planned.scene->output.flights) return planned.price.forecast.bytes;
   const PiecesAhead& pieces = findings.foresight.pieces;
   const double flights = flight_bytes(pieces.of_events, pieces.of_crowd);
-  return planned.forecast.bytes + static_cast<uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
+  return planned.price.forecast.bytes + static_cast<uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
 }
 
 string steps_text(double steps) {
@@ -245,8 +232,8 @@ string to_come_text(const PlannedScene& planned, const Findings& findings) {
   const optional<double> seconds = seconds_to_come(planned, findings);
   const optional<double> steps = steps_of(*planned.scene);
   return fmt::format("{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
-                     counted(planned.forecast.frames, "picture", "pictures"),
-                     counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
+                     counted(planned.price.forecast.frames, "picture", "pictures"),
+                     counted(planned.price.forecast.rows, "trajectory row", "trajectory rows"),
                      bytes_text(bytes_to_come(planned, findings)),
                      !seconds         ? "an unknown time"
                      : *seconds < 0.5 ? "less than a second"
@@ -338,8 +325,9 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"strings", scene.world.strings.size()},
                 {"regions", scene.roster.regions},
                 {"forces", scene.world.forces.size()},
-                {"engine", string(name_of(planned.engine.engine))},
-                {"why", planned.engine.why},
+                // How it moves.
+                {"engine", string(name_of(planned.price.engine.engine))},
+                {"why", planned.price.engine.why},
                 {"duration_s", scene.simulate.duration}};
 
   if (const auto& start = scene.made_from.start) {
@@ -359,13 +347,13 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   // What is to come.
   const optional<double> steps = steps_of(scene);
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);
-  entry["pictures"] = planned.forecast.frames;
-  entry["trajectory_rows"] = planned.forecast.rows;
+  entry["pictures"] = planned.price.forecast.frames;
+  entry["trajectory_rows"] = planned.price.forecast.rows;
   entry["bytes"] = bytes_to_come(planned, findings);
   const optional<double> seconds = seconds_to_come(planned, findings);
   entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);
   entry["folder"] = planned.folder;
-  entry["content"] = content_name(planned.content);
+  entry["content"] = content_names[static_cast<size_t>(planned.found.content)];
   return entry;
 }
 
@@ -383,7 +371,7 @@ int check_scenes(const Options& options) {
 
     const Findings findings = examine(planned);
     AccuracyReport accuracy;
-    if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.engine);
+    if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.price.engine);
     if (options.json) {
       entries.push_back(as_json(planned, findings));
       if (options.accuracy) entries.back()["accuracy"] = accuracy.json;

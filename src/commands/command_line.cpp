@@ -53,12 +53,14 @@ void add_option(CLI::App& app, Given& given) {
   const Option& option = option_named(given.use.name);
   const string names = option.letter.empty() ? string(option.name) : fmt::format("{},{}", option.letter, option.name);
   const string help(given.use.help);
+
   if (option.value.empty()) {
     app.add_flag_function(
            names, [&given](int64_t count) { given.words.assign(static_cast<size_t>(count), ""); }, help)
         ->disable_flag_override();
     return;
   }
+
   app.add_option(names, given.words, help)
       ->type_name(string(option.value))
       ->expected(1)
@@ -122,6 +124,7 @@ ParsedOptions parse_options(const Command& command, const vector<string>& words)
   app.set_help_flag("-h,--help", "show this help");
   app.allow_extras();
   if (!command.notes.empty()) app.footer(command.notes);
+
   ParsedOptions parsed;
   Options& options = parsed.options;
   options.command = command.name;
@@ -130,6 +133,7 @@ ParsedOptions parse_options(const Command& command, const vector<string>& words)
   for (const OptionUse& use : options_of(command)) given.push_back({use, {}});
   for (Given& option : given) add_option(app, option);
   refuse_single_dash(app, words);
+
   // Every word after "--" is an operand.
   const auto mark = std::ranges::find(words, "--");
   try {
@@ -142,6 +146,7 @@ ParsedOptions parse_options(const Command& command, const vector<string>& words)
     refuse_unknown(app);
     throw UsageError(in_our_words(error));
   }
+
   refuse_unknown(app);
   if (mark != words.end()) options.operands.insert(options.operands.end(), mark + 1, words.end());
   for (const Given& option : given)

@@ -69,6 +69,8 @@ class CompareSession {
   int compare() {
     settle_folder(folder_);
     for (const string& folder : options_.operands) refuse_own_folder(folder);
+
+    // The runs, and what differs between them.
     vector<ListedRun> runs;
     try {
       runs = list_runs(options_.operands, stop_if_interrupted);
@@ -78,22 +80,28 @@ class CompareSession {
     // The file of a single sweep has the varied paths and the measures.
     const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : nullopt;
     const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs), stop_if_interrupted);
+
     vector<FilmTile> tiles;
     try {
       if (options_.compare.video) tiles = film_tiles(differences);
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
+
+    // What is compared: the sweep's own choice, with that of the command line.
     ComparisonPlan plan = sweep ? comparison_plan(*sweep, {}) : ComparisonPlan();
     plan.own = own_measures_of(differences.runs());
     if (!sweep) plan.title = title_of(options_.operands);
     plan.parameters = differences.parameters();
     plan.seed = differences.seed();
+
     if (!options_.compare.measures.empty()) plan.measures = options_.compare.measures;
     if (!options_.compare.charts.empty()) plan.charts.clear();
     for (const ChartWords& chart : options_.compare.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
     plan.collisions = plan.collisions || options_.compare.collisions;
     check(plan, differences.runs());
+
+    // Nothing but a comparison of these runs is replaced.
     const string request =
         request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.compare.video);
     FolderChanges changes;
@@ -105,6 +113,7 @@ class CompareSession {
                               printable(folder_),
                               content == FolderContent::touched ? comparison_obstacle(changes) : "something else"),
                   2);
+
     write(plan, differences, std::move(tiles), request);
     return done(plan, differences);
   }
@@ -141,17 +150,20 @@ class CompareSession {
     Progress progress(options_, "compare");
     const ComparisonWatch watch{stop_if_interrupted, [&](size_t read) { progress.update(read, count, "runs"); },
                                 [&](size_t runs) { doubtful_ = runs; }};
+
     ComparisonFolder folder(folder_);
     unique_ptr<SideBySide> film;
     if (options_.compare.video)
       film = make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles),
                                      find_font("the text of a film", "leave --video out"));
+
     const auto files = write_comparison(
         folder.place(), plan, count, [&](size_t number) { return differences.run(number); }, watch);
     if (film) {
       progress.update(1, "film");
       film->complete();
     }
+
     stop_if_interrupted();
     progress.clear();
     folder.publish(files, film.get(), request);
@@ -166,6 +178,7 @@ class CompareSession {
     vector<string> varied, measures;
     for (const Parameter& parameter : plan.parameters) varied.push_back(parameter.path);
     for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);
+
     document_["runs"] = runs.size();
     document_["failed"] = failed;
     document_["doubtful"] = doubtful_;

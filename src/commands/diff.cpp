@@ -70,6 +70,8 @@ void describe(Block& block, const RunDifference& difference) {
   block.line("scenes", difference.values.empty()       ? "the same values"
                        : difference.values.size() == 1 ? "1 value differs"
                                                        : grouped(difference.values.size()) + " values differ");
+
+  // The values that differ.
   vector<vector<string>> rows = {{"", a, b}};
   for (const ValueDifference& value : difference.values) {
     if (rows.size() > most_shown) break;
@@ -80,6 +82,7 @@ void describe(Block& block, const RunDifference& difference) {
   if (rows.size() > 1) block.table(rows);
   if (difference.values.size() >= rows.size())
     block.line("", fmt::format("and {} more: --json has all", difference.values.size() - rows.size() + 1));
+
   const CollisionDifference& collisions = difference.collisions;
   block.line("collisions", count_text(collisions));
   if (collisions.outcome) {
@@ -89,11 +92,13 @@ void describe(Block& block, const RunDifference& difference) {
                                a, exact(collisions.outcome_b.separation_speed), b)
                  : fmt::format("{} is {} in {}, {} in {}", collisions.column, printable(collisions.cell_a), a,
                                printable(collisions.cell_b), b);
+
     const string which = collisions.outcome_a.is_rest()
                              ? fmt::format("after {}", counted(*collisions.outcome, "collision", "collisions"))
                              : fmt::format("collision {}", grouped(*collisions.outcome + 1));
     block.line("outcome", fmt::format("{}, {}, differs: {}", which, collision_text(collisions.outcome_a), how));
   }
+
   if (collisions.part)
     block.line("diverge",
                fmt::format("{}: {}: {}; {}: {}",
@@ -125,6 +130,7 @@ Json difference_json(const RunDifference& difference) {
   for (const ValueDifference& value : difference.values)
     json["values"].push_back(
         {{"path", value.path}, {"unit", value.unit}, {"a", value_json(value.a)}, {"b", value_json(value.b)}});
+
   const CollisionDifference& c = difference.collisions;
   json["collisions"] = {{"a", c.count_a}, {"b", c.count_b}, {"same", c.same}, {"part", nullptr}, {"outcome", nullptr}};
   if (c.part)
@@ -136,6 +142,7 @@ Json difference_json(const RunDifference& difference) {
                                      {"column", c.column},
                                      {"a", collision_json(c.outcome_a)},
                                      {"b", collision_json(c.outcome_b)}};
+
   json["end"] = nullptr;
   if (const auto& end = difference.end) {
     json["end"] = {{"time_a_s", end->time_a}, {"time_b_s", end->time_b}, {"bodies", end->bodies}};

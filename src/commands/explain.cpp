@@ -92,12 +92,14 @@ string row_text(const FieldPlaces& row, const Palette& palette, size_t width) {
   block.line("value", value_text(field));
   if (!field.initial.empty()) block.line("default", field.initial);
   if (!field.example.empty()) block.line("example", fmt::format("{}: {}", field.key, field.example));
+
   block.line("needed", needed_text(row));
   if (const auto others = rivals(field); !others.empty())
     block.line("excludes", listed(strings(others), others.size()));
   if (!field.with.empty()) block.line("requires", field.with);
   if (!field.engines.empty()) block.line("engines", fmt::format("{} only", listed(parts_of(field.engines))));
   block.line("stands at", listed(row.paths, row.paths.size()));
+
   const Kind* held = held_kind(field);
   if (held == nullptr) return block.text();
   block.line("keys", holds_map(field) ? "those below" : fmt::format("of each {}, those below", held->name));
@@ -156,6 +158,7 @@ Json row_json(const FieldPlaces& row) {
           {"choices", field.type == Type::choice ? Json(choices(field)) : Json(nullptr)},
           {"default", field.initial.empty() ? Json(nullptr) : json_of_yaml(field.initial)},
           {"example", field.example.empty() ? Json(nullptr) : json_of_yaml(field.example)},
+          // What must be there with it, or must not.
           {"needed", !needed_keys(row).empty()},
           {"one_of", needed_keys(row).size() > 1 ? Json(needed_keys(row)) : Json::array()},
           {"excludes", rivals(field)},
@@ -204,10 +207,12 @@ int explain(const Options& options) {
     write_out(format_page());
     return 0;
   }
+
   const Palette palette(uses_color(options.color, STDOUT_FILENO));
   const size_t width = terminal_width(STDOUT_FILENO);
   vector<string> texts;
   Json fields = Json::array(), all = Json::array(), words = Json::array();
+
   for (const string& key : words_of(options.operands)) {
     const AbsentWord* word = find_absent_word(key);
     const Kind* kind = find_kind(key);
@@ -219,6 +224,7 @@ int explain(const Options& options) {
       texts.push_back(word_text(*word, !rows.empty() || kind != nullptr, palette, width));
       words.push_back(word_json(*word));
     }
+
     // The kind comes first. A key that is called like its kind shows the kind's keys itself.
     const bool shown = std::ranges::any_of(rows, [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
     if (kind != nullptr && !shown) {
@@ -230,12 +236,14 @@ int explain(const Options& options) {
       fields.push_back(row_json(row));
     }
   }
+
   if (options.operands.empty()) {
     texts.push_back(overview(width));
     for (const auto family : families()) {
       for (const Kind& kind : family) all.push_back(kind_json(kind));
     }
   }
+
   return ended(options, 0, {{"fields", fields}, {"kinds", all}, {"words", words}}, joined(texts, "\n"));
 }
 

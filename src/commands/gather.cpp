@@ -45,13 +45,16 @@ class GatherSession {
     if (!has_sweep(source)) {
       return refuse(fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
     }
+
     try {
       const Sweep sweep = load_sweep(source + "/" + stored_sweep);
       const auto base = text_of(source, stored_base);
       if (!base || text_of(source, stored_sweep) != sweep.resolved(stored_base))
         return refuse(fmt::format("{}/{} was not written by a sweep", printable(source), stored_sweep));
+
       for (const auto& [id, errors] : stored_skips(source)) skipped_.insert(id);
       skipped_text_ = text_of(source, stored_skipped).value_or("");
+
       if (inspect_sweep_folder(folder_, sweep, *base) == SweepContent::other)
         return refuse(fmt::format("the folder {} holds something else", printable(folder_)));
       for (size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
@@ -88,12 +91,16 @@ class GatherSession {
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(options_, printable(name_of_folder(folder_)));
+
+    // Which runs each folder has.
     vector<vector<bool>> whole;  // by folder, run
     for (const string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
     if (const string edited = edited_run(sweep, whole.front()); !edited.empty()) {
       progress.clear();
       return refuse(edited + ": remove it or rename it");
     }
+
+    // Each run, copied if it is not here.
     vector<RunStatus> statuses;
     vector<string> missing, failed;
     for (size_t number = 0; number < sweep.size(); ++number) {
@@ -102,12 +109,14 @@ class GatherSession {
         statuses.push_back(RunStatus::left_out);
         continue;
       }
+
       const auto has = std::ranges::find_if(whole, [&](const auto& runs) { return runs[number]; });
       statuses.push_back(bring(sweep.id(number), static_cast<size_t>(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
       progress.update(number, 2 * sweep.size(), "runs checked or compared");
     }
+
     if (!missing.empty()) {
       progress.clear();
       complain(options_,
@@ -115,6 +124,8 @@ class GatherSession {
                            missing.size(), counted(sweep.size(), "run is", "runs are"), listed(missing, parts_shown)));
       return end("incomplete", sweep, missing, failed);
     }
+
+    // The comparison of all.
     ComparisonWatch watch;
     watch.stop_check = stop_if_interrupted;
     watch.done = [&](size_t done) {
@@ -122,6 +133,7 @@ class GatherSession {
     };
     watch.doubtful = [&](size_t runs) { doubtful_ = runs; };
     folder.finish(sweep, statuses, watch);
+
     progress.clear();
     if (!failed.empty())
       complain(options_,
@@ -151,6 +163,8 @@ class GatherSession {
         whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
       return whole;
     }
+
+    // All others are planned as a sweep is, which finds those that are done.
     sweep.base = folder + "/" + stored_base;
     Options all = options_;
     all.shard = Shard{};
@@ -158,6 +172,7 @@ class GatherSession {
     settings.load.budget.enforced = false;
     SweepJob job(std::move(sweep), folder, std::move(settings));
     job.plan([](const SweepProgress&) {});
+
     for (size_t number = 0; number < whole.size(); ++number)
       whole[number] = job.runs()[number].status == RunStatus::done;
     return whole;
@@ -171,6 +186,8 @@ class GatherSession {
       if (from > 0) copy_run(path(options_.operands[from]), path(folder_));
       return RunStatus::done;
     }
+
+    // None has it. It may have failed, here or elsewhere.
     if (!stored_failure(path(folder_)).empty()) return RunStatus::failed;
     for (size_t i = 1; i < options_.operands.size(); ++i) {
       const string why = stored_failure(path(options_.operands[i]));

@@ -87,6 +87,7 @@ vector<string> split_lists(const Words& words) {
   for (const string& list : words) {
     int depth = 0;
     parts.emplace_back();
+
     for (const char c : list) {
       depth += c == '(' ? 1 : c == ')' ? -1 : 0;
       if (c == ',' && depth <= 0)
@@ -242,7 +243,7 @@ const Option table[] = {
     {"--verbose", "-v", "", "also the expected error by its sources; takes four or\nmore runs",
      [](Options& o, const Words&) { o.accuracy = true; }},
     {"--watch", "", "", "run scenes again whenever they, their meshes or textures\nare saved, until Ctrl-C",
-     [](Options& o, const Words&) { o.watch = true; }},
+     [](Options& o, const Words&) { o.execution.watch = true; }},
     {"--at", "", "SECONDS", "draw one picture, at this time",
      [](Options& o, const Words& w) { o.at = time_of(single(w, "--at"), "--at"); }},
     {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},

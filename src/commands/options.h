@@ -55,6 +55,7 @@ struct Execution {
   optional<uint64_t> jobs;        // runs at a time
   optional<uint64_t> threads;     // of each run
   optional<double> checkpoint_s;  // s, wall time; 0: never
+  bool watch = false;             // again at each save
 };
 
 /// The options of one command. A command that lacks an option leaves its default.
@@ -76,7 +77,6 @@ struct Options {
   SubmitOptions submit;
   SweepWords sweep;
   optional<Shard> shard;
-  bool watch = false;     // of run: again at each save
   bool accuracy = false;  // of check and run: estimate the error by more runs
   bool page = false;      // of explain: the whole format
   optional<double> at;    // s, of render: the time of a still

@@ -54,6 +54,8 @@ class PlotPlanner {
     SceneFile file(former_scene_file(planned.file), load);
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
     const bool in_place = planned.folder == planned.file;
+
+    // The run, of which the charts that are possible need not be there.
     optional<PossibleCharts> charts;
     auto former =
         std::make_shared<FormerRun>(read_former_run(planned.file, file, [&](const FormerRun& run, string_view name) {
@@ -61,18 +63,21 @@ class PlotPlanner {
           // In another folder pictures are not needed. In the run's own they stay, and must be right.
           return is_drawn_by(*charts, name) || (!in_place && is_picture(name));
         }));
+
+    // The scene of the folder that is written.
     planned.scene = make_unique<Scene>(file.scene());
     if (const auto settings = settings_of_tables(*planned.scene, *former); !in_place && !settings.empty())
       *planned.scene = file.scene(settings);
+
     vector<string> outputs = {string(plot_files.folder)};
     for (const OutputKind& kind : output_kinds())
       if (in_place && kind.asked(former->scene.output)) outputs.emplace_back(kind.name);
     planned.scene->output = restricted(planned.scene->output, outputs);
     planned.scene->file = former->scene.file;
     if (const double end = former->end(); end < planned.scene->simulate.duration) planned.scene->ends_at = end;
+
     former->scene = {};
-    if (what_stands(planned.folder) == Standing::other)
-      throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+    refuse_other_file(planned.folder);
     inspect_charts(planned, possible_charts(*former));
     planned.former = std::move(former);
   }
@@ -80,20 +85,24 @@ class PlotPlanner {
  private:
   /// A folder is up to date with all charts of a run, or with all that are possible.
   static void inspect_charts(PlannedScene& planned, const PossibleCharts& charts) {
-    inspect(planned);
-    if (planned.content == FolderContent::this_run) return;
+    planned.found = look_into(planned.folder, *planned.scene);
+    if (planned.found.content == FolderContent::this_run) return;
     if (charts.names.empty())
       throw ExportError(
           fmt::format("it has neither tables nor flights to plot\n  carom run {}/scene.yaml --only plots -o OTHER "
                       "simulates it again and draws the charts",
                       printable(planned.file)));
+
+    // The folder may have those that are possible alone.
     vector<string> files = run_files(*planned.scene, planned.scene->output);
     std::erase_if(files, [&](const string& name) { return series_of(name) != nullptr && !is_drawn_by(charts, name); });
     FolderChanges changes;
-    planned.content =
+    planned.found.content =
         inspect_folder(planned.folder, *planned.scene, outputs_text(planned.scene->output), files, &changes);
-    planned.obstacle = obstacle_of(changes);
-    if (planned.folder == planned.file && planned.content != FolderContent::this_run) inspect_own_folder(planned);
+    planned.found.obstacle = obstacle_of(changes);
+
+    if (planned.folder == planned.file && planned.found.content != FolderContent::this_run)
+      planned.found = look_into_own(planned.folder);
   }
 
   const Options& options_;
@@ -105,6 +114,7 @@ void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const O
   vector<string> names(charts.names.begin(), charts.names.end());
   outcome.entry["plots"] = names;
   outcome.entry["left_out"] = Json::object();
+
   Block block(options);
   block.heading(planned.name, planned.scene->title);
   const vector<string> files = files_in(planned.folder);
@@ -115,6 +125,7 @@ void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const O
     outcome.entry["left_out"][chart.name] = chart.why;
     block.line("left out", fmt::format("{}: {}", chart.name, chart.why));
   }
+
   block.line("wrote", fmt::format("{}/{}: {}, each as SVG and PNG", printable(planned.folder), plot_files.folder,
                                   listed(names)));
   outcome.entry["files"] = files;
@@ -138,6 +149,7 @@ SceneOutcome plot_one(const PlannedScene& planned, const string& gnuplot, const 
     stop_if_interrupted();
     outcome.complaint = error.what();
   }
+
   outcome.entry["errors"] = errors_json(error_of_text(outcome.complaint, planned.file));
   outcome.complaint = fmt::format("{}: {}", printable(planned.file), outcome.complaint);
   return outcome;

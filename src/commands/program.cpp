@@ -39,6 +39,7 @@ string program_help() {
       "Usage:\n"
       "  carom COMMAND SCENE... [OPTIONS]\n\n"
       "Commands:\n";
+
   for (const Command& command : commands()) text += fmt::format("  {:24}{}\n", command.name, command.line);
   text +=
       "\nOptions:\n"
@@ -93,6 +94,8 @@ int dispatch(const vector<string>& words) {
       write_err(program_help());
       return 2;
     }
+
+    // What is said without a command.
     string first = words.front();
     vector<string> rest(words.begin() + 1, words.end());
     if (first == "--version") {
@@ -103,6 +106,7 @@ int dispatch(const vector<string>& words) {
       write_out(first == "--man" ? manual_page() : bash_completion());
       return 0;
     }
+
     if (first == "help" && !rest.empty()) {  // carom help run
       first = rest.front();
       rest = {"--help"};
@@ -111,6 +115,7 @@ int dispatch(const vector<string>& words) {
       write_out(program_help());
       return 0;
     }
+
     const Command* command = find_command(first);
     if (command == nullptr) refuse_command(first);
     name = first;

@@ -53,6 +53,7 @@ void Progress::draw_bar(double done, const string& counts, const string& left) {
   // One line, narrower than the terminal: a wrapped line cannot be drawn over.
   const size_t width = terminal_width(STDERR_FILENO) - 1;
   constexpr size_t bar_width = 20;
+
   string text = fmt::format("{} ", name_);
   if (letters_of(text) + bar_width + 24 < width) {
     const auto full = static_cast<size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
@@ -64,6 +65,7 @@ void Progress::draw_bar(double done, const string& counts, const string& left) {
   } else {
     text = fmt::format("{:3.0f} %", done * 100);
   }
+
   draw_line(text);
   drawn_ = true;
 }
@@ -107,6 +109,7 @@ void Progress::show(double done, double left_s, const string& what) {
   const double since_last = std::chrono::duration<double>(now - last_).count();
   const string left = left_text(left_s);
   const string counts = left.empty() ? what : what + ", " + left;
+
   if (choice_ == ProgressChoice::bar) {
     draw_bar(done, counts, left);
   } else {

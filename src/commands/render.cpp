@@ -61,6 +61,12 @@ string settings_text(const vector<string>& settings) {
   return text;
 }
 
+Scene scene_with(SceneFile& file, const vector<string>& set) {
+  vector<Setting> settings;
+  for (const string& text : set) settings.push_back({text, ""});
+  return file.scene(settings);
+}
+
 class Planner {
  public:
   explicit Planner(const Options& options) : options_(options) {}
@@ -70,41 +76,41 @@ class Planner {
     settle_folder(planned.file);
     settle_folder(planned.folder);
     refuse_charts(options_, planned.file);
+
+    // The run by its own scene, then that scene with what the command line changes.
     const string path = former_scene_file(planned.file);
     LoadOptions load = load_options(options_, true);
     load.set.clear();
     SceneFile file(path, load);
     auto former = std::make_shared<FormerRun>(
         read_former_run(planned.file, file, [](const FormerRun&, string_view name) { return is_picture(name); }));
+
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
-    vector<Setting> settings;
-    for (const string& set : options_.set) settings.push_back({set, ""});
-    planned.scene = make_unique<Scene>(file.scene(settings));
+    planned.scene = make_unique<Scene>(scene_with(file, options_.set));
     refuse_other_motion(file, *former, *planned.scene, path);
+
     if (!options_.at) {
-      choose_outputs(planned, *former);
+      const bool in_place = planned.folder == planned.file;
+      choose_outputs(*planned.scene, *former, in_place);
       planned.notes = idle_settings(options_.set, *planned.scene, [&](const vector<string>& set) {
-        vector<Setting> others;
-        for (const string& text : set) others.push_back({text, ""});
-        PlannedScene other;
-        other.file = planned.file;
-        other.folder = planned.folder;
-        other.scene = make_unique<Scene>(file.scene(others));
-        choose_outputs(other, *former);
-        return std::move(*other.scene);
+        Scene other = scene_with(file, set);
+        choose_outputs(other, *former, in_place);
+        return other;
       });
     }
+
     planned.scene->file = former->scene.file;
     planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    planned.engine = choose_engine(*planned.scene);
-    if (what_stands(planned.folder) == Standing::other)
-      throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+
+    planned.price = price_of(*planned.scene);
+    refuse_other_file(planned.folder);
     if (options_.at)
       check_time(former->end());
     else
       check_content(planned);
     if (options_.at || !is_up_to_date(planned, options_))
       requirements_.check(file, *planned.scene, outputs_drawn(*planned.scene));
+
     if (planned.folder == planned.file && !former->manifest.origin.path.empty()) {
       planned.origin = former->manifest.origin;
       for (const string& set : options_.set) planned.origin.settings.push_back(valid_utf8(set));
@@ -116,11 +122,10 @@ class Planner {
 
  private:
   void check_content(PlannedScene& planned) const {
-    planned.forecast = forecast(*planned.scene);
-    if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
-    inspect(planned);
+    if (!options_.force) hold_to_budget(*planned.scene, planned.price.forecast, "this would make");
+    planned.found = look_into(planned.folder, *planned.scene);
     const bool renews = planned.folder == planned.file;
-    if (renews && planned.content != FolderContent::this_run) inspect_own_folder(planned);
+    if (renews && planned.found.content != FolderContent::this_run) planned.found = look_into_own(planned.folder);
   }
 
   /// The outputs of a scene that this command draws. The charts of a run stay.
@@ -140,34 +145,38 @@ class Planner {
   void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene, const string& path) const {
     const string motion = motion_text(former.scene);
     if (motion_text(scene) == motion) return;
-    vector<Setting> settings;
+    vector<string> sets;
     for (const string& set : options_.set) {
-      settings.push_back({set, ""});
-      if (motion_text(file.scene(settings)) == motion) continue;
+      sets.push_back(set);
+      if (motion_text(scene_with(file, sets)) == motion) continue;
       throw ExportError(
           fmt::format("--set {} changes the motion, which needs a new simulation\n  carom run {}{} -o OTHER runs it",
                       printable(set), printable(path), printable(settings_text(options_.set))));
     }
   }
 
-  void choose_outputs(PlannedScene& planned, const FormerRun& former) const {
-    Output& output = planned.scene->output;
+  /// `in_place`: the pictures replace the run's own.
+  void choose_outputs(Scene& scene, const FormerRun& former, bool in_place) const {
+    Output& output = scene.output;
     const Output requested = output;
     output = restricted(requested, options_.only.value_or(names_of(requested, true)));
     if (names_of(output, true).empty())
       throw ExportError("its scene has no pictures\n  add them with --only frames, video or sheet");
     output.flights = requested.flights;
-    if (planned.folder != planned.file) return;
+    if (!in_place) return;
+
+    // The other files of the run stay, so that they must be those of the changed scene.
     const vector<string> tables = names_of(former.scene.output, false);
     Output kept = restricted(requested, tables);
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
                                     joined(tables, ", ")));
-    if (kept.plots && planned.scene->title != former.scene.title)
+    if (kept.plots && scene.title != former.scene.title)
       throw ExportError(
           fmt::format("--set changes the title, which the charts in {}/ show and render leaves as they are\n"
                       "  render to another folder with -o",
                       plot_files.folder));
+
     for (const OutputKind& kind : output_kinds())
       if (kind.asked(output)) kind.member.add(kept, output);
     output = kept;

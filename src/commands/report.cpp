@@ -46,6 +46,7 @@ string written_files(const PlannedScene& planned) {
       names.push_back(printable(file));
     }
   }
+
   for (const OutputKind& kind : output_kinds()) {
     const FileSeries& files = kind.series;
     if (const uint64_t count = series[&kind]; count > 0)
@@ -145,6 +146,7 @@ void Block::table(const vector<vector<string>>& rows) {
   vector<size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
     for (size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], letters_of(row[k]));
+
   for (const auto& row : rows) {
     string line;
     for (size_t k = 0; k < row.size(); ++k) {
@@ -201,6 +203,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
+
   if (const string text = shared_text(summary); !text.empty()) block.line("at once", text);
   if (const SharedImpacts& shared = summary.contact.shared; shared.without_room > 0)
     block.line("no room",
@@ -260,6 +263,7 @@ Json contact_json(const Summary& s) {
            {{"impacts", s.contact.taken_up.impacts},
             {"fastest_m_per_s", s.contact.taken_up.fastest},
             {"energy_J", s.contact.taken_up.energy}}},
+          // Several on one body.
           {"impacts_at_once",
            {{"instants", s.contact.shared.instants},
             {"ties", s.contact.shared.ties},

@@ -10,7 +10,7 @@ namespace {
 
 int run_scenes(const Options& options) {
   if (options.execution.threads) use_threads(*options.execution.threads);
-  if (options.watch) return watch_scenes(options);
+  if (options.execution.watch) return watch_scenes(options);
   return run_planned(options, plan_scenes(options));
 }
 

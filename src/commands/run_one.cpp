@@ -55,7 +55,7 @@ SceneOutcome run_one(const PlannedScene& planned, const Options& options, Progre
                          remark(options, fmt::format("{}: {}", printable(planned.file), text));
                        }};
   try {
-    return run_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned, options), watch),
+    return run_done(planned, run_scene(show_of(planned), planned.price.engine, settings_of(planned, options), watch),
                     options);
   } catch (const std::exception& error) {
     return run_failed(planned, reason_of(error));

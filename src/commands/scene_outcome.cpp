@@ -54,6 +54,7 @@ SceneOutcome wrong_scene(const PlannedScene& planned) {
 SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options) {
   SceneOutcome outcome = without_run(planned, scene_status::done);
   add_members(outcome.entry, planned, result);
+
   Block block(options);
   block.heading(planned.name, planned.scene->title);
   describe(block, planned, result);
@@ -62,6 +63,7 @@ SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, cons
     outcome.entry["accuracy"] = accuracy.json;
     for (const auto& [label, text] : accuracy.lines) block.line(label, text);
   }
+
   outcome.out = block.text();
   if (options.quiet) outcome.complaint = doubtful_text(planned, result.summary.warnings);
   return outcome;

@@ -33,13 +33,15 @@ function<unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoi
 string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
   OpenFolder folder(planned.folder);
-  EngineChoice engine = planned.engine;
+  EngineChoice engine = planned.price.engine;
   const function<unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, picture_needs(scene), quiet);
   function<unique_ptr<Simulator>()> motion = [&] { return replay(scene); };
+
   if (!replay) {
     settle_steps(scene, engine, stop_if_interrupted);
     motion = simulated(scene, engine, folder.place());
   }
+
   const string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));
 

@@ -40,41 +40,8 @@ string program() {
   return error ? "carom" : path.string();
 }
 
-int submit(const Options& options) {
-  Options local = options;
-  local.shard = Shard{};
-  SweepSettings settings = sweep_settings(local);
-  settings.jobs = processors();
-  SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
-  check_comparison(job);
-  job.plan([](const SweepProgress&) {});
-  const size_t runs = job.sweep().size() - job.invalid().size();
-  const size_t parts =
-      std::min(options.submit.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
-  const string folder = sweep_folder_of(options);
-  const string stem = fs::path(options.operands.front()).stem().string();
-  vector<string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
-                          "--progress", "lines"};
-  const auto add = [&](const string& name, const string& value) {
-    words.push_back(name);
-    words.push_back(value);
-  };
-  for (const string& grid : options.sweep.grid) add("--grid", grid);
-  for (const string& set : options.set) add("--set", set);
-  if (options.only) add("--only", joined(*options.only, ","));
-  if (options.sweep.random) add("--random", std::to_string(*options.sweep.random));
-  if (options.sweep.latin) add("--latin", std::to_string(*options.sweep.latin));
-  if (options.sweep.repeat) add("--repeat", std::to_string(*options.sweep.repeat));
-  if (options.sweep.skip_invalid) words.emplace_back("--skip-invalid");
-  if (!options.compare.measures.empty()) add("--measures", joined(options.compare.measures, ","));
-  if (options.seed) add("--seed", std::to_string(*options.seed));
-  if (options.force) words.emplace_back("--force");
-  string batch;
-  for (const string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
-  const string name = "carom-" + (stem.empty() ? "sweep" : stem);
-  // After SIGTERM a task has half a minute to finish its files. --open-mode: a requeued task appends to its log.
-  const string script = fmt::format(
-      R"(#!/bin/sh
+/// After SIGTERM a task has half a minute to finish its files. --open-mode: a requeued task appends to its log.
+constexpr auto script_form = R"(#!/bin/sh
 #SBATCH --job-name={0}
 #SBATCH --array=1-{1}
 #SBATCH --ntasks=1
@@ -95,9 +62,54 @@ if [ -z "${{SLURM_ARRAY_TASK_ID:-}}" ]; then
   exit
 fi
 exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
-)",
-      shell_word(name), parts, options.execution.jobs.value_or(1), batch, counted(runs, "run", "runs"),
-      shell_word(words_of({program(), "gather", folder})), words_of(words), counted(parts, "part", "parts"));
+)";
+
+/// The command of a task, except for its part.
+vector<string> sweep_words(const Options& options, const string& folder) {
+  vector<string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
+                          "--progress", "lines"};
+
+  const auto add = [&](const string& name, const string& value) {
+    words.push_back(name);
+    words.push_back(value);
+  };
+
+  for (const string& grid : options.sweep.grid) add("--grid", grid);
+  for (const string& set : options.set) add("--set", set);
+  if (options.only) add("--only", joined(*options.only, ","));
+  if (options.sweep.random) add("--random", std::to_string(*options.sweep.random));
+  if (options.sweep.latin) add("--latin", std::to_string(*options.sweep.latin));
+  if (options.sweep.repeat) add("--repeat", std::to_string(*options.sweep.repeat));
+  if (options.sweep.skip_invalid) words.emplace_back("--skip-invalid");
+
+  if (!options.compare.measures.empty()) add("--measures", joined(options.compare.measures, ","));
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.force) words.emplace_back("--force");
+  return words;
+}
+
+int submit(const Options& options) {
+  Options local = options;
+  local.shard = Shard{};
+  SweepSettings settings = sweep_settings(local);
+  settings.jobs = processors();
+  SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
+  check_comparison(job);
+  job.plan([](const SweepProgress&) {});
+
+  const size_t runs = job.sweep().size() - job.invalid().size();
+  const size_t parts =
+      std::min(options.submit.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
+  const string folder = sweep_folder_of(options);
+  const string stem = fs::path(options.operands.front()).stem().string();
+
+  string batch;
+  for (const string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
+  const string name = "carom-" + (stem.empty() ? "sweep" : stem);
+  const string script = fmt::format(script_form, shell_word(name), parts, options.execution.jobs.value_or(1), batch,
+                                    counted(runs, "run", "runs"), shell_word(words_of({program(), "gather", folder})),
+                                    words_of(sweep_words(options, folder)), counted(parts, "part", "parts"));
+
   if (!options.json) write_out(script);
   return ended(
       options, 0,

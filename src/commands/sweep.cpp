@@ -39,11 +39,13 @@ class SweepSession {
       write_err(error.what());
       complain(options_, fmt::format("{}: nothing was run", counted(error.count, "error", "errors")));
       return show_failure(options_, 2, error.records);
+
     } catch (const Interrupted& interrupted) {
       progress_.reset();
       complain(options_, fmt::format("{}: interrupted; the same command runs what is missing",
                                      printable(options_.operands.front())));
       return show_failure(options_, interrupted.exit_code(), {});
+
     } catch (const ExportError& error) {
       progress_.reset();
       const string why = with_remedy(error.what());
@@ -65,6 +67,7 @@ class SweepSession {
       return refuse(fmt::format("the folder {} holds something else, or the sweep or its base has changed since",
                                 printable(folder_)));
     }
+
     if (content == SweepContent::this_sweep && !options_.force && !options_.sweep.plan &&
         !may_read_files(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
       SweepOutcome outcome{"up to date", 0, job.sweep().size(), {}, 0};
@@ -72,18 +75,23 @@ class SweepSession {
       outcome.runs -= outcome.skipped.size();
       return show_outcome(options_, outcome, job);
     }
+
     if (const string changed = comparison_obstacle(changes_of_comparison(folder_));
         !changed.empty() && shard_.count <= 1 && !options_.force)
       return refuse(fmt::format("the folder {} holds {}", printable(folder_), changed));
+
+    // Every scenario is checked before the first is run.
     show_progress("scenarios");
     job.plan([&](const SweepProgress& p) { show_progress(p); });
     progress_.reset();
+
     if (const auto other = options_.force ? nullopt : job.other_content()) {
       const string place = job.run_folder(*other);
       const bool touched = job.runs()[*other].content == FolderContent::touched;
       return refuse(fmt::format("the folder {} holds {}", printable(place),
                                 touched ? obstacle_of(find_changes(place)) : "something other than this run"));
     }
+
     for (const string& path : job.idle_paths())
       complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
     for (const string& note : notes_on_start(job)) remark(options_, note);
@@ -101,11 +109,13 @@ class SweepSession {
     const bool is_part = shard_.count > 1;
     SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::alone, job.sweep(),
                        job.base_text(), skipped_text(job.sweep(), job.invalid()), stop_if_interrupted);
+
     SweepOutcome outcome;
     for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);
     outcome.to_do = job.left();
     share_processors(options_.execution.jobs.value_or(processors()));
     show_progress("runs");
+
     try {
       job.run([&](const SweepProgress& p) { show_progress(p); },
               [&](size_t number, const string& why) { outcome.failures.emplace_back(number, why); });
@@ -114,10 +124,12 @@ class SweepSession {
       cut_ = {outcome.to_do - left, failed, left - failed};
       throw;
     }
+
     if (!is_part) {
       vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
       show_progress("runs compared");
+
       ComparisonWatch watch;
       watch.stop_check = stop_if_interrupted;
       watch.done = [&](size_t done) {
@@ -128,6 +140,7 @@ class SweepSession {
     } else {
       sync_file_system(folder_);
     }
+
     progress_.reset();
     outcome.status = is_part ? fmt::format("part {} of {} done", shard_.index, shard_.count) : "done";
     outcome.runs = job.sweep().size() - job.invalid().size();

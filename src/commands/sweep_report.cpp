@@ -63,11 +63,13 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
   if (outcome.failures.size() > failures_shown && !options.json)
     complain(options,
              fmt::format("and {} failed", counted(outcome.failures.size() - failures_shown, "more run", "more runs")));
+
   const int code = outcome.failures.empty() ? 0 : 3;
   if (options.json) {
     Json json = begin_json(options, outcome.status);
     json["runs"] = outcome.runs;
     json["made"] = outcome.to_do - outcome.failures.size();
+
     Json failures = Json::array();
     for (const auto& [number, why] : outcome.failures)
       failures.push_back({{"run", job.sweep().id(number)}, {"errors", errors_json(error_of_text(why))}});
@@ -84,10 +86,12 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     block.line("up to date", fmt::format("{}, {}", counted(outcome.runs, "run", "runs"), printable(job.folder())));
     describe_skipped(block, outcome.skipped);
   } else {
+    // What this command has done, then what stands there.
     block.line("runs", fmt::format("{}; {}", counted(outcome.runs, "run", "runs"), outcome.status));
     block.line("made", fmt::format("{}{} in {}", counted(outcome.to_do - outcome.failures.size(), "run", "runs"),
                                    outcome.failures.empty() ? "" : fmt::format(", {} failed", outcome.failures.size()),
                                    wait_text(outcome.wall_s)));
+
     describe_doubtful(block, outcome.doubtful);
     describe_skipped(block, outcome.skipped);
     block.line("folder", printable(job.folder()));
@@ -113,10 +117,12 @@ int show_plan(const Options& options, const SweepJob& job) {
   const Sweep& sweep = job.sweep();
   vector<std::pair<string, string>> skipped;
   for (const InvalidRun& run : job.invalid()) skipped.emplace_back(sweep.id(run.number), run.messages);
+
   if (options.json) {
     Json json = begin_json(options, "planned");
     json["paths"] = sweep.paths;
     Json runs = Json::array();
+
     for (const size_t number : job.of_part()) {
       const SweepRun run = sweep.run(number);
       Json values = Json::object();
@@ -124,6 +130,7 @@ int show_plan(const Options& options, const SweepJob& job) {
         values[sweep.paths[p]] = run.values[p] ? json_of_yaml(*run.values[p]) : Json();
       runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
     }
+
     json["runs"] = std::move(runs);
     json["skipped"] = skipped_json(skipped);
     return ended(options, 0, json);

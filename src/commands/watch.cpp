@@ -49,6 +49,7 @@ class WatchSession {
       numbers.push_back(i);
       affected.push_back(std::move(scenes[i]));
     }
+
     affected = plan_scenes(std::move(affected), options_, Purpose::run,
                            [&](PlannedScene& planned) { renew_pictures(planned, changed); });
     for (size_t k = 0; k < affected.size(); ++k) files_[numbers[k]] = files_of_scene(affected[k]);
@@ -74,10 +75,10 @@ class WatchSession {
 
   /// Textures and materials are not among what makes a run up to date.
   static void renew_pictures(PlannedScene& planned, const std::set<string>& changed) {
-    if (planned.content != FolderContent::this_run || !planned.scene || !planned.scene->output.pictures()) return;
+    if (planned.found.content != FolderContent::this_run || !planned.scene || !planned.scene->output.pictures()) return;
     const std::set<string> files = files_of_scene(planned);
     if (std::ranges::any_of(files, [&](const auto& file) { return file != planned.file && changed.contains(file); }))
-      planned.content = FolderContent::incomplete;
+      planned.found.content = FolderContent::incomplete;
   }
 
   void follow() {

@@ -172,12 +172,14 @@ class Settling {
         steps.error = exact_tolerance::step_error;
         continue;
       }
+
       const bool finest = steps.error <= finest_error * finer;
       steps.error = std::max(steps.error / finer, finest_error);
       TrackedRun fine = runs_.track(way_, steps, disturbance);
       const vector<double> differences = Runs::differences(coarse, fine);
       accuracy_.steps = steps;
       note(differences);
+
       if (differences.back() <= tolerance || finest) return fine;
       // Scale by what is still missing.
       steps.error *= std::min(1.0, tolerance / differences.back());
@@ -193,17 +195,20 @@ class Settling {
     const Simulate own = std::exchange(way_, finer_way);
     const TrackedRun reference = settle_adaptive(reference_share * tolerance_, coarsest_error);
     way_ = own;
+
     const size_t known = accuracy_.right_until < scene_.simulate.duration
                              ? within(runs_.instants(), accuracy_.right_until)
                              : runs_.instants().size();
     accuracy_.reached = false;
     accuracy_.difference = std::numeric_limits<double>::infinity();
     accuracy_.steps = {};
+
     string trouble;
     // In m: with twice the step, and with four times the step.
     double before = 0, coarse = 0;
     double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
     const double bodies = static_cast<double>(scene_.world.body_count());
+
     for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
       vector<double> off;
       try {
@@ -213,6 +218,7 @@ class Settling {
         trouble = error.what();
         continue;
       }
+
       const double difference = known > 0 ? off[known - 1] : 0;
       const double steps = way_.duration / step * bodies;
       const bool out_of_reach = steps > few_steps && steps_to_go(coarse, difference) * steps > most_steps;
@@ -224,6 +230,7 @@ class Settling {
       if ((accuracy_.reached = difference <= tolerance_)) return;
       if (out_of_reach) break;
     }
+
     if (accuracy_.steps.length) return;
     if (!trouble.empty()) throw SimulationError(trouble);
     throw SimulationError(fmt::format(
@@ -258,6 +265,7 @@ void measure_growth(const vector<double>& instants, const vector<double>& apart,
   growth.factor = apart.back() / *first;
   if (small < enough(apart)) return;
   const size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
+
   // The logarithm of the growth beyond the third power of time, from one instant to another.
   const auto excess = [&](size_t from, size_t to) {
     if (!(apart[from] > 0)) return 0.0;
@@ -394,6 +402,7 @@ Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& step
     const Runs runs(scene, stop_check, end);
     const vector<double> apart = Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
     const size_t small = within(apart, large);
+
     if (small < apart.size()) {
       growth.large_at = runs.instants()[small];
       if (small < enough(apart) && growth.large_at > clock_share * way.duration) {
@@ -401,6 +410,7 @@ Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& step
         continue;
       }
     }
+
     measure_growth(runs.instants(), apart, small, growth);
     return growth;
   }

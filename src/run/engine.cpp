@@ -33,11 +33,14 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.duration = simulate.duration;
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+
   options.record_collisions = request.recording.collisions;
   options.record_paths = request.recording.paths;
   options.watch = request.recording.watch;
+
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
+
   options.one_by_one = request.steps.one_by_one;
   options.quality = &quality_of(simulate.contact.quality);
   options.threads = static_cast<int>(share_of_processors());

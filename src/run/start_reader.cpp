@@ -40,6 +40,7 @@ FormerRun opened(const string& folder, const LoadOptions& options) {
     throw StartError("it has failed: " + failure.substr(0, failure.find('\n')),
                      "name the folder of a run that is done");
   settle_folder(folder);
+
   LoadOptions load;
   load.budget = load.budget.without_outputs();
   load.budget.enforced = false;
@@ -100,6 +101,7 @@ class TableState {
         take();
         return std::move(state_);
       }
+
       if (*now > time) {
         near.after = now;
         break;
@@ -130,6 +132,8 @@ class TableState {
         take_body(body, 2);
       }
     }
+
+    // Only where bodies are gone does the state say which.
     bool gone = false;
     for (const Entity part : state_.part_of) gone = gone || part == no_entity;
     if (!gone) state_.part_of.clear();
@@ -176,19 +180,23 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
                      fmt::format("expected `at` from 0 to {} s", shortest(end)), true);
   if (lacks_impulses(run.scene, at.value_or(end)))
     throw StartError("the book's engine had not yet applied the impulses then", "expected a later `at`", true);
+
   const string file(states_file(run));
   if (!run.has(file))
     throw StartError("it has neither flights nor a trajectory",
                      "run it with `output.flights: true`, or with `output.trajectory`");
+
   FormerState former;
   for (Entity body = 0; body < run.scene.world.body_count(); ++body)
     former.names.push_back(run.scene.roster.name(body));
   former.state =
       run.has_flights() ? state_in_flights(run, at.value_or(end)) : state_in_table(run, at.value_or(end), former.names);
+
   const vector<Entity>& part_of = former.state.part_of;
   bool gone = false;
   for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
   former.has_merged = gone && run.scene.simulate.contact.merge;
+
   former.file = file;
   for (const FileRecord& record : run.manifest.files)
     if (record.name == file) former.sha256 = record.sha256;
@@ -215,6 +223,7 @@ function<FormerState(const string& folder, optional<double> at)> start_reader(co
         *last = {path};
         last->run = opened(path, options);
       }
+
       if (!last->state || last->at != at) {
         last->state.reset();
         last->state = state_of(*last->run, at);
