@@ -17,6 +17,7 @@
 #include "files/failed_run.h"
 #include "files/processors.h"
 #include "run/stages.h"
+#include "run/stopwatch.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "study/workers.h"
@@ -58,7 +59,7 @@ class Batch {
     const size_t jobs = std::min<size_t>(options_.execution.jobs.value_or(1), to_do);
 
     const int code = jobs <= 1 ? in_turn() : together(jobs, to_do);
-    list_.end(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    list_.end(since(start));
     return code != 0 ? code : list_.count(scene_status::failed) > 0 ? 1 : 0;
   }
 

@@ -154,11 +154,6 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int refuse(const Options& options, const string& text, const vector<ErrorRecord>& errors) {
-  complain(options, text);
-  return ended(options, 2, {{"status", "wrong"}, {"errors", errors_json(errors)}});
-}
-
 int show_difference(const Options& options) {
   try {
     const RunDifference difference = difference_of(options.operands[0], options.operands[1]);
@@ -168,9 +163,9 @@ int show_difference(const Options& options) {
     describe(block, difference);
     return ended(options, 0, json, block.text());
   } catch (const ExportError& error) {
-    return refuse(options, error.what(), error_of_text(error.what()));
+    return refused(options, error.what(), Json::object(), error_of_text(error.what()));
   } catch (const SceneError& error) {
-    return refuse(options, error.what(), error.records);
+    return refused(options, error.what(), Json::object(), error.records);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "physics/force.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
+#include "run/stopwatch.h"
 #include "run/survey.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -24,10 +25,6 @@ namespace carom {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The instants of the pictures; if there are too many, the largest allowed number, evenly spaced.
 Ticks instants_of(const Scene& scene, Foresight& result) {

@@ -69,8 +69,7 @@ class GatherSession {
   int refuse(const string& what) const { return refuse(what, error_of_text(what)); }
 
   int refuse(const string& what, const vector<ErrorRecord>& errors) const {
-    complain(options_, what + "; nothing was gathered");
-    return ended(options_, 2, {{"folder", folder_}, {"status", "wrong"}, {"errors", errors_json(errors)}});
+    return refused(options_, what + "; nothing was gathered", {{"folder", folder_}}, errors);
   }
 
   static bool has_sweep(const string& folder) { return what_stands(folder + "/" + stored_sweep) != Standing::nothing; }

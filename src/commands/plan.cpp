@@ -25,6 +25,7 @@
 #include "run/measure.h"
 #include "run/requirements.h"
 #include "run/start_reader.h"
+#include "run/stopwatch.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -153,7 +154,7 @@ void check(PlannedScene& planned, Planning& planning) {
   LoadedScene loaded = load(file, planned.file, options);
   planned.scene = std::move(loaded.scene);
   planned.notes = std::move(loaded.notes);
-  planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  planned.load_s = since(start);
 
   const Scene& scene = *planned.scene;
   planned.price = price_of(scene);

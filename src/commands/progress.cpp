@@ -10,6 +10,7 @@
 
 #include "commands/text.h"
 #include "numerics/whole.h"
+#include "run/stopwatch.h"
 #include "std.h"
 #include "yaml/letters.h"
 
@@ -81,8 +82,7 @@ void Progress::store(double done) {
 
 bool Progress::due() const {
   if (choice_ == ProgressChoice::none) return false;
-  const double since_last = std::chrono::duration<double>(Clock::now() - last_).count();
-  return since_last >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
+  return since(last_) >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
 }
 
 /// "1,830/s", or per minute for slower rates.
@@ -94,7 +94,7 @@ string Progress::rate(double count) const {
 }
 
 double Progress::elapsed() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
+  return since(start_);
 }
 
 /// The time to come (s), where this part of the work is done.

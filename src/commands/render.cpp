@@ -18,6 +18,7 @@
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "run/requirements.h"
+#include "run/stopwatch.h"
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -100,7 +101,7 @@ class Planner {
     }
 
     planned.scene->file = former->scene.file;
-    planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    planned.load_s = since(start);
 
     planned.price = price_of(*planned.scene);
     refuse_other_file(planned.folder);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+#include "commands/error_list.h"
 #include "commands/text.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
@@ -27,6 +28,11 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr size_t label_width = 12;
+
+optional<Manifest> manifest_in(const string& folder) {
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  return opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+}
 
 /// Whether a run that is drawn again in its own folder left this file as it was.
 bool is_kept(const PlannedScene& planned, const string& file) {
@@ -161,8 +167,7 @@ void Block::table(const vector<vector<string>>& rows) {
 
 vector<string> files_in(const string& folder) {
   vector<string> files;
-  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+  const optional<Manifest> manifest = manifest_in(folder);
   if (!manifest) return files;
   for (const FileRecord& record : manifest->files) files.push_back(record.name);
   files.push_back(manifest_name);
@@ -171,8 +176,7 @@ vector<string> files_in(const string& folder) {
 }
 
 vector<Warning> warnings_in(const string& folder) {
-  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+  const optional<Manifest> manifest = manifest_in(folder);
   return manifest ? manifest->warnings : vector<Warning>();
 }
 
@@ -297,6 +301,13 @@ int ended(const Options& options, int code, Json members, string_view text) {
   else if (!options.quiet)
     write_out(text);
   return code;
+}
+
+int refused(const Options& options, string_view complaint, Json members, const vector<ErrorRecord>& errors) {
+  complain(options, complaint);
+  members["status"] = "wrong";
+  members["errors"] = errors_json(errors);
+  return ended(options, 2, std::move(members));
 }
 
 void complain(const Options& options, string_view text) {

@@ -56,6 +56,9 @@ string document(string_view command, nlohmann::ordered_json scenes);
 /// The end of a command: with --json its document of these scenes or members, else the text, unless --quiet. Returns
 /// `code`.
 int ended(const Options& options, int code, nlohmann::ordered_json members, string_view text = {});
+/// The end of one that does nothing: a line on stderr, and the status and the errors after these members. Returns 2.
+int refused(const Options& options, string_view complaint, nlohmann::ordered_json members,
+            const vector<ErrorRecord>& errors);
 
 /// One error to stderr, after the program's name.
 void complain(const Options& options, string_view text);

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands/error_list.h"
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
@@ -122,9 +121,8 @@ int submit_sweep(const Options& options) {
     return submit(options);
   } catch (const SceneError& error) {
     write_err(error.what());
-    complain(options, fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")));
-    return ended(options, 2,
-                 {{"sweep", options.operands.front()}, {"status", "wrong"}, {"errors", errors_json(error.records)}});
+    return refused(options, fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")),
+                   {{"sweep", options.operands.front()}}, error.records);
   }
 }
 

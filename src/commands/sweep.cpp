@@ -17,6 +17,7 @@
 #include "compare/comparison_folder.h"
 #include "files/processors.h"
 #include "files/publication.h"
+#include "run/stopwatch.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "study/sweep_folder.h"
@@ -144,7 +145,7 @@ class SweepSession {
     progress_.reset();
     outcome.status = is_part ? fmt::format("part {} of {} done", shard_.index, shard_.count) : "done";
     outcome.runs = job.sweep().size() - job.invalid().size();
-    outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    outcome.wall_s = since(start);
     return show_outcome(options_, outcome, job);
   }
 
