@@ -3,16 +3,21 @@
 #include "commands/batch.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "commands/interrupt.h"
-#include "commands/progress.h"
+#include "commands/outcome_list.h"
+#include "commands/report.h"
+#include "commands/run_one.h"
 #include "commands/shared_fractions.h"
+#include "commands/text.h"
 #include "files/failed_run.h"
 #include "files/processors.h"
+#include "run/stages.h"
+#include "run/stopwatch.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "study/workers.h"
@@ -20,49 +25,113 @@
 namespace carom {
 namespace {
 
-int run_in_turn(const Batch& batch, vector<PlannedScene>& scenes, const Options& options) {
-  int code = 0;
-  for (PlannedScene& planned : scenes) {
-    try {
-      SceneOutcome outcome = code != 0                      ? without_run(planned, scene_status::not_run)
-                             : batch.is_up_to_date(planned) ? batch.up_to_date(planned)
-                                                            : batch.run(planned, progress_choice(options), nullptr);
-
-      if (names_full_disk(outcome.complaint)) code = 1;
-      batch.settle(std::move(outcome));
-    } catch (const Interrupted& signal) {
-      batch.settle(run_interrupted(planned));
-      code = signal.exit_code();
-    }
-    planned.scene.reset();  // the next one may need the memory
+int refuse(const Options& options, const vector<PlannedScene>& scenes, const string& errors) {
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const PlannedScene& planned : scenes) {
+    write_err(planned.error);
+    entries.push_back(planned.errors > 0 ? wrong_scene(planned).entry
+                                         : without_run(planned, scene_status::not_run).entry);
   }
-  return code;
+  complain(options, errors + "; nothing was run");
+  return ended(options, 2, std::move(entries));
 }
 
-/// Runs scenes in separate processes.
-class Together {
+RunAhead run_ahead(const PlannedScene& planned) {
+  const Scene& scene = *planned.scene;
+  return {.duration = scene.simulate.duration,
+          .pictures = planned.price.forecast.frames,
+          .crowd = crowd_ahead(scene, planned.price.engine.engine),
+          .draw_s = planned.price.forecast.seconds,
+          .draws_after = draws_after_motion(scene)};
+}
+
+/// The right scenes of one command line.
+class Batch {
  public:
-  Together(const Batch& batch, const vector<PlannedScene>& scenes, const Options& options, string_view command,
-           size_t to_do)
+  Batch(const Options& options, vector<PlannedScene>& scenes, const SceneWork& work)
+      : options_(options), scenes_(scenes), work_(work) {}
+
+  /// Settles every scene. Gives the program's exit code.
+  int go() {
+    const auto start = std::chrono::steady_clock::now();
+    const auto to_do = static_cast<size_t>(
+        std::ranges::count_if(scenes_, [&](const PlannedScene& planned) { return !is_up_to_date(planned, options_); }));
+    const size_t jobs = std::min<size_t>(options_.execution.jobs.value_or(1), to_do);
+
+    const int code = jobs <= 1 ? in_turn() : together(jobs, to_do);
+    list_.end(since(start));
+    return code != 0 ? code : list_.count(scene_status::failed) > 0 ? 1 : 0;
+  }
+
+ private:
+  class Together;
+
+  int in_turn() {
+    int code = 0;
+    for (PlannedScene& planned : scenes_) {
+      try {
+        SceneOutcome outcome = code != 0                          ? without_run(planned, scene_status::not_run)
+                               : is_up_to_date(planned, options_) ? run_up_to_date(planned, options_)
+                                                                  : run(planned, true, nullptr);
+
+        if (names_full_disk(outcome.complaint)) code = 1;
+        list_.add(std::move(outcome));
+      } catch (const Interrupted& signal) {
+        list_.add(run_interrupted(planned));
+        code = signal.exit_code();
+      }
+      planned.scene.reset();  // the next one may need the memory
+    }
+    return code;
+  }
+
+  int together(size_t jobs, size_t to_do);
+
+  /// `done`: where the fraction done is stored (Progress::share). May throw Interrupted.
+  SceneOutcome run(const PlannedScene& planned, bool shown, std::atomic<double>* done) const {
+    Progress progress(options_, label(planned), shown);
+    progress.share(done);
+    progress.expect(run_ahead(planned));
+    return work_(planned, progress);
+  }
+
+  /// "2/3 two_bowling_balls", or the name alone.
+  string label(const PlannedScene& planned) const {
+    const auto number = static_cast<size_t>(&planned - scenes_.data()) + 1;
+    const string name = printable(planned.name);
+    return scenes_.size() == 1 ? name : fmt::format("{}/{} {}", number, scenes_.size(), name);
+  }
+
+  const Options& options_;
+  vector<PlannedScene>& scenes_;
+  const SceneWork& work_;
+  OutcomeList list_{options_};
+};
+
+/// Runs scenes in separate processes.
+class Batch::Together {
+ public:
+  Together(Batch& batch, size_t to_do)
       : batch_(batch),
-        scenes_(scenes),
+        scenes_(batch.scenes_),
         to_do_(to_do),
-        outcomes_(scenes.size()),
-        fractions_(scenes.size()),
-        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), string(command)) {
+        outcomes_(scenes_.size()),
+        fractions_(scenes_.size()),
+        progress_(batch.options_, batch.options_.command) {
     progress_.begin_early();
   }
 
   int go(size_t jobs) {
     Tasks tasks;
     tasks.next = [this] { return next(); };
-    tasks.work = [this](size_t i) { return packed(batch_.run(scenes_[i], ProgressChoice::none, fractions_.at(i))); };
+    tasks.work = [this](size_t i) { return packed(batch_.run(scenes_[i], false, fractions_.at(i))); };
     tasks.done = [this](const TaskOutcome& outcome) { take(outcome); };
     tasks.stop_check = [this] {
       stop_if_interrupted();
       show_progress();
     };
     share_processors(jobs);
+
     int code = 0;
     try {
       work_off(tasks, jobs);
@@ -72,6 +141,7 @@ class Together {
         if (!outcomes_[i]) outcomes_[i] = run_interrupted(scenes_[i]);
       code = signal.exit_code();
     }
+
     for (size_t i = begun_; i < outcomes_.size(); ++i) outcomes_[i] = without_run(scenes_[i], scene_status::not_run);
     settle_in_order();
     return code;
@@ -80,8 +150,8 @@ class Together {
  private:
   optional<size_t> next() {
     if (disk_is_full_) return nullopt;
-    for (; begun_ < scenes_.size() && batch_.is_up_to_date(scenes_[begun_]); ++begun_)
-      outcomes_[begun_] = batch_.up_to_date(scenes_[begun_]);
+    for (; begun_ < scenes_.size() && is_up_to_date(scenes_[begun_], batch_.options_); ++begun_)
+      outcomes_[begun_] = run_up_to_date(scenes_[begun_], batch_.options_);
     return begun_ < scenes_.size() ? optional(begun_++) : nullopt;
   }
 
@@ -93,6 +163,7 @@ class Together {
       if (disk_is_full_) outcomes_[outcome.task] = without_run(scenes_[outcome.task], scene_status::not_run);
       disk_is_full_ = true;
     }
+
     if (std::atomic<double>* done = fractions_.at(outcome.task)) *done = 1;
     ++finished_;
     settle_in_order();
@@ -108,11 +179,11 @@ class Together {
   void settle_in_order() {
     for (; settled_ < outcomes_.size() && outcomes_[settled_]; ++settled_) {
       progress_.clear();
-      batch_.settle(*std::exchange(outcomes_[settled_], SceneOutcome{}));
+      batch_.list_.add(*std::exchange(outcomes_[settled_], SceneOutcome{}));
     }
   }
 
-  const Batch& batch_;
+  Batch& batch_;
   const vector<PlannedScene>& scenes_;
   const size_t to_do_;  // scenes that are not up to date
   size_t begun_ = 0, finished_ = 0, settled_ = 0;
@@ -122,14 +193,25 @@ class Together {
   Progress progress_;
 };
 
+int Batch::together(size_t jobs, size_t to_do) {
+  return Together(*this, to_do).go(jobs);
+}
+
 }  // namespace
 
-int run_batch(const Batch& batch, vector<PlannedScene>& scenes, const Options& options, string_view command) {
-  const auto to_do = static_cast<size_t>(
-      std::ranges::count_if(scenes, [&](const PlannedScene& planned) { return !batch.is_up_to_date(planned); }));
-  const size_t jobs = std::min<size_t>(options.execution.jobs.value_or(1), to_do);
-  if (jobs <= 1) return run_in_turn(batch, scenes, options);
-  return Together(batch, scenes, options, command, to_do).go(jobs);
+int run_planned(const Options& options, vector<PlannedScene> scenes, const SceneWork& work) {
+  refuse_other_content(scenes, options);
+  if (const string errors = error_count(scenes); !errors.empty()) return refuse(options, scenes, errors);
+
+  for (const PlannedScene& planned : scenes)
+    for (const string& note : planned.notes) remark(options, fmt::format("{}: {}", printable(planned.file), note));
+  return Batch(options, scenes, work).go();
+}
+
+int run_planned(const Options& options, vector<PlannedScene> scenes) {
+  return run_planned(options, std::move(scenes), [&](const PlannedScene& planned, Progress& progress) {
+    return run_one(planned, options, progress);
+  });
 }
 
 }  // namespace carom

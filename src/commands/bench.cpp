@@ -1,10 +1,7 @@
 // The scenes are measured in turn, in one process. Parallel runs would disturb one another's times.
-#include "commands/bench.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <new>
 
 #include "bench/bench_folder.h"
 #include "commands/bench_report.h"
@@ -33,6 +30,7 @@ class BenchSession {
   int go() {
     refuse_other_content(scenes_, options_);
     if (const string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
+
     int code = 0, interrupted = 0;
     for (PlannedScene& planned : scenes_) {
       Json entry = {{"scene", planned.file}, {"status", "not run"}, {"folder", planned.folder}};
@@ -45,11 +43,12 @@ class BenchSession {
           complain(options_, fmt::format("{}: interrupted; nothing was written", printable(planned.file)));
         }
       }
+
       document_.push_back(std::move(entry));
       planned.scene.reset();  // the next one may need the memory
     }
-    if (options_.json) write_out(document("bench", document_));
-    return interrupted != 0 ? interrupted : code;
+
+    return ended(options_, interrupted != 0 ? interrupted : code, document_);
   }
 
  private:
@@ -61,8 +60,7 @@ class BenchSession {
       document_.push_back(std::move(entry));
     }
     complain(options_, errors + "; nothing was run");
-    if (options_.json) write_out(document("bench", document_));
-    return 2;
+    return ended(options_, 2, document_);
   }
 
   /// Returns whether the bench succeeded. Throws Interrupted.
@@ -70,30 +68,31 @@ class BenchSession {
     try {
       bench(planned, entry);
       return true;
-    } catch (const std::bad_alloc&) {
-      fail(planned, entry, "not enough memory");
     } catch (const std::exception& error) {
       // Ctrl-C ends gnuplot too: its error is then the interrupt.
       stop_if_interrupted();
-      fail(planned, entry, error.what());
+      fail(planned, entry, reason_of(error));
+      return false;
     }
-    return false;
   }
 
   void bench(const PlannedScene& planned, Json& entry) {
     const Scene& scene = *planned.scene;
     BenchFolder folder(planned.folder, gnuplot_);
-    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), printable(planned.name));
+    Progress progress(options_, printable(planned.name));
     const BenchWatch watch{stop_if_interrupted, [&](double done, const string& what) { progress.update(done, what); }};
     const BenchResult result = run_bench(scene, options_.bench, watch);
+
     stop_if_interrupted();
     progress.clear();
     folder.write(scene, options_.bench, result);
+
     entry["status"] = "done";
     entry.update(bench_json(result));
     entry["files"] = files_in(planned.folder);
+
     if (options_.json || options_.quiet) return;
-    Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+    Block block(options_);
     block.heading(planned.name, scene.title);
     describe(block, planned, result);
     write_out(block.text());
@@ -114,36 +113,32 @@ class BenchSession {
 
 }  // namespace
 
-const CommandText& bench_text() {
-  static const CommandText text = {
-      "bench",
-      "measures run time against error by every engine, integrator and step",
-      "  carom bench scenes/two_bowling_balls.yaml\n"
-      "  carom bench scene.yaml --steps 0.1:0.0001 --repeat 9  which steps, how many timed runs\n"
-      "  carom bench scenes/*.yaml --budget 5 -o benches       benches/<scene file's stem>/...\n",
-      "Without -o a scene's bench goes to output/<scene file's stem>.bench/: bench.csv, the plot as\n"
-      "bench.png and bench.svg, scene.yaml and manifest.json. A bench of the same scene is replaced.\n"
-      "\n"
-      "Exit codes: 0 done, 1 a bench failed, 2 the command line or a scene is wrong, 130 or 143\n"
-      "interrupted.",
-      {{"--output",
-        "the bench's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>.bench)"},
-       {"--set"},
-       {"--seed"},
-       {"--steps"},
-       {"--repeat"},
-       {"--budget"},
-       {"--reference"},
-       {"--jobs", "no effect: scenes are measured one after another"},
-       {"--force", "overwrite other content of the folder"},
-       {"--progress"}}};
-  return text;
-}
-
-int bench_command(const Options& options) {
-  // Run times of one thread are compared.
-  use_threads(1);
-  return BenchSession(options).go();
-}
+const Command bench_command = {
+    "bench",
+    [](const Options& options) {
+      // Run times of one thread are compared.
+      use_threads(1);
+      return BenchSession(options).go();
+    },
+    "measures run time against error by every engine, integrator and step",
+    "  carom bench scenes/two_bowling_balls.yaml\n"
+    "  carom bench scene.yaml --steps 0.1:0.0001 --repeat 9  which steps, how many timed runs\n"
+    "  carom bench scenes/*.yaml --budget 5 -o benches       benches/<scene file's stem>/...\n",
+    "Without -o a scene's bench goes to output/<scene file's stem>.bench/: bench.csv, the plot as\n"
+    "bench.png and bench.svg, scene.yaml and manifest.json. A bench of the same scene is replaced.\n"
+    "\n"
+    "Exit codes: 0 done, 1 a bench failed, 2 the command line or a scene is wrong, 130 or 143\n"
+    "interrupted.",
+    {{"--output",
+      "the bench's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>.bench)"},
+     {"--set"},
+     {"--seed"},
+     {"--steps"},
+     {"--repeat"},
+     {"--budget"},
+     {"--reference"},
+     {"--jobs", "no effect: scenes are measured one after another"},
+     {"--force", "overwrite other content of the folder"},
+     {"--progress"}}};
 
 }  // namespace carom

@@ -76,11 +76,13 @@ Cells cells_of(const BenchRow& row, bool chaotic) {
   Cells cells = {name_of(row.method), steps.length      ? digits(*steps.length)
                                       : steps.error > 0 ? "to " + steps_text(row.method)
                                                         : ""};
+
   if (!row.failure.empty()) {
     cells.push_back("failed");
     cells.resize(chaotic ? 10 : 9);
     return cells;
   }
+
   cells.push_back(digits(row.cpu_s));
   if (row.errors) {
     for (const double error : {row.errors->position, row.errors->velocity, row.errors->energy})
@@ -88,6 +90,7 @@ Cells cells_of(const BenchRow& row, bool chaotic) {
   } else {
     cells.insert(cells.end(), 3, "");
   }
+
   cells.push_back(digits(std::max(row.max_overlap, 0.0)));
   cells.push_back(row.errors ? grouped(row.errors->missed) : "");
   cells.push_back(row.errors ? grouped(row.errors->invented) : "");

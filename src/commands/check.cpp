@@ -1,9 +1,8 @@
 // Combines the plan, the forecast of the outputs and a short trial simulation (foresight.h). A whole run would take as
 // long as `run`.
-#include "commands/check.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +33,9 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr size_t bodies_shown = 10, crossings_shown = 10, crossings_listed = 1000;
+/// By FolderContent.
+constexpr array content_names = {"new",         "up to date", "incomplete", "more outputs",
+                                 "earlier run", "changed",    "other run"};
 constexpr double trial_budget = 0.1;  // s of wall time
 constexpr const char* unknown_view = "not known: the camera frames the motion, which takes longer to simulate";
 
@@ -86,9 +88,9 @@ string regions_text(const Scene& scene) {
 
 string engine_text(const PlannedScene& planned) {
   const Simulate& simulate = planned.scene->simulate;
-  string text(name_of(planned.engine.engine));
+  string text(name_of(planned.price.engine.engine));
   if (simulate.as_printed) text += ", as printed";
-  if (!planned.engine.why.empty()) text += fmt::format(" ({})", planned.engine.why);
+  if (!planned.price.engine.why.empty()) text += fmt::format(" ({})", planned.price.engine.why);
   return text + fmt::format(", {} of motion", quantity(simulate.duration, "s"));
 }
 
@@ -100,12 +102,13 @@ string first_collision_text(const PlannedScene& planned, const Foresight& foresi
   // Smaller coordinates are rounding errors.
   const double nothing = 1e-9 * planned.scene->world.radius[c.a];
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
+
   const bool tautens = c.kind == CollisionKind::taut;
   string text =
       fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, {} at {}", roster.name(c.a), roster.name(c.b),
                   quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()), shown(c.position.z()),
                   tautens ? "which goes taut" : "closing", quantity(c.approach_speed, "m/s"));
-  if (planned.engine.engine == Engine::book) text += " (exact; the book engine detects it in a later frame)";
+  if (planned.price.engine.engine == Engine::book) text += " (exact; the book engine detects it in a later frame)";
   return text;
 }
 
@@ -173,69 +176,52 @@ string crossings_text(const PlannedScene& planned, const Findings& findings) {
 }
 
 string content_text(const PlannedScene& planned) {
-  switch (planned.content) {
+  switch (planned.found.content) {
     case FolderContent::nothing:
       return "new";
     case FolderContent::this_run:
       return "up to date";
+
     case FolderContent::incomplete:
       if (const optional<Checkpoint> kept = any_checkpoint(planned.folder))
         return fmt::format("interrupted at {} of its motion: the same command goes on there",
                            quantity(kept->time, "s"));
       return "incomplete, will be run again";
+
     case FolderContent::earlier:
       return "holds a run of the scene as it was, will be replaced";
     case FolderContent::touched:
-      return fmt::format("holds {}: run needs --force or another -o", planned.obstacle);
+      return fmt::format("holds {}: run needs --force or another -o", planned.found.obstacle);
     case FolderContent::more:
       return "holds more outputs of this scene: run needs --force or another -o";
     case FolderContent::other_run:
       break;
   }
-  return "holds another run, or files that no run wrote: run needs --force or another -o";
-}
 
-string content_name(FolderContent content) {
-  switch (content) {
-    case FolderContent::nothing:
-      return "new";
-    case FolderContent::this_run:
-      return "up to date";
-    case FolderContent::incomplete:
-      return "incomplete";
-    case FolderContent::earlier:
-      return "earlier run";
-    case FolderContent::touched:
-      return "changed";
-    case FolderContent::more:
-      return "more outputs";
-    case FolderContent::other_run:
-      break;
-  }
-  return "other run";
+  return "holds another run, or files that no run wrote: run needs --force or another -o";
 }
 
 Findings examine(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
   if (!scene.camera && !scene.output.pictures())
-    return {foresee(scene, planned.engine, nullptr, trial_budget), nullopt};
+    return {foresee(scene, planned.price.engine, nullptr, trial_budget), nullopt};
   MovingCamera camera(scene, picture_size(scene.output));
   const bool known = frame_motion(camera, trial_budget);
-  return {foresee(scene, planned.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
+  return {foresee(scene, planned.price.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
 }
 
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
 optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.simulate_s) return nullopt;
-  return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
+  return planned.load_s + *findings.foresight.simulate_s + planned.price.forecast.seconds;
 }
 
 /// Of all files: flights by the part that was simulated, all others by the scene.
 uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
-  if (!planned.scene->output.flights) return planned.forecast.bytes;
+  if (!planned.scene->output.flights) return planned.price.forecast.bytes;
   const PiecesAhead& pieces = findings.foresight.pieces;
   const double flights = flight_bytes(pieces.of_events, pieces.of_crowd);
-  return planned.forecast.bytes + static_cast<uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
+  return planned.price.forecast.bytes + static_cast<uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
 }
 
 string steps_text(double steps) {
@@ -246,8 +232,8 @@ string to_come_text(const PlannedScene& planned, const Findings& findings) {
   const optional<double> seconds = seconds_to_come(planned, findings);
   const optional<double> steps = steps_of(*planned.scene);
   return fmt::format("{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
-                     counted(planned.forecast.frames, "picture", "pictures"),
-                     counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
+                     counted(planned.price.forecast.frames, "picture", "pictures"),
+                     counted(planned.price.forecast.rows, "trajectory row", "trajectory rows"),
                      bytes_text(bytes_to_come(planned, findings)),
                      !seconds         ? "an unknown time"
                      : *seconds < 0.5 ? "less than a second"
@@ -255,8 +241,7 @@ string to_come_text(const PlannedScene& planned, const Findings& findings) {
                                       : "roughly " + wait_text(std::round(*seconds)));
 }
 
-string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, size_t width) {
-  Block block(palette, width);
+void describe(Block& block, const PlannedScene& planned, const Findings& findings) {
   block.heading(planned.name, planned.scene->title);
   block.line("bodies", bodies_text(*planned.scene));
   block.line("fixed", fixed_text(planned.scene->world));
@@ -288,7 +273,6 @@ string as_text(const PlannedScene& planned, const Findings& findings, const Pale
 
   block.line("to come", to_come_text(planned, findings));
   block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
-  return block.text();
 }
 
 Json collision_json(const Scene& scene, const Collision& c) {
@@ -341,8 +325,9 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"strings", scene.world.strings.size()},
                 {"regions", scene.roster.regions},
                 {"forces", scene.world.forces.size()},
-                {"engine", string(name_of(planned.engine.engine))},
-                {"why", planned.engine.why},
+                // How it moves.
+                {"engine", string(name_of(planned.price.engine.engine))},
+                {"why", planned.price.engine.why},
                 {"duration_s", scene.simulate.duration}};
 
   if (const auto& start = scene.made_from.start) {
@@ -362,34 +347,18 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   // What is to come.
   const optional<double> steps = steps_of(scene);
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);
-  entry["pictures"] = planned.forecast.frames;
-  entry["trajectory_rows"] = planned.forecast.rows;
+  entry["pictures"] = planned.price.forecast.frames;
+  entry["trajectory_rows"] = planned.price.forecast.rows;
   entry["bytes"] = bytes_to_come(planned, findings);
   const optional<double> seconds = seconds_to_come(planned, findings);
   entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);
   entry["folder"] = planned.folder;
-  entry["content"] = content_name(planned.content);
+  entry["content"] = content_names[static_cast<size_t>(planned.found.content)];
   return entry;
 }
 
-}  // namespace
-
-const CommandText& check_text() {
-  static const CommandText text = {
-      "check",
-      "shows what a run would do and every error of its scene, and writes nothing",
-      "  carom check scenes/two_bowling_balls.yaml\n"
-      "  carom check scenes/*.yaml -q                          only errors\n"
-      "  carom check scene.yaml --set simulate.duration=60     how long would 60 s take?\n",
-      "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong, or its outputs need what\n"
-      "this machine lacks.",
-      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
-  return text;
-}
-
-int check_command(const Options& options) {
+int check_scenes(const Options& options) {
   const vector<PlannedScene> scenes = plan_scenes(options);
-  const Palette palette(uses_color(options.color, STDOUT_FILENO));
   Json entries = Json::array();
   for (const PlannedScene& planned : scenes) {
     if (planned.errors > 0) {
@@ -402,23 +371,37 @@ int check_command(const Options& options) {
 
     const Findings findings = examine(planned);
     AccuracyReport accuracy;
-    if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.engine);
+    if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.price.engine);
     if (options.json) {
       entries.push_back(as_json(planned, findings));
       if (options.accuracy) entries.back()["accuracy"] = accuracy.json;
     } else {
-      Block block(palette, terminal_width(STDOUT_FILENO));
+      Block block(options);
+      describe(block, planned, findings);
       for (const auto& [label, text] : accuracy.lines) block.line(label, text);
-      write_out(as_text(planned, findings, palette, terminal_width(STDOUT_FILENO)) + block.text());
+      write_out(block.text());
     }
   }
 
-  if (options.json) write_out(document("check", entries));
   const string errors = error_count(scenes);
+  ended(options, 0, std::move(entries));
   if (errors.empty()) return 0;
   flush_out();
   complain(options, errors);
   return 2;
 }
+
+}  // namespace
+
+const Command check_command = {
+    "check",
+    check_scenes,
+    "shows what a run would do and every error of its scene, and writes nothing",
+    "  carom check scenes/two_bowling_balls.yaml\n"
+    "  carom check scenes/*.yaml -q                          only errors\n"
+    "  carom check scene.yaml --set simulate.duration=60     how long would 60 s take?\n",
+    "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong, or its outputs need what\n"
+    "this machine lacks.",
+    {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
 
 }  // namespace carom

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "commands/options.h"
+#include "commands/option_table.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 
@@ -15,7 +15,7 @@ namespace carom {
 
 namespace {
 
-string operands_text(const CommandText& command) {
+string operands_text(const Command& command) {
   if (command.most == 0) return "";
   const string text = " " + command.operand + (command.most > 1 ? "..." : "");
   return command.least == 0 ? " [" + text.substr(1) + "]" : text;
@@ -24,7 +24,7 @@ string operands_text(const CommandText& command) {
 // Examples first, then usage, and option lines without CLI11's notes on types and repetition.
 class HelpFormatter : public CLI::Formatter {
  public:
-  explicit HelpFormatter(const CommandText& command) : command_(command) {
+  explicit HelpFormatter(const Command& command) : command_(command) {
     column_width(26);
     label("Positionals", "Operands");
   }
@@ -40,7 +40,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  const CommandText& command_;
+  const Command& command_;
 };
 
 /// An option of the table and its values on the command line; it may be repeated until it is read.
@@ -53,12 +53,14 @@ void add_option(CLI::App& app, Given& given) {
   const Option& option = option_named(given.use.name);
   const string names = option.letter.empty() ? string(option.name) : fmt::format("{},{}", option.letter, option.name);
   const string help(given.use.help);
+
   if (option.value.empty()) {
     app.add_flag_function(
            names, [&given](int64_t count) { given.words.assign(static_cast<size_t>(count), ""); }, help)
         ->disable_flag_override();
     return;
   }
+
   app.add_option(names, given.words, help)
       ->type_name(string(option.value))
       ->expected(1)
@@ -102,7 +104,7 @@ string in_our_words(const CLI::ParseError& error) {
   return text;
 }
 
-void check_operands(const CommandText& command, const vector<string>& operands) {
+void check_operands(const Command& command, const vector<string>& operands) {
   if (operands.size() < command.least) throw UsageError(fmt::format(fmt::runtime(command.missing), command.name));
   if (operands.size() <= command.most) return;
   const string& extra = operands[command.most];
@@ -116,19 +118,22 @@ void check_operands(const CommandText& command, const vector<string>& operands) 
 
 }  // namespace
 
-ParsedOptions parse_options(const CommandText& command, const vector<string>& words) {
+ParsedOptions parse_options(const Command& command, const vector<string>& words) {
   CLI::App app;
   app.formatter(std::make_shared<HelpFormatter>(command));
   app.set_help_flag("-h,--help", "show this help");
   app.allow_extras();
   if (!command.notes.empty()) app.footer(command.notes);
+
   ParsedOptions parsed;
   Options& options = parsed.options;
+  options.command = command.name;
   if (command.most > 0) app.add_option(command.operand, options.operands, command.operand_help)->type_name("");
   vector<Given> given;
   for (const OptionUse& use : options_of(command)) given.push_back({use, {}});
   for (Given& option : given) add_option(app, option);
   refuse_single_dash(app, words);
+
   // Every word after "--" is an operand.
   const auto mark = std::ranges::find(words, "--");
   try {
@@ -141,6 +146,7 @@ ParsedOptions parse_options(const CommandText& command, const vector<string>& wo
     refuse_unknown(app);
     throw UsageError(in_our_words(error));
   }
+
   refuse_unknown(app);
   if (mark != words.end()) options.operands.insert(options.operands.end(), mark + 1, words.end());
   for (const Given& option : given)

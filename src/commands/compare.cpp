@@ -1,13 +1,11 @@
 // Checks folders, measures and charts before the first file is written. The comparison itself is that of a sweep
 // (compare/).
-#include "commands/compare.h"
+#include "commands/commands.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
@@ -61,12 +59,10 @@ class CompareSession {
       throw;
     } catch (const MeasureError& error) {
       return fail("wrong", error.what(), 2);
-    } catch (const std::bad_alloc&) {
-      return fail("failed", "not enough memory", 1);
     } catch (const std::exception& error) {
       // Ctrl-C ends ffmpeg too: its error is then the interrupt.
       stop_if_interrupted();
-      return fail("failed", error.what(), 1);
+      return fail("failed", reason_of(error), 1);
     }
   }
 
@@ -74,6 +70,8 @@ class CompareSession {
   int compare() {
     settle_folder(folder_);
     for (const string& folder : options_.operands) refuse_own_folder(folder);
+
+    // The runs, and what differs between them.
     vector<ListedRun> runs;
     try {
       runs = list_runs(options_.operands, stop_if_interrupted);
@@ -83,22 +81,28 @@ class CompareSession {
     // The file of a single sweep has the varied paths and the measures.
     const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : nullopt;
     const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs), stop_if_interrupted);
+
     vector<FilmTile> tiles;
     try {
       if (options_.compare.video) tiles = film_tiles(differences);
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
+
+    // What is compared: the sweep's own choice, with that of the command line.
     ComparisonPlan plan = sweep ? comparison_plan(*sweep, {}) : ComparisonPlan();
     plan.own = own_measures_of(differences.runs());
     if (!sweep) plan.title = title_of(options_.operands);
     plan.parameters = differences.parameters();
     plan.seed = differences.seed();
+
     if (!options_.compare.measures.empty()) plan.measures = options_.compare.measures;
     if (!options_.compare.charts.empty()) plan.charts.clear();
     for (const ChartWords& chart : options_.compare.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
     plan.collisions = plan.collisions || options_.compare.collisions;
     check(plan, differences.runs());
+
+    // Nothing but a comparison of these runs is replaced.
     const string request =
         request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.compare.video);
     FolderChanges changes;
@@ -110,6 +114,7 @@ class CompareSession {
                               printable(folder_),
                               content == FolderContent::touched ? comparison_obstacle(changes) : "something else"),
                   2);
+
     write(plan, differences, std::move(tiles), request);
     return done(plan, differences);
   }
@@ -143,29 +148,29 @@ class CompareSession {
 
   void write(const ComparisonPlan& plan, const RunSet& differences, vector<FilmTile> tiles, const string& request) {
     const size_t count = differences.runs().size();
-    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), "compare");
+    Progress progress(options_, "compare");
     const ComparisonWatch watch{stop_if_interrupted, [&](size_t read) { progress.update(read, count, "runs"); },
                                 [&](size_t runs) { doubtful_ = runs; }};
+
     ComparisonFolder folder(folder_);
     unique_ptr<SideBySide> film;
     if (options_.compare.video)
       film = make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles),
                                      find_font("the text of a film", "leave --video out"));
+
     const auto files = write_comparison(
         folder.place(), plan, count, [&](size_t number) { return differences.run(number); }, watch);
     if (film) {
       progress.update(1, "film");
       film->complete();
     }
+
     stop_if_interrupted();
     progress.clear();
     folder.publish(files, film.get(), request);
   }
 
-  int up_to_date() {
-    if (!options_.json && !options_.quiet) write_out(fmt::format("{}: up to date\n", printable(folder_)));
-    return end("up to date", 0);
-  }
+  int up_to_date() { return end("up to date", 0, fmt::format("{}: up to date\n", printable(folder_))); }
 
   int done(const ComparisonPlan& plan, const RunSet& differences) {
     const vector<ListedRun>& runs = differences.runs();
@@ -174,25 +179,24 @@ class CompareSession {
     vector<string> varied, measures;
     for (const Parameter& parameter : plan.parameters) varied.push_back(parameter.path);
     for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);
+
     document_["runs"] = runs.size();
     document_["failed"] = failed;
     document_["doubtful"] = doubtful_;
     document_["parameters"] = varied;
     document_["measures"] = measures;
-    document_["files"] = files_in(folder_);
-    if (!options_.json && !options_.quiet) {
-      constexpr size_t most = 12;
-      Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
-      block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
-      block.line("runs",
-                 failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
-      describe_doubtful(block, doubtful_);
-      block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
-      block.line("measures", listed(measures, most));
-      block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files_in(folder_), most)));
-      write_out(block.text());
-    }
-    return end("done", 0);
+    const vector<string> files = files_in(folder_);
+    document_["files"] = files;
+
+    constexpr size_t most = 12;
+    Block block(options_);
+    block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
+    block.line("runs", failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
+    describe_doubtful(block, doubtful_);
+    block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
+    block.line("measures", listed(measures, most));
+    block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files, most)));
+    return end("done", 0, block.text());
   }
 
   int fail(const char* status, const string& text, int code) {
@@ -201,10 +205,9 @@ class CompareSession {
     return end(status, code);
   }
 
-  int end(const char* status, int code) {
+  int end(const char* status, int code, string_view text = {}) {
     document_["status"] = status;
-    if (options_.json) write_out(document("compare", document_));
-    return code;
+    return ended(options_, code, document_, text);
   }
 
   const Options& options_;
@@ -215,35 +218,27 @@ class CompareSession {
 
 }  // namespace
 
-const CommandText& compare_text() {
-  static const CommandText text = {
-      "compare",
-      "compares any runs: a table, a workbook with charts, a film",
-      "  carom compare output/half output/full            writes output/comparison/\n"
-      "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
-      "  carom compare output/a output/b --video -o side  their films side by side too\n",
-      "A folder is that of a run, or of a sweep with all its runs. The parameters are the values in which the\n"
-      "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, manifest.json and, with\n"
-      "repeats (scenes that differ only in the seed), repeats.csv.\n\n"
-      "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
-      "interrupted.",
-      {{"--output", "the comparison's folder (output/comparison)"},
-       {"--measures"},
-       {"--charts"},
-       {"--collisions"},
-       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
-       {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
-       {"--progress"}},
-      "DIR",
-      "folders of runs, or of sweeps",
-      1,
-      std::numeric_limits<size_t>::max(),
-      "name the folders of runs: carom {} output/half output/full"};
-  return text;
-}
-
-int compare_command(const Options& options) {
-  return CompareSession(options).go();
-}
+const Command compare_command = {
+    "compare",
+    [](const Options& options) { return CompareSession(options).go(); },
+    "compares any runs: a table, a workbook with charts, a film",
+    "  carom compare output/half output/full            writes output/comparison/\n"
+    "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
+    "  carom compare output/a output/b --video -o side  their films side by side too\n",
+    "A folder is that of a run, or of a sweep with all its runs. The parameters are the values in which the\n"
+    "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, manifest.json and, with\n"
+    "repeats (scenes that differ only in the seed), repeats.csv.\n\n"
+    "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
+    "interrupted.",
+    {{"--output", "the comparison's folder (output/comparison)"},
+     {"--measures"},
+     {"--charts"},
+     {"--collisions"},
+     {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
+     {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
+     {"--progress"}},
+    "DIR",
+    "folders of runs, or of sweeps",
+    "name the folders of runs: carom {} output/half output/full"};
 
 }  // namespace carom

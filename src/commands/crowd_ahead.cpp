@@ -66,6 +66,7 @@ CrowdAhead crowd_ahead(const Scene& scene, Engine engine) {
   const double smallest = *std::ranges::min_element(world.radius);
   const ContactQuality& quality = quality_of(scene.simulate.contact.quality);
   const double step = quality.longest_step * std::sqrt(2 * smallest / load);
+
   CrowdAhead ahead;
   ahead.from = fall / (1 - kept);
   ahead.until = world.moves() ? never : ahead.from + falls_to_rest * fall;

@@ -1,11 +1,9 @@
 // Describes the differences found by study/run_difference.h. Numbers have all their digits, since two runs may differ
 // in the last one only.
-#include "commands/diff.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
@@ -72,6 +70,8 @@ void describe(Block& block, const RunDifference& difference) {
   block.line("scenes", difference.values.empty()       ? "the same values"
                        : difference.values.size() == 1 ? "1 value differs"
                                                        : grouped(difference.values.size()) + " values differ");
+
+  // The values that differ.
   vector<vector<string>> rows = {{"", a, b}};
   for (const ValueDifference& value : difference.values) {
     if (rows.size() > most_shown) break;
@@ -82,6 +82,7 @@ void describe(Block& block, const RunDifference& difference) {
   if (rows.size() > 1) block.table(rows);
   if (difference.values.size() >= rows.size())
     block.line("", fmt::format("and {} more: --json has all", difference.values.size() - rows.size() + 1));
+
   const CollisionDifference& collisions = difference.collisions;
   block.line("collisions", count_text(collisions));
   if (collisions.outcome) {
@@ -91,11 +92,13 @@ void describe(Block& block, const RunDifference& difference) {
                                a, exact(collisions.outcome_b.separation_speed), b)
                  : fmt::format("{} is {} in {}, {} in {}", collisions.column, printable(collisions.cell_a), a,
                                printable(collisions.cell_b), b);
+
     const string which = collisions.outcome_a.is_rest()
                              ? fmt::format("after {}", counted(*collisions.outcome, "collision", "collisions"))
                              : fmt::format("collision {}", grouped(*collisions.outcome + 1));
     block.line("outcome", fmt::format("{}, {}, differs: {}", which, collision_text(collisions.outcome_a), how));
   }
+
   if (collisions.part)
     block.line("diverge",
                fmt::format("{}: {}: {}; {}: {}",
@@ -127,6 +130,7 @@ Json difference_json(const RunDifference& difference) {
   for (const ValueDifference& value : difference.values)
     json["values"].push_back(
         {{"path", value.path}, {"unit", value.unit}, {"a", value_json(value.a)}, {"b", value_json(value.b)}});
+
   const CollisionDifference& c = difference.collisions;
   json["collisions"] = {{"a", c.count_a}, {"b", c.count_b}, {"same", c.same}, {"part", nullptr}, {"outcome", nullptr}};
   if (c.part)
@@ -138,6 +142,7 @@ Json difference_json(const RunDifference& difference) {
                                      {"column", c.column},
                                      {"a", collision_json(c.outcome_a)},
                                      {"b", collision_json(c.outcome_b)}};
+
   json["end"] = nullptr;
   if (const auto& end = difference.end) {
     json["end"] = {{"time_a_s", end->time_a}, {"time_b_s", end->time_b}, {"bodies", end->bodies}};
@@ -149,53 +154,37 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int fail_diff(const Options& options, const string& text, int code, const vector<ErrorRecord>& errors) {
-  complain(options, text);
-  if (options.json)
-    write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"errors", errors_json(errors)}}));
-  return code;
+int show_difference(const Options& options) {
+  try {
+    const RunDifference difference = difference_of(options.operands[0], options.operands[1]);
+    Json json = {{"status", "done"}};
+    json.update(difference_json(difference));
+    Block block(options);
+    describe(block, difference);
+    return ended(options, 0, json, block.text());
+  } catch (const ExportError& error) {
+    return refused(options, error.what(), Json::object(), error_of_text(error.what()));
+  } catch (const SceneError& error) {
+    return refused(options, error.what(), Json::object(), error.records);
+  }
 }
 
 }  // namespace
 
-const CommandText& diff_text() {
-  static const CommandText text = {
-      "diff",
-      "shows where two runs diverge, and how far apart they end",
-      "  carom diff output/half output/full\n"
-      "  carom diff output/falls/runs/r0001 output/falls/runs/r0002 --json\n",
-      "Scenes are compared value by value, collisions by kind, bodies and time. Both runs need\n"
-      "collisions.csv, and trajectory.csv for their ends. Nothing is written.\n\n"
-      "Exit codes: 0 done, whether equal or not, 2 the command line or a folder is wrong.",
-      {},
-      "DIR",
-      "two runs' folders",
-      2,
-      2,
-      "name two runs' folders: carom {} output/half output/full"};
-  return text;
-}
-
-int diff_command(const Options& options) {
-  try {
-    const RunDifference difference = difference_of(options.operands[0], options.operands[1]);
-    if (options.json) {
-      Json json = {{"status", "done"}};
-      json.update(difference_json(difference));
-      write_out(document("diff", json));
-    } else if (!options.quiet) {
-      Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
-      describe(block, difference);
-      write_out(block.text());
-    }
-    return 0;
-  } catch (const ExportError& error) {
-    return fail_diff(options, error.what(), 2, error_of_text(error.what()));
-  } catch (const SceneError& error) {
-    return fail_diff(options, error.what(), 2, error.records);
-  } catch (const std::bad_alloc&) {
-    return fail_diff(options, "not enough memory", 1, error_of_text("not enough memory"));
-  }
-}
+const Command diff_command = {
+    "diff",
+    show_difference,
+    "shows where two runs diverge, and how far apart they end",
+    "  carom diff output/half output/full\n"
+    "  carom diff output/falls/runs/r0001 output/falls/runs/r0002 --json\n",
+    "Scenes are compared value by value, collisions by kind, bodies and time. Both runs need\n"
+    "collisions.csv, and trajectory.csv for their ends. Nothing is written.\n\n"
+    "Exit codes: 0 done, whether equal or not, 2 the command line or a folder is wrong.",
+    {},
+    "DIR",
+    "two runs' folders",
+    "name two runs' folders: carom {} output/half output/full",
+    2,
+    2};
 
 }  // namespace carom

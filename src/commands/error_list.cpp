@@ -1,6 +1,8 @@
 // All commands have the same members, so that a reader of one can read every other.
 #include "commands/error_list.h"
 
+#include <new>
+
 #include "files/failed_run.h"
 #include "std.h"
 
@@ -42,6 +44,10 @@ string with_remedy(const string& why) {
   return names_full_disk(why)
              ? why + "\n  make room, then the same command runs what is missing, or write elsewhere with -o"
              : why;
+}
+
+string reason_of(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "not enough memory" : error.what();
 }
 
 vector<ErrorRecord> error_of_text(string_view text, string_view file) {

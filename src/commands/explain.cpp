@@ -1,6 +1,6 @@
 // A word may be a kind, a key at several places and an absent word. All its meanings are printed, because the program
 // cannot choose between them.
-#include "commands/explain.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -57,8 +57,9 @@ string needed_text(const FieldPlaces& row) {
 }
 
 /// A line for each key or kind with its meaning.
-string key_list(const vector<std::pair<string_view, string>>& rows, size_t width) {
+string key_list(const vector<std::pair<string_view, string>>& rows) {
   constexpr size_t column = 20;
+  const size_t width = terminal_width(STDOUT_FILENO);
   string text;
   for (const auto& [name, doc] : rows)
     text += fmt::format("    {:{}}{}\n", name, column - 4, wrapped(doc, column, width));
@@ -77,46 +78,48 @@ string facts_text(const Field& field, const Kind& kind) {
   return facts.empty() ? "" : fmt::format(" ({})", joined(facts, "; "));
 }
 
-string keys_text(const Kind& kind, size_t width) {
+string keys_text(const Kind& kind) {
   vector<std::pair<string_view, string>> rows;
   for (const Field& field : kind.fields) rows.emplace_back(field.key, string(field.doc) + facts_text(field, kind));
   if (kind.also != nullptr) rows.emplace_back(kind.also->key, kind.also->doc);
-  return key_list(rows, width);
+  return key_list(rows);
 }
 
-string row_text(const FieldPlaces& row, const Palette& palette, size_t width) {
+string row_text(const FieldPlaces& row, const Options& options) {
   const Field& field = *row.field;
-  Block block(palette, width);
+  Block block(options);
   block.heading(field.key, title_of(field) + (field.unit.empty() ? "" : fmt::format(" ({})", field.unit)));
   block.line("meaning", field.doc);
   block.line("value", value_text(field));
   if (!field.initial.empty()) block.line("default", field.initial);
   if (!field.example.empty()) block.line("example", fmt::format("{}: {}", field.key, field.example));
+
   block.line("needed", needed_text(row));
   if (const auto others = rivals(field); !others.empty())
     block.line("excludes", listed(strings(others), others.size()));
   if (!field.with.empty()) block.line("requires", field.with);
   if (!field.engines.empty()) block.line("engines", fmt::format("{} only", listed(parts_of(field.engines))));
   block.line("stands at", listed(row.paths, row.paths.size()));
+
   const Kind* held = held_kind(field);
   if (held == nullptr) return block.text();
   block.line("keys", holds_map(field) ? "those below" : fmt::format("of each {}, those below", held->name));
-  return block.text() + keys_text(*held, width);
+  return block.text() + keys_text(*held);
 }
 
-string kind_text(const Kind& kind, const Palette& palette, size_t width) {
-  Block block(palette, width);
+string kind_text(const Kind& kind, const Options& options) {
+  Block block(options);
   block.heading(kind.name, kind.doc);
   vector<string> paths = paths_of(kind);
   std::stable_partition(paths.begin(), paths.end(), [](const string& path) { return !path.starts_with("defaults."); });
   if (!paths.empty()) block.line("stands at", listed(paths, paths.size()));
   block.line("keys", "those below");
-  return block.text() + keys_text(kind, width);
+  return block.text() + keys_text(kind);
 }
 
 /// `is_key`: the format has a key or a kind of this name too.
-string word_text(const AbsentWord& word, bool is_key, const Palette& palette, size_t width) {
-  Block block(palette, width);
+string word_text(const AbsentWord& word, bool is_key, const Options& options) {
+  Block block(options);
   block.heading(parts_of(word.words).front(), is_key ? "other meanings" : "no key of the format");
   block.line("instead", word.meaning);
   if (!word.see.empty()) block.line("see", commands_of(word));
@@ -156,6 +159,7 @@ Json row_json(const FieldPlaces& row) {
           {"choices", field.type == Type::choice ? Json(choices(field)) : Json(nullptr)},
           {"default", field.initial.empty() ? Json(nullptr) : json_of_yaml(field.initial)},
           {"example", field.example.empty() ? Json(nullptr) : json_of_yaml(field.example)},
+          // What must be there with it, or must not.
           {"needed", !needed_keys(row).empty()},
           {"one_of", needed_keys(row).size() > 1 ? Json(needed_keys(row)) : Json::array()},
           {"excludes", rivals(field)},
@@ -170,12 +174,12 @@ Json kind_json(const Kind& kind) {
 }
 
 /// All kinds of maps, a file's own first.
-string overview(size_t width) {
+string overview() {
   string text;
   for (const auto family : families()) {
     vector<std::pair<string_view, string>> rows;
     for (const Kind& kind : family) rows.emplace_back(kind.name, kind.doc);
-    text += fmt::format("Kinds of maps in a {} file:\n", family.front().name) + key_list(rows, width) + "\n";
+    text += fmt::format("Kinds of maps in a {} file:\n", family.front().name) + key_list(rows) + "\n";
   }
   return text + "`carom explain KEY` explains a key (rest_speed, balls.red.mass) or a kind (ball).\n";
 }
@@ -198,36 +202,16 @@ vector<string> words_of(const vector<string>& operands) {
                                near.empty() ? "; `carom explain` lists its kinds" : "; " + near.substr(0, line)));
 }
 
-}  // namespace
-
-const CommandText& explain_text() {
-  static const CommandText text = {
-      "explain",
-      "explains a key of the format",
-      "  carom explain simulate.rest_speed\n"
-      "  carom explain restitution                             every place with such a key\n"
-      "  carom explain balls.red.mass                          a path as in --set\n"
-      "  carom explain friction                                what the format has instead\n"
-      "  carom explain                                         the kinds of maps in a scene\n"
-      "  carom explain --page > format.md                      all keys on a page\n",
-      "Exit codes: 0 done, 2 there is no such key.",
-      {{"--page"}},
-      "KEY",
-      "a key, a path, a kind of map or another word",
-      0};
-  return text;
-}
-
-int explain_command(const Options& options) {
+int explain(const Options& options) {
   if (options.page) {
     if (!options.operands.empty()) throw UsageError("--page prints the whole format and takes no key");
     write_out(format_page());
     return 0;
   }
-  const Palette palette(uses_color(options.color, STDOUT_FILENO));
-  const size_t width = terminal_width(STDOUT_FILENO);
+
   vector<string> texts;
   Json fields = Json::array(), all = Json::array(), words = Json::array();
+
   for (const string& key : words_of(options.operands)) {
     const AbsentWord* word = find_absent_word(key);
     const Kind* kind = find_kind(key);
@@ -236,32 +220,49 @@ int explain_command(const Options& options) {
     if (kind != nullptr) std::erase_if(rows, is_default_alone);
     if (rows.empty() && kind == nullptr && word == nullptr) refuse(key);
     if (word != nullptr) {
-      texts.push_back(word_text(*word, !rows.empty() || kind != nullptr, palette, width));
+      texts.push_back(word_text(*word, !rows.empty() || kind != nullptr, options));
       words.push_back(word_json(*word));
     }
+
     // The kind comes first. A key that is called like its kind shows the kind's keys itself.
     const bool shown = std::ranges::any_of(rows, [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
     if (kind != nullptr && !shown) {
-      texts.push_back(kind_text(*kind, palette, width));
+      texts.push_back(kind_text(*kind, options));
       all.push_back(kind_json(*kind));
     }
     for (const FieldPlaces& row : rows) {
-      texts.push_back(row_text(row, palette, width));
+      texts.push_back(row_text(row, options));
       fields.push_back(row_json(row));
     }
   }
+
   if (options.operands.empty()) {
-    texts.push_back(overview(width));
+    texts.push_back(overview());
     for (const auto family : families()) {
       for (const Kind& kind : family) all.push_back(kind_json(kind));
     }
   }
-  if (options.json) {
-    write_out(document("explain", {{"fields", fields}, {"kinds", all}, {"words", words}}));
-  } else if (!options.quiet) {
-    write_out(joined(texts, "\n"));
-  }
-  return 0;
+
+  return ended(options, 0, {{"fields", fields}, {"kinds", all}, {"words", words}}, joined(texts, "\n"));
 }
+
+}  // namespace
+
+const Command explain_command = {
+    "explain",
+    explain,
+    "explains a key of the format",
+    "  carom explain simulate.rest_speed\n"
+    "  carom explain restitution                             every place with such a key\n"
+    "  carom explain balls.red.mass                          a path as in --set\n"
+    "  carom explain friction                                what the format has instead\n"
+    "  carom explain                                         the kinds of maps in a scene\n"
+    "  carom explain --page > format.md                      all keys on a page\n",
+    "Exit codes: 0 done, 2 there is no such key.",
+    {{"--page"}},
+    "KEY",
+    "a key, a path, a kind of map or another word",
+    "",
+    0};
 
 }  // namespace carom

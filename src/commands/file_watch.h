@@ -3,15 +3,12 @@
 #include <map>
 #include <set>
 
-#include "files/output_file.h"
 #include "std.h"
 
 namespace carom {
 
 class FileWatch {
  public:
-  FileWatch();
-
   /// Watches these files instead of those before. Changes since the last call count for files that stay.
   void follow(const std::set<string>& files);
 
@@ -26,10 +23,7 @@ class FileWatch {
     friend bool operator==(const Stamp&, const Stamp&) = default;
   };
   static Stamp stamp_of(const string& file);
-  void watch_folder(const string& file);
-  bool wait() const;
 
-  Descriptor events_;
   std::map<string, Stamp> stamps_;  // by file
 };
 

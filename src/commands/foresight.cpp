@@ -15,6 +15,7 @@
 #include "physics/force.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
+#include "run/stopwatch.h"
 #include "run/survey.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -24,10 +25,6 @@ namespace carom {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The instants of the pictures; if there are too many, the largest allowed number, evenly spaced.
 Ticks instants_of(const Scene& scene, Foresight& result) {
@@ -70,6 +67,7 @@ class Trial {
       count_pieces();
       made_s_ = since(start);
       check_view_if_due();
+
       while (oracle_->time() < scene_.simulate.duration && needs_more()) advance();
       if (!result_.first && oracle_->time() < scene_.simulate.duration)
         result_.trouble = fmt::format("there is none until {:.3g} s, and a second of motion takes {:.2g} s",
@@ -120,12 +118,14 @@ class Trial {
     const double duration = scene_.simulate.duration, time = oracle_->time();
     double target = std::min(duration, result_.first ? time + duration / 100 : std::max(2 * time, duration * 0x1p-20));
     if (next_ <= last_) target = std::min(target, ticks_.at(next_));
+
     while (oracle_->time() < target) {
       stop_if_interrupted();
       const auto start = Clock::now();
       oracle_->advance_to(target);
       advance_s_ += since(start);
       count_pieces();
+
       for (const Collision& collision : oracle_->collisions()) {
         if (!result_.first && collision.kind != CollisionKind::rest) result_.first = collision;
       }
@@ -174,6 +174,7 @@ optional<double> own_engine_s(const Scene& scene, const EngineChoice& engine, do
       stop_if_interrupted();
       simulator->advance_to(std::min(duration, simulator->time() + duration / 1000));
     }
+
     if (!(simulator->time() > 0)) return nullopt;
     const double spent = since(start) - made;
     const double time = simulator->time();

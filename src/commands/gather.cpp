@@ -1,10 +1,9 @@
 // Finds each run in the sweep's folder or in one of the other folders, and copies it if necessary. The comparison is
 // then that of an undivided sweep.
-#include "commands/gather.h"
+#include "commands/commands.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -46,13 +45,16 @@ class GatherSession {
     if (!has_sweep(source)) {
       return refuse(fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
     }
+
     try {
       const Sweep sweep = load_sweep(source + "/" + stored_sweep);
       const auto base = text_of(source, stored_base);
       if (!base || text_of(source, stored_sweep) != sweep.resolved(stored_base))
         return refuse(fmt::format("{}/{} was not written by a sweep", printable(source), stored_sweep));
+
       for (const auto& [id, errors] : stored_skips(source)) skipped_.insert(id);
       skipped_text_ = text_of(source, stored_skipped).value_or("");
+
       if (inspect_sweep_folder(folder_, sweep, *base) == SweepContent::other)
         return refuse(fmt::format("the folder {} holds something else", printable(folder_)));
       for (size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
@@ -67,10 +69,7 @@ class GatherSession {
   int refuse(const string& what) const { return refuse(what, error_of_text(what)); }
 
   int refuse(const string& what, const vector<ErrorRecord>& errors) const {
-    complain(options_, what + "; nothing was gathered");
-    if (options_.json)
-      write_out(document("gather", Json{{"folder", folder_}, {"status", "wrong"}, {"errors", errors_json(errors)}}));
-    return 2;
+    return refused(options_, what + "; nothing was gathered", {{"folder", folder_}}, errors);
   }
 
   static bool has_sweep(const string& folder) { return what_stands(folder + "/" + stored_sweep) != Standing::nothing; }
@@ -90,14 +89,17 @@ class GatherSession {
     if (const string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
-    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
-                      printable(name_of_folder(folder_)));
+    Progress progress(options_, printable(name_of_folder(folder_)));
+
+    // Which runs each folder has.
     vector<vector<bool>> whole;  // by folder, run
     for (const string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
     if (const string edited = edited_run(sweep, whole.front()); !edited.empty()) {
       progress.clear();
       return refuse(edited + ": remove it or rename it");
     }
+
+    // Each run, copied if it is not here.
     vector<RunStatus> statuses;
     vector<string> missing, failed;
     for (size_t number = 0; number < sweep.size(); ++number) {
@@ -106,20 +108,23 @@ class GatherSession {
         statuses.push_back(RunStatus::left_out);
         continue;
       }
+
       const auto has = std::ranges::find_if(whole, [&](const auto& runs) { return runs[number]; });
       statuses.push_back(bring(sweep.id(number), static_cast<size_t>(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
       progress.update(number, 2 * sweep.size(), "runs checked or compared");
     }
+
     if (!missing.empty()) {
       progress.clear();
       complain(options_,
                fmt::format("{}: {} of {} missing: {}\n  run the parts with these runs again", printable(folder_),
                            missing.size(), counted(sweep.size(), "run is", "runs are"), listed(missing, parts_shown)));
-      show("incomplete", sweep, missing, failed);
-      return 1;
+      return end("incomplete", sweep, missing, failed);
     }
+
+    // The comparison of all.
     ComparisonWatch watch;
     watch.stop_check = stop_if_interrupted;
     watch.done = [&](size_t done) {
@@ -127,12 +132,12 @@ class GatherSession {
     };
     watch.doubtful = [&](size_t runs) { doubtful_ = runs; };
     folder.finish(sweep, statuses, watch);
+
     progress.clear();
     if (!failed.empty())
       complain(options_,
                fmt::format("{} failed: {}", counted(failed.size(), "run", "runs"), listed(failed, parts_shown)));
-    show("done", sweep, missing, failed);
-    return failed.empty() ? 0 : 3;
+    return end("done", sweep, missing, failed);
   }
 
   /// A run of the ended sweep here that was changed since, in words. Empty: there is none. `whole`: flags of those
@@ -157,6 +162,8 @@ class GatherSession {
         whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
       return whole;
     }
+
+    // All others are planned as a sweep is, which finds those that are done.
     sweep.base = folder + "/" + stored_base;
     Options all = options_;
     all.shard = Shard{};
@@ -164,6 +171,7 @@ class GatherSession {
     settings.load.budget.enforced = false;
     SweepJob job(std::move(sweep), folder, std::move(settings));
     job.plan([](const SweepProgress&) {});
+
     for (size_t number = 0; number < whole.size(); ++number)
       whole[number] = job.runs()[number].status == RunStatus::done;
     return whole;
@@ -177,6 +185,8 @@ class GatherSession {
       if (from > 0) copy_run(path(options_.operands[from]), path(folder_));
       return RunStatus::done;
     }
+
+    // None has it. It may have failed, here or elsewhere.
     if (!stored_failure(path(folder_)).empty()) return RunStatus::failed;
     for (size_t i = 1; i < options_.operands.size(); ++i) {
       const string why = stored_failure(path(options_.operands[i]));
@@ -187,16 +197,13 @@ class GatherSession {
     return RunStatus::missing;
   }
 
-  void show(string_view status, const Sweep& sweep, const vector<string>& missing, const vector<string>& failed) const {
-    if (options_.json) {
-      const Json json = {{"folder", folder_},    {"status", string(status)}, {"runs", sweep.size() - skipped_.size()},
-                         {"missing", missing},   {"failed", failed},         {"skipped", skipped_},
-                         {"doubtful", doubtful_}};
-      write_out(document("gather", json));
-    }
-    if (options_.json || options_.quiet || status != "done") return;
+  int end(string_view status, const Sweep& sweep, const vector<string>& missing, const vector<string>& failed) const {
     const size_t runs = sweep.size() - skipped_.size();
-    Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+    const Json json = {{"folder", folder_}, {"status", string(status)}, {"runs", runs},         {"missing", missing},
+                       {"failed", failed},  {"skipped", skipped_},      {"doubtful", doubtful_}};
+    if (!missing.empty()) return ended(options_, 1, json);
+
+    Block block(options_);
     block.heading(name_of_folder(folder_), sweep.title);
     block.line("runs", failed.empty() ? counted(runs, "run", "runs")
                                       : fmt::format("{}, {} failed", counted(runs, "run", "runs"), failed.size()));
@@ -204,7 +211,7 @@ class GatherSession {
     if (!skipped_.empty())
       block.warning("left out", fmt::format("{}: see {}", counted(skipped_.size(), "run", "runs"), stored_skipped));
     block.line("folder", printable(folder_));
-    write_out(block.text());
+    return ended(options_, failed.empty() ? 0 : 3, json, block.text());
   }
 
   const Options& options_;
@@ -216,27 +223,19 @@ class GatherSession {
 
 }  // namespace
 
-const CommandText& gather_text() {
-  static const CommandText text = {
-      "gather",
-      "joins the parts of a sweep that was made with --shard",
-      "  carom gather output/falls                             parts that were written into one folder\n"
-      "  carom gather output/falls part1 part2                 parts from elsewhere, copied into it\n",
-      "It writes summary.csv, comparison.xlsx and manifest.json, byte for byte as the same sweep in one part.\n"
-      "If runs are missing, it lists them and writes nothing.\n\n"
-      "Exit codes: 0 done, 1 runs are missing, 2 the command line is wrong or there is no sweep, 3 some\n"
-      "runs failed, 130 or 143 interrupted.",
-      {{"--progress"}},
-      "DIR",
-      "the sweep's folder, then those of parts elsewhere",
-      1,
-      std::numeric_limits<size_t>::max(),
-      "name the sweep's folder: carom {} output/falls"};
-  return text;
-}
-
-int gather_command(const Options& options) {
-  return GatherSession(options).go();
-}
+const Command gather_command = {
+    "gather",
+    [](const Options& options) { return GatherSession(options).go(); },
+    "joins the parts of a sweep that was made with --shard",
+    "  carom gather output/falls                             parts that were written into one folder\n"
+    "  carom gather output/falls part1 part2                 parts from elsewhere, copied into it\n",
+    "It writes summary.csv, comparison.xlsx and manifest.json, byte for byte as the same sweep in one part.\n"
+    "If runs are missing, it lists them and writes nothing.\n\n"
+    "Exit codes: 0 done, 1 runs are missing, 2 the command line is wrong or there is no sweep, 3 some\n"
+    "runs failed, 130 or 143 interrupted.",
+    {{"--progress"}},
+    "DIR",
+    "the sweep's folder, then those of parts elsewhere",
+    "name the sweep's folder: carom {} output/falls"};
 
 }  // namespace carom

@@ -51,6 +51,7 @@ vector<string> idle_settings(const vector<string>& set, const Scene& written,
   const auto report = [&](const string& setting, string_view why) {
     found.push_back(fmt::format("--set {} changes nothing: {}", printable(setting), why));
   };
+
   // Whether a text of the scene is the same without an option.
   const auto is_same_without = [&](size_t option, const function<string(const Scene&)>& text) {
     vector<string> others = set;
@@ -62,6 +63,7 @@ vector<string> idle_settings(const vector<string>& set, const Scene& written,
       return false;
     }
   };
+
   for (size_t i = 0; i < set.size(); ++i) {
     const string_view path = string_view(set[i]).substr(0, set[i].find('='));
     if (const OutputKind* kind = output_set(path); kind != nullptr && !kind->asked(written.output)) {

@@ -26,6 +26,7 @@ void catch_signals() {
   action.sa_handler = record_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigemptyset(&action.sa_mask);
+
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before {};
     // A signal ignored by the parent (nohup, a background job of a plain shell) stays ignored.

@@ -8,7 +8,7 @@
 #include <cctype>
 
 #include "commands/commands.h"
-#include "commands/options.h"
+#include "commands/option_table.h"
 #include "scene/field_places.h"
 #include "scene/fields.h"
 #include "std.h"
@@ -30,6 +30,7 @@ string roff(string_view text) {
       out += "\\-";
     else
       out += c;
+
     begins = c == '\n';
   }
   return out;
@@ -66,13 +67,13 @@ bool is_common(string_view name) {
   return name == "--color" || name == "--json" || name == "--quiet";
 }
 
-string operands(const CommandText& command) {
+string operands(const Command& command) {
   if (command.most == 0) return "";
   const string word = fmt::format("\\fI{}\\fR{}", roff(command.operand), command.most > 1 ? "..." : "");
   return command.least == 0 ? fmt::format(" [{}]", word) : " " + word;
 }
 
-string command_section(const CommandText& command) {
+string command_section(const Command& command) {
   string out = fmt::format(".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name),
                            roff(command.name), operands(command),
                            static_cast<char>(std::toupper(static_cast<unsigned char>(command.line[0]))),
@@ -112,63 +113,8 @@ string offer_for(const Option& option) {
   return offer_for(option.value);
 }
 
-}  // namespace
-
-string manual_page() {
-  string out = fmt::format(
-      ".TH CAROM 1 \"\" \"carom {}\" \"User Commands\"\n"
-      ".SH NAME\ncarom \\- exact motion of colliding balls, walls and planes, as data and pictures\n"
-      ".SH SYNOPSIS\n.B carom\n\\fICOMMAND\\fR [\\fIOPERAND\\fR...] [\\fIOPTIONS\\fR]\n.br\n.B carom\n\\-\\-help | "
-      "\\-\\-version | help \\fICOMMAND\\fR\n"
-      ".SH DESCRIPTION\nCarom reads scenes of balls, walls and planes in YAML. It computes their motion from collision "
-      "to "
-      "collision in closed form, or in time steps, and writes CSV tables, pictures and films.\n"
-      "Results go to standard output, progress and errors to standard error.\n"
-      ".SH COMMANDS\n",
-      CAROM_VERSION);
-  for (const Command& command : commands()) out += command_section(command.text);
-  out += ".SH OPTIONS OF EVERY COMMAND\n";
-  for (const string_view name : {"--color", "--json", "--quiet"}) out += option_item({name, option_named(name).help});
-  out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe help of the command, examples first\n";
-  out +=
-      ".SH EXIT STATUS\n"
-      ".TP\n0\ndone; also: up to date, nothing to do\n"
-      ".TP\n1\nthe run failed\n"
-      ".TP\n2\nthe command line or a scene is wrong; nothing was run\n"
-      ".TP\n3\na sweep is done and some of its runs failed\n"
-      ".TP\n130, 143\ninterrupted; finished files stay, and the same command resumes\n"
-      ".SH ENVIRONMENT\n"
-      ".TP\nNO_COLOR\nset and not empty: no colour, unless \\-\\-color always\n"
-      ".TP\nSLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT\nset by a Slurm job array: the part of a sweep to "
-      "run\n"
-      ".SH FILES\n"
-      ".TP\noutput/<scene file's stem>/\nthe files of a run, without \\-o\n";
-  return out;
-}
-
-string bash_completion() {
-  vector<string> names;
-  string of_command, of_value;
-  for (const Command& command : commands()) {
-    const CommandText& text = command.text;
-    names.push_back(text.name);
-    vector<string_view> options;
-    for (const OptionUse& use : options_of(text)) {
-      const Option& option = option_named(use.name);
-      options.push_back(option.name);
-      if (!option.letter.empty()) options.push_back(option.letter);
-    }
-    const string offer = text.most > 0 ? offer_for(text.operand) : "";
-    of_command += fmt::format("    {}) options='{} --help -h' operand=\"{}\" ;;\n", text.name, list(options), offer);
-  }
-  for (const Option& option : all_options()) {
-    if (option.value.empty()) continue;
-    const string both =
-        option.letter.empty() ? string(option.name) : fmt::format("{} | {}", option.letter, option.name);
-    const string offer = offer_for(option);
-    of_value += fmt::format("    {}) {}return ;;\n", both, offer.empty() ? "" : offer + "; ");
-  }
-  return fmt::format(R"(# bash completion for carom
+/// With the names of the commands, and the cases of each and of the options with a value.
+constexpr auto completion_script = R"(# bash completion for carom
 _carom_words() {{ mapfile -t COMPREPLY < <(compgen -W "$1" -- "$word"); }}
 # A list's next word, after its last comma.
 _carom_list() {{
@@ -215,8 +161,70 @@ _carom() {{
   esac
 }}
 complete -F _carom carom
-)",
-                     list(names), of_command, of_value);
+)";
+
+}  // namespace
+
+string manual_page() {
+  string out = fmt::format(
+      ".TH CAROM 1 \"\" \"carom {}\" \"User Commands\"\n"
+      ".SH NAME\ncarom \\- exact motion of colliding balls, walls and planes, as data and pictures\n"
+      ".SH SYNOPSIS\n.B carom\n\\fICOMMAND\\fR [\\fIOPERAND\\fR...] [\\fIOPTIONS\\fR]\n.br\n.B carom\n\\-\\-help | "
+      "\\-\\-version | help \\fICOMMAND\\fR\n"
+      ".SH DESCRIPTION\nCarom reads scenes of balls, walls and planes in YAML. It computes their motion from collision "
+      "to "
+      "collision in closed form, or in time steps, and writes CSV tables, pictures and films.\n"
+      "Results go to standard output, progress and errors to standard error.\n"
+      ".SH COMMANDS\n",
+      CAROM_VERSION);
+
+  for (const Command& command : commands()) out += command_section(command);
+  out += ".SH OPTIONS OF EVERY COMMAND\n";
+  for (const string_view name : {"--color", "--json", "--quiet"}) out += option_item({name, option_named(name).help});
+  out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe help of the command, examples first\n";
+
+  out +=
+      ".SH EXIT STATUS\n"
+      ".TP\n0\ndone; also: up to date, nothing to do\n"
+      ".TP\n1\nthe run failed\n"
+      ".TP\n2\nthe command line or a scene is wrong; nothing was run\n"
+      ".TP\n3\na sweep is done and some of its runs failed\n"
+      ".TP\n130, 143\ninterrupted; finished files stay, and the same command resumes\n"
+      ".SH ENVIRONMENT\n"
+      ".TP\nNO_COLOR\nset and not empty: no colour, unless \\-\\-color always\n"
+      ".TP\nSLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT\nset by a Slurm job array: the part of a sweep to "
+      "run\n"
+      ".SH FILES\n"
+      ".TP\noutput/<scene file's stem>/\nthe files of a run, without \\-o\n";
+
+  return out;
+}
+
+string bash_completion() {
+  vector<string> names;
+  string of_command, of_value;
+
+  // What each command takes, and each option.
+  for (const Command& command : commands()) {
+    names.push_back(command.name);
+    vector<string_view> options;
+    for (const OptionUse& use : options_of(command)) {
+      const Option& option = option_named(use.name);
+      options.push_back(option.name);
+      if (!option.letter.empty()) options.push_back(option.letter);
+    }
+    const string offer = command.most > 0 ? offer_for(command.operand) : "";
+    of_command += fmt::format("    {}) options='{} --help -h' operand=\"{}\" ;;\n", command.name, list(options), offer);
+  }
+
+  for (const Option& option : all_options()) {
+    if (option.value.empty()) continue;
+    const string both =
+        option.letter.empty() ? string(option.name) : fmt::format("{} | {}", option.letter, option.name);
+    const string offer = offer_for(option);
+    of_value += fmt::format("    {}) {}return ;;\n", both, offer.empty() ? "" : offer + "; ");
+  }
+  return fmt::format(completion_script, list(names), of_command, of_value);
 }
 
 }  // namespace carom

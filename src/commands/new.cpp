@@ -1,5 +1,5 @@
 // Writes the scene, and the JSON Schema of this version beside it. An editor then completes keys without a network.
-#include "commands/new.h"
+#include "commands/commands.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "commands/report.h"
+#include "commands/starting_scene.h"
 #include "commands/terminal.h"
 #include "commands/text.h"
 #include "files/open_folder.h"
@@ -71,27 +72,7 @@ bool is_schema(const FilePlace& place) {
   return text && text->starts_with(start);
 }
 
-}  // namespace
-
-const CommandText& new_text() {
-  static const CommandText text = {
-      "new",
-      "writes a scene to start from, with comments",
-      "  carom new first                                       writes first.yaml and scene.schema.json\n"
-      "  carom new demos/second.yaml                           the same in demos/, created if necessary\n",
-      "The scene runs as it is. With the schema beside it, an editor with a YAML language server completes\n"
-      "and checks keys. Exit codes: 0 done, 1 a file could not be written, 2 the command line is wrong or the\n"
-      "file exists already.",
-      {{"--force", "overwrite existing files"}},
-      "NAME",
-      "the scene file, with or without .yaml and a folder",
-      1,
-      1,
-      "name the scene: carom {} first"};
-  return text;
-}
-
-int new_command(const Options& options) {
+int write_new(const Options& options) {
   const fs::path path = scene_path(options.operands.front());
   const string file = path.filename().string(), parent = path.parent_path().string();
   const string folder = parent.empty() ? "." : parent;
@@ -109,12 +90,26 @@ int new_command(const Options& options) {
   scene.publish();
 
   const string beside = (path.parent_path() / schema_name).string();
-  if (options.json) {
-    write_out(document("new", {{"scene", path.string()}, {"schema", beside}}));
-  } else if (!options.quiet) {
-    write_out(fmt::format("wrote {} and {}\n", printable(path.string()), printable(beside)));
-  }
-  return 0;
+  return ended(options, 0, {{"scene", path.string()}, {"schema", beside}},
+               fmt::format("wrote {} and {}\n", printable(path.string()), printable(beside)));
 }
+
+}  // namespace
+
+const Command new_command = {
+    "new",
+    write_new,
+    "writes a scene to start from, with comments",
+    "  carom new first                                       writes first.yaml and scene.schema.json\n"
+    "  carom new demos/second.yaml                           the same in demos/, created if necessary\n",
+    "The scene runs as it is. With the schema beside it, an editor with a YAML language server completes\n"
+    "and checks keys. Exit codes: 0 done, 1 a file could not be written, 2 the command line is wrong or the\n"
+    "file exists already.",
+    {{"--force", "overwrite existing files"}},
+    "NAME",
+    "the scene file, with or without .yaml and a folder",
+    "name the scene: carom {} first",
+    1,
+    1};
 
 }  // namespace carom

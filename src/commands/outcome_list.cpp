@@ -23,11 +23,8 @@ void OutcomeList::add(SceneOutcome outcome) {
   flush_out();
 }
 
-void OutcomeList::end(string_view command, double wall) {
-  if (options_.json)
-    write_out(document(command, entries_));
-  else if (entries_.size() > 1 && !options_.quiet)
-    write_out(total(wall));
+void OutcomeList::end(double wall) {
+  ended(options_, 0, entries_, entries_.size() > 1 ? total(wall) : "");
 }
 
 string OutcomeList::total(double wall) {

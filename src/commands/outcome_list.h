@@ -14,7 +14,7 @@ class OutcomeList {
 
   void add(SceneOutcome outcome);
   /// `wall`: s, of all of them.
-  void end(string_view command, double wall);
+  void end(double wall);
   size_t count(const string& status) { return counts_[status]; }
 
  private:

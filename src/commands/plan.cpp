@@ -25,6 +25,7 @@
 #include "run/measure.h"
 #include "run/requirements.h"
 #include "run/start_reader.h"
+#include "run/stopwatch.h"
 #include "scene/load.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -36,8 +37,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-string folder_of(const Options& options, const string& name, Purpose purpose) {
-  if (!options.output) return (fs::path("output") / (purpose == Purpose::bench ? name + ".bench" : name)).string();
+/// The folder of a run: that of --output, or for several operands one in it, or `usual`.
+string folder_of(const Options& options, const string& name, const string& usual) {
+  if (!options.output) return usual;
   return options.operands.size() == 1 ? *options.output : (fs::path(*options.output) / name).string();
 }
 
@@ -72,13 +74,6 @@ SceneOrigin origin_of(const PlannedScene& planned, const Options& options) {
   return origin;
 }
 
-/// A run of this scene file before it was edited is no obstacle.
-void find_obstacle(PlannedScene& planned) {
-  const EarlierRun earlier = find_earlier_run(planned.folder, planned.origin);
-  if (earlier.is_replaceable()) planned.content = FolderContent::earlier;
-  planned.obstacle = obstacle_of(earlier.changes);
-}
-
 /// What is the same for all scenes of a command line.
 struct Planning {
   const Options& options;
@@ -87,66 +82,121 @@ struct Planning {
   Requirements requirements{};
 };
 
-void inspect_folder_of(PlannedScene& planned, const Options& options, const Output& requested) {
-  planned.origin = origin_of(planned, options);
-  inspect(planned);
-  if (planned.content == FolderContent::other_run) find_obstacle(planned);
-  const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
-  if (!options.only || !differs || !holds_all(requested, *options.only)) return;
+/// A scene as its file has it, with the outputs that are written.
+struct LoadedScene {
+  unique_ptr<Scene> scene;
+  Output requested;      // without --only
+  vector<string> notes;  // as in PlannedScene
+};
+
+LoadedScene load(SceneFile& file, const string& path, const Options& options) {
+  auto scene = make_unique<Scene>(file.scene());
+  const Output requested = scene->output;
+  const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
+  scene->output = written(requested);
+
+  vector<string> notes = scene->made_from.notes;
+  const vector<string> idle = idle_settings(options.set, *scene, [&](const vector<string>& set) {
+    LoadOptions load = load_options(options, true);
+    load.set = set;
+    Scene other = load_scene(path, load);
+    other.output = written(other.output);
+    return other;
+  });
+  notes.insert(notes.end(), idle.begin(), idle.end());
+
+  check_flights(*scene);
+  return {std::move(scene), requested, std::move(notes)};
+}
+
+FolderLook look_for_bench(const string& folder, const Scene& scene, const BenchOptions& options) {
+  FolderChanges changes;
+  const FolderContent content = inspect_bench_folder(folder, scene, options, &changes);
+  return {content, obstacle_of(changes)};
+}
+
+/// A run of this scene file before it was edited is no obstacle. `requested`: the outputs without --only.
+FolderLook look_for_run(const string& folder, const Scene& scene, const SceneOrigin& origin, const Output& requested,
+                        const optional<vector<string>>& only) {
+  FolderLook found = look_into(folder, scene);
+  if (found.content == FolderContent::other_run) {
+    const EarlierRun earlier = find_earlier_run(folder, origin);
+    if (earlier.is_replaceable()) found.content = FolderContent::earlier;
+    found.obstacle = obstacle_of(earlier.changes);
+  }
+
+  const bool differs = found.content == FolderContent::incomplete || found.content == FolderContent::more;
+  if (!only || !differs || !holds_all(requested, *only)) return found;
 
   // A whole run of this scene has the named outputs and more.
-  Scene whole = *planned.scene;
+  Scene whole = scene;
   whole.output = requested;
-  if (inspect_folder(planned.folder, whole) == FolderContent::this_run) planned.content = FolderContent::this_run;
+  if (inspect_folder(folder, whole) == FolderContent::this_run) found.content = FolderContent::this_run;
+  return found;
+}
+
+/// Throws ExportError if a run must not be written there. Completes what an interrupted one left.
+void prepare_folder(const string& folder, const optional<StartedFrom>& start) {
+  refuse_other_file(folder);
+  if (start && is_same_folder(start->folder, folder))
+    throw ExportError(
+        fmt::format("{} holds the run that this one begins with, and would be replaced\n  write elsewhere with -o",
+                    printable(folder)));
+  settle_folder(folder);
 }
 
 void check(PlannedScene& planned, Planning& planning) {
   const Options& options = planning.options;
-  const Purpose purpose = planning.purpose;
+  const bool bench = planning.purpose == Purpose::bench;
+
   const auto start = std::chrono::steady_clock::now();
-  SceneFile file(planned.file, load_options(options, options.only || purpose == Purpose::bench));
-  planned.scene = make_unique<Scene>(file.scene());
-  const Output requested = planned.scene->output;
-  const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
-  planned.scene->output = written(requested);
-  planned.notes = idle_settings(options.set, *planned.scene, [&](const vector<string>& set) {
-    LoadOptions load = load_options(options, true);
-    load.set = set;
-    Scene scene = load_scene(planned.file, load);
-    scene.output = written(scene.output);
-    return scene;
-  });
-  const MadeFrom& made_from = planned.scene->made_from;
-  planned.notes.insert(planned.notes.begin(), made_from.notes.begin(), made_from.notes.end());
-  check_flights(*planned.scene);
-  planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  planned.engine = choose_engine(*planned.scene);
-  planned.forecast = forecast(*planned.scene);
+  SceneFile file(planned.file, load_options(options, options.only || bench));
+  LoadedScene loaded = load(file, planned.file, options);
+  planned.scene = std::move(loaded.scene);
+  planned.notes = std::move(loaded.notes);
+  planned.load_s = since(start);
+
+  const Scene& scene = *planned.scene;
+  planned.price = price_of(scene);
   // With --only the outputs it leaves or adds count, not those of the file.
-  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only requests");
-  if (what_stands(planned.folder) == Standing::other)
-    throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
-  if (made_from.start && is_same_folder(made_from.start->folder, planned.folder))
-    throw ExportError(
-        fmt::format("{} holds the run that this one begins with, and would be replaced\n  write elsewhere "
-                    "with -o",
-                    printable(planned.folder)));
-  settle_folder(planned.folder);
-  if (purpose == Purpose::bench) {
-    FolderChanges changes;
-    planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench, &changes);
-    planned.obstacle = obstacle_of(changes);
+  if (options.only && !options.force) hold_to_budget(scene, planned.price.forecast, "--only requests");
+
+  prepare_folder(planned.folder, scene.made_from.start);
+  if (bench) {
+    planned.found = look_for_bench(planned.folder, scene, options.bench);
     return;
   }
-  inspect_folder_of(planned, options, requested);
+
+  planned.origin = origin_of(planned, options);
+  planned.found = look_for_run(planned.folder, scene, planned.origin, loaded.requested, options.only);
   if (planning.inspected) planning.inspected(planned);
-  if (!is_up_to_date(planned, options)) planning.requirements.check(file, *planned.scene, planned.scene->output);
+  if (!is_up_to_date(planned, options)) planning.requirements.check(file, scene, scene.output);
 }
 
 }  // namespace
 
+Price price_of(const Scene& scene) {
+  return {choose_engine(scene), forecast(scene)};
+}
+
+FolderLook look_into(const string& folder, const Scene& scene) {
+  FolderChanges changes;
+  const FolderContent content = inspect_folder(folder, scene, &changes);
+  return {content, obstacle_of(changes)};
+}
+
+FolderLook look_into_own(const string& folder) {
+  const FolderChanges changes = find_changes(folder);
+  if (changes.changed.empty()) return {FolderContent::incomplete};
+  return {FolderContent::touched, obstacle_of(changes)};
+}
+
+void refuse_other_file(const string& folder) {
+  if (what_stands(folder) == Standing::other) throw ExportError(fmt::format("{} is not a folder", printable(folder)));
+}
+
 bool is_up_to_date(const PlannedScene& planned, const Options& options) {
-  return planned.content == FolderContent::this_run && !options.force;
+  return planned.found.content == FolderContent::this_run && !options.force;
 }
 
 string obstacle_of(const FolderChanges& changes) {
@@ -158,18 +208,6 @@ string obstacle_of(const FolderChanges& changes) {
   return {};
 }
 
-void inspect(PlannedScene& planned) {
-  FolderChanges changes;
-  planned.content = inspect_folder(planned.folder, *planned.scene, &changes);
-  planned.obstacle = obstacle_of(changes);
-}
-
-void inspect_own_folder(PlannedScene& planned) {
-  const FolderChanges changes = find_changes(planned.folder);
-  planned.content = changes.changed.empty() ? FolderContent::incomplete : FolderContent::touched;
-  if (!changes.changed.empty()) planned.obstacle = obstacle_of(changes);
-}
-
 vector<PlannedScene> planned_folders(const Options& options) {
   vector<PlannedScene> runs;
   for (const string& folder : options.operands) {
@@ -177,9 +215,7 @@ vector<PlannedScene> planned_folders(const Options& options) {
     run.file = folder;
     while (run.file.size() > 1 && run.file.ends_with('/')) run.file.pop_back();
     run.name = name_of_folder(folder);
-    run.folder = !options.output                ? run.file
-                 : options.operands.size() == 1 ? *options.output
-                                                : (fs::path(*options.output) / run.name).string();
+    run.folder = folder_of(options, run.name, run.file);
   }
   return runs;
 }
@@ -215,7 +251,8 @@ vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) {
   for (size_t i = 0; i < scenes.size(); ++i) {
     scenes[i].file = options.operands[i];
     scenes[i].name = fs::path(options.operands[i]).stem().string();
-    scenes[i].folder = folder_of(options, scenes[i].name, purpose);
+    const string usual = scenes[i].name + (purpose == Purpose::bench ? ".bench" : "");
+    scenes[i].folder = folder_of(options, scenes[i].name, (fs::path("output") / usual).string());
   }
   return scenes;
 }
@@ -234,6 +271,7 @@ vector<PlannedScene> plan_scenes(vector<PlannedScene> scenes, const function<voi
   refuse_shared_folders(scenes);
   for (PlannedScene& planned : scenes) {
     stop_if_interrupted();
+
     try {
       check_one(planned);
     } catch (const SceneError& error) {
@@ -249,17 +287,17 @@ vector<PlannedScene> plan_scenes(vector<PlannedScene> scenes, const function<voi
 
 void refuse_other_content(vector<PlannedScene>& scenes, const Options& options) {
   for (PlannedScene& planned : scenes) {
-    const bool more = planned.content == FolderContent::more;
-    const bool other = planned.content == FolderContent::other_run || planned.content == FolderContent::touched;
+    const FolderContent content = planned.found.content;
+    const bool more = content == FolderContent::more;
+    const bool other = content == FolderContent::other_run || content == FolderContent::touched;
     if (planned.errors > 0 || !(other || more) || options.force) continue;
-    const string text = fmt::format("the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force",
-                                    printable(planned.folder),
-                                    !other ? "more outputs of this scene, which this run would remove"
-                                    : planned.obstacle.empty() ? "another run, or files that no run wrote"
-                                                               : planned.obstacle);
-    planned.errors = 1;
-    planned.error = fmt::format("{}: {}\n", printable(planned.file), text);
-    planned.records = error_of_text(text, planned.file);
+
+    const string& obstacle = planned.found.obstacle;
+    mark_failed(planned, fmt::format("the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force",
+                                     printable(planned.folder),
+                                     !other             ? "more outputs of this scene, which this run would remove"
+                                     : obstacle.empty() ? "another run, or files that no run wrote"
+                                                        : obstacle));
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Checks all scenes of the command line before the first is simulated. Changes nothing.
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "export/forecast.h"
 #include "files/run_folder.h"
 #include "run/engine.h"
@@ -10,6 +10,22 @@
 #include "yaml/diagnostics.h"
 
 namespace carom {
+
+/// By which engine a scene is run, and what that takes and makes.
+struct Price {
+  EngineChoice engine;
+  Forecast forecast;
+};
+Price price_of(const Scene& scene);
+
+/// What stands in the folder of a run.
+struct FolderLook {
+  FolderContent content = FolderContent::nothing;
+  string obstacle{};  // what of another content must not be overwritten, where that is known
+};
+FolderLook look_into(const string& folder, const Scene& scene);
+/// The same where the folder holds the run that is drawn again, and its other files are right: incomplete or touched.
+FolderLook look_into_own(const string& folder);
 
 /// A checked scene of the command line: either `scene` and what follows from it, or `error`.
 struct PlannedScene {
@@ -21,11 +37,9 @@ struct PlannedScene {
   vector<ErrorRecord> records;  // of the error, in parts
   unique_ptr<Scene> scene;
   double load_s = 0;  // wall time
-  EngineChoice engine;
-  Forecast forecast;
-  FolderContent content = FolderContent::nothing;
+  Price price;
+  FolderLook found;
   SceneOrigin origin{};  // of a scene that is run; its settings as UTF-8
-  string obstacle{};     // what of another content must not be overwritten, where that is known
   /// What the user may not expect of this command, for the terminal.
   vector<string> notes{};
   std::shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
@@ -64,10 +78,8 @@ string obstacle_of(const FolderChanges& changes);
 /// Whether the folder holds this very run, and --force does not ask for it again.
 bool is_up_to_date(const PlannedScene& planned, const Options& options);
 
-/// Fills in the content of the scene's folder, and what of it was changed.
-void inspect(PlannedScene& planned);
-/// The same where the folder holds the run that is drawn again, and its other files are right: incomplete or touched.
-void inspect_own_folder(PlannedScene& planned);
+/// Throws ExportError if something else has the folder's name.
+void refuse_other_file(const string& folder);
 
 /// Adds an error for each folder that holds something else, unless --force.
 void refuse_other_content(vector<PlannedScene>& scenes, const Options& options);

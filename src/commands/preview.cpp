@@ -32,12 +32,14 @@ CameraPreview preview_camera(const MovingCamera& moving, bool known) {
   const Scene& scene = moving.scene();
   const Camera camera = moving.at(scene.initial);
   const CameraFrame view = view_of(camera, moving.size());
+
   CameraPreview preview;
   preview.plus_x = direction_of_plus_x(view);
   preview.fov_x = view.fov_x;
   preview.fov_y = view.fov_y;
   preview.kind = kind_of(moving);
   if (!known) return preview;
+
   preview.out_of_view.emplace();
   for (Entity body = 0; body < scene.world.body_count(); ++body) {
     if (!is_sphere_in_view(camera, view, scene.initial.position[body], scene.world.radius[body]))

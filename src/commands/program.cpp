@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
 
+#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
@@ -24,7 +24,7 @@ namespace {
 // "run, check and bench"
 string command_names() {
   vector<string> names;
-  for (const Command& command : commands()) names.push_back(command.text.name);
+  for (const Command& command : commands()) names.push_back(command.name);
   return listed(names, names.size());
 }
 
@@ -39,7 +39,8 @@ string program_help() {
       "Usage:\n"
       "  carom COMMAND SCENE... [OPTIONS]\n\n"
       "Commands:\n";
-  for (const Command& command : commands()) text += fmt::format("  {:24}{}\n", command.text.name, command.text.line);
+
+  for (const Command& command : commands()) text += fmt::format("  {:24}{}\n", command.name, command.line);
   text +=
       "\nOptions:\n"
       "  -h,--help               this help; after a command, its own\n"
@@ -51,7 +52,7 @@ string program_help() {
 
 const Command* find_command(const string& name) {
   for (const Command& command : commands()) {
-    if (command.text.name == name) return &command;
+    if (command.name == name) return &command;
   }
   return nullptr;
 }
@@ -61,7 +62,7 @@ const Command* find_command(const string& name) {
     throw UsageError("options come after the command", fmt::format("carom run SCENE {}", printable(word)));
   }
   vector<string_view> names = {"help"};
-  for (const Command& command : commands()) names.push_back(command.text.name);
+  for (const Command& command : commands()) names.push_back(command.name);
   if (const string near = nearest(word, names); !near.empty()) {
     throw UsageError(fmt::format("no command {}; did you mean {}?", in_backticks(word), in_backticks(near)));
   }
@@ -93,6 +94,8 @@ int dispatch(const vector<string>& words) {
       write_err(program_help());
       return 2;
     }
+
+    // What is said without a command.
     string first = words.front();
     vector<string> rest(words.begin() + 1, words.end());
     if (first == "--version") {
@@ -103,6 +106,7 @@ int dispatch(const vector<string>& words) {
       write_out(first == "--man" ? manual_page() : bash_completion());
       return 0;
     }
+
     if (first == "help" && !rest.empty()) {  // carom help run
       first = rest.front();
       rest = {"--help"};
@@ -111,10 +115,11 @@ int dispatch(const vector<string>& words) {
       write_out(program_help());
       return 0;
     }
+
     const Command* command = find_command(first);
     if (command == nullptr) refuse_command(first);
     name = first;
-    const ParsedOptions parsed = parse_options(command->text, rest);
+    const ParsedOptions parsed = parse_options(*command, rest);
     if (parsed.help) {
       write_out(*parsed.help);
       return 0;
@@ -132,14 +137,11 @@ int guarded(const vector<string>& words) {
     write_failure(words, "interrupted", {});
     write_err("carom: interrupted\n");
     return interrupted.exit_code();
-  } catch (const std::bad_alloc&) {
-    write_failure(words, "failed", error_of_text("not enough memory"));
-    write_err("carom: not enough memory\n");
   } catch (const std::exception& error) {
-    write_failure(words, "failed", error_of_text(error.what()));
-    write_err(fmt::format("carom: {}\n", error.what()));
+    write_failure(words, "failed", error_of_text(reason_of(error)));
+    write_err(fmt::format("carom: {}\n", reason_of(error)));
+    return 1;
   }
-  return 1;
 }
 
 }  // namespace

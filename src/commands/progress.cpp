@@ -10,11 +10,15 @@
 
 #include "commands/text.h"
 #include "numerics/whole.h"
+#include "run/stopwatch.h"
 #include "std.h"
 #include "yaml/letters.h"
 
 namespace carom {
 
+namespace {
+
+/// The choice of --progress for this stderr.
 ProgressChoice progress_choice(const Options& options) {
   const bool terminal = is_terminal(STDERR_FILENO);
   if (options.progress == ProgressChoice::automatic && options.quiet) return ProgressChoice::none;
@@ -22,20 +26,6 @@ ProgressChoice progress_choice(const Options& options) {
   // A bar redraws its line, which only a terminal can.
   return options.progress == ProgressChoice::bar && !terminal ? ProgressChoice::lines : options.progress;
 }
-
-Progress::Progress(ProgressChoice choice, bool color, string name)
-    : choice_(choice), color_(color), name_(std::move(name)) {}
-
-Progress::~Progress() {
-  clear();
-}
-
-void Progress::clear() {
-  if (drawn_) draw_line("");
-  drawn_ = false;
-}
-
-namespace {
 
 // Whole seconds: the estimate is no more precise.
 string left_text(double left) {
@@ -46,10 +36,25 @@ string left_text(double left) {
 
 }  // namespace
 
+Progress::Progress(const Options& options, string name, bool shown)
+    : choice_(shown ? progress_choice(options) : ProgressChoice::none),
+      color_(uses_color(options.color, STDERR_FILENO)),
+      name_(std::move(name)) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::clear() {
+  if (drawn_) draw_line("");
+  drawn_ = false;
+}
+
 void Progress::draw_bar(double done, const string& counts, const string& left) {
   // One line, narrower than the terminal: a wrapped line cannot be drawn over.
   const size_t width = terminal_width(STDERR_FILENO) - 1;
   constexpr size_t bar_width = 20;
+
   string text = fmt::format("{} ", name_);
   if (letters_of(text) + bar_width + 24 < width) {
     const auto full = static_cast<size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
@@ -61,6 +66,7 @@ void Progress::draw_bar(double done, const string& counts, const string& left) {
   } else {
     text = fmt::format("{:3.0f} %", done * 100);
   }
+
   draw_line(text);
   drawn_ = true;
 }
@@ -76,8 +82,7 @@ void Progress::store(double done) {
 
 bool Progress::due() const {
   if (choice_ == ProgressChoice::none) return false;
-  const double since_last = std::chrono::duration<double>(Clock::now() - last_).count();
-  return since_last >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
+  return since(last_) >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
 }
 
 /// "1,830/s", or per minute for slower rates.
@@ -89,7 +94,7 @@ string Progress::rate(double count) const {
 }
 
 double Progress::elapsed() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
+  return since(start_);
 }
 
 /// The time to come (s), where this part of the work is done.
@@ -104,6 +109,7 @@ void Progress::show(double done, double left_s, const string& what) {
   const double since_last = std::chrono::duration<double>(now - last_).count();
   const string left = left_text(left_s);
   const string counts = left.empty() ? what : what + ", " + left;
+
   if (choice_ == ProgressChoice::bar) {
     draw_bar(done, counts, left);
   } else {

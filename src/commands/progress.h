@@ -3,19 +3,16 @@
 #include <atomic>
 #include <chrono>
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "commands/run_pace.h"
 #include "std.h"
 
 namespace carom {
 
-/// The choice of --progress for this stderr.
-ProgressChoice progress_choice(const Options& options);
-
 class Progress {
  public:
-  /// `name`: of what goes on.
-  Progress(ProgressChoice choice, bool color, string name);
+  /// `name`: of what goes on. `shown`: as --progress says; else never.
+  Progress(const Options& options, string name, bool shown = true);
   ~Progress();  // clears the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

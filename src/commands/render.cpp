@@ -1,6 +1,6 @@
 // Plans a run whose motion comes from the flights of a former run. It is then run as by `carom run`, so drawing has no
 // loop of its own.
-#include "commands/render.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "commands/batch.h"
 #include "commands/idle_settings.h"
 #include "commands/plan.h"
-#include "commands/run.h"
 #include "commands/still.h"
 #include "commands/text.h"
 #include "files/manifest.h"
@@ -18,6 +18,7 @@
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "run/requirements.h"
+#include "run/stopwatch.h"
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -61,6 +62,12 @@ string settings_text(const vector<string>& settings) {
   return text;
 }
 
+Scene scene_with(SceneFile& file, const vector<string>& set) {
+  vector<Setting> settings;
+  for (const string& text : set) settings.push_back({text, ""});
+  return file.scene(settings);
+}
+
 class Planner {
  public:
   explicit Planner(const Options& options) : options_(options) {}
@@ -70,41 +77,41 @@ class Planner {
     settle_folder(planned.file);
     settle_folder(planned.folder);
     refuse_charts(options_, planned.file);
+
+    // The run by its own scene, then that scene with what the command line changes.
     const string path = former_scene_file(planned.file);
     LoadOptions load = load_options(options_, true);
     load.set.clear();
     SceneFile file(path, load);
     auto former = std::make_shared<FormerRun>(
         read_former_run(planned.file, file, [](const FormerRun&, string_view name) { return is_picture(name); }));
+
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
-    vector<Setting> settings;
-    for (const string& set : options_.set) settings.push_back({set, ""});
-    planned.scene = make_unique<Scene>(file.scene(settings));
+    planned.scene = make_unique<Scene>(scene_with(file, options_.set));
     refuse_other_motion(file, *former, *planned.scene, path);
+
     if (!options_.at) {
-      choose_outputs(planned, *former);
+      const bool in_place = planned.folder == planned.file;
+      choose_outputs(*planned.scene, *former, in_place);
       planned.notes = idle_settings(options_.set, *planned.scene, [&](const vector<string>& set) {
-        vector<Setting> others;
-        for (const string& text : set) others.push_back({text, ""});
-        PlannedScene other;
-        other.file = planned.file;
-        other.folder = planned.folder;
-        other.scene = make_unique<Scene>(file.scene(others));
-        choose_outputs(other, *former);
-        return std::move(*other.scene);
+        Scene other = scene_with(file, set);
+        choose_outputs(other, *former, in_place);
+        return other;
       });
     }
+
     planned.scene->file = former->scene.file;
-    planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    planned.engine = choose_engine(*planned.scene);
-    if (what_stands(planned.folder) == Standing::other)
-      throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+    planned.load_s = since(start);
+
+    planned.price = price_of(*planned.scene);
+    refuse_other_file(planned.folder);
     if (options_.at)
       check_time(former->end());
     else
       check_content(planned);
     if (options_.at || !is_up_to_date(planned, options_))
       requirements_.check(file, *planned.scene, outputs_drawn(*planned.scene));
+
     if (planned.folder == planned.file && !former->manifest.origin.path.empty()) {
       planned.origin = former->manifest.origin;
       for (const string& set : options_.set) planned.origin.settings.push_back(valid_utf8(set));
@@ -116,11 +123,10 @@ class Planner {
 
  private:
   void check_content(PlannedScene& planned) const {
-    planned.forecast = forecast(*planned.scene);
-    if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
-    inspect(planned);
+    if (!options_.force) hold_to_budget(*planned.scene, planned.price.forecast, "this would make");
+    planned.found = look_into(planned.folder, *planned.scene);
     const bool renews = planned.folder == planned.file;
-    if (renews && planned.content != FolderContent::this_run) inspect_own_folder(planned);
+    if (renews && planned.found.content != FolderContent::this_run) planned.found = look_into_own(planned.folder);
   }
 
   /// The outputs of a scene that this command draws. The charts of a run stay.
@@ -140,34 +146,38 @@ class Planner {
   void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene, const string& path) const {
     const string motion = motion_text(former.scene);
     if (motion_text(scene) == motion) return;
-    vector<Setting> settings;
+    vector<string> sets;
     for (const string& set : options_.set) {
-      settings.push_back({set, ""});
-      if (motion_text(file.scene(settings)) == motion) continue;
+      sets.push_back(set);
+      if (motion_text(scene_with(file, sets)) == motion) continue;
       throw ExportError(
           fmt::format("--set {} changes the motion, which needs a new simulation\n  carom run {}{} -o OTHER runs it",
                       printable(set), printable(path), printable(settings_text(options_.set))));
     }
   }
 
-  void choose_outputs(PlannedScene& planned, const FormerRun& former) const {
-    Output& output = planned.scene->output;
+  /// `in_place`: the pictures replace the run's own.
+  void choose_outputs(Scene& scene, const FormerRun& former, bool in_place) const {
+    Output& output = scene.output;
     const Output requested = output;
     output = restricted(requested, options_.only.value_or(names_of(requested, true)));
     if (names_of(output, true).empty())
       throw ExportError("its scene has no pictures\n  add them with --only frames, video or sheet");
     output.flights = requested.flights;
-    if (planned.folder != planned.file) return;
+    if (!in_place) return;
+
+    // The other files of the run stay, so that they must be those of the changed scene.
     const vector<string> tables = names_of(former.scene.output, false);
     Output kept = restricted(requested, tables);
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
                                     joined(tables, ", ")));
-    if (kept.plots && planned.scene->title != former.scene.title)
+    if (kept.plots && scene.title != former.scene.title)
       throw ExportError(
           fmt::format("--set changes the title, which the charts in {}/ show and render leaves as they are\n"
                       "  render to another folder with -o",
                       plot_files.folder));
+
     for (const OutputKind& kind : output_kinds())
       if (kind.asked(output)) kind.member.add(kept, output);
     output = kept;
@@ -177,52 +187,46 @@ class Planner {
   Requirements requirements_;
 };
 
-}  // namespace
-
-const CommandText& render_text() {
-  static const CommandText text = {
-      "render",
-      "draws other pictures of a run, without simulating again",
-      "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
-      "  carom render output/ten_pins --set output.video.speed=0.125 -o output/slow\n"
-      "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n"
-      "  carom render output/ten_pins --at 1.25                  still_1.25s.png, one picture\n",
-      "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
-      "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without -o\n"
-      "they replace the run's own, and its other files stay. --set may change the camera, lights,\n"
-      "colours, background and the pictures and their times. A change of the motion is an error.\n"
-      "A run without flights (engines stepped and book, or output.flights: false) is simulated again.\n\n"
-      "Exit codes: 0 done or up to date, 1 failed, 2 the command line, a folder or a change is wrong,\n"
-      "130 or 143 interrupted.",
-      {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
-       {"--set"},
-       {"--only",
-        "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
-        "settings;\nframes, video and sheet take theirs from each other"},
-       {"--at",
-        "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
-       {"--jobs", "N runs at a time (1); changes no result"},
-       {"--force"},
-       {"--progress"}},
-      "DIR",
-      "folders of runs"};
-  static const CommandText whole = [] {
-    CommandText it = text;
-    it.missing = "name the folder of a run: carom {} output/two_bowling_balls";
-    return it;
-  }();
-  return whole;
-}
-
-int render_command(const Options& options) {
+int render_runs(const Options& options) {
   refuse_tables(options);
   if (options.at && options.only) throw UsageError("--at draws one picture", "leave out --only");
   Planner planner(options);
   vector<PlannedScene> runs =
       plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); });
-  if (!options.at) return run_planned(options, "render", std::move(runs));
-  return run_planned(options, "render", std::move(runs),
-                     [&](const PlannedScene& planned, const Style&, Progress&) { return still_of(planned, options); });
+  if (!options.at) return run_planned(options, std::move(runs));
+  return run_planned(options, std::move(runs),
+                     [&](const PlannedScene& planned, Progress&) { return still_of(planned, options); });
 }
+
+}  // namespace
+
+const Command render_command = {
+    "render",
+    render_runs,
+    "draws other pictures of a run, without simulating again",
+    "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
+    "  carom render output/ten_pins --set output.video.speed=0.125 -o output/slow\n"
+    "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n"
+    "  carom render output/ten_pins --at 1.25                  still_1.25s.png, one picture\n",
+    "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
+    "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without -o\n"
+    "they replace the run's own, and its other files stay. --set may change the camera, lights,\n"
+    "colours, background and the pictures and their times. A change of the motion is an error.\n"
+    "A run without flights (engines stepped and book, or output.flights: false) is simulated again.\n\n"
+    "Exit codes: 0 done or up to date, 1 failed, 2 the command line, a folder or a change is wrong,\n"
+    "130 or 143 interrupted.",
+    {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
+     {"--set"},
+     {"--only",
+      "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
+      "settings;\nframes, video and sheet take theirs from each other"},
+     {"--at",
+      "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
+     {"--jobs", "N runs at a time (1); changes no result"},
+     {"--force"},
+     {"--progress"}},
+    "DIR",
+    "folders of runs",
+    "name the folder of a run: carom {} output/two_bowling_balls"};
 
 }  // namespace carom

@@ -10,10 +10,12 @@
 #include <cmath>
 #include <map>
 
+#include "commands/error_list.h"
 #include "commands/text.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/series_folders.h"
+#include "files/summary_columns.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/letters.h"
@@ -26,6 +28,11 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr size_t label_width = 12;
+
+optional<Manifest> manifest_in(const string& folder) {
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  return opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+}
 
 /// Whether a run that is drawn again in its own folder left this file as it was.
 bool is_kept(const PlannedScene& planned, const string& file) {
@@ -45,6 +52,7 @@ string written_files(const PlannedScene& planned) {
       names.push_back(printable(file));
     }
   }
+
   for (const OutputKind& kind : output_kinds()) {
     const FileSeries& files = kind.series;
     if (const uint64_t count = series[&kind]; count > 0)
@@ -121,6 +129,9 @@ Json number_or_null(double value) {
 
 }  // namespace
 
+Block::Block(const Options& options)
+    : Block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)) {}
+
 void Block::heading(string_view name, string_view title) {
   text_ += fmt::format("{}{}{}", palette_.bold, printable(name), palette_.reset);
   if (!title.empty() && title != name) text_ += ": " + wrapped(printable(title), letters_of(name) + 2, width_);
@@ -141,6 +152,7 @@ void Block::table(const vector<vector<string>>& rows) {
   vector<size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
     for (size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], letters_of(row[k]));
+
   for (const auto& row : rows) {
     string line;
     for (size_t k = 0; k < row.size(); ++k) {
@@ -155,8 +167,7 @@ void Block::table(const vector<vector<string>>& rows) {
 
 vector<string> files_in(const string& folder) {
   vector<string> files;
-  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+  const optional<Manifest> manifest = manifest_in(folder);
   if (!manifest) return files;
   for (const FileRecord& record : manifest->files) files.push_back(record.name);
   files.push_back(manifest_name);
@@ -165,8 +176,7 @@ vector<string> files_in(const string& folder) {
 }
 
 vector<Warning> warnings_in(const string& folder) {
-  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  const optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
+  const optional<Manifest> manifest = manifest_in(folder);
   return manifest ? manifest->warnings : vector<Warning>();
 }
 
@@ -197,6 +207,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
+
   if (const string text = shared_text(summary); !text.empty()) block.line("at once", text);
   if (const SharedImpacts& shared = summary.contact.shared; shared.without_room > 0)
     block.line("no room",
@@ -223,32 +234,17 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
                   wait_text(std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s))));
 }
 
-Json summary_json(const Summary& s) {
-  return {{"title", s.title},
-          {"engine", s.engine},
-          {"status", s.status},
-          {"duration_s", s.duration},
-          {"bodies", s.bodies},
-          {"collisions", s.collisions},
-          {"body_body", s.body_body},
-          {"body_fixed", s.body_fixed},
-          {"first_collision_s", number_or_null(s.first_collision)},
-          {"last_collision_s", number_or_null(s.last_collision)},
-          {"energy_start_J", number_or_null(s.energy.start)},
-          {"energy_end_J", number_or_null(s.energy.end)},
-          {"energy_lost_J", number_or_null(s.energy.lost)},
-          {"work_J", number_or_null(s.energy.work)},
-          {"energy_residual_J", number_or_null(s.energy.residual)},
-          {"momentum_drift_kg_m_per_s", number_or_null(s.momentum_drift)},
-          {"max_overlap_m", number_or_null(s.max_overlap)},
-          {"max_speed_m_per_s", number_or_null(s.max_speed)},
-          {"resting", s.resting},
-          {"frames", s.frames},
-          {"stepped_contact_s", s.stepped_contact},
-          {"removed_J", number_or_null(s.energy.removed)},
-          {"ended_by", s.ended_by},
-          {"energy_absorbed_J", number_or_null(s.contact.taken_up.energy)},
-          {"contact_made_J", number_or_null(s.contact.made)}};
+Json summary_json(const Summary& summary) {
+  Json json;
+  // All but the run's name.
+  for (const SummaryColumn& column : summary_columns().subspan(1)) {
+    const auto value = column.value(summary);
+    if (const auto* number = std::get_if<double>(&value))
+      json[column.name] = number_or_null(*number);
+    else
+      std::visit([&](auto given) { json[column.name] = given; }, value);
+  }
+  return json;
 }
 
 Json warnings_json(const vector<Warning>& warnings) {
@@ -271,6 +267,7 @@ Json contact_json(const Summary& s) {
            {{"impacts", s.contact.taken_up.impacts},
             {"fastest_m_per_s", s.contact.taken_up.fastest},
             {"energy_J", s.contact.taken_up.energy}}},
+          // Several on one body.
           {"impacts_at_once",
            {{"instants", s.contact.shared.instants},
             {"ties", s.contact.shared.ties},
@@ -296,6 +293,21 @@ string document(string_view command, Json scenes) {
     whole["scenes"] = std::move(scenes);
   // A file's name may hold any bytes.
   return text_of_json(whole, 2) + "\n";
+}
+
+int ended(const Options& options, int code, Json members, string_view text) {
+  if (options.json)
+    write_out(document(options.command, std::move(members)));
+  else if (!options.quiet)
+    write_out(text);
+  return code;
+}
+
+int refused(const Options& options, string_view complaint, Json members, const vector<ErrorRecord>& errors) {
+  complain(options, complaint);
+  members["status"] = "wrong";
+  members["errors"] = errors_json(errors);
+  return ended(options, 2, std::move(members));
 }
 
 void complain(const Options& options, string_view text) {

@@ -2,7 +2,7 @@
 // The form of results: aligned lines, or one JSON document.
 #include <nlohmann/json.hpp>
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "commands/plan.h"
 #include "run/run_scene.h"
 #include "std.h"
@@ -13,6 +13,7 @@ namespace carom {
 class Block {
  public:
   Block(const Palette& palette, size_t width) : palette_(palette), width_(width) {}
+  explicit Block(const Options& options);
   void heading(string_view name, string_view title);
   void line(string_view label, string_view text);
   /// The same, highlighted.
@@ -51,6 +52,13 @@ nlohmann::ordered_json facts_json(const RunResult& result);
 /// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints. An object's members stand as
 /// they are instead of scenes.
 string document(string_view command, nlohmann::ordered_json scenes);
+
+/// The end of a command: with --json its document of these scenes or members, else the text, unless --quiet. Returns
+/// `code`.
+int ended(const Options& options, int code, nlohmann::ordered_json members, string_view text = {});
+/// The end of one that does nothing: a line on stderr, and the status and the errors after these members. Returns 2.
+int refused(const Options& options, string_view complaint, nlohmann::ordered_json members,
+            const vector<ErrorRecord>& errors);
 
 /// One error to stderr, after the program's name.
 void complain(const Options& options, string_view text);

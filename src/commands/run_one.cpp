@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <new>
-
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/report.h"
 #include "commands/text.h"
@@ -49,19 +48,17 @@ function<unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& plan
   return {};
 }
 
-SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress) {
+SceneOutcome run_one(const PlannedScene& planned, const Options& options, Progress& progress) {
   const RunWatch watch{stop_if_interrupted, [&](const RunProgress& now) { progress.update(now); },
                        [&](const string& text) {
                          progress.clear();
                          remark(options, fmt::format("{}: {}", printable(planned.file), text));
                        }};
   try {
-    return run_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned, options), watch), options,
-                    style);
-  } catch (const std::bad_alloc&) {
-    return run_failed(planned, "not enough memory");
+    return run_done(planned, run_scene(show_of(planned), planned.price.engine, settings_of(planned, options), watch),
+                    options);
   } catch (const std::exception& error) {
-    return run_failed(planned, error.what());
+    return run_failed(planned, reason_of(error));
   }
 }
 

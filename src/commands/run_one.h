@@ -9,7 +9,7 @@
 namespace carom {
 
 /// Failures are in the outcome. Throws Interrupted.
-SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress);
+SceneOutcome run_one(const PlannedScene& planned, const Options& options, Progress& progress);
 
 /// A function that makes a simulator of the recorded motion of a planned run. Empty: it has no record, and is simulated
 /// again, which is said unless `quiet`.

@@ -44,11 +44,13 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
     case Phase::settling:
       left_ = std::numeric_limits<double>::infinity();
       break;
+
     case Phase::simulating:
       simulating_.note(in_phase, progress.time - progress.begun_at);
       if (!ahead_.draws_after) drawing_.note(in_phase, static_cast<double>(progress.pictures));
       left_ = ahead_.draws_after ? simulation_left() + ahead_.draw_s : std::max(simulation_left(), drawing_left());
       break;
+
     case Phase::drawing:
       drawing_.note(ahead_.draws_after ? in_phase : elapsed, static_cast<double>(progress.pictures));
       left_ = drawing_left();
@@ -57,6 +59,7 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
       left_ = 0;
       break;
   }
+
   if (std::isfinite(left_) && elapsed > 0) share_ = std::max(share_, elapsed / (elapsed + left_));
 }
 
@@ -81,6 +84,7 @@ double RunPace::left() const {
 string RunPace::text() const {
   using Phase = RunProgress::Phase;
   const string pictures = fmt::format("{} of {}", grouped(now_.pictures), grouped(ahead_.pictures));
+
   switch (now_.phase) {
     case Phase::settling:
       return "finding the steps for the tolerance";
@@ -88,6 +92,7 @@ string RunPace::text() const {
       return fmt::format("simulating {:.4g} of {:.4g} s{}, {}", now_.time, ahead_.duration,
                          !ahead_.draws_after && ahead_.pictures > 0 ? ", drawing " + pictures : "",
                          counted(now_.collisions, "collision", "collisions"));
+
     case Phase::drawing:
       return ahead_.pictures > 0 ? "drawing " + pictures : "drawing";
     case Phase::writing:

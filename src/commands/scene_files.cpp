@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "files/manifest.h"
-#include "files/output_file.h"
 #include "files/stored_file.h"
 #include "scene/check.h"
 #include "scene/load.h"
@@ -25,20 +24,13 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t longest_text = 256 << 20;  // bytes of a mesh
 
+/// Empty: it cannot be read.
 string text_of(const string& file) {
-  const Descriptor open(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  string text;
-  if (!open) return text;
   try {
-    vector<char> buffer(size_t{64} * 1024);
-    while (const size_t n = read_some(open.get(), buffer.data(), buffer.size())) {
-      if (text.size() + n > longest_text) return text;
-      text.append(buffer.data(), n);
-    }
-  } catch (const ExportError&) {
-    text.clear();
+    return read_text(AT_FDCWD, fs::weakly_canonical(file).string(), longest_text).value_or("");
+  } catch (const std::exception&) {
+    return {};
   }
-  return text;
 }
 
 bool is_named(string_view file, std::initializer_list<string_view> endings) {
@@ -81,9 +73,12 @@ void add_names(string_view text, string_view word, const fs::path& folder, std::
     i = end + 1;
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
     if (!line.starts_with(word)) continue;
+
+    // What follows the word, without blanks around it.
     line.remove_prefix(std::min(line.find_first_of(" \t"), line.size()));
     while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
     while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
+
     if (line.empty()) continue;
     files.insert((folder / line).string());
     files.insert((folder / line.substr(line.find_last_of(" \t") + 1)).string());
@@ -112,6 +107,8 @@ std::set<string> files_of_scene(const PlannedScene& planned) {
   if (planned.scene && planned.scene->made_from.start)
     files.insert((fs::path(planned.scene->made_from.start->folder) / manifest_name).string());
   if (planned.scene) return files;
+
+  // Of a scene with errors there is only its text.
   try {
     const string folder = fs::path(planned.file).parent_path().string();
     for (const SceneValue& value : scene_values(planned.file, text_of(planned.file)))

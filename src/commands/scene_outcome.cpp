@@ -51,11 +51,11 @@ SceneOutcome wrong_scene(const PlannedScene& planned) {
   return outcome;
 }
 
-SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options,
-                      const Style& style) {
+SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options) {
   SceneOutcome outcome = without_run(planned, scene_status::done);
   add_members(outcome.entry, planned, result);
-  Block block(style.palette, style.width);
+
+  Block block(options);
   block.heading(planned.name, planned.scene->title);
   describe(block, planned, result);
   if (options.accuracy) {
@@ -63,17 +63,18 @@ SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, cons
     outcome.entry["accuracy"] = accuracy.json;
     for (const auto& [label, text] : accuracy.lines) block.line(label, text);
   }
+
   outcome.out = block.text();
   if (options.quiet) outcome.complaint = doubtful_text(planned, result.summary.warnings);
   return outcome;
 }
 
-SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
+SceneOutcome run_up_to_date(const PlannedScene& planned, const Options& options) {
   SceneOutcome outcome = without_run(planned, scene_status::up_to_date);
   outcome.entry["files"] = files_in(planned.folder);
   const vector<Warning> warnings = warnings_in(planned.folder);
   outcome.entry["warnings"] = warnings_json(warnings);
-  Block block(style.palette, style.width);
+  Block block(options);
   block.heading(planned.name, planned.scene->title);
   block.line("up to date", printable(planned.folder));
   describe(block, warnings);

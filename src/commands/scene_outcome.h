@@ -2,7 +2,7 @@
 // The outcome of a scene: for the terminal, and as an entry of the document of --json.
 #include <nlohmann/json.hpp>
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "commands/plan.h"
 #include "commands/report.h"
 #include "run/run_scene.h"
@@ -22,16 +22,10 @@ struct SceneOutcome {
   string complaint;              // for stderr; empty: none
 };
 
-/// Form of the text on stdout.
-struct Style {
-  Palette palette;
-  size_t width;  // columns
-};
-
 SceneOutcome without_run(const PlannedScene& planned, string_view status);
 SceneOutcome wrong_scene(const PlannedScene& planned);  // its error has been printed already
-SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options, const Style& style);
-SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style);
+SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options);
+SceneOutcome run_up_to_date(const PlannedScene& planned, const Options& options);
 SceneOutcome run_failed(const PlannedScene& planned, string_view text);
 SceneOutcome run_interrupted(const PlannedScene& planned);
 

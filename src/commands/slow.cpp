@@ -27,6 +27,8 @@ string slow_text(const Scene& scene) {
   for (const String& string : world.strings)
     for (const Entity i : {string.body, string.other})
       if (i != no_entity) heaviest = std::max(heaviest, world.mass[i]);
+
+  // The smallest and the lightest body, where they are below the limits.
   Entity small = no_entity, light = no_entity;
   double least = least_size, lightest = least_mass;
   for (const String& string : world.strings)
@@ -35,6 +37,7 @@ string slow_text(const Scene& scene) {
       if (const double size = world.radius[i] / string.length; size < least) small = i, least = size;
       if (const double mass = world.mass[i] / heaviest; mass < lightest) light = i, lightest = mass;
     }
+
   vector<string> texts;
   if (small != no_entity)
     texts.push_back(

@@ -1,5 +1,5 @@
 // The scene is a text in the program, so that `carom new` needs no installed files.
-#include "commands/new.h"
+#include "commands/starting_scene.h"
 #include "scene/scene.h"
 #include "std.h"
 

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <new>
-
+#include "commands/error_list.h"
 #include "commands/interrupt.h"
 #include "commands/run_one.h"
 #include "commands/text.h"
 #include "export/png.h"
 #include "files/open_folder.h"
 #include "overlay/history.h"
+#include "run/accuracy.h"
 #include "run/motion_record.h"
 #include "run/still.h"
 #include "scene/scene.h"
@@ -33,13 +33,15 @@ function<unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoi
 string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
   OpenFolder folder(planned.folder);
-  EngineChoice engine = planned.engine;
+  EngineChoice engine = planned.price.engine;
   const function<unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, picture_needs(scene), quiet);
   function<unique_ptr<Simulator>()> motion = [&] { return replay(scene); };
+
   if (!replay) {
     settle_steps(scene, engine, stop_if_interrupted);
     motion = simulated(scene, engine, folder.place());
   }
+
   const string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));
 
@@ -59,10 +61,8 @@ SceneOutcome still_of(const PlannedScene& planned, const Options& options) {
     outcome.entry["files"] = {name};
     outcome.out = fmt::format("{}/{}\n", printable(planned.folder), printable(name));
     return outcome;
-  } catch (const std::bad_alloc&) {
-    return run_failed(planned, "not enough memory");
   } catch (const std::exception& error) {
-    return run_failed(planned, error.what());
+    return run_failed(planned, reason_of(error));
   }
 }
 

@@ -1,8 +1,7 @@
 // Plans all runs, then simulates what is missing, then compares. A part of a sweep leaves the comparison to `gather`.
-#include "commands/sweep.h"
+#include "commands/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -18,6 +17,7 @@
 #include "compare/comparison_folder.h"
 #include "files/processors.h"
 #include "files/publication.h"
+#include "run/stopwatch.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "study/sweep_folder.h"
@@ -39,21 +39,19 @@ class SweepSession {
     } catch (const SceneError& error) {
       write_err(error.what());
       complain(options_, fmt::format("{}: nothing was run", counted(error.count, "error", "errors")));
-      show_failure(options_, "wrong", error.records);
-      return 2;
+      return show_failure(options_, 2, error.records);
+
     } catch (const Interrupted& interrupted) {
       progress_.reset();
       complain(options_, fmt::format("{}: interrupted; the same command runs what is missing",
                                      printable(options_.operands.front())));
-      show_failure(options_, "interrupted", {});
-      return interrupted.exit_code();
+      return show_failure(options_, interrupted.exit_code(), {});
+
     } catch (const ExportError& error) {
       progress_.reset();
       const string why = with_remedy(error.what());
       complain(options_, why);
-      if (cut_) show_cut(options_, *cut_);
-      show_failure(options_, "failed", error_of_text(why), cut_);
-      return 1;
+      return show_failure(options_, 1, error_of_text(why), cut_);
     }
   }
 
@@ -70,41 +68,41 @@ class SweepSession {
       return refuse(fmt::format("the folder {} holds something else, or the sweep or its base has changed since",
                                 printable(folder_)));
     }
+
     if (content == SweepContent::this_sweep && !options_.force && !options_.sweep.plan &&
         !may_read_files(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
       SweepOutcome outcome{"up to date", 0, job.sweep().size(), {}, 0};
       outcome.skipped = stored_skips(folder_);
       outcome.runs -= outcome.skipped.size();
-      show(outcome, job);
-      return 0;
+      return show_outcome(options_, outcome, job);
     }
+
     if (const string changed = comparison_obstacle(changes_of_comparison(folder_));
         !changed.empty() && shard_.count <= 1 && !options_.force)
       return refuse(fmt::format("the folder {} holds {}", printable(folder_), changed));
+
+    // Every scenario is checked before the first is run.
     show_progress("scenarios");
     job.plan([&](const SweepProgress& p) { show_progress(p); });
     progress_.reset();
+
     if (const auto other = options_.force ? nullopt : job.other_content()) {
       const string place = job.run_folder(*other);
       const bool touched = job.runs()[*other].content == FolderContent::touched;
       return refuse(fmt::format("the folder {} holds {}", printable(place),
                                 touched ? obstacle_of(find_changes(place)) : "something other than this run"));
     }
+
     for (const string& path : job.idle_paths())
       complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
     for (const string& note : notes_on_start(job)) remark(options_, note);
-    if (options_.sweep.plan) {
-      show_plan(options_, job);
-      return 0;
-    }
-    return run(job);
+    return options_.sweep.plan ? show_plan(options_, job) : run(job);
   }
 
   int refuse(const string& what) const {
     constexpr const char* way_out = "write elsewhere with -o, or overwrite it with --force";
     complain(options_, fmt::format("{}: {}\n  {}", printable(options_.operands.front()), what, way_out));
-    show_failure(options_, "wrong", error_of_text(what + "\n" + way_out));
-    return 2;
+    return show_failure(options_, 2, error_of_text(what + "\n" + way_out));
   }
 
   int run(SweepJob& job) {
@@ -112,11 +110,13 @@ class SweepSession {
     const bool is_part = shard_.count > 1;
     SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::alone, job.sweep(),
                        job.base_text(), skipped_text(job.sweep(), job.invalid()), stop_if_interrupted);
+
     SweepOutcome outcome;
     for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);
     outcome.to_do = job.left();
     share_processors(options_.execution.jobs.value_or(processors()));
     show_progress("runs");
+
     try {
       job.run([&](const SweepProgress& p) { show_progress(p); },
               [&](size_t number, const string& why) { outcome.failures.emplace_back(number, why); });
@@ -125,10 +125,12 @@ class SweepSession {
       cut_ = {outcome.to_do - left, failed, left - failed};
       throw;
     }
+
     if (!is_part) {
       vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
       show_progress("runs compared");
+
       ComparisonWatch watch;
       watch.stop_check = stop_if_interrupted;
       watch.done = [&](size_t done) {
@@ -139,20 +141,17 @@ class SweepSession {
     } else {
       sync_file_system(folder_);
     }
+
     progress_.reset();
     outcome.status = is_part ? fmt::format("part {} of {} done", shard_.index, shard_.count) : "done";
     outcome.runs = job.sweep().size() - job.invalid().size();
-    outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    show(outcome, job);
-    return outcome.failures.empty() ? 0 : 3;
+    outcome.wall_s = since(start);
+    return show_outcome(options_, outcome, job);
   }
-
-  void show(const SweepOutcome& outcome, const SweepJob& job) const { show_outcome(options_, outcome, job); }
 
   void show_progress(string what) {
     what_ = std::move(what);
-    progress_.emplace(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
-                      printable(fs::path(options_.operands.front()).stem().string()));
+    progress_.emplace(options_, printable(fs::path(options_.operands.front()).stem().string()));
   }
 
   void show_progress(const SweepProgress& p) {
@@ -170,51 +169,47 @@ class SweepSession {
 
 }  // namespace
 
-const CommandText& sweep_text() {
-  static const CommandText text = {
-      "sweep",
-      "runs a scene with many combinations of values, and compares the runs",
-      "  carom sweep scenes/sweeps/bowling.yaml\n"
-      "  carom sweep sweep.yaml --plan                         the runs, their values, which are done\n"
-      "  carom sweep sweep.yaml -j 4                           four runs at a time\n"
-      "  carom sweep scene.yaml --grid restitution.default=0.5:1:6 --grid balls.red.mass=5,10\n"
-      "  carom sweep scene.yaml --latin 50 --grid balls.red.mass=5:10 --grid gravity.y=-10:-1\n"
-      "  carom sweep sweep.yaml --shard 2/8                    the second of eight parts\n",
-      "Without -o a sweep goes to output/<sweep file's stem>/: runs/r0001/..., summary.csv with a row a\n"
-      "run, comparison.xlsx and manifest.json; with --grid to output/<scene file's stem>.sweep/. All\n"
-      "scenarios are checked before the first is run. Scenarios with the same motion share one\n"
-      "simulation. A failed run leaves error.txt in its folder and does not stop the others. The same\n"
-      "command runs what is missing or failed.\n\n"
-      "Exit codes: 0 done or up to date, 1 the folder cannot be written, 2 the command line, the sweep or\n"
-      "its scene is wrong, 3 some runs failed, 130 or 143 interrupted.",
-      {{"--output", "the sweep's folder (output/<sweep file's stem>)"},
-       {"--grid"},
-       {"--random"},
-       {"--latin"},
-       {"--repeat", repeat_help},
-       {"--skip-invalid"},
-       {"--measures", measures_help},
-       {"--plan"},
-       {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
-       {"--threads"},
-       {"--checkpoint"},
-       {"--shard"},
-       {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
-       {"--only"},
-       {"--seed", seed_help},
-       {"--force"},
-       {"--progress"}},
-      "SWEEP",
-      "a sweep file (YAML), or a scene with --grid",
-      1,
-      1,
-      "name a sweep file, or a scene and what varies: carom {} scene.yaml --grid balls.red.mass=1:2:3"};
-  return text;
-}
-
-int sweep_command(const Options& options) {
-  if (options.execution.threads) use_threads(*options.execution.threads);
-  return SweepSession(options).go();
-}
+const Command sweep_command = {
+    "sweep",
+    [](const Options& options) {
+      if (options.execution.threads) use_threads(*options.execution.threads);
+      return SweepSession(options).go();
+    },
+    "runs a scene with many combinations of values, and compares the runs",
+    "  carom sweep scenes/sweeps/bowling.yaml\n"
+    "  carom sweep sweep.yaml --plan                         the runs, their values, which are done\n"
+    "  carom sweep sweep.yaml -j 4                           four runs at a time\n"
+    "  carom sweep scene.yaml --grid restitution.default=0.5:1:6 --grid balls.red.mass=5,10\n"
+    "  carom sweep scene.yaml --latin 50 --grid balls.red.mass=5:10 --grid gravity.y=-10:-1\n"
+    "  carom sweep sweep.yaml --shard 2/8                    the second of eight parts\n",
+    "Without -o a sweep goes to output/<sweep file's stem>/: runs/r0001/..., summary.csv with a row a\n"
+    "run, comparison.xlsx and manifest.json; with --grid to output/<scene file's stem>.sweep/. All\n"
+    "scenarios are checked before the first is run. Scenarios with the same motion share one\n"
+    "simulation. A failed run leaves error.txt in its folder and does not stop the others. The same\n"
+    "command runs what is missing or failed.\n\n"
+    "Exit codes: 0 done or up to date, 1 the folder cannot be written, 2 the command line, the sweep or\n"
+    "its scene is wrong, 3 some runs failed, 130 or 143 interrupted.",
+    {{"--output", "the sweep's folder (output/<sweep file's stem>)"},
+     {"--grid"},
+     {"--random"},
+     {"--latin"},
+     {"--repeat", repeat_help},
+     {"--skip-invalid"},
+     {"--measures", measures_help},
+     {"--plan"},
+     {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
+     {"--threads"},
+     {"--checkpoint"},
+     {"--shard"},
+     {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
+     {"--only"},
+     {"--seed", seed_help},
+     {"--force"},
+     {"--progress"}},
+    "SWEEP",
+    "a sweep file (YAML), or a scene with --grid",
+    "name a sweep file, or a scene and what varies: carom {} scene.yaml --grid balls.red.mass=1:2:3",
+    1,
+    1};
 
 }  // namespace carom

@@ -2,7 +2,6 @@
 #include "commands/sweep_report.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -49,13 +48,13 @@ string name_of(const Options& options) {
   return std::filesystem::path(options.operands.front()).stem().string();
 }
 
-Json begin_json(const Options& options, const SweepJob& job, string_view status) {
-  return {{"sweep", options.operands.front()}, {"status", string(status)}, {"folder", job.folder()}};
+Json begin_json(const Options& options, string_view status) {
+  return {{"sweep", options.operands.front()}, {"status", string(status)}, {"folder", sweep_folder_of(options)}};
 }
 
 }  // namespace
 
-void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job) {
+int show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job) {
   flush_out();
   for (size_t i = 0; i < std::min(outcome.failures.size(), failures_shown) && !options.json; ++i) {
     const auto& [number, why] = outcome.failures[i];
@@ -64,10 +63,13 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
   if (outcome.failures.size() > failures_shown && !options.json)
     complain(options,
              fmt::format("and {} failed", counted(outcome.failures.size() - failures_shown, "more run", "more runs")));
+
+  const int code = outcome.failures.empty() ? 0 : 3;
   if (options.json) {
-    Json json = begin_json(options, job, outcome.status);
+    Json json = begin_json(options, outcome.status);
     json["runs"] = outcome.runs;
     json["made"] = outcome.to_do - outcome.failures.size();
+
     Json failures = Json::array();
     for (const auto& [number, why] : outcome.failures)
       failures.push_back({{"run", job.sweep().id(number)}, {"errors", errors_json(error_of_text(why))}});
@@ -75,53 +77,52 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
     json["skipped"] = skipped_json(outcome.skipped);
     json["doubtful"] = outcome.doubtful;
     json["wall_s"] = outcome.wall_s;
-    write_out(document("sweep", json));
-    return;
+    return ended(options, code, json);
   }
-  if (options.quiet) return;
-  Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+
+  Block block(options);
   block.heading(name_of(options), job.sweep().title);
   if (outcome.status == "up to date") {
     block.line("up to date", fmt::format("{}, {}", counted(outcome.runs, "run", "runs"), printable(job.folder())));
     describe_skipped(block, outcome.skipped);
   } else {
+    // What this command has done, then what stands there.
     block.line("runs", fmt::format("{}; {}", counted(outcome.runs, "run", "runs"), outcome.status));
     block.line("made", fmt::format("{}{} in {}", counted(outcome.to_do - outcome.failures.size(), "run", "runs"),
                                    outcome.failures.empty() ? "" : fmt::format(", {} failed", outcome.failures.size()),
                                    wait_text(outcome.wall_s)));
+
     describe_doubtful(block, outcome.doubtful);
     describe_skipped(block, outcome.skipped);
     block.line("folder", printable(job.folder()));
     if (outcome.status.starts_with("part"))
       block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
   }
-  write_out(block.text());
-  flush_out();
+  return ended(options, code, {}, block.text());
 }
 
-void show_cut(const Options& options, const SweepCut& cut) {
-  const string failed = cut.failed == 0 ? "" : fmt::format("{} failed, ", grouped(cut.failed));
-  complain(options, fmt::format("{}: {} made, {}{} not run", printable(options.operands.front()),
-                                counted(cut.made, "run", "runs"), failed, grouped(cut.not_run)));
-}
-
-void show_failure(const Options& options, string_view status, const vector<ErrorRecord>& errors,
-                  const optional<SweepCut>& cut) {
-  if (!options.json) return;
-  Json json = {{"sweep", options.operands.front()}, {"status", string(status)}, {"folder", sweep_folder_of(options)}};
-  if (cut) json.update({{"made", cut->made}, {"not_run", cut->not_run}});
+int show_failure(const Options& options, int code, const vector<ErrorRecord>& errors, const optional<SweepCut>& cut) {
+  Json json = begin_json(options, code == 2 ? "wrong" : code == 1 ? "failed" : "interrupted");
+  if (cut) {
+    const string failed = cut->failed == 0 ? "" : fmt::format("{} failed, ", grouped(cut->failed));
+    complain(options, fmt::format("{}: {} made, {}{} not run", printable(options.operands.front()),
+                                  counted(cut->made, "run", "runs"), failed, grouped(cut->not_run)));
+    json.update({{"made", cut->made}, {"not_run", cut->not_run}});
+  }
   if (!errors.empty()) json["errors"] = errors_json(errors);
-  write_out(document("sweep", json));
+  return ended(options, code, json);
 }
 
-void show_plan(const Options& options, const SweepJob& job) {
+int show_plan(const Options& options, const SweepJob& job) {
   const Sweep& sweep = job.sweep();
   vector<std::pair<string, string>> skipped;
   for (const InvalidRun& run : job.invalid()) skipped.emplace_back(sweep.id(run.number), run.messages);
+
   if (options.json) {
-    Json json = begin_json(options, job, "planned");
+    Json json = begin_json(options, "planned");
     json["paths"] = sweep.paths;
     Json runs = Json::array();
+
     for (const size_t number : job.of_part()) {
       const SweepRun run = sweep.run(number);
       Json values = Json::object();
@@ -129,12 +130,12 @@ void show_plan(const Options& options, const SweepJob& job) {
         values[sweep.paths[p]] = run.values[p] ? json_of_yaml(*run.values[p]) : Json();
       runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
     }
+
     json["runs"] = std::move(runs);
     json["skipped"] = skipped_json(skipped);
-    write_out(document("sweep", json));
-    return;
+    return ended(options, 0, json);
   }
-  if (options.quiet) return;
+
   const vector<size_t> all = job.of_part();
   vector<vector<string>> rows;
   rows.push_back({"run", "state"});
@@ -146,13 +147,14 @@ void show_plan(const Options& options, const SweepJob& job) {
     for (const auto& value : run.values) rows.back().push_back(value ? printable(cell_text(*value)) : "-");
     left += job.runs()[number].status == RunStatus::done ? 0 : 1;
   }
-  Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+
+  Block block(options);
   block.heading(name_of(options), sweep.title);
   block.table(rows);
   describe_skipped(block, skipped);
   block.line("to do", fmt::format("{} of {}", grouped(left), counted(all.size(), "run", "runs")));
   block.line("folder", printable(job.folder()));
-  write_out(block.text());
+  return ended(options, 0, {}, block.text());
 }
 
 }  // namespace carom

@@ -2,7 +2,7 @@
 // The report of a sweep, as text or as JSON.
 #include <utility>
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "std.h"
 #include "study/sweep_job.h"
 #include "yaml/diagnostics.h"
@@ -19,21 +19,19 @@ struct SweepOutcome {
   vector<std::pair<string, string>> skipped{};  // runs that are left out, and the errors of their scenes
 };
 
-/// The end of a sweep, on stdout, and the runs that failed, on stderr.
-void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job);
+/// The end of a sweep, on stdout, and the runs that failed, on stderr. These functions give the exit code.
+int show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job);
 
 /// Runs of a sweep, or of a part of it, that ended before its last run.
 struct SweepCut {
   size_t made = 0, failed = 0, not_run = 0;
 };
 
-/// With --json: the status of a sweep without a result ("wrong", "interrupted", "failed"), and the reasons.
-void show_failure(const Options& options, string_view status, const vector<ErrorRecord>& errors,
-                  const optional<SweepCut>& cut = nullopt);
-/// The line about it on stderr.
-void show_cut(const Options& options, const SweepCut& cut);
+/// With --json: the status of a sweep without a result, by its exit code, and the reasons. `cut`: also on stderr.
+int show_failure(const Options& options, int code, const vector<ErrorRecord>& errors,
+                 const optional<SweepCut>& cut = nullopt);
 
 /// --plan: id, values and state of every run. The job must be planned.
-void show_plan(const Options& options, const SweepJob& job);
+int show_plan(const Options& options, const SweepJob& job);
 
 }  // namespace carom

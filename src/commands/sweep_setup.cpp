@@ -12,7 +12,7 @@
 #include <map>
 
 #include "commands/interrupt.h"
-#include "commands/options.h"
+#include "commands/option_table.h"
 #include "commands/text.h"
 #include "compare/comparison.h"
 #include "files/processors.h"
@@ -74,11 +74,13 @@ void refuse_samples(const Options& options) {
     throw UsageError(fmt::format("{} a scene; {} is a sweep",
                                  words.grid.empty() ? "--random and --latin vary" : "--grid varies", printable(file)),
                      fmt::format("add to its {}", words.grid.empty() ? "`random` or `latin`" : "`grid`"));
+
   if (words.random && words.latin) throw UsageError("--random and --latin exclude one another", "remove one of them");
   const auto open = std::ranges::find_if(words.grid, is_open_range);
   if (open != words.grid.end() && !samples)
     throw UsageError(fmt::format("--grid {} has no count", printable(*open)),
                      fmt::format("add one, such as {}:6, or draw from it with --latin 50", printable(*open)));
+
   if (open == words.grid.end() && samples)
     throw UsageError(fmt::format("{0} {1} draws from ranges, and there are none", words.random ? "--random" : "--latin",
                                  words.random.value_or(words.latin.value_or(0))),
@@ -93,6 +95,7 @@ Sweep read_sweep(const Options& options) {
   how.color = !options.json && uses_color(options.color, STDERR_FILENO);
   refuse_samples(options);
   Sweep sweep = varies_scene(options) ? grid_sweep(file, options.sweep.grid, how) : load_sweep(file, how);
+
   for (const string& set : options.set) set_for_all(sweep, set, "--set");
   if (options.seed && sweep.seeds > 0) {
     if (*options.seed > std::numeric_limits<uint64_t>::max() - sweep.seeds)
@@ -101,11 +104,13 @@ Sweep read_sweep(const Options& options) {
   } else if (options.seed) {
     set_for_all(sweep, fmt::format("seed={}", *options.seed), "--seed");
   }
+
   if (options.sweep.skip_invalid) sweep.skip_invalid = true;
   if (options.only) {
     sweep.only.clear();
     for (const string& name : *options.only) sweep.only.push_back({name, "--only"});
   }
+
   for (const string& name : options.compare.measures) {
     const auto is_named = [&](const SweepMeasure& measure) { return measure.name == name; };
     if (std::ranges::none_of(sweep.measures, is_named)) sweep.measures.push_back({name, "--measures"});
@@ -123,6 +128,7 @@ SweepSettings sweep_settings(const Options& options) {
   SweepSettings settings;
   settings.load.budget.enforced = !options.force;
   settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
+
   // Every scenario has the base's meshes, so each mesh is read once.
   auto known = std::make_shared<std::map<string, vector<Vec3>>>();
   settings.load.measure_fault = measure_fault;
@@ -131,10 +137,12 @@ SweepSettings sweep_settings(const Options& options) {
     return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
   };
   settings.load.former_state = start_reader(settings.load);
+
   settings.jobs = options.execution.jobs.value_or(processors());
   settings.shard = shard_of(options);
   settings.force = options.force;
   settings.checkpoint_s = options.execution.checkpoint_s.value_or(settings.checkpoint_s);
+
   settings.restrict = [](const Output& requested, const Sweep& sweep) {
     if (sweep.only.empty()) return requested;
     vector<string> only;
@@ -178,6 +186,7 @@ void check_comparison(SweepJob& job) {
   const optional<Scene> first = first_valid(job);
   if (!first) return;
   const Scene& scene = *first;
+
   string errors;
   vector<ErrorRecord> records;
   const auto check = [&](const string& where, const auto& work) {
@@ -188,6 +197,7 @@ void check_comparison(SweepJob& job) {
       records.push_back(placed(where, error.what()));
     }
   };
+
   for (const SweepMeasure& measure : sweep.measures) check(measure.where, [&] { parse_measure(measure.name, scene); });
   for (const SweepChart& chart : sweep.charts) {
     check(chart.where, [&] {

@@ -1,7 +1,7 @@
 #pragma once
 // Setup of a sweep from the command line, for sweep, gather and submit.
 
-#include "commands/command_line.h"
+#include "commands/options.h"
 #include "scene/sweep.h"
 #include "std.h"
 #include "study/sweep_job.h"

@@ -76,6 +76,7 @@ string harmless(string_view text) {
     result += text.substr(i, plain - i);
     i = plain;
     if (i == text.size()) break;
+
     size_t length = text[i] == '\n' || text[i] == '\t' ? 1 : own_sequence(text.substr(i));
     if (length > 0) {
       result += text.substr(i, length);

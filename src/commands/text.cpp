@@ -61,6 +61,7 @@ string wrapped(string_view text, size_t indent, size_t width) {
   string result;
   // The caller writes the beginning of the first line.
   size_t column = indent;
+
   while (!text.empty()) {
     const size_t end = std::min(text.find(' '), text.size());
     const string_view word = text.substr(0, end);
@@ -72,6 +73,7 @@ string wrapped(string_view text, size_t indent, size_t width) {
       result += ' ';
       ++column;
     }
+
     result += word;
     column += length;
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -86,6 +88,7 @@ string shell_word(const string& word) {
     for (const char c : word) octal += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
     return "\"$(printf '" + octal + "')\"";
   }
+
   const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            string_view("_-./=,:@%+").find(c) != string_view::npos;

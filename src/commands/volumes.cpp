@@ -54,9 +54,11 @@ string volumes_text(const Scene& scene) {
     string text;
     vector<string> names;
   };
+
   vector<Alike> all;
   std::unordered_map<string, size_t> numbers;  // in `all`, by text
   const World& world = scene.world;
+
   const auto add = [&](Entity e, const string& name, const optional<MeshUse>& mesh) {
     string text = volume_text(world.volume_of(e));
     if (mesh) text += fmt::format(", drawn as {}", printable(std::filesystem::path(mesh->file).filename().string()));
@@ -67,6 +69,7 @@ string volumes_text(const Scene& scene) {
     const string_view family = family_of(name), thing = family.empty() ? string_view(name) : family;
     if (names.empty() || names.back() != thing) names.emplace_back(thing);
   };
+
   for (const BodyRange& range : scene.roster.bodies) {
     if (range.count == 0) continue;
     const bool ball = world.volume_of(range.first).shape == Shape::sphere;
@@ -75,6 +78,7 @@ string volumes_text(const Scene& scene) {
   for (auto i = static_cast<Entity>(world.planes.size() + world.walls.size()); i < world.fixed_count(); ++i) {
     add(world.body_count() + i, scene.roster.fixed[i].name, scene.roster.fixed[i].mesh);
   }
+
   vector<string> texts;
   for (const Alike& alike : all) {
     if (texts.size() == kinds_shown) break;

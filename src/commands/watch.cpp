@@ -8,11 +8,11 @@
 #include <iterator>
 #include <utility>
 
+#include "commands/batch.h"
 #include "commands/file_watch.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/report.h"
-#include "commands/run.h"
 #include "commands/scene_files.h"
 #include "commands/text.h"
 #include "std.h"
@@ -49,6 +49,7 @@ class WatchSession {
       numbers.push_back(i);
       affected.push_back(std::move(scenes[i]));
     }
+
     affected = plan_scenes(std::move(affected), options_, Purpose::run,
                            [&](PlannedScene& planned) { renew_pictures(planned, changed); });
     for (size_t k = 0; k < affected.size(); ++k) files_[numbers[k]] = files_of_scene(affected[k]);
@@ -69,15 +70,15 @@ class WatchSession {
       complain(options_,
                fmt::format("{}: {}; not run", printable(planned.file), counted(planned.errors, "error", "errors")));
     }
-    return right.empty() ? 0 : run_planned(options_, "run", std::move(right));
+    return right.empty() ? 0 : run_planned(options_, std::move(right));
   }
 
   /// Textures and materials are not among what makes a run up to date.
   static void renew_pictures(PlannedScene& planned, const std::set<string>& changed) {
-    if (planned.content != FolderContent::this_run || !planned.scene || !planned.scene->output.pictures()) return;
+    if (planned.found.content != FolderContent::this_run || !planned.scene || !planned.scene->output.pictures()) return;
     const std::set<string> files = files_of_scene(planned);
     if (std::ranges::any_of(files, [&](const auto& file) { return file != planned.file && changed.contains(file); }))
-      planned.content = FolderContent::incomplete;
+      planned.found.content = FolderContent::incomplete;
   }
 
   void follow() {

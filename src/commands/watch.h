@@ -1,6 +1,6 @@
 #pragma once
 // carom run --watch: scenes again at each save.
-#include "commands/command_line.h"
+#include "commands/options.h"
 
 namespace carom {
 

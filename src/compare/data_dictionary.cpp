@@ -1,4 +1,4 @@
-// The meanings of summary columns come from their own table (run/summary_columns.h), so that the two agree. Only the
+// The meanings of summary columns come from their own table (files/summary_columns.h), so that the two agree. Only the
 // columns of collisions and series are described here.
 #include "compare/data_dictionary.h"
 

@@ -14,7 +14,7 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
-#include "run/summary_columns.h"
+#include "files/summary_columns.h"
 #include "std.h"
 
 namespace carom {
@@ -33,8 +33,7 @@ vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPlan& pl
   vector<Column> columns;
   for (size_t k = 0; k < summary_columns().size(); ++k) {
     const SummaryColumn& summary = summary_columns()[k];
-    columns.push_back(
-        {string(summary.name), label_of(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}});
+    columns.push_back({string(summary.name), label_of(summary.name), CellStyle::plain, summary.is_text(), k, {}, {}});
   }
 
   for (size_t k = 0; k < plan.parameters.size(); ++k)

@@ -2,13 +2,15 @@
 // Formatting dominates the cost of a long table, so the simulation only copies numbers.
 #include "export/tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "export/bodies.h"
 #include "files/manifest.h"
-#include "files/summary.h"
+#include "files/summary_columns.h"
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "scene/scene.h"
@@ -254,20 +256,22 @@ void EnergyTable::add(double time, const State& state, span<const ContactForce>)
 }
 
 void write_summary(OutputFile& file, const Summary& s) {
-  file.write(
-      "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,last_collision_s,"
-      "energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,momentum_drift_kg_m_per_s,max_overlap_m,"
-      "max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J");
+  string names;
+  for (const SummaryColumn& column : summary_columns())
+    names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
+  file.write(names);
   for (const Measured& measure : s.measures) file.write("," + measure.name);
   file.write("\n");
   CsvRow row(file);
-  row.text(valid_utf8(s.run)).text(valid_utf8(s.title)).text(s.engine).text(s.status).number(s.duration);
-  row.count(s.bodies).count(s.collisions).count(s.body_body).count(s.body_fixed);
-  row.number(s.first_collision).number(s.last_collision);
-  row.number(s.energy.start).number(s.energy.end).number(s.energy.lost).number(s.energy.work).number(s.energy.residual);
-  row.number(s.momentum_drift).number(s.max_overlap).number(s.max_speed);
-  row.count(s.resting).count(s.frames).number(s.stepped_contact);
-  row.number(s.energy.removed).text(s.ended_by).number(s.contact.taken_up.energy).number(s.contact.made);
+  for (const SummaryColumn& column : summary_columns()) {
+    const auto value = column.value(s);
+    if (const auto* text = std::get_if<string_view>(&value))
+      row.text(valid_utf8(string(*text)));
+    else if (const auto* count = std::get_if<uint64_t>(&value))
+      row.count(*count);
+    else
+      row.number(std::get<double>(value));
+  }
   for (const Measured& measure : s.measures)
     measure.text.empty() ? row.number(measure.value) : row.text(valid_utf8(measure.text));
   row.end();

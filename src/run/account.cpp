@@ -32,10 +32,12 @@ vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tal
   const World& world = scene.world;
   vector<ForceWork> all;
   if (world.forces.empty() || tally.force_work.empty()) return all;
+
   Sum fallen;
   for (Entity i = 0; i < world.body_count(); ++i)
     fallen.add(world.mass[i] * world.gravity.dot(end.position[i] - scene.initial.position[i]));
   if (!world.gravity.isZero(0)) all.push_back({"gravity", fallen.value()});
+
   for (size_t k = 0; k < world.forces.size(); ++k) {
     Sum work;
     work.add(tally.force_work[k]);
@@ -45,6 +47,7 @@ vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tal
     }
     all.push_back({fmt::format("forces.{}.{}", k, name_of(world.forces[k].law)), work.value()});
   }
+
   // Merged bodies are moved out of what they overlap. No force does this work.
   if (tally.merges > 0)
     all.push_back(
@@ -98,12 +101,15 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.engine = name_of(engine.engine);
   summary.duration = tally.end ? tally.end->time : scene.simulate.duration;
   summary.ended_by = ended_by(scene, tally);
+
   summary.bodies = scene.world.body_count();
   summary.collisions = tally.collisions();
   summary.body_body = tally.body_body;
   summary.body_fixed = tally.body_fixed;
   summary.first_collision = tally.first_collision;
   summary.last_collision = tally.last_collision;
+
+  // The balance of energy.
   const StoredEnergy last = stored_energy(scene, end);
   summary.energy.start = start.total();
   summary.energy.end = last.total();
@@ -115,11 +121,13 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.energy.turnover = greatest_kinetic(scene.world, start, last, tally) +
                             std::abs(last.potential - start.potential) + std::abs(tally.energy_lost) +
                             std::abs(tally.work) + std::abs(tally.removed.energy);
+
   summary.momentum_drift = (momentum(scene.world, end) + tally.removed.momentum - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.fastest.speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
+
   summary.contact = {tally.merges,
                      tally.tautened,
                      tally.removed.bodies,

@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "simulate/tolerances.h"
 #include "std.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -109,6 +110,19 @@ StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps
   return steps;
 }
 
+/// The steps with which positions are within a tolerance, and how far that holds.
+struct Accuracy {
+  StepChoice steps;  // of the stepped engine
+  /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
+  double difference = 0;
+  // In s: the time after which no steps give positions within the tolerance. Infinity: never.
+  double right_until = std::numeric_limits<double>::infinity();
+  /// In m: the difference of the finest runs after that.
+  double beyond = 0;
+  /// Whether the tolerance is met until then.
+  bool reached = true;
+};
+
 class Settling {
  public:
   Settling(const Scene& scene, const Simulate& way, double tolerance, const function<void()>& stop_check)
@@ -155,12 +169,14 @@ class Settling {
         steps.error = exact_tolerance::step_error;
         continue;
       }
+
       const bool finest = steps.error <= finest_error * finer;
       steps.error = std::max(steps.error / finer, finest_error);
       TrackedRun fine = runs_.track(way_, steps, disturbance);
       const vector<double> differences = Runs::differences(coarse, fine);
       accuracy_.steps = steps;
       note(differences);
+
       if (differences.back() <= tolerance || finest) return fine;
       // Scale by what is still missing.
       steps.error *= std::min(1.0, tolerance / differences.back());
@@ -176,17 +192,20 @@ class Settling {
     const Simulate own = std::exchange(way_, finer_way);
     const TrackedRun reference = settle_adaptive(reference_share * tolerance_, coarsest_error);
     way_ = own;
+
     const size_t known = accuracy_.right_until < scene_.simulate.duration
                              ? within(runs_.instants(), accuracy_.right_until)
                              : runs_.instants().size();
     accuracy_.reached = false;
     accuracy_.difference = std::numeric_limits<double>::infinity();
     accuracy_.steps = {};
+
     string trouble;
     // In m: with twice the step, and with four times the step.
     double before = 0, coarse = 0;
     double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
     const double bodies = static_cast<double>(scene_.world.body_count());
+
     for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
       vector<double> off;
       try {
@@ -196,6 +215,7 @@ class Settling {
         trouble = error.what();
         continue;
       }
+
       const double difference = known > 0 ? off[known - 1] : 0;
       const double steps = way_.duration / step * bodies;
       const bool out_of_reach = steps > few_steps && steps_to_go(coarse, difference) * steps > most_steps;
@@ -207,6 +227,7 @@ class Settling {
       if ((accuracy_.reached = difference <= tolerance_)) return;
       if (out_of_reach) break;
     }
+
     if (accuracy_.steps.length) return;
     if (!trouble.empty()) throw SimulationError(trouble);
     throw SimulationError(fmt::format(
@@ -241,6 +262,7 @@ void measure_growth(const vector<double>& instants, const vector<double>& apart,
   growth.factor = apart.back() / *first;
   if (small < enough(apart)) return;
   const size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
+
   // The logarithm of the growth beyond the third power of time, from one instant to another.
   const auto excess = [&](size_t from, size_t to) {
     if (!(apart[from] > 0)) return 0.0;
@@ -272,6 +294,25 @@ Vec3 rounded_otherwise(Vec3 place) {
   return place;
 }
 
+/// Describes how a run misses its tolerance; empty: it does not.
+string shortfall_of(const Scene& scene, const Accuracy& accuracy, const Growth& growth) {
+  const double tolerance = *scene.simulate.tolerance;
+  vector<string> texts;
+  if (!accuracy.reached)
+    texts.push_back(fmt::format(
+        "not converged: the shortest steps tried, {:.3g} s, leave an error of {:.2g} m in positions, not {} m",
+        *accuracy.steps.length, accuracy.difference, tolerance));
+
+  if (accuracy.right_until < scene.simulate.duration)
+    texts.push_back(fmt::format(
+        "positions are right to {} m until {:.4g} s, and differ by up to {:.2g} m later: {}", tolerance,
+        accuracy.right_until, accuracy.beyond,
+        growth.chaotic ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
+                       : "not converged, though not chaotic: the motion amplifies rounding, or forces change too fast "
+                         "for doubles"));
+  return joined(texts, "; ");
+}
+
 }  // namespace
 
 vector<double> uneven_instants(double from, double to, size_t bodies) {
@@ -282,9 +323,30 @@ vector<double> uneven_instants(double from, double to, size_t bodies) {
   return instants;
 }
 
-Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
-                         const function<void()>& stop_check) {
-  return Settling(scene, way, tolerance, stop_check).go();
+void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check) {
+  if (!scene.simulate.tolerance || engine.engine == Engine::book) return;
+  Simulate way = scene.simulate;
+  way.engine = engine.engine;
+  const Accuracy accuracy = Settling(scene, way, *way.tolerance, stop_check).go();
+  engine.steps = accuracy.steps;
+
+  // What the steps are, and what they reach.
+  vector<string> why;
+  if (!engine.why.empty()) why.push_back(engine.why);
+  const bool stepped = engine.engine == Engine::stepped;
+  if (stepped && way.integrator != Integrator::dop853)
+    why.push_back(fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+  else if (stepped || engine.steps.error > 0)
+    why.push_back(fmt::format("{} {:.1g} of a radius", stepped ? "dop853, step error" : "step error in islands",
+                              engine.steps.error));
+  const bool known = accuracy.right_until >= way.duration;
+  if (accuracy.reached && known)
+    why.push_back(fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
+  engine.why = joined(why, "; ");
+
+  if (!known) engine.growth = growth_of(scene, way, engine.steps, stop_check);
+  engine.right_until = accuracy.right_until;
+  engine.shortfall = shortfall_of(scene, accuracy, engine.growth);
 }
 
 Perturbed perturbed(const World& world, const State& initial, double share) {
@@ -345,6 +407,7 @@ Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& step
     const Runs runs(scene, stop_check, end);
     const vector<double> apart = Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
     const size_t small = within(apart, large);
+
     if (small < apart.size()) {
       growth.large_at = runs.instants()[small];
       if (small < enough(apart) && growth.large_at > clock_share * way.duration) {
@@ -352,6 +415,7 @@ Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& step
         continue;
       }
     }
+
     measure_growth(runs.instants(), apart, small, growth);
     return growth;
   }

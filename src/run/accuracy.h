@@ -13,31 +13,19 @@ namespace carom {
 
 struct Scene;
 
-/// The steps with which positions are within a tolerance, and how far that holds.
-struct Accuracy {
-  StepChoice steps;  // of the stepped engine
-  /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
-  double difference = 0;
-  // In s: the time after which no steps give positions within the tolerance. Infinity: never.
-  double right_until = std::numeric_limits<double>::infinity();
-  /// In m: the difference of the finest runs after that.
-  double beyond = 0;
-  /// Whether the tolerance is met until then.
-  bool reached = true;
-};
-
 /// In s: instants between two times, at irrational fractions, which no period of a scene matches. The fewer, the more
 /// bodies there are, so that their places take little memory.
 vector<double> uneven_instants(double from, double to, size_t bodies);
 
-/// Finds the steps with which positions are within `tolerance` (m). `way`: its engine must be exact or stepped.
+/// For a scene with a tolerance, finds the steps with which positions are within it. If there are none, determines by
+/// how much it is missed.
 /// - dop853: runs with ever smaller step errors, until one agrees with a finer one, which is then used.
 /// - integrators of fixed steps: steps are halved until a run agrees with that of dop853.
 /// - exact engine: the effect of rounding is measured. Where the paths of islands have no closed form, it proceeds as
 ///   with dop853.
 /// Finer runs start with a perturbation of the size of rounding (perturbed()), so that no two runs agree by accident.
 /// `stop_check` is called between slices of the runs, and may throw. Throws SimulationError.
-Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance, const function<void()>& stop_check);
+void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check);
 
 /// Carries a perturbation of 1e-12, and of places by rounding, along (Benettin, Galgani, Giorgilli & Strelcyn,
 /// Meccanica 15 (1980) 9). The motion is chaotic if the perturbation grows faster than the third power of time all
@@ -63,7 +51,7 @@ struct Assessment {
   Growth growth;
 };
 
-/// Assesses runs of this scene by `engine`, which must have its steps settled. Throws as settle_accuracy() does.
+/// Assesses runs of this scene by `engine`, which must have its steps settled. Throws as settle_steps() does.
 Assessment assess(const Scene& scene, const EngineChoice& engine, const function<void()>& stop_check);
 
 /// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves,

@@ -9,7 +9,6 @@
 #include "files/processors.h"
 #include "physics/force.h"
 #include "physics/world.h"
-#include "run/accuracy.h"
 #include "scene/scene.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
@@ -34,11 +33,14 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.duration = simulate.duration;
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+
   options.record_collisions = request.recording.collisions;
   options.record_paths = request.recording.paths;
   options.watch = request.recording.watch;
+
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);
+
   options.one_by_one = request.steps.one_by_one;
   options.quality = &quality_of(simulate.contact.quality);
   options.threads = static_cast<int>(share_of_processors());
@@ -91,10 +93,6 @@ unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
 /// Indexed by Engine. The limits of each engine are in scene/engines.cpp.
 constexpr unique_ptr<Simulator> (*makers[])(const SimulatorRequest&) = {nullptr, make_exact, make_stepped, make_book};
 
-string appended(const string& why, const string& more) {
-  return why.empty() ? more : why + "; " + more;
-}
-
 }  // namespace
 
 Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator) {
@@ -115,61 +113,17 @@ EngineChoice choose_engine(const Scene& scene) {
                                  : "auto: every path of this scene has a closed form";
   }
   if (choice.engine != Engine::stepped || scene.simulate.tolerance) return choice;
+
+  // Its steps: adaptive ones, given ones or the default.
+  if (!choice.why.empty()) choice.why += "; ";
   if (chooses_steps(scene.simulate)) {
-    const string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
-    choice.why = appended(choice.why, "dop853, adaptive steps" + limit);
+    choice.why += "dop853, adaptive steps";
+    if (scene.simulate.step) choice.why += fmt::format(", {:.4g} s at most", *scene.simulate.step);
   } else {
     choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
-    choice.why = appended(
-        choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
+    choice.why += fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length);
   }
   return choice;
-}
-
-namespace {
-
-/// Describes how a run misses its tolerance.
-string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy& accuracy, const Growth& growth) {
-  const double tolerance = *scene.simulate.tolerance;
-  string text;
-  if (!accuracy.reached)
-    text = fmt::format(
-        "not converged: the shortest steps tried, {:.3g} s, leave an error of {:.2g} m in positions, not {} m",
-        *accuracy.steps.length, accuracy.difference, tolerance);
-  if (!(accuracy.right_until < way.duration)) return text;
-  const string since =
-      fmt::format("positions are right to {} m until {:.4g} s, and differ by up to {:.2g} m later: ", tolerance,
-                  accuracy.right_until, accuracy.beyond);
-  const string why = growth.chaotic
-                         ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
-                         : string(
-                               "not converged, though not chaotic: the motion amplifies rounding, or forces change "
-                               "too fast for doubles");
-  return appended(text, since + why);
-}
-
-}  // namespace
-
-void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check) {
-  if (!scene.simulate.tolerance || engine.engine == Engine::book) return;
-  Simulate way = scene.simulate;
-  way.engine = engine.engine;
-  const Accuracy accuracy = settle_accuracy(scene, way, *way.tolerance, stop_check);
-  engine.steps = accuracy.steps;
-  if (engine.engine == Engine::stepped)
-    engine.why =
-        appended(engine.why, chooses_steps(way)
-                                 ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
-                                 : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
-  else if (engine.steps.error > 0)
-    engine.why = appended(engine.why, fmt::format("step error in islands {:.1g} of a radius", engine.steps.error));
-  const bool known = accuracy.right_until >= way.duration;
-  if (accuracy.reached && known)
-    engine.why =
-        appended(engine.why, fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
-  if (!known) engine.growth = growth_of(scene, way, engine.steps, stop_check);
-  engine.right_until = accuracy.right_until;
-  engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);
 }
 
 unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,

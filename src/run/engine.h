@@ -58,11 +58,6 @@ EngineChoice choose_engine(const Scene& scene);
 /// The settings with another engine and integrator, and without a step or tolerance.
 Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4);
 
-/// For a scene with a tolerance, finds the steps that meet it, by repeated runs (accuracy.h).
-/// If none do, determines by how much the tolerance is missed.
-/// `stop_check` is called from time to time, and may throw. Throws SimulationError.
-void settle_steps(const Scene& scene, EngineChoice& engine, const function<void()>& stop_check);
-
 /// Throws SimulationError if the scene's output has flights and its engine records no paths.
 /// The loader refuses that too, but the command line may choose other outputs.
 void check_flights(const Scene& scene);

@@ -66,15 +66,19 @@ FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFil
   const auto manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
   if (!manifest) refuse_damaged(folder, "its manifest.json is damaged, or not written by carom");
   run.manifest = *manifest;
+
   if (manifest->version != CAROM_VERSION)
     refuse_damaged(folder,
                    fmt::format("it is a run of carom {}, and this is carom {}", manifest->version, CAROM_VERSION));
+
+  // Its scene, with the outputs that it has.
   run.scene = file.scene();
   if (sha256(run.scene.resolved) != manifest->scene_sha256)
     refuse_damaged(folder, "its scene.yaml is not the one that was run");
   run.scene.output = restricted(run.scene.output, output_names_of(*manifest));
   if (outputs_text(run.scene.output) != manifest->outputs)
     refuse("it holds no run", "name a folder that carom run has written");
+
   if (const string wrong = wrong_file(opened.get(), *manifest, [&](string_view name) { return spared(run, name); });
       !wrong.empty())
     refuse_damaged(folder, fmt::format("{} is missing or has changed", wrong));

@@ -92,6 +92,7 @@ string label_of(string_view column) {
     if (time) of.resize(std::min(of.size(), of.rfind(" (")));
     return time ? fmt::format("time of the {}imum {} (s)", call.substr(8), of) : fmt::format("{}imum {}", call, of);
   }
+
   const UnitText* text = unit_text(column);
   string label(column.substr(0, column.size() - (text == nullptr ? 0 : text->suffix.size())));
   // Names of bodies stay unchanged.
@@ -99,6 +100,7 @@ string label_of(string_view column) {
   std::replace(dot == string::npos ? label.begin() : label.begin() + static_cast<ptrdiff_t>(dot), label.end(), '_',
                ' ');
   if (dot != string::npos) label[dot] = ' ';
+
   for (const string_view kind : {"kinetic", "potential", "total"})
     if (label.ends_with(kind)) label += " energy";
   return text == nullptr ? label : fmt::format("{} ({})", label, text->unit);

@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "files/summary.h"
+#include "files/summary_columns.h"
 #include "numerics/vec3.h"
 #include "physics/quantity.h"
-#include "run/summary_columns.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 

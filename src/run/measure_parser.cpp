@@ -99,6 +99,7 @@ void read_quantity(string_view text, bool one, Measure& measure) {
     measure.quantity = quantity_named(text, measure.name);
     return;
   }
+
   measure.kind = text.substr(0, first);
   if (!is_kind(measure.kind))
     throw MeasureError(fmt::format("{}: expected a quantity such as balls.NAME.y_m, not {}", in_backticks(measure.name),
@@ -190,6 +191,8 @@ class FormulaParts {
     const size_t end = end_of_word(at_);
     const string_view word = text_.substr(at_, end - at_);
     if (end < text_.size() && text_[end] == '.') return part(end_of_path(end));
+
+    // A call, a column, or a measure of the scene.
     size_t open = end;
     while (open < text_.size() && is_blank(text_[open])) ++open;
     if (open < text_.size() && text_[open] == '(' && find_call(word) != nullptr) {
@@ -201,6 +204,7 @@ class FormulaParts {
     } else if (find_summary_column(word) != nullptr || std::ranges::find(own_, word) != own_.end()) {
       return part(end);
     }
+
     take(end);
   }
 
@@ -224,9 +228,11 @@ class FormulaParts {
     } catch (const MeasureError& error) {
       throw MeasureError(error.what(), within(span, error.span));
     }
+
     if (part.is_text())
       throw MeasureError(
           fmt::format("{} is a name, not a number, and cannot stand in an expression", in_backticks(part.name)), span);
+
     part.span = span;
     measure_.formula += fmt::format("m{}", measure_.parts.size());
     places_.resize(measure_.formula.size(), span);
@@ -311,7 +317,7 @@ void read_region(string_view text, Measure& measure) {
 [[noreturn]] void refuse_name(string_view name, span<const string> own) {
   vector<string_view> names(own.begin(), own.end());
   for (const SummaryColumn& column : summary_columns())
-    if (column.number != nullptr) names.push_back(column.name);
+    if (!column.is_text()) names.push_back(column.name);
   for (const Call& call : calls) names.push_back(call.name);
   const string near = near_name(name, names);
   throw MeasureError(fmt::format(
@@ -338,18 +344,21 @@ Measure parse_measure(string_view text, span<const string> own) {
   if (name.size() > longest) throw MeasureError(fmt::format("a measure has at most {} letters", longest));
   Measure measure;
   measure.name = name;
+
   if (name.starts_with('=')) {
     measure.form = MeasureForm::expression;
     const string_view formula = trimmed(name.substr(1));
     read_formula(formula, static_cast<size_t>(formula.data() - text.data()), own, measure);
     return measure;
   }
+
   measure.column = find_summary_column(name);
   if (measure.column != nullptr) {
-    if (measure.column->number == nullptr)
+    if (measure.column->is_text())
       throw MeasureError(fmt::format("{} of summary.csv is text, not a measure", in_backticks(name)));
     return measure;
   }
+
   const size_t open = name.find('(');
   if (open != string_view::npos) {
     const Call* call = find_call(trimmed(name.substr(0, open)));
@@ -360,6 +369,8 @@ Measure parse_measure(string_view text, span<const string> own) {
     read_call(*call, name.substr(open + 1, close - open - 1), text, own, measure);
     return measure;
   }
+
+  // Names with a dot, and those that the scene defines.
   if (name.starts_with("regions.")) {
     read_region(name, measure);
     return measure;
@@ -369,11 +380,14 @@ Measure parse_measure(string_view text, span<const string> own) {
     measure.things = {string(name.substr(4))};
     return measure;
   }
+
   if (std::ranges::find(own, name) != own.end()) {
     measure.form = MeasureForm::own;
     measure.things = {string(name)};
     return measure;
   }
+
+  // What is left is a quantity of one body.
   if (!is_kind(name.substr(0, name.find('.'))) || name.find('.') == string_view::npos) refuse_name(name, own);
   measure.form = MeasureForm::at_end;
   read_quantity(name, true, measure);

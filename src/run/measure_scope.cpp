@@ -68,6 +68,7 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
   if (measure.kind.empty()) return {0, scene.world.body_count()};
   const bool groups = measure.kind == "groups";
   const auto fits = [&](const BodyRange& range) { return range.group == groups && is_named(range.name, measure.body); };
+
   // A name stands for one thing, or for all members of a repeated one, which follow one another.
   EntityRange bodies;
   bool found = false;
@@ -77,10 +78,13 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
     found = true;
     bodies.count += range.count;
   }
+
+  // The name may be that of one member of a group.
   const size_t dot = measure.body.rfind('.');
   if (!found && groups && dot != string::npos)
     if (const BodyRange* range = find_range(scene, measure.body.substr(0, dot)); range != nullptr && range->group)
       return member_of(*range, string_view(measure.body).substr(dot + 1), measure);
+
   const auto is_kind = [&](string_view of) { return groups ? of == "groups" : of == "balls" || of == "bodies"; };
   if (!found && !is_empty(scene, measure.body, is_kind)) {
     vector<string_view> names;
@@ -89,6 +93,7 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene) {
     throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind,
                                    in_backticks(measure.body), other_names(measure.body, names)));
   }
+
   const BodyRange* whole = find_range(scene, measure.body);
   if (measure.form == MeasureForm::at_end && (whole == nullptr || whole->group))
     throw MeasureError(fmt::format("{} has no member; expected one such as {}.{}.0.{}", in_backticks(measure.name),
@@ -103,17 +108,21 @@ vector<EntityRange> things_named(string_view name, const Measure& measure, const
     names.push_back(range.name);
     if (is_named(range.name, name)) things.push_back({range.first, range.count});
   }
+
   for (size_t k = 0; k < scene.roster.fixed.size(); ++k) {
     const string_view fixed = scene.roster.fixed[k].name;
     names.push_back(fixed);
     if (is_named(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
   }
+
   for (size_t k = 0; k < scene.roster.strings.size(); ++k) {
     names.push_back(scene.roster.strings[k]);
     if (is_named(scene.roster.strings[k], name)) things.push_back({scene.world.string_number(k), 1});
   }
+
   const auto is_thing = [](string_view of) { return of != "regions"; };
   if (!things.empty() || is_empty(scene, name, is_thing)) return things;
+
   const size_t dot = name.rfind('.');
   if (dot != string_view::npos)
     if (const BodyRange* range = find_range(scene, name.substr(0, dot)); range != nullptr && range->group)
@@ -162,6 +171,7 @@ void check(const Measure& measure, const Scene& scene, vector<string>& above) {
       throw MeasureError(error.what(), within(part.span, error.span));
     }
   }
+
   switch (measure.form) {
     case MeasureForm::at_end:
     case MeasureForm::greatest:
@@ -171,16 +181,19 @@ void check(const Measure& measure, const Scene& scene, vector<string>& above) {
     case MeasureForm::count:
       bodies_of(measure, scene);
       return;
+
     case MeasureForm::first_hit:
     case MeasureForm::hits:
       for (const string& name : measure.things) things_named(name, measure, scene);
       return;
+
     case MeasureForm::entries:
     case MeasureForm::inside:
     case MeasureForm::first_entry:
     case MeasureForm::first_entrant:
       regions_named(measure, scene);
       return;
+
     case MeasureForm::given:
       if (!scene.measures.numbers.contains(measure.things[0])) {
         vector<string_view> names;
@@ -189,6 +202,7 @@ void check(const Measure& measure, const Scene& scene, vector<string>& above) {
             fmt::format("`let` has no {}{}", in_backticks(measure.things[0]), other_names(measure.things[0], names)));
       }
       return;
+
     case MeasureForm::own: {
       if (std::ranges::find(above, measure.things[0]) != above.end())
         throw MeasureError(
@@ -203,6 +217,7 @@ void check(const Measure& measure, const Scene& scene, vector<string>& above) {
       above.pop_back();
       return;
     }
+
     default:
       return;
   }

@@ -49,6 +49,7 @@ Measuring::Measuring(const Scene& scene, vector<Measure> measures) : scene_(scen
 void Measuring::prepare(const Measure& measure) {
   for (const Measure& part : measure.parts) prepare(part);
   check_names(measure, scene_);
+
   if (is_extreme(measure.form)) {
     const WatchedQuantity watched = watched_by(measure, scene_);
     if (std::ranges::find(watched_, watched) == watched_.end()) watched_.push_back(watched);
@@ -56,6 +57,7 @@ void Measuring::prepare(const Measure& measure) {
   if (is_of_region(measure.form) &&
       std::ranges::none_of(visits_, [&](const Visits& visits) { return visits.name == measure.things[0]; }))
     visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
+
   if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
   if (std::ranges::any_of(meetings_, [&](const Meeting& m) { return m.things == measure.things; })) return;
   Meeting meeting{measure.things, things_named(measure.things[0], measure, scene_), {}, 0, undefined};
@@ -73,6 +75,7 @@ void Measuring::record(span<const Collision> collisions, span<const RegionCrossi
       ++visits.entries;
     }
   }
+
   for (Meeting& meeting : meetings_) {
     for (const Collision& c : collisions) {
       if (c.kind == CollisionKind::rest) continue;
@@ -146,11 +149,13 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
   const auto meeting = [&]() -> const Meeting& {
     return *std::ranges::find_if(meetings_, [&](const Meeting& m) { return m.things == measure.things; });
   };
+
   switch (measure.form) {
     case MeasureForm::column:
       return measure.column->number(run.summary);
     case MeasureForm::at_end:
       return at_end(measure, bodies_of(measure, scene_).first, run.state);
+
     case MeasureForm::greatest:
       return extremes(measure, run).greatest.value;
     case MeasureForm::least:
@@ -159,16 +164,19 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
       return extremes(measure, run).greatest.time;
     case MeasureForm::least_time:
       return extremes(measure, run).least.time;
+
     case MeasureForm::first_hit:
       return meeting().first;
     case MeasureForm::hits:
       return meeting().count;
+
     case MeasureForm::entries:
       return visits().entries;
     case MeasureForm::inside:
       return inside(visits(), run.state);
     case MeasureForm::first_entry:
       return visits().first;
+
     case MeasureForm::count:
       return counted(measure, run);
     case MeasureForm::expression:
@@ -178,6 +186,7 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
     case MeasureForm::own:
       return value(
           *std::ranges::find_if(measures_, [&](const Measure& other) { return other.name == measure.things[0]; }), run);
+
     default:
       return undefined;
   }

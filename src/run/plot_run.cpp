@@ -72,6 +72,8 @@ class RunPlotter {
     OpenFolder folder(request_.folder);
     vector<FileRecord> records = in_place_ ? kept_files() : folder.begin(*request_.scene, read_meshes(*request_.scene));
     if (in_place_) folder.renew(*request_.scene, {});
+
+    // Another folder gets the run's totals too.
     optional<OutputFile> summary;
     vector<PartFile*> files;
     if (!in_place_) {
@@ -81,10 +83,12 @@ class RunPlotter {
       records.push_back(summary->record());
       files.push_back(&*summary);
     }
+
     Series series(folder, plot_files);
     for (const ChartFile& file : drawn) series.put(file.name, file.bytes);
     const vector<FileRecord> charts = series.records();
     records.insert(records.end(), charts.begin(), charts.end());
+
     OutputFile manifest(folder.place(), manifest_name);
     manifest.write(changed_manifest(text_of_run(former_, manifest_name, largest_manifest), *request_.scene, records));
     manifest.complete();

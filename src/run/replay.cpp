@@ -136,11 +136,13 @@ void Replay::place(size_t body, const Instant& at) {
 
 const State& Replay::state() {
   if (fresh_) return state_;
+
   state_.time = end_ ? std::min(time_, end_->time) : time_;
   state_.position.resize(now_.size());
   state_.velocity.resize(now_.size());
   const Instant at{state_.time, 0};
   for (size_t i = 0; i < now_.size(); ++i) place(i, at);
+
   if (!part_of_.empty()) {
     state_.mass = mass_;
     state_.radius = radius_;
@@ -148,6 +150,7 @@ const State& Replay::state() {
     state_.part_of = part_of_;
     state_.join_parts();
   }
+
   fresh_ = true;
   return state_;
 }

@@ -16,6 +16,7 @@
 
 #include "export/flights_file.h"
 #include "physics/archive.h"
+#include "run/accuracy.h"
 #include "run/checkpoints.h"
 #include "run/drawing_thread.h"
 #include "run/drawings.h"
@@ -112,6 +113,7 @@ class Run {
     const SinkGuard guard = [&](size_t sink, const function<void()>& work) {
       sink < standing.size() ? stages_.guarded(standing[sink].show, work) : work();
     };
+
     const auto stop_check = [&] {
       try {
         watch_.stop_check();
@@ -121,10 +123,12 @@ class Run {
         throw;
       }
     };
+
     const auto advanced = [this] {
       report_progress(RunProgress::Phase::simulating);
       checkpoints_.keep_if_due();
     };
+
     try {
       carry_through(*simulated_.simulator, sinks, scene_.simulate.duration, guard,
                     {.stop_check = stop_check,
@@ -235,12 +239,14 @@ vector<RunResult> run_shows(span<const Show> shows, const EngineChoice& engine, 
   double wall_s = 0;
   double before_s = 0;
   vector<RunResult> results;
+
   const auto run_all = [&] {
     Run run(shows, engine, settings, watch);
     before_s = run.before_s();
     run.go();
     results = run.finish();
   };
+
   {
     const Stopwatch wall(wall_s);
     try {
@@ -255,6 +261,7 @@ vector<RunResult> run_shows(span<const Show> shows, const EngineChoice& engine, 
       throw error.named([&](Entity body) { return fmt::format("`{}`", roster.name(body)); });
     }
   }
+
   for (RunResult& result : results) result.wall_s = before_s + wall_s;
   return results;
 }

@@ -105,6 +105,7 @@ vector<MovingCamera*> DrawingSink::cameras() {
 void DrawingSink::sample(Simulator& simulator) {
   const double time = simulator.time();
   const bool on_timeline = part().timeline().time() <= time;
+
   if (needs_state(time)) {
     const State& state = simulator.state();
     history_.sample(state);
@@ -112,6 +113,7 @@ void DrawingSink::sample(Simulator& simulator) {
       const Stopwatch stopwatch(export_s_);
       part().sample(state);
     }
+
     for (size_t i = 0; i < series_.size(); ++i) {
       if (on_timeline && is_picture_due(i))
         draw(i, simulator);

@@ -186,6 +186,7 @@ void Stages::finish(size_t i, const Simulated& done, RunResult& result) {
 
 void Stages::take_measures(size_t i, const Simulated& done, RunResult& result) const {
   const Stage& stage = *stages_[i];
+
   if (const Manifest* former = settings_.former; former != nullptr) {
     if (result.summary.collisions != former->collisions)
       throw ExportError(

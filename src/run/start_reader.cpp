@@ -39,6 +39,7 @@ FormerRun opened(const string& folder, const LoadOptions& options) {
     throw StartError("it has failed: " + failure.substr(0, failure.find('\n')),
                      "name the folder of a run that is done");
   settle_folder(folder);
+
   LoadOptions load;
   load.budget = load.budget.without_outputs();
   load.budget.enforced = false;
@@ -90,6 +91,7 @@ State state_in_table(const FormerRun& run, double at) {
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   Descriptor file = folder ? open_stored(folder.get(), table_name) : Descriptor();
   if (!file) throw StartError(fmt::format("{} is missing", table_name), "run it again");
+
   StoredTrajectory trajectory(std::move(file), run.scene);
   Nearest near;
   while (!near.after && trajectory.next()) {
@@ -105,6 +107,7 @@ State state_in_table(const FormerRun& run, double at) {
     state.position.assign(bodies, Vec3::Zero());
     state.velocity.assign(bodies, Vec3::Zero());
     state.part_of.assign(bodies, no_entity);
+
     trajectory.read([&](Entity body, const vector<string_view>& row, size_t first) {
       if (read_motion(row, first, state.position[body], state.velocity[body]))
         state.part_of[body] = body;
@@ -131,10 +134,12 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
                      fmt::format("expected `at` from 0 to {} s", shortest(end)), true);
   if (lacks_impulses(run.scene, at.value_or(end)))
     throw StartError("the book's engine had not yet applied the impulses then", "expected a later `at`", true);
+
   const string file(states_file(run));
   if (!run.has(file))
     throw StartError("it has neither flights nor a trajectory",
                      "run it with `output.flights: true`, or with `output.trajectory`");
+
   FormerState former;
   for (Entity body = 0; body < run.scene.world.body_count(); ++body)
     former.names.push_back(run.scene.roster.name(body));
@@ -143,6 +148,7 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
   bool gone = false;
   for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
   former.has_merged = gone && run.scene.simulate.contact.merge;
+
   former.file = file;
   for (const FileRecord& record : run.manifest.files)
     if (record.name == file) former.sha256 = record.sha256;
@@ -165,16 +171,20 @@ function<FormerState(const string& folder, optional<double> at)> start_reader(co
   return [last, options](const string& folder, optional<double> at) {
     const string path = without_slash(folder);
     try {
+      // One folder is read once, for any number of times.
       if (!last->run || last->folder != path) {
         *last = {path};
         last->run = opened(path, options);
       }
+
       if (!last->state || last->at != at) {
         last->state.reset();
         last->state = state_of(*last->run, at);
         last->at = at;
       }
       return *last->state;
+
+      // A run that cannot be read is an error of the scene that begins with it.
     } catch (const SceneError&) {
       throw StartError("its scene.yaml has errors", fmt::format("carom check {}/scene.yaml shows them", path));
     } catch (const ForeignRow&) {

@@ -16,10 +16,13 @@ Image draw_still(const Scene& scene, const string& run, double time, const funct
   const PictureStream stream = still_stream(scene, time);
   History history(scene, picture_needs(scene));
   PictureSeries series(scene, stream, history, run);
+
+  // A camera that frames the motion has to see it first.
   if (series.camera().frames_motion()) {
     MovingCamera* const cameras[] = {&series.camera()};
     survey(cameras, *motion(), stop_check);
   }
+
   const auto simulator = motion();
   const auto record = [&] {
     history.record(simulator->collisions());
@@ -27,6 +30,7 @@ Image draw_still(const Scene& scene, const string& run, double time, const funct
   };
   record();
   series.aim(time);
+
   const double piece = scene.simulate.duration / 1000;
   for (;;) {
     // States before that of the picture are needed for motion blur and trails.

@@ -86,9 +86,12 @@ class Warnings {
   void check_steps() {
     const StiffStep& step = tally_.doubts.stiffest;
     if (!(step.phase > longest_phase)) return;
+
+    // The stable step, and what the method leaves of an amplitude.
     const Integrator method = scene_.simulate.integrator;
     LinearMode mode;
     const double stable = stable_step(method, force_jacobian(scene_.world, step.body, step.time, step.x, step.v), mode);
+
     string text = fmt::format("forces turned by {:.3g} rad in a step of {:.3g} s", step.phase, step.length);
     if (const string stiff = stiffest_force(step); !stiff.empty())
       text += fmt::format(", most by {} on `{}`", stiff, scene_.roster.name(step.body));
@@ -98,6 +101,7 @@ class Warnings {
     else if (mode.damping == 0 && left < 0.995)
       text += fmt::format(", stable up to {:.3g} s, but {} leaves {:.2g} of an amplitude in each step", stable,
                           name_of(method), left);
+
     add("step", text + fmt::format(": use steps of at most {:.2g} s, or `integrator: dop853`",
                                    step.length * accurate_phase / step.phase));
   }
@@ -107,6 +111,7 @@ class Warnings {
     const World& world = scene_.world;
     double greatest = 0;
     string name;
+
     for (size_t k = 0; k < world.forces.size(); ++k) {
       if (!acts(world.forces[k], step.body, step.time)) continue;
       const double rate = std::visit(

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "commands/new.h"
 #include "commands/program.h"
+#include "commands/starting_scene.h"
 #include "scene/absent_words.h"
 #include "scene/field_places.h"
 #include "scene/scene.h"

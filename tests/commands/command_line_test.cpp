@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "commands/commands.h"
 #include "commands/program.h"
-#include "commands/run.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -155,7 +155,7 @@ TEST(CommandLine, VersionIsOneLine) {
 }
 
 TEST(CommandLine, WordsAfterTwoDashesAreScenes) {
-  const CommandText& text = run_text();
+  const Command& text = run_command;
   const Options options = parse_options(text, {"-q", "a.yaml", "--", "--force", "-o"}).options;
   EXPECT_EQ(options.operands, (vector<string>{"a.yaml", "--force", "-o"}));
   EXPECT_TRUE(options.quiet);
@@ -163,7 +163,7 @@ TEST(CommandLine, WordsAfterTwoDashesAreScenes) {
 }
 
 TEST(CommandLine, EveryOptionIsRead) {
-  const CommandText& text = run_text();
+  const Command& text = run_command;
   const Options options = parse_options(text, {"a.yaml", "--set", "x=1", "b.yaml", "--set=y=2=3", "-oout", "--only",
                                                "energy,sheet,energy", "--seed", "18446744073709551615", "--force",
                                                "--json", "-q", "--progress=lines", "--color", "never"})

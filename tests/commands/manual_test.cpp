@@ -3,7 +3,7 @@
 
 #include "commands/commands.h"
 #include "commands/manual.h"
-#include "commands/options.h"
+#include "commands/option_table.h"
 #include "commands/program.h"
 #include "scene/field_places.h"
 #include "scene/fields.h"
@@ -21,14 +21,14 @@ string replaced(string text, const string& from, const string& to) {
 TEST(ManualPage, HasEveryCommandItsExamplesAndItsOptions) {
   const string page = manual_page();
   for (const Command& command : commands()) {
-    const string head = ".SS carom " + command.text.name + "\n";
+    const string head = ".SS carom " + command.name + "\n";
     const size_t begin = page.find(head);
     ASSERT_NE(begin, string::npos) << head;
     const string section = page.substr(begin, page.find(".S", begin + 3) - begin);
-    for (const OptionUse& use : command.text.options)
+    for (const OptionUse& use : command.options)
       EXPECT_NE(section.find("\\fB" + replaced(string(use.name), "-", "\\-") + "\\fR"), string::npos)
-          << command.text.name << " " << use.name;
-    EXPECT_NE(section.find("carom " + command.text.name), string::npos);
+          << command.name << " " << use.name;
+    EXPECT_NE(section.find("carom " + command.name), string::npos);
   }
 }
 
@@ -78,7 +78,7 @@ TEST_F(BashCompletion, OffersCommands) {
   EXPECT_EQ(offered("carom s"), "schema|submit|sweep");
   EXPECT_EQ(offered("carom help s"), "schema|submit|sweep");
   EXPECT_EQ(offered("carom --v"), "--version");
-  for (const Command& command : commands()) EXPECT_EQ(offered("carom " + command.text.name), command.text.name);
+  for (const Command& command : commands()) EXPECT_EQ(offered("carom " + command.name), command.name);
 }
 
 TEST_F(BashCompletion, OffersTheOptionsOfTheCommandAndNoOthers) {
@@ -86,9 +86,9 @@ TEST_F(BashCompletion, OffersTheOptionsOfTheCommandAndNoOthers) {
   EXPECT_EQ(offered("carom sweep --s"), "--seed|--set|--shard|--skip-invalid");
   EXPECT_EQ(offered("carom schema --f"), "");
   for (const Command& command : commands())
-    for (const OptionUse& use : options_of(command.text))
-      EXPECT_EQ(offered("carom " + command.text.name + " " + string(use.name)).find(use.name), 0u)
-          << command.text.name << " " << use.name;
+    for (const OptionUse& use : options_of(command))
+      EXPECT_EQ(offered("carom " + command.name + " " + string(use.name)).find(use.name), 0u)
+          << command.name << " " << use.name;
 }
 
 TEST_F(BashCompletion, OffersValuesOfOptionsThatHaveAChoice) {

@@ -23,7 +23,7 @@ RunResult result_with(uint64_t collapses, uint64_t merges) {
 
 string lines_of(const RunResult& result) {
   PlannedScene planned;
-  planned.engine.engine = Engine::exact;
+  planned.price.engine.engine = Engine::exact;
   Block block(Palette(false), 100);
   describe(block, planned, result);
   const size_t from = block.text().find("  collisions"), to = block.text().find("  energy");

@@ -1,5 +1,5 @@
 // A row has an option's names, its help and the function that stores its value. A new option is one row.
-#include "commands/options.h"
+#include "commands/option_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -87,6 +87,7 @@ vector<string> split_lists(const Words& words) {
   for (const string& list : words) {
     int depth = 0;
     parts.emplace_back();
+
     for (const char c : list) {
       depth += c == '(' ? 1 : c == ')' ? -1 : 0;
       if (c == ',' && depth <= 0)
@@ -242,7 +243,7 @@ const Option table[] = {
     {"--verbose", "-v", "", "also the expected error by its sources; takes four or\nmore runs",
      [](Options& o, const Words&) { o.accuracy = true; }},
     {"--watch", "", "", "run scenes again whenever they, their meshes or textures\nare saved, until Ctrl-C",
-     [](Options& o, const Words&) { o.watch = true; }},
+     [](Options& o, const Words&) { o.execution.watch = true; }},
     {"--at", "", "SECONDS", "draw one picture, at this time",
      [](Options& o, const Words& w) { o.at = time_of(single(w, "--at"), "--at"); }},
     {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},
@@ -269,7 +270,7 @@ const Option& option_named(string_view name) {
   std::abort();  // a command names an option that the table does not have
 }
 
-vector<OptionUse> options_of(const CommandText& command) {
+vector<OptionUse> options_of(const Command& command) {
   vector<OptionUse> options = command.options;
   for (const string_view name : {"--color", "--json", "--quiet"}) options.push_back({name});
   for (OptionUse& use : options)

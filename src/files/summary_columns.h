@@ -1,5 +1,6 @@
 #pragma once
-// The columns of summary.csv as data: name, meaning and number of each.
+// The columns of summary.csv as data: name, meaning and value of each.
+#include <variant>
 
 #include "files/summary.h"
 #include "std.h"
@@ -9,8 +10,12 @@ namespace carom {
 struct SummaryColumn {
   string_view name;     // as in summary.csv
   string_view meaning;  // a phrase
-  /// The value, in the unit at the end of the name. Null: the column is text.
-  double (*number)(const Summary&) = {};
+  /// In the unit at the end of the name.
+  std::variant<string_view, uint64_t, double> (*value)(const Summary&);
+
+  bool is_text() const { return value({}).index() == 0; }
+  /// The value of a column that is no text.
+  double number(const Summary& summary) const;
 };
 
 /// In the order of the columns in the file.
