@@ -39,7 +39,7 @@ vector<OutputFile*> GltfWriter::files() {
 
 double GltfWriter::bytes(const Scene& scene, double instants) {
   // Typical values. There is one mesh for each colour.
-  constexpr double key_bytes = 16, body_bytes = 900, mesh_bytes = 40000;
+  constexpr double key_bytes = 12, body_bytes = 900, mesh_bytes = 40000;
   return scene.world.body_count() * (key_bytes * instants + body_bytes) +
          mesh_bytes * static_cast<double>(scene.roster.bodies.size() + 1);
 }

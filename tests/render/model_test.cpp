@@ -1,4 +1,4 @@
-// Fixed things as triangles, and the parts of a glTF file that assimp cannot write.
+// Fixed things as triangles, and glTF files.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +9,6 @@
 #include "physics/world.h"
 #include "render/colored_meshes.h"
 #include "render/glb.h"
-#include "render/glb_nodes.h"
 #include "render/scenes.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
@@ -114,7 +113,7 @@ TEST(StillThings, RoundVolumesHaveTheirCornersOnThem) {
     }
 }
 
-TEST(Glb, KeepsWhatAssimpLoses) {
+TEST(Glb, HasNodesACameraLightsAndSteps) {
   Scene scene = ball_at(Vec3(1, 1, 1));
   scene.title = "At one";
   scene.lights = {{"lamp", {}, Vec3(0, 3, 0), {}, 1}};
@@ -125,14 +124,13 @@ TEST(Glb, KeepsWhatAssimpLoses) {
   motion.changes = {{1, 0, Volume::sphere(1)}, {2, 0, nullopt}};
   const Json gltf = json_of(glb(scene, motion));
   EXPECT_EQ(gltf["scenes"][0]["name"], "At one");
-  EXPECT_EQ(gltf["nodes"][1]["name"], "ball");
-  EXPECT_EQ(gltf["nodes"][1]["translation"], Json({1, 1, 1}));
-  EXPECT_EQ(gltf["nodes"][1]["scale"], Json({0.5, 0.5, 0.5}));
-  EXPECT_EQ(gltf["nodes"][2]["camera"], 0);
+  EXPECT_EQ(gltf["nodes"][0]["name"], "ball");
+  EXPECT_EQ(gltf["nodes"][0]["translation"], Json({1, 1, 1}));
+  EXPECT_EQ(gltf["nodes"][0]["scale"], Json({0.5, 0.5, 0.5}));
+  EXPECT_EQ(gltf["nodes"][1]["camera"], 0);
   EXPECT_NEAR(gltf["cameras"][0]["perspective"]["yfov"].get<double>(), 0.785398163, 1e-7);
-  EXPECT_EQ(gltf["nodes"][3]["extensions"]["KHR_lights_punctual"]["light"], 0);
+  EXPECT_EQ(gltf["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"], 0);
   EXPECT_EQ(gltf["extensions"]["KHR_lights_punctual"]["lights"][0]["type"], "point");
-  EXPECT_FALSE(gltf["materials"][0].contains("extensions"));
   // 0.5 in sRGB is 0.214 of the light.
   EXPECT_NEAR(gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(), 0.21404, 1e-5);
   const Json& animation = gltf["animations"][0];
@@ -172,6 +170,22 @@ TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   EXPECT_FALSE(json_of(glb(scene, motion)).contains("textures"));
 }
 
+TEST(Glb, WritesAPictureOnceForMeshesThatWrapItDifferently) {
+  const test::MeshFolder folder;
+  Scene scene;
+  for (const char* wrap : {"10497", "33071"}) {
+    test::GltfSquare square{test::data_uri(test::four_colors)};
+    square.sampler = string(R"("wrapS": )") + wrap;
+    const Entity e = test::add_ball(scene, Vec3(3.0 * scene.world.body_count(), 0, 0), 1, {1, 1, 1});
+    scene.roster.bodies[e].mesh = MeshUse{folder.write(string(wrap) + ".gltf", square.text()), Vec3::Zero(), 1, true};
+  }
+  const Json gltf = json_of(glb(scene, KeyedMotion{}));
+  EXPECT_EQ(gltf["images"].size(), 1U);
+  ASSERT_EQ(gltf["textures"].size(), 2U);
+  EXPECT_EQ(gltf["samplers"][gltf["textures"][0]["sampler"].get<size_t>()]["wrapS"], 10497);
+  EXPECT_EQ(gltf["samplers"][gltf["textures"][1]["sampler"].get<size_t>()]["wrapS"], 33071);
+}
+
 TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
   const test::MeshFolder folder;
   folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
@@ -183,7 +197,7 @@ TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
     scene.roster.bodies[e].mesh = MeshUse{file, Vec3::Zero(), scale, true};
   }
   const Json gltf = json_of(glb(scene, KeyedMotion{}));
-  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(gltf["nodes"][i + 1]["mesh"], i == 1 ? 1 : 0);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(gltf["nodes"][i]["mesh"], i == 1 ? 1 : 0);
   for (size_t i = 0; i < 2; ++i) EXPECT_EQ(gltf["meshes"][i]["primitives"].size(), 2U);
 }
 
@@ -245,16 +259,6 @@ TEST(Glb, ACameraThatStandsStillHasNone) {
     motion.cameras.push_back({.eye = Vec3(0, 1, 5), .target = Vec3(0, 1, 0)});
   }
   EXPECT_EQ(json_of(glb(scene, motion))["animations"][0]["channels"].size(), 1U);
-}
-
-TEST(Glb, RotationsTurnTheAxesWhereTheyShould) {
-  const Vec3 x = Vec3(1, 2, -0.5).normalized(), z = x.cross(Vec3(0.3, 1, 4)).normalized(), y = z.cross(x);
-  for (const auto& [a, b, c] : {array<Vec3, 3>{x, y, z}, {y, z, x}, {z, x, y}, {-x, -y, z}, {x, -y, -z}, {-x, y, -z}}) {
-    const auto q = rotation_to(a, b, c);
-    const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
-    EXPECT_NEAR(turn.norm(), 1, 1e-15);
-    EXPECT_LT((turn * Vec3::UnitX() - a).norm() + (turn * Vec3::UnitZ() - c).norm(), 1e-14);
-  }
 }
 
 TEST(Glb, ASceneOfNothingIsAnError) {
