@@ -24,7 +24,7 @@
 namespace carom {
 namespace {
 
-using Json = GlbFile::Json;
+using Json = nlohmann::ordered_json;
 
 // A matt surface that faces a light of intensity 1 has its own colour: pi W/m^2, and 683 lm/W.
 constexpr double usual = std::numbers::pi * 683;  // lux
@@ -159,11 +159,14 @@ class GlbBuilder {
       add_channel(body, "translation", motion_.times, places);
     }
     animate_scales();
+
+    // The camera, and fixed things, if they move.
     const auto moved = [&](const Camera& camera) {
       return camera.eye != camera_.eye || camera.target != camera_.target;
     };
     if (std::ranges::any_of(motion_.cameras, moved)) animate_camera();
     for (const MovingThing& thing : moving_) animate_thing(thing);
+
     if (!channels_.empty())
       file_.add("animations", {{"name", "motion"}, {"channels", channels_}, {"samplers", samplers_}});
   }
@@ -190,10 +193,12 @@ class GlbBuilder {
       vector<array<float, 3>> scales;
     };
     std::map<Entity, Steps> steps;
+
     for (const KeyedMotion::Change& change : motion_.changes) {
       const Vec3& first = first_scales_[change.body];
       auto& [times, scales] = steps[change.body];
       if (times.empty() && change.key > 0) times = {motion_.times.front()}, scales = {floats(first)};
+
       Vec3 scale = Vec3::Zero();
       if (change.volume)
         scale = first.cwiseProduct(change.volume->half.cwiseQuotient(scene_.world.volume_of(change.body).half));

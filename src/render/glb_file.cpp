@@ -11,6 +11,8 @@
 namespace carom {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 void put_word(string& file, size_t value) {
   const auto word = static_cast<uint32_t>(value);
   file.append(reinterpret_cast<const char*>(&word), sizeof word);

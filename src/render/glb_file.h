@@ -9,12 +9,10 @@ namespace carom {
 
 class GlbFile {
  public:
-  using Json = nlohmann::ordered_json;
-
   /// Adds an item to one of the lists, such as "nodes". Returns its number.
-  size_t add(const string& list, Json item);
+  size_t add(const string& list, nlohmann::ordered_json item);
   /// The same. An item that is there already is not added again.
-  size_t add_once(const string& list, Json item);
+  size_t add_once(const string& list, nlohmann::ordered_json item);
 
   /// What a buffer view is for, as glTF numbers it.
   enum class Use { data = 0, vertices = 34962, corners = 34963 };
@@ -27,7 +25,7 @@ class GlbFile {
   /// A buffer view. Returns its number.
   size_t add_bytes(string_view bytes, Use use = Use::data);
 
-  Json& json() { return json_; }
+  nlohmann::ordered_json& json() { return json_; }
   /// The file. Throws RenderError if it is too large for the format. Call it once, at the end.
   string finished();
 
@@ -35,7 +33,7 @@ class GlbFile {
   template <typename Number>
   size_t add_numbers(span<const Number> numbers, size_t width, Use use);
 
-  Json json_ = {{"asset", {{"version", "2.0"}, {"generator", "carom " CAROM_VERSION}}}};
+  nlohmann::ordered_json json_ = {{"asset", {{"version", "2.0"}, {"generator", "carom " CAROM_VERSION}}}};
   string binary_;
   std::map<string, size_t> known_;  // by list and item
 };

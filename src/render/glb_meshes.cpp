@@ -20,7 +20,7 @@
 namespace carom {
 namespace {
 
-using Json = GlbFile::Json;
+using Json = nlohmann::ordered_json;
 
 vector<array<float, 3>> rows_of(const vector<Vec3>& list) {
   vector<array<float, 3>> rows;
@@ -42,6 +42,7 @@ Mesh part_of(const Mesh& mesh, size_t first, const MeshPart& part) {
   out.paint.parts = {part};
   constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
   vector<uint32_t> number(mesh.vertices.size(), none);
+
   for (size_t i = first; i < first + size_t{3} * part.triangles; ++i) {
     const uint32_t from = mesh.triangles[i];
     if (number[from] == none) {
@@ -133,12 +134,14 @@ size_t GlbMeshes::single(const Mesh& mesh, const Color& color, bool two_sided, c
   size_t first = 0;
   for (const MeshPart& part : mesh.paint.parts) {
     if (part.triangles == 0) continue;
+
     optional<size_t> shown;
     if (part.colored && part.texture > 0) {
       const auto [known, is_new] = images.try_emplace(part.texture);
       if (is_new) known->second = image(mesh.paint.textures[part.texture - 1]);
       shown = known->second;
     }
+
     const size_t look = part.colored ? material(part, shown, name) : material(color, two_sided);
     primitives.push_back(primitive(part_of(mesh, first, part), look));
     first += size_t{3} * part.triangles;

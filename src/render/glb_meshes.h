@@ -26,7 +26,7 @@ class GlbMeshes {
   using Srgb = array<double, 3>;
   using Use = std::tuple<string, array<double, 4>, bool, Srgb>;
 
-  GlbFile::Json primitive(const Mesh& mesh, size_t material);
+  nlohmann::ordered_json primitive(const Mesh& mesh, size_t material);
   size_t material(const Color& color, bool two_sided);
   /// `image`: the number of the part's texture among the images, if it has one.
   size_t material(const MeshPart& part, optional<size_t> image, const string& name);

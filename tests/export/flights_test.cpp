@@ -10,6 +10,7 @@
 #include "export/same_piece.h"
 #include "files/hash.h"
 #include "files/open_folder.h"
+#include "files/run_folder.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -386,30 +387,6 @@ TEST(Flights, ThatGoBackInTimeAreRefused) {
   changed[5].from = 0.0625;
   store(folder, scene, changed);
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is damaged");
-}
-
-TEST(Flights, FromATimeOnBeginWithThePresentPieceOfEveryBody) {
-  const TempFolder folder;
-  const Scene scene = small_scene();
-  store(folder, scene);
-  const Descriptor opened = open(folder);
-  FlightsReader reader(opened.get(), folder.path(), scene);
-  const vector<PathPiece> all = pieces();
-  for (const double time : {0.19, 0.0, 0.15, 0.16, 1.0}) {
-    SCOPED_TRACE(time);
-    reader.seek(time);
-    vector<PathPiece> expected;
-    for (size_t k = 0; k < all.size(); ++k) {
-      const auto replaced = [&](const PathPiece& later) { return later.body == all[k].body && later.from <= time; };
-      if (std::none_of(all.begin() + static_cast<ptrdiff_t>(k) + 1, all.end(), replaced)) expected.push_back(all[k]);
-    }
-    Recorded recorded;
-    for (const PathPiece& piece : expected) {
-      ASSERT_TRUE(reader.next(recorded));
-      EXPECT_TRUE(same_bits(recorded.piece, piece)) << "body " << piece.body << " from " << piece.from;
-    }
-    EXPECT_FALSE(reader.next(recorded));
-  }
 }
 
 TEST(Flights, ThatGrowTooLargeAreLeftOut) {
