@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bench/shifted.h"
+#include "export/gnuplot.h"
 #include "files/csv.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"

@@ -11,6 +11,7 @@
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/text.h"
+#include "export/gnuplot.h"
 #include "files/processors.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -12,7 +12,7 @@
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/text.h"
-#include "export/plot.h"
+#include "export/gnuplot.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"

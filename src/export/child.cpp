@@ -22,7 +22,7 @@
 #include <thread>
 #include <utility>
 
-#include "files/run_folder.h"
+#include "files/file_place.h"
 #include "std.h"
 
 namespace carom {
@@ -74,10 +74,12 @@ optional<string> find_program(const string& name) {
     const string_view folder = rest.substr(0, rest.find(':'));
     rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
     if (folder.empty()) continue;
+
     std::error_code error;
     const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(folder) / name, error);
     struct stat info {};
     if (error) continue;
+
     if (stat(file.c_str(), &info) != 0) {
       if (!is_absent(errno) && errno != EACCES) fail("look for", {-1, string(folder)}, name);
     } else if (S_ISREG(info.st_mode) && access(file.c_str(), X_OK) == 0) {
@@ -140,16 +142,19 @@ Child::Sent Child::send(const void* bytes, size_t size, std::chrono::millisecond
   auto limit = Clock::now() + patience;
   while (size > 0) {
     if (abandoned_) return Sent::abandoned;
+
     const ssize_t n = ::send(input_.get(), from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n >= 0) {
       from += n;
       size -= static_cast<size_t>(n);
       limit = Clock::now() + patience;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      // The program is busy. Wait for room, a little at a time.
       pollfd request{input_.get(), POLLOUT, 0};
       const int ready = poll(&request, 1, static_cast<int>(glance.count()));
       if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(glance);
       stop_check()();
+
       if (ready > 0) continue;
       if (has_ended()) return Sent::closed;
       if (Clock::now() >= limit) return Sent::stuck;

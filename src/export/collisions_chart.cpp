@@ -54,6 +54,8 @@ Plot CollisionsChart::plot() const {
   plot.from_zero = true;
   // A run without duration has no rate.
   if (!(end_of(scene_) > 0)) return plot;
+
+  // Bands above each other, a kind each.
   vector<double> lower(intervals / static_cast<size_t>(joined()), 0);
   for (const Row& row : rows) {
     const Histogram bars = histogram(row.kind);

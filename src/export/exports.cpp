@@ -11,12 +11,12 @@
 #include "export/film.h"
 #include "export/flights_file.h"
 #include "export/frame_files.h"
+#include "export/gnuplot.h"
 #include "export/picture_streams.h"
-#include "export/plot.h"
 #include "export/png.h"
 #include "export/sheet.h"
 #include "export/tables.h"
-#include "export/writer.h"
+#include "export/writer_kinds.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"
@@ -265,26 +265,32 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   OutputFile summary_file(place, "summary.csv");
   write_summary(summary_file, summary);
   files.push_back(&summary_file);
+
   const vector<Writer*> writers = impl_->writers();
   for (Writer* writer : writers)
     for (OutputFile* file : writer->files()) files.push_back(file);
+
   optional<OutputFile> sheet_file;
   if (impl_->sheet) {
     sheet_file.emplace(place, "sheet.png");
     sheet_file->write(encode_png(impl_->sheet->image()));
     files.push_back(&*sheet_file);
   }
+
+  // The records of all that is complete.
   for (OutputFile* file : files) {
     file->complete();
     records.push_back(file->record());
     if (file == &summary_file) records.insert(records.end(), impl_->kept.begin(), impl_->kept.end());
   }
+
   if (impl_->film) {
     impl_->film->complete();
     records.push_back(impl_->film->record());
   }
   if (impl_->frames) append(records, impl_->frames->records());
   for (const Writer* writer : writers) append(records, writer->published());
+
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();

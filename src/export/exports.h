@@ -7,7 +7,7 @@
 #include "export/picture_streams.h"
 #include "files/checkpoint_file.h"
 #include "files/output_file.h"
-#include "files/run_folder.h"
+#include "files/publication.h"
 #include "files/summary.h"
 #include "render/image.h"
 #include "render/model.h"

@@ -15,10 +15,12 @@ Film::Film(const FilePlace& place, const VideoOutput& video, FilmTools tools, co
 void Film::add(const Image& image) {
   if (image.width != video_.size.width || image.height != video_.size.height || !image.is_whole())
     file_.fail_with("a picture is of another size");
+
   if (!file_.started()) {
     encoding_ = film_encoding(video_, image);
     file_.start(encoding_.runs.front(), true);
   }
+
   RawPicture& picture = pictures_.item();
   if (film_format(video_.file) == FilmFormat::mp4)
     to_yuv420p(image, picture);

@@ -12,8 +12,7 @@
 
 #include "export/webp.h"
 #include "files/folder_names.h"
-#include "files/open_folder.h"
-#include "files/run_folder.h"
+#include "files/folders.h"
 #include "files/stored_file.h"
 #include "scene/film_format.h"
 #include "std.h"
@@ -153,6 +152,8 @@ FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const strin
   string error;
   const string output = probed(tools, place.folder, name, "width,height,r_frame_rate,nb_read_packets", error);
   if (!error.empty()) fail("read the film", place, name, error);
+
+  // The numbers in the order in which they were asked for.
   string_view text = output;
   FilmFacts facts;
   facts.width = static_cast<int>(take_number(text));
@@ -160,6 +161,7 @@ FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const strin
   facts.rate = take_number(text);
   facts.per = take_number(text);
   facts.frames = take_number(text);
+
   if (facts.width == 0 || facts.height == 0 || facts.rate == 0 || facts.per == 0 || facts.frames == 0)
     fail("read the film", place, name, "ffprobe finds no pictures in it");
   return facts;

@@ -118,9 +118,11 @@ bool ColumnReader::unpack(span<const char> packed) {
   for (size_t k = 0; k < column_count; ++k) {
     const size_t size = sizes.bytes[k][0], stored = sizes.bytes[k][1] > 0 ? sizes.bytes[k][1] : size;
     if (size > largest_column || stored > packed.size()) return false;
+
     Rest& column = columns_[k];
     column.bytes.resize(size);
     column.at = 0;
+
     if (sizes.bytes[k][1] == 0) {
       std::copy_n(packed.data(), size, column.bytes.begin());
     } else {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "export/flights_format.h"
-#include "files/run_folder.h"
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -141,12 +140,14 @@ void FlightsFile::count() {
 void FlightsFile::end_block(uint32_t kind, ColumnWriter& columns, uint32_t entries, double time) {
   packed_.resize(block_head);
   columns.pack(packed_);
+
   InPlace writer(packed_.data());
   writer.put(kind);
   writer.put(entries);
   writer.put(static_cast<uint32_t>(packed_.size() - block_head));
   writer.put(uint32_t{0});
   writer.put(time);
+
   const uint32_t checksum = checksum_of(packed_);
   std::memcpy(packed_.data() + checksum_place, &checksum, sizeof checksum);
 
@@ -172,6 +173,7 @@ void FlightsFile::put_key() {
   uint32_t kind = of_key;
   uint32_t entries = 0;
   double time = 0;  // s
+
   for (size_t k = 0; k < pieces.size(); ++k) {
     codec.write(columns, *pieces[k], nullptr, world_);
     ++entries;

@@ -140,9 +140,6 @@ class FlightsReader {
   FlightsReader(Descriptor file, const string& path, const Scene& scene);
   /// Reads the next piece or collision. False: the end. Throws ExportError.
   bool next(Recorded& recorded);
-  /// The next parts read are the present piece of each body at `time` (s), in order of `from`, and then all that come
-  /// later. Throws ExportError.
-  void seek(double time);
   bool has_collisions() const { return has_collisions_; }
   const Tally& tally() const { return tally_; }  // at the end of the run
 
@@ -152,11 +149,9 @@ class FlightsReader {
   void take_header(uint64_t size, const Scene& scene);
   void take_tail(uint64_t size, const Scene& scene);
   void take_end(uint64_t place, const Scene& scene);
-  void take_keys(uint64_t count);
+  void check_keys(uint64_t count);
   struct Block;
-  Block take_block(bool keys);
-  void read_key();
-  bool read(Recorded& recorded);
+  Block take_block();
   void read_entry(Recorded& recorded);
   void check(const PathPiece& piece) const;
   void check(const CollisionMark& collision) const;
@@ -176,8 +171,6 @@ class FlightsReader {
   bool has_collisions_ = false;
   ColumnReader columns_;
   PathCodec codec_;
-  vector<FlightsKey> keys_;
-  vector<Recorded> held_;  // to be read first, from the last one on
   Tally tally_;
 };
 

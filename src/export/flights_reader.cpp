@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -62,9 +61,11 @@ void FlightsReader::take_tail(uint64_t size, const Scene& scene) {
   if (take<uint32_t>() != last_entry) refuse("it is truncated");
   const auto has_end = take<uint32_t>();
   if (has_end > 1) refuse("it is truncated");
+
   const auto keys = take<uint64_t>();
   entries_ = take<uint64_t>();
   for (uint64_t* count : counts_of(tally_)) *count = take<uint64_t>();
+
   for (Entity* entity : {&tally_.shared.body, &tally_.shared.one, &tally_.shared.other}) {
     const auto number = take<uint64_t>();
     if (tally_.shared.instants > 0 && number >= scene.world.entity_count()) refuse("it is damaged");
@@ -78,9 +79,10 @@ void FlightsReader::take_tail(uint64_t size, const Scene& scene) {
     left -= end_size;
     take_end(header_size + left, scene);
   }
+
   if (keys > left / key_size) refuse("it is truncated");
   end_ = header_size + left - keys * key_size;
-  take_keys(keys);
+  check_keys(keys);
 }
 
 /// Reads what has ended the run, at `place` in the file, and what it has lost.
@@ -99,7 +101,7 @@ void FlightsReader::take_end(uint64_t place, const Scene& scene) {
   tally_.end = RunEnd{time, by, region};
 }
 
-void FlightsReader::take_keys(uint64_t count) {
+void FlightsReader::check_keys(uint64_t count) {
   FlightsKey last{0, header_size, 0};
   for (uint64_t k = 0; k < count; ++k) {
     load(end_ + k * key_size, key_size);
@@ -110,7 +112,7 @@ void FlightsReader::take_keys(uint64_t count) {
     if (!(key.time >= last.time) || key.place < last.place || key.place >= end_ || key.entries < last.entries ||
         key.entries > entries_)
       refuse("it is damaged");
-    keys_.push_back(last = key);
+    last = key;
   }
 }
 
@@ -119,21 +121,23 @@ struct FlightsReader::Block {
   double time = 0;  // s
 };
 
-/// Reads the next block. `keys`: only a key's columns are taken; without it, only those of entries.
-FlightsReader::Block FlightsReader::take_block(bool keys) {
+/// Reads the next block. Of a key, only its head.
+FlightsReader::Block FlightsReader::take_block() {
   if (end_ - place_ < block_head) refuse("it is damaged");
   load(place_, block_head);
+
   Block block;
   block.kind = take<uint32_t>();
   block.entries = take<uint32_t>();
   const size_t bytes = take<uint32_t>();
   const auto checksum = take<uint32_t>();
   block.time = take<double>();
+
   if (block.kind > more_of_key || bytes > largest_block || bytes > end_ - place_ - block_head ||
       !std::isfinite(block.time))
     refuse("it is damaged");
 
-  if (keys == (block.kind != of_entries)) {
+  if (block.kind == of_entries) {
     load(place_, block_head + bytes);
     std::memset(buffer_.data() + checksum_place, 0, sizeof checksum);
     if (checksum_of(buffer_) != checksum || !columns_.unpack(span(buffer_).subspan(block_head)))
@@ -144,26 +148,18 @@ FlightsReader::Block FlightsReader::take_block(bool keys) {
 }
 
 bool FlightsReader::next(Recorded& recorded) {
-  if (!held_.empty()) {
-    recorded = std::move(held_.back());
-    held_.pop_back();
-    return true;
-  }
-  return read(recorded);
-}
-
-/// Reads the next entry, with the block that it is in.
-bool FlightsReader::read(Recorded& recorded) {
   while (in_block_ == 0) {
     if (!columns_.at_end()) refuse("it is damaged");
     if (place_ == end_ && left_ == 0) return false;
+
     const double last = codec_.from();
-    const Block block = take_block(false);
+    const Block block = take_block();
     if (block.kind != of_entries) continue;
     if (block.entries > left_ || block.time < last) refuse("it is damaged");
     in_block_ = block.entries;
     codec_.begin_block(block.time);
   }
+
   read_entry(recorded);
   --in_block_;
   --left_;
@@ -188,9 +184,12 @@ void FlightsReader::check(const CollisionMark& collision) const {
 void FlightsReader::check(const PathPiece& piece) const {
   const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi + t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+
   bool right = std::isfinite(piece.from) && finite(piece.start) && finite(piece.until);
   for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick}) right = right && v->allFinite();
   right = right && std::isfinite(piece.fade) && std::isfinite(piece.rounding) && piece.part_of != piece.body;
+
+  // What only some pieces have.
   if (piece.joint)
     right =
         right && positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0;
@@ -199,54 +198,6 @@ void FlightsReader::check(const PathPiece& piece) const {
     for (const Vec3& term : piece.curve->displacement) right = right && term.allFinite();
   }
   if (!right) refuse("it is damaged");
-}
-
-void FlightsReader::seek(double time) {
-  held_.clear();
-  codec_.restart();
-  columns_ = {};
-  in_block_ = 0;
-  place_ = header_size;
-  left_ = entries_;
-  if (const auto later = std::ranges::upper_bound(keys_, time, {}, &FlightsKey::time); later != keys_.begin()) {
-    place_ = std::prev(later)->place;
-    left_ = entries_ - std::prev(later)->entries;
-    read_key();
-  }
-
-  // The next entry is known only when it is read.
-  vector<PathPiece> present = codec_.present();
-  Recorded recorded;
-  bool more = read(recorded);
-  for (; more && recorded.from() <= time; more = read(recorded))
-    if (recorded.kind == Recorded::Kind::piece) present[recorded.piece.body] = recorded.piece;
-
-  std::ranges::stable_sort(present, {}, &PathPiece::from);
-  for (PathPiece& piece : present)
-    if (piece.body != no_entity) held_.push_back({Recorded::Kind::piece, std::move(piece), {}});
-  if (more) held_.push_back(recorded);
-  std::ranges::reverse(held_);
-}
-
-/// Reads the present pieces of all bodies.
-void FlightsReader::read_key() {
-  uint32_t kind = of_key;
-  double last = 0;  // s
-  for (uint64_t begin = place_; begin < end_; begin = place_) {
-    const Block block = take_block(true);
-    if (block.kind != kind) {
-      place_ = begin;
-      break;
-    }
-    if (block.time < last) refuse("it is damaged");
-    codec_.begin_block(block.time);
-    Recorded recorded;
-    for (uint32_t k = 0; k < block.entries; ++k) read_entry(recorded);
-    if (!columns_.at_end()) refuse("it is damaged");
-    last = codec_.from();
-    kind = more_of_key;
-  }
-  if (kind == of_key) refuse("it is damaged");
 }
 
 void FlightsReader::load(uint64_t place, size_t size) {

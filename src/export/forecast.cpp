@@ -7,7 +7,7 @@
 #include "export/forecast.h"
 #include "export/picture_streams.h"
 #include "export/timeline.h"
-#include "export/writer.h"
+#include "export/writer_kinds.h"
 #include "numerics/whole.h"
 #include "physics/world.h"
 #include "scene/film_format.h"
@@ -89,20 +89,25 @@ Forecast forecast(const Scene& scene) {
   const Output& output = scene.output;
   const double bodies = scene.world.body_count(), duration = scene.simulate.duration;
   double rows = 0, frames = 0, bytes = static_cast<double>(scene.resolved.size()) + 2000;
+
   const auto instants = [&](const OutputKind& kind) {
     return kind.is_sampled() ? static_cast<double>(Ticks::every(kind.every(output), duration).count()) : 0;
   };
+
   for (const OutputKind& kind : output_kinds()) {
     if (!kind.asked(output)) continue;
     if (const WriterKind* writer = writer_named(kind.name)) bytes += writer->bytes(scene, instants(kind));
     if (kind.name == "trajectory") rows += instants(kind) * bodies;
   }
+
+  // The pictures.
   double seconds = 0.005 + bytes * table_byte_s + (output.plots ? plots_s : 0);
   const PictureStreams plan = plan_pictures(scene);
   for (size_t i = 0; i < plan.streams.size(); ++i) {
     const auto count = static_cast<double>(plan.ticks[i].count());
     const double area = pixels(plan.streams[i].size);
     frames += count;
+
     if (count > 0) seconds += first_picture_s + count * area * (pixel_s + sample_s * plan.streams[i].samples);
     if (plan.uses[i].frames) seconds += count * area * png_pixel_s;
     if (plan.uses[i].film) seconds += count * area * film_pixel_s;

@@ -14,14 +14,18 @@ void GltfWriter::add(double time, const State& state, span<const ContactForce>) 
   const size_t key = motion_.times.size();
   motion_.times.push_back(time);
   motion_.cameras.push_back(makers_.camera(state));
+
   for (Entity body = 0; body < world.body_count(); ++body) {
     const Vec3& p = state.position[body];
     motion_.position.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
     motion_.extent.include(p, volume_now(world, state, body).half);
   }
+
+  // The volumes that have changed since the keyframe before.
   if (state.part_of.empty()) return;
   if (volumes_.empty())
     for (Entity body = 0; body < world.body_count(); ++body) volumes_.emplace_back(world.volume_of(body));
+
   for (Entity body = 0; body < world.body_count(); ++body) {
     optional<Volume> now;
     if (!is_gone(state, body)) now = volume_now(world, state, body);
@@ -39,7 +43,7 @@ vector<OutputFile*> GltfWriter::files() {
 
 double GltfWriter::bytes(const Scene& scene, double instants) {
   // Typical values. There is one mesh for each colour.
-  constexpr double key_bytes = 16, body_bytes = 900, mesh_bytes = 40000;
+  constexpr double key_bytes = 12, body_bytes = 900, mesh_bytes = 40000;
   return scene.world.body_count() * (key_bytes * instants + body_bytes) +
          mesh_bytes * static_cast<double>(scene.roster.bodies.size() + 1);
 }

@@ -2,6 +2,8 @@
 // animation.glb. The keyframes are collected here, and src/render/ makes a file of them at the end.
 
 #include "export/writer.h"
+#include "files/open_folder.h"
+#include "render/model.h"
 #include "std.h"
 
 namespace carom {

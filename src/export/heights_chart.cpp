@@ -39,9 +39,12 @@ void HeightsChart::add(double time, span<const double> heights) {
   for (size_t body = 0; body < lines_.size(); ++body)
     if (std::isfinite(heights[body])) lines_[body].add(time, heights[body]);
   if (!lines_.empty()) return;
+
+  // More bodies than lines: the spread of their heights.
   heights_.clear();
   std::copy_if(heights.begin(), heights.end(), std::back_inserter(heights_), [](double y) { return std::isfinite(y); });
   if (heights_.empty()) return;
+
   const auto last = static_cast<double>(heights_.size() - 1);
   const auto quantile = [&](double share) {
     const auto at = heights_.begin() + std::lround(share * last);

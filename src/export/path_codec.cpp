@@ -223,11 +223,6 @@ struct PathCodec::Side {
 PathCodec::PathCodec(const World& world)
     : entities_(world.entity_count()), present_(world.body_count()), mass_(world.mass), radius_(world.radius) {}
 
-void PathCodec::restart() {
-  present_.assign(present_.size(), {});
-  begin_block(0);
-}
-
 void PathCodec::begin_block(double time) {
   body_ = no_entity;
   from_ = time;

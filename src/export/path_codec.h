@@ -35,8 +35,6 @@ class PathCodec {
   /// For a run in this world.
   explicit PathCodec(const World& world);
 
-  /// Forgets all entries.
-  void restart();
   /// Begins a block at `time` (s). Nothing but the present pieces is known from before.
   void begin_block(double time);
   /// `next`: the piece after it, if it is known. `world`: gives the restitution of the two.

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "export/sheet.h"
-#include "files/run_folder.h"
+#include "files/export_error.h"
 #include "scene/film_format.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -93,6 +93,7 @@ PictureStreams plan_pictures(const Scene& scene) {
                         "a frame is at a whole multiple of 1/fps");
     add(plan, frames->size, *frames, 1, ticks, {true, false, false});
   }
+
   if (const auto& video = output.video) {
     const Ticks ticks = ticks_of(*video, duration);
     if (ticks.count() < 1)
@@ -100,11 +101,14 @@ PictureStreams plan_pictures(const Scene& scene) {
     if (scene.transparent && film_format(video->file) == FilmFormat::mp4)
       throw ExportError("cannot make " + video->file + ": an MP4 has no transparency, and `background` is `none`; " +
                         "write frames, a .gif or a .webp, or give the background a colour");
+
+    // Frames and film share pictures that are the same.
     if (plan.streams.empty() || !shows_film(scene, plan.streams.front(), plan.ticks.front(), ticks))
       add(plan, video->size, *video, video->speed, ticks, {false, true, false});
     else
       plan.uses.front().film = true;
   }
+
   if (output.sheet) {
     const PictureOutput model = sheet_model(scene);
     const Sheet sheet(*output.sheet, model.size);

@@ -1,6 +1,5 @@
 #pragma once
-// Plots, drawn by gnuplot from a script that fixes every colour, font and range.
-// The same plot gives the same bytes.
+// What a plot shows.
 #include <limits>
 
 #include "std.h"
@@ -72,17 +71,5 @@ struct Plot {
 
 /// The size of the SVG, to which letters are proportioned. The PNG has twice as many pixels each way.
 inline constexpr int plot_width = 800, plot_height = 500;
-
-/// The absolute path of gnuplot. Throws ExportError with a text that names the remedy.
-string find_gnuplot();
-
-/// The complete files.
-struct PlotPictures {
-  string png, svg;
-};
-
-/// The pictures of each plot. Throws ExportError.
-vector<PlotPictures> draw_plots(span<const Plot> plots, const string& gnuplot);
-PlotPictures draw_plot(const Plot& plot, const string& gnuplot);
 
 }  // namespace carom

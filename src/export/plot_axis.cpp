@@ -112,16 +112,20 @@ PlotAxis linear_axis(double low, double high, int most_ticks, double least_step)
   low = std::clamp(low, -most, most);
   high = std::clamp(high, -most, most);
   if (std::max(std::abs(low), std::abs(high)) < least) low = high = 0;
+
+  // Move equal ends apart.
   const double largest = std::max(std::abs(low), std::abs(high));
   if (high - low <= rounding_share * largest) {
     const double apart = largest == 0 ? 1 : largest / 10;
     low -= apart;
     high += apart;
   }
+
   PlotAxis axis{low, high};
   axis.exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
   const RoundStep step = round_step(std::max((high - low) / most_ticks, least_step));
   const double slack = (high - low) * 1e-9;
+
   for (auto count = static_cast<int64_t>(std::ceil((low - slack) / step.value()));; ++count) {
     const double at = static_cast<double>(count) * step.value();
     if (!(at <= high + slack)) break;
@@ -144,11 +148,15 @@ PlotAxes axes_of(const Plot& plot) {
     }
   }
   for (const PlotLevel& level : plot.levels) y.take(plot.height(level.y));
+
   if (plot.scale == PlotScale::logarithmic) return {log_axis(x.low, x.high), log_axis(y.low, y.high)};
+
   x.take(plot.x_from);
   x.take(plot.x_to);
   if (plot.from_zero) y.take(0);
   if (plot.from_zero && y.high <= 0) y.high = 1;
+
+  // Round the values' range first, then leave room above and below.
   PlotAxis flat = linear_axis(y.low, y.high, most_y_ticks);
   const double room = axis_margin * (flat.to - flat.from);
   return {linear_axis(x.low, x.high, most_x_ticks),

@@ -112,16 +112,19 @@ class PlotLayers {
  private:
   void add(size_t s, const PlotSeries& series) {
     if (series.form == PlotForm::band) return add_band(s, series);
+
     string points;
     for (const PlotPoint& point : series.points)
       points += fmt::format("{:.17g} {:.17g}\n", point.x, plot_.height(point.y));
     put("series", s, points);
+
     if (series.form == PlotForm::marks) add_bars(s, series);
     const string form = series.form == PlotForm::marks
                             ? fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize 1.3",
                                           color_of(series), styles.at(series.style).mark)
                             : fmt::format("lines linetype 1 linecolor {} linewidth 2 dashtype {}", color_of(series),
                                           series.form == PlotForm::dashes ? "(8,8)" : "solid");
+
     layers_.push_back(fmt::format("$series{} using 1:2 with {} {}", s, form, title_of(series)));
     if (series.form == PlotForm::marks) add_labels(s, series);
   }
@@ -188,6 +191,7 @@ string plot_script(const Plot& plot) {
              "set key at screen {:.6g}, graph 0.98 left top vertical Left reverse noenhanced spacing 1.5 samplen 2.5\n",
              axes.x.commands('x'), axes.y.commands('y'), frame.left, frame.right, frame.bottom, frame.top,
              frame.legend) +
+         // The titles.
          fmt::format(
              "set label 1 {} at screen {:.6g}, screen 0.95 left font ',17' noenhanced\n"
              "set label 2 {} at screen {:.6g}, screen 0.9 left font ',12' textcolor '#505050' noenhanced\n"

@@ -1,6 +1,7 @@
 // Only what the charts show is kept of a run. gnuplot runs once at the end, so that a run does not wait for it.
 #include "export/plots_writer.h"
 
+#include "export/gnuplot.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "files/run_folder.h"
+#include "files/export_error.h"
 #include "std.h"
 
 namespace carom {
@@ -80,7 +80,9 @@ const string& PngEncoder::encode() {
     file_ += channels_ == 4 ? '\x06' : '\x02';  // RGBA, RGB
     file_ += string_view("\0\0\0", 3);          // deflate, the five filters, rows in order
   });
+
   put_chunk(file_, "sRGB", [&] { file_ += '\0'; });  // perceptual
+
   put_chunk(file_, "IDAT", [&] {
     const size_t size = compress();
     file_.append(reinterpret_cast<const char*>(room_.get()), size);

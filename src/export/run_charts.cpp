@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "export/gnuplot.h"
 #include "physics/energy.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"

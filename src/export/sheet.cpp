@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "files/run_folder.h"
+#include "files/export_error.h"
 #include "scene/sheet_layout.h"
 #include "std.h"
 

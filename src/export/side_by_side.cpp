@@ -10,8 +10,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "files/open_folder.h"
-#include "files/run_folder.h"
+#include "files/folders.h"
 #include "files/stored_file.h"
 #include "numerics/whole.h"
 #include "scene/film_format.h"
@@ -142,6 +141,7 @@ void SideBySide::complete() {
     spans.push_back(span_of(tiles_[k], facts_[k], fastest, start));
     frames = std::max(frames, spans.back().before + spans.back().frames);
   }
+
   for (size_t k = 0; k < tiles_.size(); ++k) {
     const FilmFacts& film = facts_[k];
     const string label = fmt::format("label_{}.txt", k);
@@ -149,6 +149,7 @@ void SideBySide::complete() {
     input.insert(input.end(),
                  {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
     graph += fmt::format("[{}:v]", k);
+
     // Other films are in these colours already.
     if (film_format(tiles_[k].file) == FilmFormat::gif)
       graph += "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact,format=yuv420p,";
@@ -162,6 +163,8 @@ void SideBySide::complete() {
     // Give each film the same number of frames: the first one repeated before, the last one after.
     graph += fmt::format("tpad=start={}:start_mode=clone:stop=-1:stop_mode=clone,trim=end_frame={}", spans[k].before,
                          frames);
+
+    // The label, and the place of the film among the others.
     graph += fmt::format(
         ",drawtext=fontfile={}:textfile={}:expansion=none:fontsize={}:fontcolor=white:line_spacing={}:x={}:y={}[t{}];",
         font_file, label, grid.letter, grid.letter / 4, grid.letter / 2 + 2, grid.letter / 2, k);
@@ -169,6 +172,7 @@ void SideBySide::complete() {
     const int row = static_cast<int>(k) / grid.columns, column = static_cast<int>(k) % grid.columns;
     layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * (grid.height + grid.strip));
   }
+
   graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
   FfmpegRun run = std::move(input);
   run.insert(run.end(), {"-filter_complex", graph});

@@ -78,15 +78,18 @@ Plot SpeedsChart::plot() const {
                                            speeds_.size() == 1 ? "Speed of the body"
                                                                : fmt::format("Speeds of {} bodies", speeds_.size()),
                                            end_of(scene_)));
+
   const Histogram bars = histogram();
   plot.x_label = "speed";
   plot.x_unit = "m/s";
   plot.y_label = fmt::format("bodies in {:.6g} m/s", bars.width);
   plot.x_from = 0;
   plot.from_zero = plot.counts = true;
+
   const vector<double> counts(bars.counts.begin(), bars.counts.end());
   plot.series.push_back(
       {"bodies", chart_color::sky, stairs(bars.width, vector<double>(counts.size(), 0), counts), PlotForm::band, 0.2});
+
   if (!has_maxwell()) return plot;
   plot.series.push_back(maxwell_curve(bars));
   plot.subtitle += "; the curve has the same kinetic energy";

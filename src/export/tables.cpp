@@ -70,6 +70,7 @@ string_view name_of(CollisionKind kind) {
     case CollisionKind::taut:
       return "string";
   }
+
   return "";
 }
 
@@ -86,6 +87,7 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
     file_.write("time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
     return;
   }
+
   file_.write("time_s");
   for (const BodyRange& range : scene.roster.bodies) {
     for (Entity i = 0; i < range.count; ++i) {
@@ -104,16 +106,20 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
 void TrajectoryTable::add(double time, const State& state, span<const ContactForce>) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Entity bodies = scene_.world.body_count();
+
   Entity first = 0;
   do {
     Block& block = blocks_.item();
     const auto room = static_cast<Entity>(block_rows - block.motions.size());
     const Part part{time, first, std::min(room, bodies - first)};
     block.parts.push_back(part);
+
+    // Of a body that is gone there is no row.
     for (Entity body = first; body < first + part.count; ++body) {
       block.motions.push_back({state.position[body], state.velocity[body]});
       if (is_gone(state, body)) block.motions.back().position.x() = none;
     }
+
     first += part.count;
     if (block.motions.size() == block_rows || block.parts.size() == block_rows) blocks_.send();
   } while (first < bodies);
@@ -143,10 +149,12 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   // All bodies share the digits of the time, which are formatted once and copied.
   char time_text[number_size];
   const string_view time_cell(time_text, static_cast<size_t>(put_number(time_text, part.time) - time_text));
+
   const BodyRange* range = &scene_.roster.range_of(part.first);
   for (Entity body = part.first; body < part.first + part.count; ++body, ++motion) {
     while (body >= range->first + range->count) ++range;
     if (!std::isfinite(motion->position.x())) continue;
+
     char* to = file_.room(number_size + range->name.size() + member_size + motion_size + 2);
     to = put_text(to, time_cell);
     *to++ = ',';
@@ -200,12 +208,14 @@ void CollisionTable::write(vector<Collision>& collisions) {
     file_.write(",");
     file_.write(name_of(collision.kind));
     for (const Entity entity : {collision.a, collision.b}) write_name(file_, roster_, bodies_, entity);
+
     char* to = put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal);
     for (const double value : {collision.approach_speed, collision.separation_speed, collision.restitution,
                                collision.impulse, collision.energy_lost}) {
       *to++ = ',';
       to = put_number(to, value);
     }
+
     *to++ = '\n';
     file_.written(to);
   }
@@ -262,6 +272,7 @@ void write_summary(OutputFile& file, const Summary& s) {
   file.write(names);
   for (const Measured& measure : s.measures) file.write("," + measure.name);
   file.write("\n");
+
   CsvRow row(file);
   for (const SummaryColumn& column : summary_columns()) {
     const auto value = column.value(s);

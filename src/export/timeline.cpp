@@ -33,6 +33,8 @@ struct Ratio {
 optional<Ratio> as_decimal(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr;
+
+  // The digits as a whole number, and those behind the point.
   int64_t digits = 0;
   int exponent = 0, places = 0, count = 0;
   bool after_point = false;
@@ -46,11 +48,14 @@ optional<Ratio> as_decimal(double value) {
     ++count;
     places += after_point;
   }
+
   std::from_chars(c + (c[1] == '+' ? 2 : 1), end, exponent);
   exponent -= places;
+
   // At most 15 digits: more are the digits of a quotient like 1/30, not of a written number.
   // 10^22 is the largest exact power.
   if (count > 15 || exponent > 0 || exponent < -22) return nullopt;
+
   double power = 1;
   for (int i = exponent; i < 0; ++i) power *= 10;
   const Ratio ratio{static_cast<double>(digits), power};

@@ -80,10 +80,12 @@ string bodies_text(const Scene& scene, double time, const State& state, bool sol
   const World& world = scene.world;
   Bytes instant, position, velocity, radius, mass, id, color, name, shape, size, vertices;
   instant.add(time);
+
   int32_t points = 0;
   for (const BodyRange& range : scene.roster.bodies) {
     for (Entity body = range.first; body < range.first + range.count; ++body) {
       if (is_gone(state, body)) continue;
+
       const Volume volume = volume_now(world, state, body);
       position.add(state.position[body]);
       velocity.add(state.velocity[body]);
@@ -92,6 +94,7 @@ string bodies_text(const Scene& scene, double time, const State& state, bool sol
       id.add(static_cast<int32_t>(body));
       color.add(range.color);
       name.add_text(range.group ? fmt::format("{}.{}", range.name, body - range.first) : range.name);
+
       if (solids) {
         shape.add(static_cast<uint8_t>(volume.shape));
         size.add(Vec3(2 * volume.half));
@@ -99,12 +102,14 @@ string bodies_text(const Scene& scene, double time, const State& state, bool sol
       vertices.add(points++);
     }
   }
+
   string data = "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n" +
                 data_array("Float64", "velocity", 3, velocity) + data_array("Float64", "radius", 1, radius) +
                 data_array("Float64", "mass", 1, mass) + data_array("Int32", "id", 1, id) +
                 data_array("UInt8", "color", 3, color) + data_array("String", "name", 1, name);
   if (solids) data += data_array("UInt8", "shape", 1, shape) + data_array("Float64", "size", 3, size);
   data += "</PointData>\n";
+
   const string field =
       "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"binary\">" +
       instant.base64() + "</DataArray>\n</FieldData>\n";
@@ -116,19 +121,24 @@ string surfaces_text(const vector<StillThing>& things) {
   Bytes position, normal, id, color, name, corners;
   int32_t points = 0, number_of_thing = 0;
   size_t triangles = 0;
+
   for (const StillThing& thing : things) {
     for (const Vec3& vertex : thing.mesh.vertices) position.add(vertex);
     for (const Vec3& n : thing.mesh.normals) normal.add(n);
     for (const uint32_t corner : thing.mesh.triangles) corners.add(points + static_cast<int32_t>(corner));
+
+    // Cells have values of their own.
     for (size_t i = 0; i < thing.mesh.triangles.size(); i += 3) {
       id.add(number_of_thing);
       color.add(thing.color);
       name.add_text(thing.name);
       ++triangles;
     }
+
     points += static_cast<int32_t>(thing.mesh.vertices.size());
     ++number_of_thing;
   }
+
   return poly_data("", static_cast<size_t>(points),
                    "<PointData Normals=\"normal\">\n" + data_array("Float64", "normal", 3, normal) + "</PointData>\n",
                    data_array("Float64", "position", 3, position), "Polys", triangles, 3, corners,

@@ -7,6 +7,7 @@
 
 #include "export/writer.h"
 #include "files/series.h"
+#include "render/model.h"
 #include "std.h"
 
 namespace carom {

@@ -33,10 +33,13 @@ optional<uint64_t> webp_frames(const FilePlace& place, const string& name, doubl
   const Descriptor file = open_stored(place.folder, name);
   const optional<uint64_t> size = stored_size(place.folder, name);
   if (!file || !size) return 0;
+
   array<char, chunk_head + 16> bytes;
   if (const string_view head = bytes_at(file.get(), 0, bytes);
       head.size() < container_head || !head.starts_with("RIFF") || head.substr(8, 4) != "WEBP")
     return 0;
+
+  // Each chunk has a head and, after an odd number of bytes, one to fill up.
   uint64_t milliseconds = 0, animated = 0, still = 0;
   for (uint64_t at = container_head; at < *size;) {
     const string_view chunk = bytes_at(file.get(), at, bytes);
@@ -44,6 +47,7 @@ optional<uint64_t> webp_frames(const FilePlace& place, const string& name, doubl
     const string_view type = chunk.substr(0, 4);
     const uint64_t length = number_in(chunk.substr(4, 4));
     if (length > *size - at - chunk_head) return 0;
+
     if (type == "ANMF" && chunk.size() == bytes.size()) {
       ++animated;
       milliseconds += number_in(chunk.substr(chunk_head + duration_at, 3));
@@ -51,6 +55,7 @@ optional<uint64_t> webp_frames(const FilePlace& place, const string& name, doubl
     if (type == "VP8 " || type == "VP8L") ++still;
     at += chunk_head + length + length % 2;
   }
+
   if (animated == 0) return still == 1 ? nullopt : optional<uint64_t>(0);
   return static_cast<uint64_t>(nearest_whole(static_cast<double>(milliseconds) * fps / 1000));
 }

@@ -62,23 +62,28 @@ void XyzWriter::add(double time, const State& state, span<const ContactForce>) {
   size_t count = world.body_count();
   for (Entity body = 0; body < world.body_count(); ++body) count -= is_gone(state, body) ? 1 : 0;
   file_.write(fmt::format("{}\n{} Time={}\n", count, cell_, number_cell(time)));
+
   for (size_t r = 0; r < scene_.roster.bodies.size(); ++r) {
     const BodyRange& range = scene_.roster.bodies[r];
     for (Entity body = range.first; body < range.first + range.count; ++body) {
       if (is_gone(state, body)) continue;
+
       const Volume volume = volume_now(world, state, body);
       char* to = file_.room(row_numbers * (number_size + 1) + range.name.size() + member_size + 4);
       *to++ = 'X';
       to = put_vector(put_vector(to, state.position[body]), state.velocity[body]);
+
       for (const double value : {volume.reach(), mass_now(world, state, body)}) {
         *to++ = ' ';
         to = put_number(to, value);
       }
+
       to = put_text(to, colors_[r]);
       for (const uint64_t value : {uint64_t{body}, uint64_t{r}}) {
         *to++ = ' ';
         to = put_number(to, value);
       }
+
       *to++ = ' ';
       to = put_member(to, range, body);
       if (solids_) to = put_vector(to, volume.half);

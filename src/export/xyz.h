@@ -3,6 +3,7 @@
 // It uses columns that both read, and numbers that read back to the same doubles.
 
 #include "export/writer.h"
+#include "files/open_folder.h"
 #include "std.h"
 
 namespace carom {

@@ -94,16 +94,20 @@ void to_yuv420p(const Image& image, vector<uint8_t>& planes) {
   const Size size = yuv_size(image);
   const auto width = static_cast<size_t>(size.width), height = static_cast<size_t>(size.height);
   planes.resize(width * height * 3 / 2);
+
   uint8_t* y = planes.data();
   uint8_t* u = y + width * height;
   uint8_t* v = u + width * height / 4;
   RgbRows uppers(image, width), lowers(image, width);
+
+  // Two rows at a time, since they share their colours.
   for (int number = 0; number < size.height; number += 2) {
     const uint8_t* const upper = uppers.row(number);
     const uint8_t* const lower = lowers.row(number + 1);
     luma_row(upper, width, y);
     luma_row(lower, width, y + width);
     chroma_row(upper, lower, width / 2, u, v);
+
     y += 2 * width;
     u += width / 2;
     v += width / 2;

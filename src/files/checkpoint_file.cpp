@@ -10,8 +10,8 @@
 #include <cerrno>
 
 #include "files/folder_names.h"
+#include "files/folders.h"
 #include "files/hash.h"
-#include "files/open_folder.h"
 #include "files/output_file.h"
 #include "files/stored_file.h"
 #include "physics/archive.h"
@@ -86,6 +86,7 @@ void CheckpointFile::write(Checkpoint checkpoint) {
   StateWriter archive;
   archive(checkpoint);
   const string body = archive.take();
+
   OutputFile file(place_, next_name);
   file.write(magic);
   file.write(hash());
@@ -97,8 +98,7 @@ void CheckpointFile::write(Checkpoint checkpoint) {
   if (syncfs(place_.folder) != 0) fail("write", place_, "");
   give_name(place_.folder, part_name(next_name), place_, checkpoint_name);
   file.hand_over();
-  // Some file systems do not support syncing a folder, and do not need it.
-  if (fsync(place_.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place_, "");
+  sync_names(place_);
 }
 
 void CheckpointFile::remove() {

@@ -2,7 +2,7 @@
 // What an interrupted run needs to go on: a file beside its temporary ones, which an ordinary start removes with them.
 #include <utility>
 
-#include "files/part_file.h"
+#include "files/file_place.h"
 #include "files/summary.h"
 #include "std.h"
 

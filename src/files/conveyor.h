@@ -93,6 +93,8 @@ class Conveyor {
     for (;;) {
       changed_.wait(lock, [&] { return end_ || failure_ || taken_ < sent_; });
       if (end_ || failure_) return;
+
+      // Use the next item, without the lock.
       const uint64_t number = taken_++;
       ++in_use_;
       lock.unlock();
@@ -102,6 +104,7 @@ class Conveyor {
       } catch (...) {
         failure = std::current_exception();
       }
+
       lock.lock();
       // Items are taken in order. All before a failed one are thus taken, and the first failure is known once they end.
       if (failure && (!failure_ || number < failed_)) {

@@ -25,6 +25,7 @@ void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& reco
   const string& name = from.name;
   const Descriptor source = open_stored(from.folder, name);
   if (!source) fail("copy", to, name, "it is missing from the original run");
+
   OutputFile file(to, name);
   array<char, 65536> buffer{};
   ssize_t n;
@@ -33,6 +34,8 @@ void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& reco
     if (n < 0) fail("copy", to, name);
     file.write({buffer.data(), static_cast<size_t>(n)});
   }
+
+  // What was read has the hash of the manifest.
   file.complete();
   if (file.record().sha256 != record.sha256) fail("copy", to, name, "the original run has changed");
   file.publish();
@@ -45,10 +48,12 @@ void copy_run(const string& from, const string& to) {
   const optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : nullopt;
   const optional<string> text = manifest ? read_text(source.get(), manifest_name, largest_manifest) : nullopt;
   if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
+
   OpenFolder folder(to, Durability::deferred);
   remove_files_of_run(folder.place());
   SeriesFolders from_series(source.get());
   std::map<const OutputKind*, FilePlace> to_series;
+
   for (const FileRecord& record : manifest->files) {
     const FileSpot spot = from_series.spot(record.name);
     if (spot.folder < 0) fail("copy", {-1, from}, record.name, "it is not there");
@@ -56,6 +61,7 @@ void copy_run(const string& from, const string& to) {
     if (series != nullptr && !to_series.contains(series)) to_series[series] = folder.series(series->series);
     copy_file(spot, series == nullptr ? folder.place() : to_series[series], record);
   }
+
   OutputFile last(folder.place(), manifest_name);
   last.write(*text);
   last.publish();

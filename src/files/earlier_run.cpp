@@ -7,8 +7,8 @@
 
 #include "files/checkpoint_file.h"
 #include "files/folder_names.h"
+#include "files/folders.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/series_folders.h"
 #include "std.h"

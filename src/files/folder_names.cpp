@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,12 +24,15 @@ optional<vector<string>> read_names(int folder) {
   DIR* stream = copy ? fdopendir(copy.get()) : nullptr;
   if (!stream) return nullopt;
   copy.release();
+
   vector<string> names;
   errno = 0;
   while (const dirent* entry = readdir(stream)) {
     const string_view name = entry->d_name;
     if (name != "." && name != "..") names.emplace_back(name);
   }
+
+  // The reason of a failure is readdir's.
   const int error = errno;
   closedir(stream);
   errno = error;
@@ -50,12 +54,15 @@ bool try_to_remove(int folder, const string& name) {
   for (int attempt = 0; attempt < 10; ++attempt) {
     if (unlinkat(folder, name.c_str(), 0) == 0 || is_absent(errno)) return true;
     if (errno != EISDIR && errno != EPERM) return false;
+
+    // It is a folder. Empty it first.
     const Descriptor inner(openat(folder, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     if (!inner) return is_absent(errno);
     const auto names = read_names(inner.get());
     if (!names) return false;
     for (const string& entry : *names)
       if (!try_to_remove(inner.get(), entry)) return false;
+
     if (unlinkat(folder, name.c_str(), AT_REMOVEDIR) == 0) return true;
     if (errno != ENOTEMPTY && errno != EEXIST) return is_absent(errno);
   }
@@ -73,6 +80,16 @@ void remove_parts(const FilePlace& place, string_view spared) {
 
 void remove_file(const FilePlace& place, const string& name) {
   if (unlinkat(place.folder, name.c_str(), 0) != 0 && !is_absent(errno)) fail("remove", place, name);
+}
+
+bool is_plain_name(string_view name) {
+  if (name.empty() || name.size() > 200 || name.front() == '.') return false;
+  return std::ranges::none_of(
+      name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
+}
+
+string part_name(string_view name) {
+  return fmt::format(".{}{}", name, tail);
 }
 
 bool is_part_name(string_view name) {

@@ -1,13 +1,19 @@
 #pragma once
 // The entries of a folder.
 
-#include "files/part_file.h"
+#include "files/file_place.h"
 #include "std.h"
 
 namespace carom {
 
 /// The names in an open folder, sorted, without . and .. Throws ExportError.
 vector<string> folder_names(int folder);
+
+/// Whether `name` can only refer to an entry of the folder itself, and is not hidden.
+bool is_plain_name(string_view name);
+
+/// The temporary name of a file.
+string part_name(string_view name);
 
 /// Whether part_name() can produce this name. Such files are being written, or were when a run was killed.
 bool is_part_name(string_view name);

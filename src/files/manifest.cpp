@@ -11,7 +11,6 @@
 
 #include "files/hash.h"
 #include "files/mesh_copies.h"
-#include "files/run_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
@@ -33,18 +32,25 @@ Json outputs_json(const Output& output) {
   return json;
 }
 
-/// The text member `key`. Empty: absent.
-string text_member(const Json& json, const char* key) {
-  if (!json.is_object()) return {};
+/// The member `key` of this type. Otherwise null, which has no items.
+const Json& member(const Json& json, const char* key, Json::value_t type) {
+  static const Json none;
   const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<string>() : string();
+  return found != json.end() && found->type() == type ? *found : none;
 }
 
-/// The whole-number member `key`. 0: absent.
-uint64_t whole_member(const Json& json, const char* key) {
-  if (!json.is_object()) return 0;
-  const auto found = json.find(key);
-  return found != json.end() && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
+const Json& object_in(const Json& json, const char* key) {
+  return member(json, key, Json::value_t::object);
+}
+
+const Json& list_in(const Json& json, const char* key) {
+  return member(json, key, Json::value_t::array);
+}
+
+/// Empty: absent.
+string text_member(const Json& json, const char* key) {
+  const Json& text = member(json, key, Json::value_t::string);
+  return text.is_string() ? text.get<string>() : string();
 }
 
 /// Whether brackets are nested deeper than in any manifest.
@@ -53,11 +59,13 @@ bool is_too_deep(string_view text) {
   constexpr int deepest = 64;
   int depth = 0;
   bool quoted = false;
+
   for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (quoted && c == '\\') ++i;
     if (c == '"') quoted = !quoted;
     if (quoted) continue;
+
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;
     if (depth > deepest) return true;
@@ -68,16 +76,15 @@ bool is_too_deep(string_view text) {
 optional<FileRecord> file_record(const Json& json) {
   FileRecord record{text_member(json, "name"), 0, text_member(json, "sha256")};
   if (!is_run_file(record.name) || record.sha256.size() != 64) return nullopt;
-  const auto bytes = json.find("bytes");
-  if (bytes == json.end() || !bytes->is_number_unsigned()) return nullopt;
-  record.bytes = bytes->get<uint64_t>();
+  const Json& bytes = member(json, "bytes", Json::value_t::number_unsigned);
+  if (bytes.is_null()) return nullopt;
+  record.bytes = bytes.get<uint64_t>();
   return record;
 }
 
 SceneOrigin origin_in(const Json& scene) {
   SceneOrigin origin{text_member(scene, "path"), {}};
-  if (!scene.is_object() || !scene.contains("settings") || !scene["settings"].is_array()) return origin;
-  for (const Json& setting : scene["settings"])
+  for (const Json& setting : list_in(scene, "settings"))
     if (setting.is_string()) origin.settings.push_back(setting.get<string>());
   return origin;
 }
@@ -142,6 +149,7 @@ string manifest_text(const Scene& scene, const Summary& summary, const RunFacts&
   json["wall_times_s"] = {
       {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
   json["peak_memory_bytes"] = facts.peak_memory;
+
   for (const Measured& measure : facts.measures)
     json["measures"][measure.name] = !measure.text.empty()          ? Json(valid_utf8(measure.text))
                                      : std::isfinite(measure.value) ? Json(measure.value)
@@ -150,6 +158,7 @@ string manifest_text(const Scene& scene, const Summary& summary, const RunFacts&
   json["status"] = summary.status;
   for (const Warning& warning : summary.warnings)
     json["warnings"].push_back({{"code", warning.code}, {"text", warning.text}});
+
   return whole_text(scene_json(scene, facts.origin), outputs_text(scene.output), meshes_json(scene), text_of_json(json),
                     files);
 }
@@ -162,10 +171,10 @@ string changed_manifest(const string& text, const Scene& scene, const vector<Fil
   json["outputs"] = outputs_json(output);
   json["files"] = files_json(files);
   if (!output.pictures() && json.contains("counts")) json["counts"]["frames"] = 0;
+
   Json left_out = Json::object();
-  if (const auto found = json.find("left_out"); found != json.end() && found->is_object())
-    for (const auto& [file, why] : found->items())
-      if (const OutputKind* kind = output_of(file); kind != nullptr && kind->asked(output)) left_out[file] = why;
+  for (const auto& [file, why] : object_in(json, "left_out").items())
+    if (const OutputKind* kind = output_of(file); kind != nullptr && kind->asked(output)) left_out[file] = why;
   json.erase("left_out");
   if (!left_out.empty()) json["left_out"] = std::move(left_out);
   return text_of_json(json, 2) + "\n";
@@ -175,35 +184,35 @@ optional<Manifest> read_manifest(int folder, const string& name) {
   const auto text = read_text(folder, name, largest_manifest);
   if (!text || is_too_deep(*text)) return nullopt;
   const Json json = json_of_text(*text);
-  if (!json.is_object() || text_member(json, "tool") != tool) return nullopt;
-  const auto outputs = json.find("outputs"), files = json.find("files");
-  if (outputs == json.end() || files == json.end() || !files->is_array()) return nullopt;
-  Manifest manifest{text_member(json, "version"),
-                    text_member(json.value("scene", Json()), "sha256"),
-                    text_of_json(*outputs),
-                    "[]",
-                    {}};
-  if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = text_of_json(*meshes);
-  manifest.collisions = whole_member(json.value("counts", Json()), "collisions");
-  manifest.scene_file = text_member(json.value("scene", Json()), "file");
-  if (const Json of_scene = json.value("scene", Json()); of_scene.is_object() && of_scene.contains("expressions"))
-    for (const auto& [path, expression] : of_scene["expressions"].items())
-      if (expression.is_string()) manifest.expressions.emplace(path, expression.get<string>());
-  manifest.origin = origin_in(json.value("scene", Json()));
-  if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
-    for (const auto& [file, why] : left_out->items())
-      manifest.left_out.push_back({file, why.is_string() ? why.get<string>() : ""});
-  if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
-    for (const auto& [measure, value] : measures->items())
-      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan(""),
-                                   value.is_string() ? value.get<string>() : string()});
-  if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
-    for (const Json& warning : *warnings)
-      manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});
-  if (const auto failed = json.find("failed"); failed != json.end() && failed->is_array())
-    for (const Json& id : *failed)
-      if (id.is_string()) manifest.failed.push_back(id.get<string>());
-  for (const Json& entry : *files) {
+  const Json& files = list_in(json, "files");
+  if (text_member(json, "tool") != tool || !json.contains("outputs") || files.is_null()) return nullopt;
+
+  Manifest manifest;
+  manifest.version = text_member(json, "version");
+  manifest.outputs = text_of_json(json["outputs"]);
+  manifest.meshes = json.contains("meshes") ? text_of_json(json["meshes"]) : "[]";
+  if (const Json& count = member(object_in(json, "counts"), "collisions", Json::value_t::number_unsigned);
+      !count.is_null())
+    manifest.collisions = count.get<uint64_t>();
+
+  const Json& scene = object_in(json, "scene");
+  manifest.scene_sha256 = text_member(scene, "sha256");
+  manifest.scene_file = text_member(scene, "file");
+  for (const auto& [path, expression] : object_in(scene, "expressions").items())
+    if (expression.is_string()) manifest.expressions.emplace(path, expression.get<string>());
+  manifest.origin = origin_in(scene);
+
+  for (const auto& [file, why] : object_in(json, "left_out").items())
+    manifest.left_out.push_back({file, why.is_string() ? why.get<string>() : ""});
+  for (const auto& [measure, value] : object_in(json, "measures").items())
+    manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan(""),
+                                 value.is_string() ? value.get<string>() : string()});
+  for (const Json& warning : list_in(json, "warnings"))
+    manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});
+  for (const Json& id : list_in(json, "failed"))
+    if (id.is_string()) manifest.failed.push_back(id.get<string>());
+
+  for (const Json& entry : files) {
     auto record = file_record(entry);
     if (!record) return nullopt;
     manifest.files.push_back(std::move(*record));

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "files/hash.h"
-#include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -18,7 +18,6 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/publication.h"
-#include "files/run_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
@@ -48,58 +47,6 @@ void add_remains(vector<string>& names, int folder, const Scene& scene) {
 
 }  // namespace
 
-Descriptor open_folder(int parent, const string& name, bool follow) {
-  Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
-  if (!folder && !is_absent(errno) && (follow || errno != ELOOP)) fail("open", place_of(parent), name);
-  return folder;
-}
-
-Standing what_stands(const string& path) {
-  struct stat info {};
-  if (stat(path.c_str(), &info) == 0) return S_ISDIR(info.st_mode) ? Standing::folder : Standing::other;
-  if (!is_absent(errno)) fail("look at", {AT_FDCWD, ""}, path);
-  return Standing::nothing;
-}
-
-bool is_same_folder(const string& a, const string& b) {
-  const Descriptor one = open_folder(AT_FDCWD, a, true), other = open_folder(AT_FDCWD, b, true);
-  if (!one || !other) return false;
-  struct stat first {
-  }, second{};
-  if (fstat(one.get(), &first) != 0) fail("look at", {AT_FDCWD, ""}, a);
-  if (fstat(other.get(), &second) != 0) fail("look at", {AT_FDCWD, ""}, b);
-  return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-}
-
-string canonical(const string& path) {
-  std::error_code error;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(path.empty() ? "." : path, error);
-  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
-  return whole.string();
-}
-
-string absolute(const string& path) {
-  std::error_code error;
-  const std::filesystem::path whole = std::filesystem::absolute(path, error);
-  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
-  return whole.string();
-}
-
-string name_of_folder(const string& folder) {
-  const std::filesystem::path path = std::filesystem::path(absolute(folder)).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
-bool lock_folder(const FilePlace& place, LockKind kind) {
-  int code = 0;
-  do code = flock(place.folder, (kind == LockKind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB);
-  while (code != 0 && errno == EINTR);
-  if (code == 0) return true;
-  if (errno == EWOULDBLOCK) return false;
-  if (errno != ENOTSUP && errno != ENOLCK && errno != ENOSYS && errno != EINVAL) fail("lock", place, "");
-  return true;
-}
-
 void remove_files_of_run(const FilePlace& place) {
   const int folder = place.folder;
   vector<string> names;
@@ -119,10 +66,13 @@ void remove_files_of_run(const FilePlace& place) {
 OpenFolder::OpenFolder(const string& path, Durability durability) : durability_(durability) {
   place_.path = path.empty() ? "." : path;
   while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();
+
+  // Make the folders above.
   std::error_code error;
   const auto parent = std::filesystem::path(place_.path).parent_path();
   if (!parent.empty()) std::filesystem::create_directories(parent, error);
   if (error) fail("make", {-1, parent.string()}, "", error.message());
+
   try {
     lock();
     finish_publication(place_, durability_);
@@ -137,12 +87,16 @@ void OpenFolder::lock() {
   for (int attempt = 0; attempt < 10; ++attempt) {
     made_ = mkdir(place_.path.c_str(), 0777) == 0;
     if (!made_ && errno != EEXIST) fail("make", place_, "");
+
     folder_ = open_folder(AT_FDCWD, place_.path, true);
     if (!folder_ && errno == ENOENT) continue;
     if (!folder_) fail("open", place_, "");
     place_.folder = folder_.get();
+
     if (!lock_folder(place_, LockKind::alone))
       fail("write", place_, "", "another run is writing into it; wait for it, or name another folder with -o");
+
+    // Whether it has been removed meanwhile.
     struct stat info {};
     if (fstat(folder_.get(), &info) != 0) fail("open", place_, "");
     if (info.st_nlink > 0) return;
@@ -201,6 +155,8 @@ void OpenFolder::put(const string& name, const string& bytes) {
 vector<FileRecord> OpenFolder::begin(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   const int folder = place_.folder;
+
+  // The files that former runs have left.
   vector<string> names;
   const auto manifest = read_manifest(folder, manifest_name);
   add_files(names, manifest);
@@ -220,6 +176,7 @@ vector<FileRecord> OpenFolder::begin(const Scene& scene, const vector<MeshCopy>&
   remove_files(place_, names);
   remove_leavings(place_);
   remove_file(place_, former_manifest);
+
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
   return begun_;
 }
@@ -236,6 +193,7 @@ vector<FileRecord> OpenFolder::renew(const Scene& scene, const vector<MeshCopy>&
   refuse_folders(scene);
   renews_ = true;
   remove_leavings(place_);
+
   vector<FileRecord> records;
   const auto put = [&](const string& name, const string& bytes) {
     OutputFile& file = *first_files_.emplace_back(make_unique<OutputFile>(place_, name));
@@ -243,6 +201,7 @@ vector<FileRecord> OpenFolder::renew(const Scene& scene, const vector<MeshCopy>&
     file.complete();
     records.push_back(file.record());
   };
+
   put("scene.yaml", scene.resolved);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
   return records;
@@ -250,12 +209,8 @@ vector<FileRecord> OpenFolder::renew(const Scene& scene, const vector<MeshCopy>&
 
 FilePlace OpenFolder::series(const FileSeries& series) {
   const string name = renews_ ? part_name(series.folder) : string(series.folder);
-  const FilePlace place{-1, place_.path + "/" + name};
-  if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
-  Descriptor folder = open_folder(place_.folder, name, false);
-  if (!folder) fail("open", place, "", "it is not a folder, or a link; remove it");
-  series_.push_back(std::move(folder));
-  return {series_.back().get(), place.path};
+  series_.push_back(make_folder(place_, name));
+  return {series_.back().get(), place_.path + "/" + name};
 }
 
 void OpenFolder::publish(vector<PartFile*> files, OutputFile& manifest) {

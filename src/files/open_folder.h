@@ -2,42 +2,16 @@
 // The folder of a run during writing: locked, cleared of a former run, and cleaned up when the run fails.
 #include <atomic>
 
+#include "files/folders.h"
 #include "files/mesh_copies.h"
 #include "files/output_file.h"
-#include "files/run_folder.h"
+#include "files/publication.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 
 namespace carom {
 
 struct Scene;
-
-/// Opens a folder.
-/// Returns none, with errno set, if it is absent, no folder, or a link without `follow`.
-/// Throws ExportError on other errors.
-Descriptor open_folder(int parent, const string& name, bool follow);
-
-enum class Standing { nothing, folder, other };
-/// The kind of entry at a path. Throws ExportError if that cannot be determined.
-Standing what_stands(const string& path);
-
-/// Whether two paths lead to the same existing folder. Throws ExportError if that cannot be determined.
-bool is_same_folder(const string& a, const string& b);
-
-/// The path with links resolved as far as it exists. Throws ExportError if that cannot be determined.
-string canonical(const string& path);
-
-/// The absolute path. Throws ExportError if that cannot be determined.
-string absolute(const string& path);
-
-/// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".
-/// Throws ExportError if that cannot be determined.
-string name_of_folder(const string& folder);
-
-enum class LockKind { alone, shared };
-/// Locks a folder. Returns false if the lock is held elsewhere. Throws ExportError.
-/// On a file system without locks, such as some network ones, it returns true without a lock.
-bool lock_folder(const FilePlace& place, LockKind kind);
 
 /// Removes all files named in this folder's manifest, the manifest first, and abandoned temporary files.
 /// In the folder of an interrupted run, also removes what runs write beside scene.yaml. Throws ExportError.

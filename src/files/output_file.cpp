@@ -12,7 +12,6 @@
 #include <cstring>
 
 #include "files/folder_names.h"
-#include "files/run_folder.h"
 #include "physics/archive.h"
 #include "std.h"
 
@@ -50,6 +49,7 @@ void OutputFile::open_part() {
     }
     remove_entry(place_, part());
   }
+
   file_ = Descriptor(openat(place_.folder, part().c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (!file_) fail("write", place_, record_.name);
 }
@@ -97,6 +97,7 @@ void OutputFile::put(const Piece& piece) {
     if (n <= 0) fail("write", place_, record_.name);
     done += static_cast<size_t>(n);
   }
+
   record_.bytes += piece.used;
   if (const uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
     // If the file system does not support this, the sync at the end does all of it.
@@ -121,6 +122,8 @@ void OutputFile::go_on(const WrittenPart& part) {
   size_ = 0;
   pieces_.finish();
   hash_ = {};
+
+  // Hash what is there.
   vector<char> buffer(least_block);
   for (record_.bytes = 0; record_.bytes < part.bytes;) {
     const size_t most = std::min<uint64_t>(buffer.size(), part.bytes - record_.bytes);

@@ -3,17 +3,12 @@
 #include "files/part_file.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
-#include "files/folder_names.h"
-#include "files/run_folder.h"
 #include "std.h"
 
 namespace carom {
@@ -22,52 +17,6 @@ namespace {
 constexpr const char* folder_there = "a folder of that name stands there; remove it";
 
 }  // namespace
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  if (this != &other) {
-    reset();
-    number_ = other.release();
-  }
-  return *this;
-}
-
-int Descriptor::release() {
-  const int number = number_;
-  number_ = -1;
-  return number;
-}
-
-void Descriptor::reset() {
-  if (number_ >= 0) close(number_);
-  number_ = -1;
-}
-
-FilePlace place_of(int descriptor) {
-  if (descriptor == AT_FDCWD) return {descriptor, ""};
-  array<char, 4096> path{};
-  const ssize_t size = readlink(fmt::format("/proc/self/fd/{}", descriptor).c_str(), path.data(), path.size());
-  return {descriptor, size > 0 ? string(path.data(), static_cast<size_t>(size)) : "a file"};
-}
-
-bool is_plain_name(string_view name) {
-  if (name.empty() || name.size() > 200 || name.front() == '.') return false;
-  return std::ranges::none_of(
-      name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
-}
-
-string part_name(string_view name) {
-  return fmt::format(".{}.part", name);
-}
-
-bool is_absent(int error) {
-  return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG;
-}
-
-void fail(const string& what, const FilePlace& place, string_view name, const string& reason) {
-  const string why = reason.empty() ? std::strerror(errno) : reason;
-  const string slash = name.empty() || place.path.empty() || place.path.ends_with('/') ? "" : "/";
-  throw ExportError("cannot " + what + " " + place.path + slash + string(name) + ": " + why);
-}
 
 void refuse_folder(const FilePlace& place, const string& name) {
   struct stat info {};

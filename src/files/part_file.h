@@ -1,37 +1,11 @@
 #pragma once
-// A file under a temporary name until it is complete, and the basic types of this folder: place, record, error.
+// A file under a temporary name until it is complete.
 
+#include "files/file_place.h"
+#include "files/folder_names.h"
 #include "std.h"
 
 namespace carom {
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { reset(); }
-  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  int get() const { return number_; }
-  explicit operator bool() const { return number_ >= 0; }
-  int release();
-  void reset();
-
- private:
-  int number_;
-};
-
-/// An open folder. Everything in it is accessed through its descriptor, so that no name leads out of it.
-struct FilePlace {
-  int folder = -1;
-  /// For messages, as given by the user.
-  string path;
-  /// Temporary files of an interrupted run stay, to be continued (OutputFile::go_on).
-  bool goes_on = false;
-};
-
-/// The place of an open file or folder, from its descriptor alone.
-FilePlace place_of(int descriptor);
 
 /// A file's entry in a manifest.
 struct FileRecord {
@@ -41,23 +15,6 @@ struct FileRecord {
 
   void keep(auto& archive) { archive(name, bytes, sha256); }
 };
-
-/// The entry of a requested file that the run gave up.
-struct LeftOut {
-  string name, why;
-};
-
-/// Whether `name` can only refer to an entry of the folder itself, and is not hidden.
-bool is_plain_name(string_view name);
-
-/// The temporary name of a file.
-string part_name(string_view name);
-
-/// Whether this errno means that the entry is absent. Any other one is a failure and reveals nothing about the entry.
-bool is_absent(int error);
-
-/// Throws ExportError: "cannot <what> <path>/<name>: <reason>". The reason is errno's unless it is given.
-[[noreturn]] void fail(const string& what, const FilePlace& place, string_view name, const string& reason = {});
 
 /// Throws ExportError if a folder has this name where a file is expected.
 void refuse_folder(const FilePlace& place, const string& name);

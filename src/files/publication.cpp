@@ -13,8 +13,8 @@
 #include <set>
 
 #include "files/folder_names.h"
+#include "files/folders.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "std.h"
 
@@ -26,23 +26,14 @@ void sync_all(const FilePlace& place, Durability durability) {
   if (syncfs(place.folder) != 0) fail("write", place, "");
 }
 
-void sync_names(const FilePlace& place, Durability durability) {
-  if (durability == Durability::deferred) return;
-  // Some file systems do not support syncing a folder, and do not need it.
-  if (fsync(place.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place, "");
-}
-
 /// Moves the files of a series from their temporary folder to their final one.
 void name_series(const FilePlace& place, const string& part, const std::set<string>& names) {
   const string series = name_of_part(part);
-  const FilePlace inner{-1, place.path + "/" + series};
   const Descriptor from = open_folder(place.folder, part, false);
   if (!from) return;
-  if (mkdirat(place.folder, series.c_str(), 0777) != 0 && errno != EEXIST) fail("make", inner, "");
-  const Descriptor to = open_folder(place.folder, series, false);
-  if (!to) fail("open", inner, "", "it is not a folder, or a link; remove it");
+  const Descriptor to = make_folder(place, series);
   for (const string& name : folder_names(from.get()))
-    if (names.contains(series + "/" + name)) give_name(from.get(), name, {to.get(), inner.path}, name);
+    if (names.contains(series + "/" + name)) give_name(from.get(), name, {to.get(), place.path + "/" + series}, name);
 }
 
 void name_parts(const FilePlace& place, const Manifest& next) {
@@ -100,7 +91,7 @@ void publish(const FilePlace& place, Durability durability, const vector<PartFil
   give_name(place.folder, part_name(manifest_name), place, next_manifest);
   manifest.hand_over();
   for (PartFile* file : files) file->hand_over();
-  sync_names(place, durability);
+  if (durability == Durability::synced) sync_names(place);
   finish_publication(place, durability);
 }
 
@@ -110,9 +101,9 @@ void finish_publication(const FilePlace& place, Durability durability) {
   name_parts(place, *next);
   remove_former(place, *next);
   remove_leavings(place, next_manifest);
-  sync_names(place, durability);
+  if (durability == Durability::synced) sync_names(place);
   give_name(place.folder, next_manifest, place, manifest_name);
-  sync_names(place, durability);
+  if (durability == Durability::synced) sync_names(place);
 }
 
 void settle_folder(const string& path) {

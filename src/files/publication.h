@@ -5,10 +5,17 @@
 // Before the moment of decision, the former content of the folder is untouched.
 
 #include "files/output_file.h"
-#include "files/run_folder.h"
 #include "std.h"
 
 namespace carom {
+
+/// Whether a file survives a power failure once it has its final name.
+/// A deferred file may then be lost, which a reader detects by size and hash.
+/// For many small runs the caller syncs the file system from time to time (sync_file_system).
+enum class Durability { synced, deferred };
+
+/// The file in the folder of a failed run of a sweep. It holds the reason as text.
+inline constexpr const char* failure_file = "error.txt";
 
 /// A temporary name. To other programs the folder is therefore incomplete.
 inline constexpr const char* next_manifest = ".manifest.json.next.part";

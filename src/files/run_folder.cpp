@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "files/folder_names.h"
+#include "files/folders.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
-#include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
@@ -58,6 +58,7 @@ string foreign_entry(const FoundFolder& found, const Manifest& manifest,
   std::set<string> known = {manifest_name, failure_file};
   for (const FileRecord& file : manifest.files) known.insert(file.name);
   const auto is_foreign = [&](const string& name) { return !known.contains(name) && counts(name); };
+
   const vector<string> series = series_folder_names();
   SeriesFolders folders(found.folder.get());
   for (const string& name : found.names) {
@@ -65,6 +66,8 @@ string foreign_entry(const FoundFolder& found, const Manifest& manifest,
     const int inner = std::ranges::find(series, name) == series.end() ? -1 : folders.open(name);
     if (inner < 0 && is_foreign(name)) return name;
     if (inner < 0) continue;
+
+    // The folder of a series.
     for (const string& entry : folder_names(inner)) {
       string path = name + "/";
       path += entry;
@@ -79,8 +82,10 @@ FolderChanges changes_in(const FoundFolder& found, const Manifest& manifest,
   FolderChanges changes;
   // Of an interrupted publication the files are newer than the manifest.
   if (found.has(next_manifest)) return changes;
+
   changes.foreign = foreign_entry(found, manifest, counts);
   SeriesFolders folders(found.folder.get());
+
   for (const FileRecord& file : manifest.files) {
     const FileSpot spot = folders.spot(file.name);
     const auto size = spot.folder < 0 ? nullopt : stored_size(spot.folder, spot.name);
@@ -130,10 +135,13 @@ bool is_whole_since(const string& path, const string& mark) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
   if (!manifest || manifest->version != CAROM_VERSION) return false;
+
+  // The manifest itself is no younger than the mark.
   if (!mark.empty()) {
     const optional<timespec> made = changed({folder.get(), manifest_name});
     if (!made || !is_before(*made, marked)) return false;
   }
+
   const auto unchanged = [&](const FileSpot& spot, const FileRecord& file) {
     const optional<timespec> when = changed(spot);
     return when && has_size(spot, file) && (is_before(*when, marked) || has_hash(spot, file));
@@ -204,16 +212,19 @@ FolderContent inspect_folder(const string& path, const Scene& scene, const strin
   const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
   const string hash = sha256(scene.resolved);
+
   if (found.has(manifest_name)) {
     const auto manifest = read_manifest(folder.get(), manifest_name);
     if (!manifest || manifest->scene_sha256 != hash || manifest->meshes != meshes_text(scene)) {
       return FolderContent::other_run;
     }
     if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
+
     const auto is_written = [&](const string& name) {
       const OutputKind* kind = series_of(name);
       return kind ? kind->asked(scene.output) : std::ranges::find(files, name) != files.end();
     };
+
     FolderChanges its = changes_in(found, *manifest, is_written);
     if (!its.changed.empty() || !its.foreign.empty()) {
       if (changes != nullptr) *changes = std::move(its);
@@ -221,10 +232,12 @@ FolderContent inspect_folder(const string& path, const Scene& scene, const strin
     }
     return has_more(folder.get(), *manifest, scene, files) ? FolderContent::more : FolderContent::incomplete;
   }
+
   if (found.has("scene.yaml")) {
     const auto stored = read_record(folder.get(), "scene.yaml");
     return stored && stored->sha256 == hash ? FolderContent::incomplete : FolderContent::other_run;
   }
+
   // Incomplete: a run that was killed before its first file was complete, or that failed.
   return found.content;
 }

@@ -1,32 +1,18 @@
 #pragma once
 // The folder that a run writes: its present content, and whether files in it are complete.
-#include <stdexcept>
 
-#include "files/output_file.h"
+#include "files/file_place.h"
 #include "std.h"
 
 namespace carom {
 
 struct Scene;
 
-/// Writing cannot continue, or must not begin. The text is for the user.
-struct ExportError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Whether a file survives a power failure once it has its final name.
-/// A deferred file may then be lost, which a reader detects by size and hash.
-/// For many small runs the caller syncs the file system from time to time (sync_file_system).
-enum class Durability { synced, deferred };
-
 /// The command that makes the run in `folder` anew, as the second line of an error.
 string run_again(const string& folder);
 
 /// Writes all pending data of the file system of `path` to disk. Throws ExportError.
 void sync_file_system(const string& path);
-
-/// The file in the folder of a failed run of a sweep. It holds the reason as text.
-inline constexpr const char* failure_file = "error.txt";
 
 enum class FolderContent {
   nothing,  // absent or empty

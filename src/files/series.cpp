@@ -22,6 +22,7 @@ string Series::put(int64_t number, const string& file_name, string_view bytes) {
   file.written(to + bytes.size());
   file.publish();
   folder_.keep();
+
   FileRecord record = file.record();
   record.name.insert(0, string(files_.folder) + "/");
   const string name = record.name;

@@ -2,7 +2,7 @@
 // series may have many files.
 #include "files/series_folders.h"
 
-#include "files/open_folder.h"
+#include "files/folders.h"
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "std.h"

@@ -2,7 +2,7 @@
 // The subfolders of a run's folder that hold series of files, such as frames/.
 #include <map>
 
-#include "files/output_file.h"
+#include "files/file_place.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 

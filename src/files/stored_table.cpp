@@ -52,6 +52,7 @@ void split_cells(string_view line, vector<string_view>& cells, string& unquoted)
   unquoted.clear();
   // Reserve, so that views into it stay valid.
   unquoted.reserve(line.size());
+
   for (size_t i = 0; i <= line.size();) {
     if (i < line.size() && line[i] == '"') {
       const size_t from = unquoted.size();
@@ -59,6 +60,7 @@ void split_cells(string_view line, vector<string_view>& cells, string& unquoted)
         if (line[i] == '"' && (i + 1 >= line.size() || line[++i] != '"')) break;
         unquoted += line[i];
       }
+
       cells.push_back(string_view(unquoted).substr(from));
       i = std::min(line.find(',', std::min(i, line.size())), line.size()) + 1;
     } else {
@@ -92,6 +94,8 @@ bool StoredTable::read_line(string_view& line) {
       begin_ = i + 1;
       return true;
     }
+
+    // Read on behind the incomplete line. Its quotes are counted anew.
     if (ended_) break;
     quoted = false;
     buffer_.erase(0, begin_);
@@ -103,6 +107,7 @@ bool StoredTable::read_line(string_view& line) {
     buffer_.resize(kept + n);
     ended_ = n == 0;
   }
+
   line = string_view(buffer_).substr(begin_);
   begin_ = buffer_.size();
   return !line.empty();
@@ -120,11 +125,14 @@ void lines_from_end(int file, const function<bool(string_view line)>& take) {
   string text;
   uint64_t at = size_of(file);
   while (at > 0) {
+    // Put another piece in front.
     const size_t size = static_cast<size_t>(std::min<uint64_t>(at, std::max(piece_size, text.size())));
     at -= size;
     string piece(size, '\0');
     read_at(file, piece.data(), size, at);
     text.insert(0, piece);
+
+    // Take the lines that are complete.
     for (;;) {
       while (text.ends_with('\n')) text.pop_back();
       const size_t before = text.rfind('\n');

@@ -2,7 +2,6 @@
 // The results of a run: the row of summary.csv, and what manifest.json holds besides.
 #include <limits>
 
-#include "files/part_file.h"
 #include "physics/tally.h"
 #include "std.h"
 
@@ -54,6 +53,11 @@ struct Measured {
   string name;                                              // "balls.red.speed_m_per_s"
   double value = std::numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
   string text{};                                            // empty: a number, or undefined
+};
+
+/// The entry of a requested file that the run gave up.
+struct LeftOut {
+  string name, why;
 };
 
 /// How long a run has lasted.

@@ -42,6 +42,7 @@ double way_out(const Volume& volume, const Vec3& along) {
     const double part = std::abs(along[axis]);
     return part > 0 ? volume.half[axis] / part : std::numeric_limits<double>::infinity();
   };
+
   switch (volume.shape) {
     case Shape::sphere:
       return volume.half.x();
@@ -60,6 +61,7 @@ void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& c
   // A short arrow is a head alone, in proportion.
   const double head = std::min(head_length * size, length), scale = head / (head_length * size);
   const Vec3 neck = start + (length - head) / length * arrow;
+
   const auto add = [&](const Vec3& from, const Vec3& to, double from_radius, double to_radius) {
     Stroke stroke;
     stroke.from = from;
@@ -70,6 +72,7 @@ void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& c
     stroke.color = color;
     strokes.push_back(stroke);
   };
+
   if (length > head) add(start, neck, shaft_radius * size, shaft_radius * size);
   add(neck, start + arrow, scale * head_radius * size, 0);
 }
@@ -101,12 +104,14 @@ void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<S
   for (Entity body = 0; body < world.body_count(); ++body) {
     if (moment.is_part(body)) continue;
     const Vec3& x = moment.state.position[body];
+
     for (const ArrowScale& scale : scales) {
       const bool is_force = scale.kind == ArrowScale::Kind::force;
       const Vec3 arrow =
           scale.length / scale.typical * (is_force ? force_on(moment, body) : moment.state.velocity[body]);
       const double length = arrow.norm();
       if (length < 0.25 * moment.pixel_at(x)) continue;
+
       const Vec3 along = arrow / length;
       const Volume volume = volume_now(world, moment.state, body);
       add_arrow(x + way_out(volume, along) * along, arrow, scale.size, scale.color(), strokes);

@@ -34,14 +34,17 @@ BodyColors::BodyColors(const Scene& scene) : scene_(scene), rules_(color_rules(s
     rule_.assign(bodies, plain);
     name_.assign(bodies, 0);
   }
+
   vector<uint32_t> names(rules_.size(), 0);  // up to the body, by rule
   for (const BodyRange& range : scene.roster.bodies) {
     std::fill_n(color_.begin() + range.first, range.count, range.color);
     if (!range.coloring) continue;
+
     const auto rule =
         std::ranges::find_if(rules_, [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
         rules_.begin();
     std::fill_n(rule_.begin() + range.first, range.count, static_cast<uint32_t>(rule));
+
     uint32_t& name = names[static_cast<size_t>(rule)];
     if (rules_[static_cast<size_t>(rule)].names[name] != range.thing()) ++name;
     std::fill_n(name_.begin() + range.first, range.count, name);
@@ -59,6 +62,7 @@ Color BodyColors::of(Entity body, double time, const Vec3& velocity, const State
   if (rule_.empty() || rule_[body] == plain) return color_[body];
   const ColorRule& rule = rules_[rule_[body]];
   const double mass = mass_now(scene_.world, state, body);
+
   switch (rule.coloring.by.value_or(ColorQuantity::group)) {
     case ColorQuantity::speed:
       return rule.color_of(velocity.norm());
@@ -66,6 +70,7 @@ Color BodyColors::of(Entity body, double time, const Vec3& velocity, const State
       return rule.color_of(0.5 * mass * velocity.squaredNorm());
     case ColorQuantity::collisions:
       return rule.color_of(static_cast<double>(history.collisions_of(body, time)));
+
     case ColorQuantity::mass:
       return rule.color_of(mass);
     case ColorQuantity::radius:

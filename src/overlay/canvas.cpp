@@ -59,12 +59,15 @@ void Canvas::lay_onto(Image& image, int left, int top) const {
     const Pixel* above = &pixels_[static_cast<size_t>(y) * static_cast<size_t>(width_)];
     uint8_t* rgb = image.pixels.data() + static_cast<size_t>(top + y) * image.row_size() +
                    static_cast<size_t>(left * image.channels);
+
     for (int x = 0; x < width_; ++x, ++above, rgb += image.channels) {
       const uint32_t rest = 255U - above->opacity;
       if (image.channels == 3) {
         for (size_t c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(above->rgb[c] + part_of_255(rest * rgb[c]));
         continue;
       }
+
+      // Over a picture that may be transparent.
       uint8_t& alpha = rgb[3];
       const uint32_t below = part_of_255(rest * alpha), whole = above->opacity + below;
       if (whole == 0) continue;

@@ -107,6 +107,7 @@ struct Font::Face {
       FT_Vector kerning{};
       if (before != 0 && FT_Get_Kerning(face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
         x += pixels(kerning.x);
+
       if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) continue;
       use(face->glyph, x);
       // 16.16
@@ -152,6 +153,8 @@ void Font::draw(string_view text, double x, double y, Coverage& to) const {
     // The outline's y axis points upwards.
     FT_Outline_Translate(&glyph->outline, std::lround((left - whole_x) * 64), -std::lround((y - whole_y) * 64));
     if (FT_Render_Glyph(glyph, FT_RENDER_MODE_NORMAL) != 0) return;
+
+    // Add its coverage to what is there.
     const FT_Bitmap& bitmap = glyph->bitmap;
     for (int row = 0; row < static_cast<int>(bitmap.rows); ++row) {
       for (int column = 0; column < static_cast<int>(bitmap.width); ++column) {

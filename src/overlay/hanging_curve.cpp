@@ -34,15 +34,20 @@ vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length, cons
   const Vec3 way = to - from;
   const double distance = way.norm();
   if (!(length > distance) || down.isZero(0)) return {to};
+
+  // Its parts along `down` and across.
   const double rise = -way.dot(down);
   const Vec3 level = way + rise * down;
   const double width = level.norm();
   if (!(width > least_gap * length)) return {from + (length - rise) / 2 * down, to};
+
+  // The catenary: its scale a, and the places of its ends.
   const double ratio = std::sqrt((length - rise) * (length + rise)) / width;
   if (!(ratio > 1)) return {to};
   const double x = inverse_of_sinh_ratio(ratio);
   const double a = width / (2 * x), middle = std::atanh(rise / length), first = middle - x;
   const double count = std::clamp(std::ceil(2 * x / std::sqrt(8 * error / a)), 1.0, most_strokes);
+
   vector<Vec3> points;
   for (double i = 1; i < count; ++i) {
     const double turn = 2 * x * i / count;

@@ -25,11 +25,14 @@ Legend legend_of(const ColorRule& rule) {
   legend.map = rule.coloring.map;
   const ColorQuantity by = rule.coloring.by.value_or(ColorQuantity::group);
   legend.title = titles[static_cast<size_t>(by)];
+
   if (by != ColorQuantity::group) {
     legend.min = number_text(rule.scale.min);
     legend.max = number_text(rule.scale.max);
     return legend;
   }
+
+  // The names of the bodies, as many as there is room for.
   const size_t count = rule.names.size(), shown = count > most_entries ? most_entries - 1 : count;
   for (size_t i = 0; i < shown; ++i) legend.entries.push_back({rule.color_of(static_cast<double>(i)), rule.names[i]});
   if (shown < count)

@@ -55,11 +55,14 @@ class LegendPen {
                        static_cast<int>(std::max(strip_width * font_.size(), numbers)),
                        std::max(2, static_cast<int>(strip_height * font_.size()))};
     width_ = std::max(width_, static_cast<double>(box.left + box.width));
+
     if (canvas_ != nullptr)
       for (int x = 0; x < box.width; ++x)
         fill({box.left + x, box.top, 1, box.height},
              color_in(legend.map, static_cast<double>(x) / std::max(box.width - 1, 1)));
     if (strips_ != nullptr) strips_->push_back(box);
+
+    // The numbers below its ends.
     y_ = box.top + box.height + 0.15 * font_.size();
     write(legend.min, left_);
     write(legend.max, box.left + box.width - font_.width(legend.max));
@@ -93,11 +96,13 @@ LegendBlock::LegendBlock(Font& font, const vector<Legend>& legends, double size,
   for (; size >= TextBlock::least_size; size *= shrink) {
     font.resize(size);
     const double padding = std::ceil(TextBlock::padding_of(size));
+
     LegendPen measure(font, padding, nullptr, nullptr);
     measure.add(legends);
     const int needed_width = static_cast<int>(std::ceil(measure.width() + padding));
     const int needed_height = static_cast<int>(std::ceil(measure.height() + padding));
     if (needed_width > width || needed_height > height) continue;
+
     canvas_ = make_unique<Canvas>(needed_width, needed_height);
     canvas_->add_plate(padding);
     LegendPen(font, padding, canvas_.get(), &strips_).add(legends);

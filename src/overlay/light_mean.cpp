@@ -42,11 +42,14 @@ void LightMean::add(const Image& image) {
     mean_.channels = image.channels;
     sums_.assign(image.pixels.size(), 0);
   }
+
   const array<uint16_t, 256>& light = light_of_bytes();
   if (image.channels == 3) {
     for (size_t i = 0; i < image.pixels.size(); ++i) sums_[i] += light[image.pixels[i]];
     return;
   }
+
+  // Colours count by their opacity.
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     const uint32_t opacity = image.pixels[i + 3];
     for (size_t c = 0; c < 3; ++c) sums_[i + c] += (light[image.pixels[i + c]] * opacity + 127) / 255;
@@ -58,6 +61,7 @@ const Image& LightMean::take() {
   const auto count = static_cast<uint32_t>(std::max(count_, 1));
   const vector<uint8_t>& bytes = bytes_of_light();
   mean_.pixels.resize(sums_.size());
+
   if (mean_.channels == 3) {
     for (size_t i = 0; i < sums_.size(); ++i) mean_.pixels[i] = bytes[(sums_[i] + count / 2) / count];
   } else {
@@ -68,6 +72,7 @@ const Image& LightMean::take() {
       mean_.pixels[i + 3] = static_cast<uint8_t>((sums_[i + 3] + count / 2) / count);
     }
   }
+
   count_ = 0;
   return mean_;
 }

@@ -37,15 +37,19 @@ void add_spring(const Moment& moment, const Spring& spring, Entity body, vector<
   const Vec3 end = moment.state.position[body], whole = end - spring.anchor;
   const double length = whole.norm(), reach = moment.radius_of(body);
   if (!(length > 0)) return;
+
   const Vec3 along = whole / length;
   const double coil = coil_radius * reach, from = lead * length, until = length - reach - lead * length;
   Wire wire(thickness * coil, spring.anchor, wire_steel, strokes);
   const double error = chord_error * std::min(moment.pixel_at(spring.anchor), moment.pixel_at(end));
+
+  // The turns, unless they are too small to be seen.
   if (until > from && coil > 2 * error) {
     const double turns = turns_of(spring, coil, (moment.scene.initial.position[body] - spring.anchor).norm());
     const double chords = std::clamp(std::ceil(std::numbers::pi / std::acos(1 - error / coil)), 6.0, most_chords);
     const Eigen::Quaterniond frame = frame_along(along);
     wire.go_to(spring.anchor + from * along);
+
     const double count = turns * chords;
     for (double i = 0; i <= count; ++i) {
       const double angle = 2 * std::numbers::pi * i / chords, height = from + i / count * (until - from);

@@ -18,6 +18,7 @@ unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double p
   double width = 0;
   for (const string& line : lines) width = std::max(width, font.width(line));
   const double height = font.line() * static_cast<double>(lines.size() - 1) + font.ascent() + font.descent();
+
   auto canvas = make_unique<Canvas>(static_cast<int>(std::ceil(width + 2 * padding)),
                                     static_cast<int>(std::ceil(height + 2 * padding)));
   Coverage coverage(canvas->width(), canvas->height());
@@ -26,6 +27,7 @@ unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double p
     font.draw(line, padding, y, coverage);
     y += font.line();
   }
+
   canvas->add_plate(padding);
   canvas->add(coverage, white);
   return canvas;
@@ -41,12 +43,14 @@ WrappedText wrapped(const Font& font, const string& text, double width) {
     const size_t end = std::min(text.find(' ', word), text.size());
     if (word == end) break;
     const string longer = (line.empty() ? "" : line + text.substr(i, word - i)) + text.substr(word, end - word);
+
     if (!line.empty() && font.width(longer) > width) {
       result.lines.push_back(line);
       line = text.substr(word, end - word);
     } else {
       line = longer;
     }
+
     result.fits = result.fits && font.width(line) <= width;
     i = end;
   }
@@ -75,11 +79,14 @@ TextBlock::TextBlock(Font& font, const string& text, double size, int width, int
     const double padding = padding_of(size_), space = width - 2 * padding - 1;
     const double one = font.ascent() + font.descent();
     const double most = std::floor((height - 2 * padding - one - 1) / font.line()) + 1;
+
     WrappedText text_lines = wrapped(font, text, space);
     vector<string>& lines = text_lines.lines;
     if (lines.empty()) return;
     const bool fits = text_lines.fits && static_cast<double>(lines.size()) <= most;
     if (!fits && size_ > least_size) continue;
+
+    // At the least size the text is cut off.
     if (!fits) {
       if (!(most >= 1)) return;
       if (static_cast<double>(lines.size()) > most) {
@@ -90,6 +97,7 @@ TextBlock::TextBlock(Font& font, const string& text, double size, int width, int
       std::erase(lines, "");
       if (lines.empty()) return;
     }
+
     canvas_ = drawn(font, lines, padding);
     return;
   }

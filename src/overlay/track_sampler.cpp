@@ -50,10 +50,12 @@ size_t TrackSampler::add_path(Entity body, const Known& known, double time, cons
     tracks_.add(body, hermite(time_, time, known.x, known.v, now.x, now.v));
     return 1;
   }
+
   const double first = known.impacts.front(), last = known.impacts.back();
   const TrackPiece before = parabola(time_, first, time_, known.x, known.v, known.a);
   tracks_.add(body, before);
   if (ends) return 1;
+
   const TrackPiece after = parabola(last, time, time, now.x, now.v, now.a);
   if (last > first) {
     // Between kinks that are known by their times alone, the path is taken as straight.
@@ -71,18 +73,23 @@ void TrackSampler::sample(const State& state) {
     Known& known = known_[body];
     if (known.ended) continue;
     tracks_.remove(body, std::exchange(known.tip, 0));
+
     const bool ends = is_gone(state, body);
     Known now{state.position[body], state.velocity[body], Vec3::Zero(), {}, ends, 0};
     now.a = free_acceleration(world_, body, state.time, now.x, now.v);
     const size_t pieces = started_ && state.time > time_ ? add_path(body, known, state.time, now, ends) : 0;
+
+    // Between the instants of its own, only the tip is drawn on.
     if (!own) {
       known.tip = pieces;
       continue;
     }
+
     const double rate = force_rate(world_, body, now.x, now.v);
     if (rate > 0) step = std::min(step, 1 / (4 * rate));
     known = std::move(now);
   }
+
   if (!own) return;
   started_ = true;
   time_ = state.time;

@@ -55,6 +55,7 @@ class TrailMaker {
       kept_ = last_ = first;
       has_last_ = true;
     }
+
     const double count = chords(piece, from, until);
     for (double i = 1; i <= count; ++i) {
       const double time = i < count ? from + i / count * (until - from) : until;

@@ -1,7 +1,6 @@
 #pragma once
 // A scene and its motion as a binary glTF 2 file, for Blender and similar programs. It has a node for each body and for
-// each fixed thing, the camera and the lights. assimp writes meshes, materials and animation. What its exporter cannot
-// write is added afterwards.
+// each fixed thing, the camera and the lights.
 
 #include "render/model.h"
 #include "std.h"

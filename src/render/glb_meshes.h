@@ -1,49 +1,42 @@
 #pragma once
-// The meshes, materials and textures of a glTF file that is written, in assimp's form. Things of one shape and colour
-// share a mesh.
-#include <assimp/scene.h>
-
+// The meshes, materials and textures of a glTF file. Things of one shape and colour share a mesh.
 #include <map>
 #include <tuple>
 #include <utility>
 
+#include "render/glb_file.h"
 #include "render/model.h"
 #include "std.h"
 
 namespace carom {
 
+/// Its functions return the number of a mesh in the file.
 class GlbMeshes {
  public:
-  /// Numbers of assimp's meshes that are drawn together.
-  using Numbers = vector<unsigned>;
+  explicit GlbMeshes(GlbFile& file) : file_(file) {}
 
   /// A volume of half size 1, in a colour.
-  const Numbers& volume(Shape shape, const Color& color);
+  size_t volume(Shape shape, const Color& color);
   /// A mesh file drawn in place of a volume about the origin. `color`: of the parts without one. Throws RenderError.
-  const Numbers& file(const MeshUse& use, const Color& color);
+  size_t file(const MeshUse& use, const Color& color);
   /// A mesh of its own. `two_sided`: both sides of its triangles are seen.
-  Numbers single(const Mesh& mesh, const Color& color, bool two_sided, const string& name);
-
-  bool empty() const { return meshes_.empty(); }
-  /// Gives all of them to the scene, which owns them then.
-  void hand_over(aiScene& scene);
+  size_t single(const Mesh& mesh, const Color& color, bool two_sided, const string& name);
 
  private:
   using Srgb = array<double, 3>;
   using Use = std::tuple<string, array<double, 4>, bool, Srgb>;
 
-  unsigned add(const Mesh& mesh, size_t material, const string& name);
+  nlohmann::ordered_json primitive(const Mesh& mesh, size_t material);
   size_t material(const Color& color, bool two_sided);
-  size_t material(const MeshPart& part, const vector<size_t>& textures, const string& name);
-  /// Equal textures are written once.
-  size_t texture(const MeshTexture& picture);
+  /// `image`: the number of the part's texture among the images, if it has one.
+  size_t material(const MeshPart& part, optional<size_t> image, const string& name);
+  /// Equal pictures are written once.
+  size_t image(const MeshTexture& picture);
 
-  vector<unique_ptr<aiMesh>> meshes_;
-  vector<unique_ptr<aiMaterial>> materials_;
-  vector<unique_ptr<aiTexture>> textures_;
-  std::map<std::pair<Srgb, bool>, size_t> material_numbers_;
-  std::map<std::pair<Shape, Srgb>, Numbers> volumes_;
-  std::map<Use, Numbers> files_;
+  GlbFile& file_;
+  std::map<string, size_t> images_;  // by their bytes
+  std::map<std::pair<Shape, Srgb>, size_t> volumes_;
+  std::map<Use, size_t> files_;
 };
 
 }  // namespace carom

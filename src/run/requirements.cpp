@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "export/film_file.h"
-#include "export/plot.h"
+#include "export/gnuplot.h"
 #include "overlay/inscription.h"
 #include "render/mesh.h"
 #include "scene/scene.h"

@@ -14,6 +14,7 @@
 #include "export/export_testing.h"
 #include "export/picture_streams.h"
 #include "export/webp.h"
+#include "files/run_folder.h"
 #include "scene/scene.h"
 #include "std.h"
 

@@ -10,6 +10,7 @@
 #include "export/same_piece.h"
 #include "files/hash.h"
 #include "files/open_folder.h"
+#include "files/run_folder.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -24,21 +25,19 @@ vector<PathPiece> pieces() {
   for (Entity i = 0; i < 4; ++i) all.push_back({i, 0, {0, 0}, Vec3(i, 1, -0.0), Vec3(1, -0.0, 0), Vec3(0, -10, 0)});
   all.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -0.0, 0)});
   all.push_back({2, 0.125, {0.0625, 0}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -10, 0)});
-
   PathPiece step{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
   step.kicked = true;
   step.until = {0.175, 1e-19};
   step.kick = Vec3(0, -1, 0);
   all.push_back(step);
-
   PathPiece curved{2, 0.17, {0.17, 0}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3(0, -10, 0)};
   PolynomialPath curve;
   curve.length = 0.5;
+
   for (size_t k = 0; k < PolynomialPath::terms; ++k)
     curve.displacement[k] = Vec3(0.25, -0.0, -3) / static_cast<double>(k + 1);
   curved.curve = std::make_shared<PolynomialPath>(curve);
   all.push_back(curved);
-
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -51,14 +50,12 @@ vector<PathPiece> pieces() {
 
   PathPiece fading{2, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
   fading.fade = 0.25;
-
   PathPiece verlet = curved;
   verlet.from = verlet.start.hi = 0.19;
   verlet.law = PathLaw::verlet;
   curve = PolynomialPath::parabola(0.25, verlet.v, verlet.a);
   curve.ahead = Vec3(0, -0.0, 1e-9);
   verlet.curve = std::make_shared<PolynomialPath>(curve);
-
   PathPiece closed{3, 0.19, {0.19, 0}, Vec3(1, -1, 1), Vec3(3, 1e-300, 0), Vec3(0, -10, 0)};
   closed.law = PathLaw::closed;
   PathPiece frame{3, 0.19, {0.2, 0}, Vec3(1, -1, 1), Vec3(-3, 0, 0), Vec3(0, 0, 0)};
@@ -119,17 +116,18 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   const TempFolder folder;
   const Scene scene = small_scene();
   EXPECT_TRUE(store(folder, scene).empty());
+
   const Descriptor opened = open(folder);
   FlightsReader reader(opened.get(), folder.path(), scene);
-
   Recorded recorded;
+
   for (const PathPiece& piece : pieces()) {
     ASSERT_TRUE(reader.next(recorded));
     EXPECT_EQ(recorded.kind, Recorded::Kind::piece);
     EXPECT_TRUE(same_bits(recorded.piece, piece)) << "body " << piece.body << " from " << piece.from;
   }
-  EXPECT_FALSE(reader.next(recorded));
 
+  EXPECT_FALSE(reader.next(recorded));
   EXPECT_EQ(reader.tally().body_body, 7u);
   EXPECT_EQ(reader.tally().merges, 1u);
   EXPECT_EQ(reader.tally().tautened, 2u);
@@ -137,7 +135,6 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_EQ(reader.tally().last_collision, 0.1875);
   EXPECT_EQ(reader.tally().fastest.speed, 12);
   EXPECT_EQ(reader.tally().stepped_contact, 0.5);
-
   EXPECT_EQ(reader.tally().taken_up.impacts, 4u);
   EXPECT_EQ(reader.tally().taken_up.fastest, 0.125);
   EXPECT_EQ(reader.tally().taken_up.energy, 0.375);
@@ -154,17 +151,18 @@ vector<PathPiece> falling_crowd(int steps) {
   vector<PathPiece> all;
   const double length = 0x1p-10;
   Vec3 x[4];
+
   for (int k = 0; k < steps; ++k)
     for (Entity i = 0; i < 4; ++i) {
       const Vec3 before(i, k == 0 ? 0 : -10 * (k - 0.5) * length, 0), drift(i, -10 * (k + 0.5) * length, 0);
       x[i] = k == 0 ? Vec3(i, 1, 0) : Vec3(x[i] + length * before);
-
       PathPiece piece{i, k * length, {k * length, 0}, x[i], drift, Vec3::Zero()};
       piece.kicked = true;
       piece.until = {(k + 0.5) * length, 0};
       piece.kick = (drift - before) / (k == 0 ? 0.5 * length : length);
       all.push_back(piece);
     }
+
   return all;
 }
 
@@ -179,20 +177,18 @@ TEST(Flights, TakeHardlyAByteForAStepThatFollowsFromTheStepBefore) {
 TEST(Flights, TakeFewBytesForAnImpactOfTwo) {
   vector<PathPiece> all = {pieces()[0], pieces()[1]};
   for (PathPiece& piece : all) piece.a = Vec3::Zero();
-
   double time = 0;
   const int impacts = 1'000;
   const Vec3 n = Vec3(1, 2, 2) / 3;
 
-  // They approach each other, and turn at their impact.
   for (int k = 0; k < impacts; ++k) {
     const double dt = 0x1p-20 * (1 + k % 7);
     for (Entity i = 0; i < 2; ++i) {
       const double side = i == 0 ? -1 : 1;
       all.push_back({i, time, {time, 0}, (0.1 + dt) * side * n, -side * n, Vec3::Zero()});
     }
-
     time += dt;
+
     for (Entity i = 0; i < 2; ++i) {
       PathPiece piece = all[all.size() - 2];
       piece.from = piece.start.hi = time;
@@ -242,6 +238,7 @@ string recorded_in_two(const vector<Event>& events, size_t first, bool cuts_an_e
   FlightsFile file({opened.get(), folder.path()}, scene);
   vector<Collision> collisions;
   vector<PathPiece> pieces;
+
   const auto advance = [&] {
     file.record(collisions);
     file.record_paths(pieces);
@@ -255,6 +252,7 @@ string recorded_in_two(const vector<Event>& events, size_t first, bool cuts_an_e
     if (k == first && cuts_an_event) advance();
     pieces.insert(pieces.end(), events[k].pieces.begin(), events[k].pieces.end());
   }
+
   advance();
   file.end(some_tally());
   for (OutputFile* output : file.files()) output->publish();
@@ -271,6 +269,7 @@ TEST(Flights, HaveTheSameBytesWhereverAnAdvanceEnds) {
       added.pieces.push_back(
           {body, lo > 0 ? std::nextafter(hi, 9) : hi, {hi, lo}, Vec3(body, 1, 0), Vec3(hi, 0, 0), Vec3(0, -10, 0)});
   };
+
   // Two events of one instant, three between two doubles, and one that no piece follows.
   event(0.25, 0, 0, 1);
   event(0.25, 0, 2, 3);
@@ -305,8 +304,8 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
 
   scene.simulate.duration = 3;
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it belongs to another scene");
-  scene = small_scene();
 
+  scene = small_scene();
   const auto with = [&](size_t at, char byte) {
     string other = whole;
     other[at] = byte;
@@ -340,6 +339,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   const TempFolder folder;
   const Scene scene = small_scene();
   const double infinite = std::numeric_limits<double>::infinity();
+
   const auto refused_with = [&](size_t which, const function<void(PathPiece&)>& change) {
     vector<PathPiece> changed = pieces();
     change(changed[which]);
@@ -349,7 +349,6 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
 
   const size_t first = 0, step = 6, curve = 7, part = 8, joint = 9, fading = 10, frame = 13;
   EXPECT_FALSE(refused_with(first, [](PathPiece&) {}));
-
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.from = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.hi = -infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.lo = infinite; }));
@@ -357,14 +356,13 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.x[0] = std::nan(""); }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.v[1] = infinite; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.a[2] = -infinite; }));
-
   EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.until.hi = infinite; }));
   EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.kick[0] = infinite; }));
   EXPECT_TRUE(refused_with(part, [&](PathPiece& piece) { piece.part_of = piece.body; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.mass = 0; }));
+
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.radius = infinite; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.half[1] = -1; }));
-
   EXPECT_TRUE(refused_with(fading, [&](PathPiece& piece) { piece.fade = infinite; }));
   EXPECT_TRUE(refused_with(frame, [&](PathPiece& piece) { piece.rounding = infinite; }));
 
@@ -373,6 +371,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
     change(*other);
     piece.curve = other;
   };
+
   EXPECT_TRUE(refused_with(curve, [&](PathPiece& piece) { bend(piece, [](auto& path) { path.length = 0; }); }));
   EXPECT_TRUE(refused_with(
       curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.displacement[6][1] = infinite; }); }));
@@ -399,6 +398,7 @@ TEST(Flights, WithAnImpactOfABodyWithoutAPathAreDamaged) {
   impact.pack(packed);
   ColumnReader columns;
   ASSERT_TRUE(columns.unpack(packed));
+
   PathCodec reader(scene.world);
   Recorded recorded;
   EXPECT_FALSE(reader.read(columns, recorded));
@@ -411,34 +411,6 @@ TEST(Flights, ThatGoBackInTimeAreRefused) {
   changed[5].from = 0.0625;
   store(folder, scene, changed);
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is damaged");
-}
-
-TEST(Flights, FromATimeOnBeginWithThePresentPieceOfEveryBody) {
-  const TempFolder folder;
-  const Scene scene = small_scene();
-  store(folder, scene);
-  const Descriptor opened = open(folder);
-  FlightsReader reader(opened.get(), folder.path(), scene);
-
-  const vector<PathPiece> all = pieces();
-  for (const double time : {0.19, 0.0, 0.15, 0.16, 1.0}) {
-    SCOPED_TRACE(time);
-    reader.seek(time);
-
-    // Pieces that no later one has replaced by then.
-    vector<PathPiece> expected;
-    for (size_t k = 0; k < all.size(); ++k) {
-      const auto replaced = [&](const PathPiece& later) { return later.body == all[k].body && later.from <= time; };
-      if (std::none_of(all.begin() + static_cast<ptrdiff_t>(k) + 1, all.end(), replaced)) expected.push_back(all[k]);
-    }
-
-    Recorded recorded;
-    for (const PathPiece& piece : expected) {
-      ASSERT_TRUE(reader.next(recorded));
-      EXPECT_TRUE(same_bits(recorded.piece, piece)) << "body " << piece.body << " from " << piece.from;
-    }
-    EXPECT_FALSE(reader.next(recorded));
-  }
 }
 
 TEST(Flights, ThatGrowTooLargeAreLeftOut) {
@@ -454,6 +426,7 @@ TEST(Flights, ThatWereLeftOutDoNotMakeARunIncomplete) {
   const TempFolder folder;
   Scene scene = small_scene();
   scene.output.flights = true;
+
   {
     Exports exports(scene, folder / "run");
     play(scene, exports);

@@ -1,12 +1,11 @@
 // Plots, by the real gnuplot.
-#include "export/plot.h"
+#include "export/gnuplot.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "export/export_testing.h"
-#include "files/run_folder.h"
 #include "std.h"
 
 namespace carom {
@@ -27,6 +26,10 @@ Plot small_plot() {
   return plot;
 }
 
+PlotPictures draw(const Plot& plot, const string& gnuplot = find_gnuplot()) {
+  return draw_plots({&plot, 1}, gnuplot).front();
+}
+
 uint32_t big_endian(const string& bytes, size_t at) {
   uint32_t value = 0;
   for (size_t k = at; k < at + 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[k]);
@@ -34,7 +37,7 @@ uint32_t big_endian(const string& bytes, size_t at) {
 }
 
 TEST(Plot, IsAPngAndAnSvgWithTheSameBytesEachTime) {
-  const PlotPictures once = draw_plot(small_plot(), find_gnuplot()), again = draw_plot(small_plot(), find_gnuplot());
+  const PlotPictures once = draw(small_plot()), again = draw(small_plot());
   EXPECT_EQ(once.png, again.png);
   EXPECT_EQ(once.svg, again.svg);
   ASSERT_TRUE(once.png.starts_with("\x89PNG\r\n\x1a\n"));
@@ -50,16 +53,16 @@ TEST(Plot, IsAPngAndAnSvgWithTheSameBytesEachTime) {
 TEST(Plot, TakesAnyTextToTheLetter) {
   Plot plot = small_plot();
   plot.title = "it's `x` $HOME \"q\" {/Symbol a} x^2_3 <b> \\n %d\n!touch";
-  const string svg = draw_plot(plot, find_gnuplot()).svg;
+  const string svg = draw(plot).svg;
   EXPECT_NE(svg.find("it's `x` $HOME \"q\" {/Symbol a} x^2_3 &lt;b> \\n %d !touch"), string::npos) << svg;
 }
 
 TEST(Plot, OfNothingAndOfOnePointIsDrawn) {
   Plot plot;
   plot.title = "empty";
-  EXPECT_FALSE(draw_plot(plot, find_gnuplot()).png.empty());
+  EXPECT_FALSE(draw(plot).png.empty());
   plot.series = {{"one", 0, {{1, 1}}}, {"none", 1, {}}};
-  EXPECT_FALSE(draw_plot(plot, find_gnuplot()).png.empty());
+  EXPECT_FALSE(draw(plot).png.empty());
 }
 
 TEST(Plot, WithoutGnuplotNamesTheRemedy) {
@@ -71,9 +74,9 @@ TEST(Plot, WithoutGnuplotNamesTheRemedy) {
 }
 
 TEST(Plot, ThatGnuplotDoesNotDrawIsAnError) {
-  EXPECT_EQ(error_of([] { draw_plot(small_plot(), "/bin/false"); }).substr(0, 47),
+  EXPECT_EQ(error_of([] { draw(small_plot(), "/bin/false"); }).substr(0, 47),
             "cannot draw the plot: gnuplot failed with code ");
-  EXPECT_EQ(error_of([] { draw_plot(small_plot(), "/bin/true"); }).substr(0, 43),
+  EXPECT_EQ(error_of([] { draw(small_plot(), "/bin/true"); }).substr(0, 43),
             "cannot draw the plot: gnuplot wrote nothing");
 }
 

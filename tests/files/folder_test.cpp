@@ -15,6 +15,7 @@
 #include "files/hash.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
+#include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -1,5 +1,6 @@
 // A run's folder keeps the meshes of its scene.
 #include "export/export_testing.h"
+#include "files/run_folder.h"
 #include "scene/scene.h"
 #include "std.h"
 

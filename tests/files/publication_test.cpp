@@ -12,6 +12,7 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
+#include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
 #include "slow_with_sanitizers.h"

@@ -257,7 +257,6 @@ vector<string> mesh_seeds() {
   return seeds;
 }
 
-/// From the start, or from a time on.
 void hold_flights(FlightsReader& reader, const Scene& scene) {
   double last = 0;
   for (Recorded recorded; reader.next(recorded);) {
@@ -287,8 +286,6 @@ void read_flights_bytes(string_view bytes) {
   folder().put(flights_name, with_checksums(string(bytes)));
   try {
     FlightsReader reader(folder().descriptor(), folder().path(), scene);
-    hold_flights(reader, scene);
-    reader.seek(0.16);
     hold_flights(reader, scene);
   } catch (const ExportError& error) {
     if (string_view(error.what()).find(flights_name) == string_view::npos)

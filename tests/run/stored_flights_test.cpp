@@ -1,7 +1,6 @@
 // flights.bin has the paths of a run to the last bit, in few bytes, and may be read from any time on.
 #include <fcntl.h>
 
-#include <map>
 
 #include "bench/state_hash.h"
 #include "export/export_testing.h"
@@ -40,19 +39,17 @@ void store_run(StoredRun& run) {
   const auto simulator = make_simulator(run.scene, {.paths = true});
   const Descriptor opened = open_folder(AT_FDCWD, run.folder.path(), true);
   FlightsFile file({opened.get(), run.folder.path()}, run.scene);
-
   const auto take = [&] {
     file.record_paths(simulator->paths());
     run.pieces.insert(run.pieces.end(), simulator->paths().begin(), simulator->paths().end());
   };
-
   take();
   while (simulator->time() < run.scene.simulate.duration) {
     simulator->advance_to(run.scene.simulate.duration);
     take();
   }
-
   file.end(simulator->tally());
+
   for (OutputFile* output : file.files()) output->publish();
   run.bytes = std::filesystem::file_size(run.folder / flights_name);
 }
@@ -134,16 +131,6 @@ TEST(HeapInFlights, TakesFewBytesAStepAndBody) {
   EXPECT_LT(run.bytes_a_piece(), 20);  // 19.5 measured
 }
 
-/// Those of `pieces` that hold at `time` or begin later, in order.
-vector<PathPiece> from_time_on(const vector<PathPiece>& pieces, double time) {
-  std::map<Entity, size_t> present;
-  for (size_t k = 0; k < pieces.size() && pieces[k].from <= time; ++k) present[pieces[k].body] = k;
-  vector<PathPiece> rest;
-  for (size_t k = 0; k < pieces.size(); ++k)
-    if (pieces[k].from > time || present.at(pieces[k].body) == k) rest.push_back(pieces[k]);
-  return rest;
-}
-
 /// The simulator's states, by a replay that reads the file.
 TEST(HeapInFlights, HasTheSimulatorsStateAtAnyInstant) {
   StoredRun run;
@@ -157,36 +144,6 @@ TEST(HeapInFlights, HasTheSimulatorsStateAtAnyInstant) {
     while (simulator->time() < time) simulator->advance_to(time);
     while (replay.time() < time) replay.advance_to(time);
     ASSERT_EQ(hash_of(replay.state()), hash_of(simulator->state())) << time;
-  }
-}
-
-TEST(HeapInFlights, IsReadFromAnyTimeOn) {
-  StoredRun run;
-  store_heap(run, "60", "3");
-  FlightsReader reader = run.reader();
-
-  for (const double time : {2.5, 0.0, 1.3, 2.999, 0.4, run.pieces.back().from, 4.0}) {
-    SCOPED_TRACE(time);
-    reader.seek(time);
-
-    // First the path that each body has at that time, then those that begin later.
-    Recorded recorded;
-    std::map<Entity, PathPiece> present;
-    double last = 0;
-    for (size_t k = 0; k < 60; ++k) {
-      ASSERT_TRUE(reader.next(recorded));
-      ASSERT_GE(recorded.piece.from, last);
-      last = recorded.piece.from;
-      present[recorded.piece.body] = recorded.piece;
-    }
-
-    vector<PathPiece> rest = from_time_on(run.pieces, time);
-    for (size_t k = 0; k < 60; ++k) ASSERT_TRUE(same_bits(present.at(rest[k].body), rest[k])) << k;
-    for (size_t k = 60; k < rest.size(); ++k) {
-      ASSERT_TRUE(reader.next(recorded)) << k;
-      ASSERT_TRUE(same_bits(recorded.piece, rest[k])) << k;
-    }
-    EXPECT_FALSE(reader.next(recorded));
   }
 }
 

@@ -1,5 +1,5 @@
 // Reads each picture from the standard output of a gnuplot of its own. All of them draw at once.
-#include "export/plot.h"
+#include "export/gnuplot.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,11 +8,10 @@
 
 #include "export/child.h"
 #include "export/plot_script.h"
-#include "files/run_folder.h"
+#include "files/export_error.h"
 #include "std.h"
 
 namespace carom {
-
 namespace {
 
 constexpr auto patience = std::chrono::minutes(1);
@@ -91,10 +90,6 @@ vector<PlotPictures> draw_plots(span<const Plot> plots, const string& gnuplot) {
   vector<PlotPictures> pictures(plots.size());
   for (size_t i = 0; i < plots.size(); ++i) pictures[i] = {drawings[2 * i]->picture(), drawings[2 * i + 1]->picture()};
   return pictures;
-}
-
-PlotPictures draw_plot(const Plot& plot, const string& gnuplot) {
-  return draw_plots({&plot, 1}, gnuplot).front();
 }
 
 }  // namespace carom
