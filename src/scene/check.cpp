@@ -11,6 +11,7 @@
 
 #include "scene/absent_words.h"
 #include "scene/check_values.h"
+#include "scene/fields.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 #include "std.h"
@@ -61,9 +62,9 @@ class Checker : ValueChecker {
     for (const Field& field : kind.fields) {
       if (field.type != Type::part || node.find_key(field.key) != nullptr || defaults == nullptr) continue;
       const Node* part = defaults->find(field.key);
-      if (part == nullptr || !part->is(Node::Kind::map) || kind_named(field.of).defaults.empty()) continue;
+      if (part == nullptr || !part->is(Node::Kind::map) || field.held->defaults.empty()) continue;
       Node whole = *part;
-      needed(whole, defaults_for(root_, kind_named(field.of)), kind_named(field.of), in_backticks(field.key), where);
+      needed(whole, defaults_for(root_, *field.held), *field.held, in_backticks(field.key), where);
     }
   }
 
@@ -278,16 +279,14 @@ class Checker : ValueChecker {
       case Type::choice:
         return choice(value, field, name);
       case Type::vector:
-        numbers(value, field, name, 3);
+      case Type::extent:
+        numbers(value, field, name);
         return;
       case Type::direction:
         return direction(value, field, name, required);
       case Type::pixels:
         if (value.is(Node::Kind::scalar)) return choice(value, field, name);
-        numbers(value, field, name, 2);
-        return;
-      case Type::extent:
-        numbers(value, field, name, 2);
+        numbers(value, field, name);
         return;
       case Type::color:
         return color(value, name);
@@ -295,7 +294,7 @@ class Checker : ValueChecker {
         if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
         return;
       case Type::point_or_name:
-        if (!value.is(Node::Kind::scalar)) numbers(value, field, name, 3);
+        if (!value.is(Node::Kind::scalar)) numbers(value, field, name);
         return;
       case Type::color_or_none:
         return color(value, name, ColorWords::colors_and_none);
@@ -350,7 +349,7 @@ class Checker : ValueChecker {
   }
 
   void direction(Node& value, const Field& field, const string& name, const string& required) {
-    if (!numbers(value, field, name, 3)) return;
+    if (!numbers(value, field, name)) return;
     bool zero = true;
     for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
     if (zero) refuse(value, name + " has no length", required);
@@ -400,10 +399,10 @@ class Checker : ValueChecker {
     const vector<string_view> words = parts_of(field.plain);
     for (Node& item : value.items) {
       if (words.empty() || !item.is(Node::Kind::scalar))
-        map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+        map(item, *field.held, "this entry of " + name, item.place, false);
       else if (std::ranges::find(words, item.text) == words.end())
         refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
-               fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(kind_named(field.of)))));
+               fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(*field.held))));
     }
   }
 
@@ -417,7 +416,7 @@ class Checker : ValueChecker {
   }
 
   void part(Node& value, const Field& field, const Key& key, bool partial) {
-    const Kind& kind = kind_named(field.of);
+    const Kind& kind = *field.held;
     // `defaults: {ball: ...}` is partial. So is a part inside it, if that part has defaults of its own.
     map(value, kind, in_backticks(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
@@ -481,7 +480,7 @@ class Checker : ValueChecker {
   void spans(Node& value, const Field& field, const string& name, const string& required) {
     if (!has_entries(value, name, required)) return;
     for (size_t i = 0; i < value.keys.size(); ++i)
-      map(value.items[i], kind_named(field.of), in_backticks(value.keys[i].text), value.keys[i].place, false);
+      map(value.items[i], *field.held, in_backticks(value.keys[i].text), value.keys[i].place, false);
   }
 
   void named(Node& value, const Field& field, const string& name) {
@@ -489,7 +488,7 @@ class Checker : ValueChecker {
       wrong_type(value, name, "expected " + expected(field));
       return;
     }
-    const Kind& kind = kind_named(field.of);
+    const Kind& kind = *field.held;
     for (size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
       if (kind.also != nullptr && key.text == kind.also->key) {

@@ -92,7 +92,8 @@ bool ValueChecker::whole(Node& value, const Field& field, const string& name) {
   return number(value, field, name, field.range);
 }
 
-bool ValueChecker::numbers(Node& value, const Field& field, const string& name, size_t count) {
+bool ValueChecker::numbers(Node& value, const Field& field, const string& name) {
+  const size_t count = parts_of(facts_of(field.type).components).size();
   if (!value.is(Node::Kind::sequence)) {
     wrong_type(value, name, "expected " + expected(field));
     return false;
@@ -106,10 +107,11 @@ bool ValueChecker::numbers(Node& value, const Field& field, const string& name, 
   bool good = true;
   Field each = field;
   const Range limits = limited_range(field);
-  each.type = field.type == Type::pixels ? Type::whole : Type::number;
+  const bool are_whole = holds_whole_numbers(field);
+  each.type = are_whole ? Type::whole : Type::number;
   for (Node& item : value.items) {
     const string part = "a number of " + name;
-    good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part, limits)) && good;
+    good = (are_whole ? whole(item, each, part) : number(item, each, part, limits)) && good;
   }
   if (!good) value.bad = true;
   return good;
@@ -135,13 +137,13 @@ void ValueChecker::choice(Node& value, const Field& field, const string& name) {
 }
 
 void ValueChecker::color(Node& value, const string& name, ColorWords words) {
-  static constexpr Field component{.key = "color", .range = {0, 1}};
+  static constexpr Field component{.key = "color", .type = Type::vector, .range = {0, 1}};
   static constexpr Field plain{.key = "color", .type = Type::color},
       or_none{.key = "color", .type = Type::color_or_none};
   const bool may_be_none = words == ColorWords::colors_and_none;
   const string required = "expected " + expected(may_be_none ? or_none : plain);
   if (value.is(Node::Kind::sequence) && value.items.size() == 3) {
-    numbers(value, component, name, 3);
+    numbers(value, component, name);
   } else if (value.is(Node::Kind::sequence)) {
     refuse(value, wrong_count(name, value.items.size()), required);
   } else if (!value.is(Node::Kind::scalar)) {

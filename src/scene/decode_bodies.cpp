@@ -11,6 +11,7 @@
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/grid.h"
 #include "scene/member.h"
 #include "scene/overlaps.h"
@@ -153,7 +154,7 @@ class Bodies {
     if (!min || !max || !arrange) return;
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(view.part("in", "in").place("max"),
+      diagnostics_.add(view.part("in").place("max"),
                        fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
                        "expected min below max on every axis");
       return;

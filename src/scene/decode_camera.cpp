@@ -9,6 +9,7 @@
 #include "numerics/polynomial.h"
 #include "physics/center_of_mass.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"

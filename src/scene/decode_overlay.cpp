@@ -8,6 +8,7 @@
 #include "scene/caption.h"
 #include "scene/color_scale.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -32,7 +33,7 @@ void check_width(const View& part, optional<double> width, const World& world, D
 optional<Trails> decode_trails(const View& whole, const Inventory& inventory, const World& world,
                                Diagnostics& diagnostics) {
   if (!whole.wants("trails")) return nullopt;
-  const View part = whole.part("trails", "trails");
+  const View part = whole.part("trails");
   const auto keys = filled<TrailKeys>(part);
   check_width(part, keys.width, world, diagnostics);
   optional<vector<Entity>> on = find_bodies(keys.on, inventory, "it has no trail", diagnostics);
@@ -47,7 +48,7 @@ bool lists(const Node* names, string_view name) {
 
 void check_coloring(const View& body, const Coloring& coloring, const Scene& scene, Diagnostics& diagnostics) {
   if (!coloring.by || !(coloring.min || coloring.max)) return;
-  const View view = body.part("color", "coloring");
+  const View view = body.part("color");
   const char* const key = coloring.max ? "max" : "min";
   if (coloring.by == ColorQuantity::group) {
     diagnostics.add(view.place(key), fmt::format("`{}` has no meaning for groups", key),

@@ -9,6 +9,7 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/engines.h"
+#include "scene/fields.h"
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -86,8 +87,8 @@ class Requests {
     const Key& key = *root_.find_key("output");
     const View view(node, kind_named("output"), key.place);
     fill(&out, view);
-    if (out.frames) check_window(view.part("frames", "frames"), out.frames->from, out.frames->until);
-    if (out.video) check_video(view.part("video", "video"), *out.video);
+    if (out.frames) check_window(view.part("frames"), out.frames->from, out.frames->until);
+    if (out.video) check_video(view.part("video"), *out.video);
     if (out.video && !chooses_outputs_ && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
       diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
                        "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
@@ -125,7 +126,7 @@ class Requests {
   }
 
   void check_sheet(const View& output, SheetOutput& sheet) {
-    const View part = output.part("sheet", "sheet");
+    const View part = output.part("sheet");
     check_window(part, sheet.from, sheet.until);
     if (chooses_outputs_ || !diagnostics_.empty()) return;
     const Output& out = scene_.output;
@@ -212,7 +213,7 @@ class Requests {
       const OutputKind& kind = *excess.kind;
       const bool unsaid = view.own() == nullptr;
       refuse(unsaid ? scene_part(root_, "simulate").place("duration")
-                    : view.part(kind.name, kind.name).place(kind.spacing),
+                    : view.part(kind.name).place(kind.spacing),
              excess.figure, excess.what, excess.limit,
              unsaid ? "`output: {trajectory: {every: ...}}` with a longer time between rows"
                     : fmt::format("a {} `{}`, a shorter duration or fewer bodies",
@@ -238,7 +239,7 @@ class Requests {
       const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
       const bool slow = largest == "video" && out.video->speed < 1;
       const bool too_slow = slow && most * out.video->speed <= static_cast<double>(budget_.frames);
-      refuse(key == nullptr ? view.where() : view.part(largest, largest).place(too_slow ? "speed" : "fps"), total,
+      refuse(key == nullptr ? view.where() : view.part(largest).place(too_slow ? "speed" : "fps"), total,
              "pictures", budget_.frames,
              slow ? "a higher `speed`, a lower `fps` or a shorter duration" : "a lower `fps` or a shorter duration");
     }

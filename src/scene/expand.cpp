@@ -46,32 +46,15 @@ size_t count_values(const Node& node) {
 /// Whether values of this field hold neither numbers nor names of things.
 bool is_text(const Field& field) {
   if (field.range.min == field.range.max) return true;  // the version of the format
-  switch (field.type) {
-    case Type::flag:
-    case Type::text:
-    case Type::text_or_flag:
-    case Type::file:
-    case Type::values:  // `let` itself
-    case Type::texts:
-    case Type::repeat:
-      return true;
-    case Type::choice: {
-      const vector<string_view> all = choices(field);
-      return std::ranges::none_of(all, [](string_view one) { return parse_number(one).has_value(); });
-    }
-    default:
-      return false;
-  }
+  if (field.type != Type::choice) return facts_of(field.type).text;
+  const vector<string_view> all = choices(field);
+  return std::ranges::none_of(all, [](string_view one) { return parse_number(one).has_value(); });
 }
 
 /// The last step of the path of a number in a list of them.
 string step_of(const Field& field, size_t i) {
-  constexpr string_view axes[] = {"x", "y", "z"}, sides[] = {"width", "height"};
-  const bool is_point =
-      field.type == Type::vector || field.type == Type::direction || field.type == Type::point_or_name;
-  if (is_point && i < 3) return string(axes[i]);
-  if ((field.type == Type::extent || field.type == Type::pixels) && i < 2) return string(sides[i]);
-  return std::to_string(i);
+  const vector<string_view> components = parts_of(facts_of(field.type).components);
+  return i < components.size() ? string(components[i]) : std::to_string(i);
 }
 
 /// The parts of a path before and after the number of a member: "bodies.bricks" and ".mass" of "bodies.bricks.3.mass".
@@ -120,10 +103,10 @@ class Expander {
   }
 
   void value(Node& node, const Field& field, const string& path) {
-    if (field.type == Type::named) return named(node, kind_named(field.of), path);
-    if (field.type == Type::list) return list(node, kind_named(field.of), path);
+    if (field.type == Type::named) return named(node, *field.held, path);
+    if (field.type == Type::list) return list(node, *field.held, path);
     if (node.is(Node::Kind::map)) {
-      if (holds_map(field)) map(node, kind_named(field.of), path);
+      if (holds_map(field)) map(node, *field.held, path);
       return;
     }
     scalar(node, path);
@@ -153,7 +136,7 @@ class Expander {
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? root.find(field.key) : nullptr;
       if (things == nullptr || !things->is(Node::Kind::map)) continue;
-      const Kind& kind = kind_named(field.of);
+      const Kind& kind = *field.held;
       for (size_t i = 0; i < things->keys.size(); ++i) {
         const string_view family = family_of(things->keys[i].text);
         const string path =
@@ -161,7 +144,7 @@ class Expander {
         note_defaults_of(things->items[i], kind, path);
         for (const Field& part : kind.fields)
           if (part.type == Type::part && things->items[i].find(part.key) != nullptr)
-            note_defaults_of(*things->items[i].find(part.key), kind_named(part.of),
+            note_defaults_of(*things->items[i].find(part.key), *part.held,
                              fmt::format("{}.{}", path, part.key));
       }
     }
@@ -461,7 +444,7 @@ void write_out(Node& part, const Kind& kind) {
   for (const Field& field : kind.fields) {
     if (field.type != Type::part || !part.is(Node::Kind::map)) continue;
     Node* value = part.find(field.key);
-    if (value != nullptr && value->is(Node::Kind::map)) write_out(*value, kind_named(field.of));
+    if (value != nullptr && value->is(Node::Kind::map)) write_out(*value, *field.held);
     if (field.plain.empty() || value == nullptr || !value->is(Node::Kind::scalar)) continue;
     Node whole;
     whole.kind = Node::Kind::map;

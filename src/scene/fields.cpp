@@ -3,8 +3,10 @@
 // The table is completed at first use, because texts of defaults cannot be made at compile time.
 #include "scene/fields.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
+#include <map>
 
 #include "scene/engines.h"
 #include "scene/keys.h"
@@ -12,6 +14,8 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "yaml/diagnostics.h"
+#include "yaml/document.h"
 
 namespace carom {
 namespace {
@@ -355,74 +359,91 @@ constexpr Kind kinds_of_scenes[] = {
     {"trails", "", "Trails of bodies.", trails_fields},
 };
 
-/// The row of an output in the map `output`.
-Field row_of(const OutputKind& kind) {
-  return {.key = kind.name,
-          .type = kind.keys.empty() ? Type::flag : Type::part_or_flag,
-          .of = kind.keys.empty() ? string_view() : kind.name,
-          .doc = kind.doc,
-          .example = kind.example,
-          .member = kind.member.key};
-}
-
-/// The rows, completed with the defaults of their members and with the rows of the outputs.
+/// The rows, completed with the defaults of their members, the rows of the outputs, and the kinds that they name.
 class FormatTable {
  public:
   FormatTable() {
-    for (const Kind& kind : kinds_of_scenes) add(kind);
+    for (const Kind& kind : kinds_of_scenes) add(scenes_, kind);
     vector<Field> of_output;
-    for (const OutputKind& kind : output_kinds()) of_output.push_back(row_of(kind));
-    add({"output", "", "What the run writes; an output that is absent is not written.", of_output});
+    for (const OutputKind& kind : output_kinds()) of_output.push_back(kind.row());
+    add(scenes_, {"output", "", "What the run writes; an output that is absent is not written.", of_output});
     for (const OutputKind& kind : output_kinds()) {
       if (kind.keys.empty()) continue;
       Kind map{kind.name, "", kind.keys_doc, kind.keys};
       map.beneath = kind.beneath;
-      add(map);
+      add(scenes_, map);
     }
+    for (const Kind& kind : sweep_rows()) add(sweeps_, kind);
+
+    for (vector<Field>& fields : fields_)
+      for (Field& field : fields) join(field);
   }
 
-  span<const Kind> kinds() const { return kinds_; }
+  span<const Kind> scenes() const { return scenes_; }
+  span<const Kind> sweeps() const { return sweeps_; }
+
+  const Kind* find(string_view name) const {
+    for (const vector<Kind>* kinds : {&scenes_, &sweeps_})
+      if (const auto kind = std::ranges::find(*kinds, name, &Kind::name); kind != kinds->end()) return &*kind;
+    return nullptr;
+  }
 
  private:
-  void add(Kind kind) {
+  void add(vector<Kind>& kinds, Kind kind) {
     vector<Field>& fields = fields_.emplace_back(kind.fields.begin(), kind.fields.end());
     for (Field& field : fields)
       if (field.member.initial != nullptr) field.initial = texts_.emplace_back(field.member.initial(field));
     kind.fields = fields;
-    kinds_.push_back(kind);
+    kinds.push_back(kind);
+  }
+
+  void join(Field& field) {
+    const Inside inside = facts_of(field.type).inside;
+    const bool holds_maps = inside != Inside::nothing && inside != Inside::numbers && inside != Inside::values;
+    if (holds_maps && (field.held = find(field.of)) == nullptr) std::abort();  // a row names no kind
+    if (!field.initial.empty()) field.initial_node = parsed(field.initial);
+  }
+
+  /// The tree of a default. Each text is parsed once.
+  const Node* parsed(string_view text) {
+    if (const auto known = nodes_.find(text); known != nodes_.end()) return &known->second;
+    const vector<Source> sources = {{"", string(text)}};
+    Diagnostics diagnostics(sources);
+    return &nodes_.emplace(text, parse_document(sources, 0, 0, diagnostics).value()).first->second;
   }
 
   /// The texts that the rows refer to.
   std::deque<string> texts_;
-  std::deque<vector<Field>> fields_;  // by kind
-  vector<Kind> kinds_;
+  std::map<string_view, Node> nodes_;  // by Field::initial
+  std::deque<vector<Field>> fields_;   // by kind
+  vector<Kind> scenes_, sweeps_;
 };
+
+const FormatTable& format_table() {
+  static const FormatTable table;
+  return table;
+}
 
 }  // namespace
 
 span<const Kind> kinds() {
-  static const FormatTable table;
-  return table.kinds();
+  return format_table().scenes();
+}
+
+span<const Kind> sweep_kinds() {
+  return format_table().sweeps();
 }
 
 vector<span<const Kind>> families() {
   return {kinds(), sweep_kinds()};
 }
 
-const Kind& kind_named(string_view name) {
-  for (const span<const Kind> family : {kinds(), sweep_kinds()}) {
-    for (const Kind& kind : family)
-      if (kind.name == name) return kind;
-  }
-  // A row of the table names a kind that does not exist.
-  std::abort();
+const Kind* find_kind(string_view name) {
+  return format_table().find(name);
 }
 
-const Field* find_field(const Kind& kind, string_view key) {
-  for (const Field& field : kind.fields) {
-    if (field.key == key) return &field;
-  }
-  return nullptr;
+const Kind& kind_named(string_view name) {
+  return *find_kind(name);
 }
 
 }  // namespace carom

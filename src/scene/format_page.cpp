@@ -44,7 +44,7 @@ string quoted_list(const vector<string_view>& keys) {
 
 string value_text(const Field& field) {
   if (field.type == Type::choice) return quoted_list(choices(field));
-  const Kind* held = held_kind(field);
+  const Kind* held = field.held;
   if (held == nullptr) return expected(field);
   const string link = fmt::format("[{}](#{})", held->name, held->name);
   switch (field.type) {

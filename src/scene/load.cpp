@@ -12,6 +12,7 @@
 #include "scene/decode.h"
 #include "scene/expand.h"
 #include "scene/expressions.h"
+#include "scene/fields.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -133,7 +134,7 @@ struct SceneFile::Impl {
     vector<EmptyFamily> families;
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? tree.find(field.key) : nullptr;
-      if (things == nullptr || !things->is(Node::Kind::map) || !find_field(kind_named(field.of), "repeat")) continue;
+      if (things == nullptr || !things->is(Node::Kind::map) || !find_field(*field.held, "repeat")) continue;
       for (size_t i = 0; i < things->keys.size(); ++i)
         if (things->items[i].is(Node::Kind::map) && things->items[i].find_key("repeat") != nullptr)
           families.push_back({field.key, things->keys[i].text});

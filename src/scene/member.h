@@ -6,7 +6,7 @@
 
 #include "numerics/vec3.h"
 #include "scene/colors.h"
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "scene/keys.h"
 #include "scene/output.h"
 #include "scene/view.h"
@@ -14,6 +14,11 @@
 #include "yaml/value_json.h"
 
 namespace carom {
+
+/// Fills a struct from a map. Members without a value keep theirs. `settings`: the struct of the view's kind.
+void fill(void* settings, const View& view);
+/// The struct's members as JSON, in the order of the kind's keys.
+nlohmann::ordered_json json_of(const Kind& kind, const void* settings);
 
 // Reading. Each returns false if the map has no value or a bad one.
 // Then the member keeps its value, but an optional one becomes empty.
@@ -66,7 +71,7 @@ bool take_any(const View& view, const Field& field, T& value) {
     return good;
   } else if constexpr (is_settings<T>) {
     if (!view.wants(field.key)) return false;
-    fill(&value, view.part(field.key, field.of));
+    fill(&value, view.part(field));
     return true;
   } else if constexpr (std::is_enum_v<T>) {
     const optional<size_t> choice = choice_of(view, field);
@@ -82,7 +87,7 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
   if constexpr (is_optional<T>) {
     return value ? json_any(field, *value) : nlohmann::ordered_json();
   } else if constexpr (is_settings<T>) {
-    return json_of(kind_named(field.of), &value);
+    return json_of(*field.held, &value);
   } else if constexpr (std::is_enum_v<T>) {
     return string(choices(field)[static_cast<size_t>(value)]);
   } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T> || std::is_pointer_v<T>) {

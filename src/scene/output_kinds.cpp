@@ -278,8 +278,21 @@ bool FileSeries::has(string_view name) const {
   return std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+Field OutputKind::row() const {
+  const bool is_flag = keys.empty();
+  return {.key = name,
+          .type = is_flag ? Type::flag : Type::part_or_flag,
+          .of = is_flag ? string_view() : name,
+          .doc = doc,
+          .example = example,
+          .member = member.key};
+}
+
 nlohmann::ordered_json OutputKind::settings(const Output& output) const {
-  return member.key.json(&output, *find_field(kind_named("output"), name));
+  const Kind map{name, "", keys_doc, keys};
+  Field field = row();
+  field.held = &map;
+  return member.key.json(&output, field);
 }
 
 bool OutputKind::has_file(string_view file) const {

@@ -27,8 +27,8 @@ vector<const Field*> fields_along(string_view path) {
       const Field* field = find_field(*kind, word);
       if (field == nullptr) return {};
       fields.push_back(field);
-      name_next = field->type == Type::named || field->type == Type::list;
-      kind = name_next || holds_map(*field) ? &kind_named(field->of) : nullptr;
+      name_next = holds_entries(*field);
+      kind = field->held;
     }
   }
   return fields;

@@ -7,6 +7,7 @@
 #include "physics/bounds.h"
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/values.h"
@@ -38,7 +39,7 @@ class Reach {
         check_members(body, view);
         continue;
       }
-      check_places(body.group ? view.part("in", "in") : view, body.key->text);
+      check_places(body.group ? view.part("in") : view, body.key->text);
       check_speed(body, view);
     }
     check_pull();

@@ -11,6 +11,7 @@
 #include "scene/check.h"
 #include "scene/colors.h"
 #include "scene/engines.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -120,7 +121,7 @@ class Resolver {
       // A group's velocity is written once, in the group.
       if (!lists_members) overrides["velocity"] = "";
       Overrides group_overrides{{"ball", flow(each, overrides)}};
-      if (!lists_members) group_overrides["in"] = flow(view.part("in", "in"));
+      if (!lists_members) group_overrides["in"] = flow(view.part("in"));
       if (!lists_members && view.find("speed") == nullptr && view.find("velocity") == nullptr)
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
@@ -139,7 +140,7 @@ class Resolver {
       if (name == "group") {
         const View each = member_view(root_, view);
         overrides["ball"] = flow(each, whole_paths(each));
-        if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in", "in"));
+        if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in"));
       }
       entry(map.keys[i].text, flow(view, overrides));
     }
@@ -219,7 +220,7 @@ class Resolver {
     Overrides overrides;
     if (scene_.simulate.engine == Engine::book && view.find("step") == nullptr)
       overrides["step"] = shortest(*scene_.simulate.step);
-    overrides["contact"] = flow(view.part("contact", "contact"));
+    overrides["contact"] = flow(view.part("contact"));
     line("simulate", flow(view, overrides));
   }
 
@@ -248,7 +249,7 @@ class Resolver {
     const Overlay& overlay = scene_.overlay;
     const View whole(&root_, kind_named("scene"), Place{});
     if (!overlay.caption.empty()) line("caption", in_quotes(overlay.caption));
-    if (overlay.trails) line("trails", flow(whole.part("trails", "trails")));
+    if (overlay.trails) line("trails", flow(whole.part("trails")));
     if (overlay.flash) line("flash", "true");
     if (const Node* arrows = root_.find("arrows")) line("arrows", flow_text(*arrows));
     if (const Node* shutter = root_.find("shutter")) line("shutter", flow_text(*shutter));
@@ -271,7 +272,7 @@ class Resolver {
   }
 
   string output_text(const View& view, const OutputKind& kind) const {
-    const View part = view.part(kind.name, kind.name);
+    const View part = view.part(kind.name);
     Overrides overrides;
     // Decoding may give a GIF another rate than that of frames.
     if (kind.name == "video" && part.number("fps") != scene_.output.video->fps)

@@ -117,7 +117,7 @@ class Walk {
     }
     node_ = child;
     field_ = field;
-    kind_ = holds_map(*field) ? &kind_named(field->of) : nullptr;
+    kind_ = holds_map(*field) ? field->held : nullptr;
     return true;
   }
 
@@ -150,7 +150,7 @@ class Walk {
     if (defaults != nullptr && defaults != node_) {
       if (const Node* node = defaults->find(field.key)) return *node;
     }
-    return field.initial.empty() ? Node{} : initial_node(field);
+    return field.initial.empty() ? Node{} : *field.initial_node;
   }
 
   /// A step to a part of a value of field_.
@@ -178,7 +178,7 @@ class Walk {
                                      : fmt::format("its entries are 0 to {}", count - 1));
         }
         node_ = &node_->items[static_cast<size_t>(*i)];
-        kind_ = &kind_named(field_->of);
+        kind_ = field_->held;
         return true;
       }
       case Type::vector:
@@ -215,7 +215,7 @@ class Walk {
   }
 
   bool into_named(const Step& step) {
-    const Kind& kind = kind_named(field_->of);
+    const Kind& kind = *field_->held;
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
     const string family = family_;
     if (child == nullptr) child = member(step);

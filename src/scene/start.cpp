@@ -11,6 +11,7 @@
 #include "scene/check.h"
 #include "scene/decode.h"
 #include "scene/expand.h"
+#include "scene/fields.h"
 #include "scene/former_state.h"
 #include "scene/keys.h"
 #include "scene/member.h"

@@ -6,8 +6,8 @@ namespace carom {
 namespace {
 
 // clang-format off
-constexpr Field grid{.key = "grid", .type = Type::axes, .doc = "Every combination of the values; the last path varies fastest.", .example = "{balls.red.mass: {from: 1, to: 2, count: 3}, balls.red.position.z: [-0.025, 0, 0.025]}"};
-constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many for each path.", .example = "{balls.red.mass: [1, 2], balls.blue.mass: [2, 1]}"};
+constexpr Field grid{.key = "grid", .type = Type::axes, .of = "range", .doc = "Every combination of the values; the last path varies fastest.", .example = "{balls.red.mass: {from: 1, to: 2, count: 3}, balls.red.position.z: [-0.025, 0, 0.025]}"};
+constexpr Field zip{.key = "zip", .type = Type::axes, .of = "range", .doc = "Values in step: as many for each path.", .example = "{balls.red.mass: [1, 2], balls.blue.mass: [2, 1]}"};
 constexpr Field list{.key = "list", .type = Type::cases, .doc = "Combinations, listed one by one.", .example = "[{balls.red.mass: 1}, {balls.red.mass: 2, simulate.duration: 5}]"};
 constexpr Field skip{.key = "skip", .type = Type::cases, .doc = "Runs to leave out: those with all values of an entry. A list of numbers or words matches any of them.", .example = "[{balls.red.mass: [1, 2], balls.blue.mass: 2}]"};
 constexpr Field random{.key = "random", .type = Type::whole, .range = {1, 1e6}, .one_of = "random|latin", .doc = "So many runs, with a number drawn at random from each range of `over`.", .example = "100", .with = "over"};
@@ -75,7 +75,7 @@ constexpr Kind kinds_of_sweeps[] = {
 
 }  // namespace
 
-span<const Kind> sweep_kinds() {
+span<const Kind> sweep_rows() {
   return kinds_of_sweeps;
 }
 
