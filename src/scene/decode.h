@@ -7,7 +7,7 @@
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "scene/forms.h"
-#include "scene/load.h"
+#include "scene/load_options.h"
 #include "scene/view.h"
 #include "std.h"
 #include "yaml/diagnostics.h"

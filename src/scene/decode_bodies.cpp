@@ -54,6 +54,7 @@ class Bodies {
       const View each = body.group ? member_view(root_, view) : view;
       const auto keys = filled<BodyKeys>(each);
       const optional<Form> form = forms_.of(keys, keys.color.has_value());
+
       const string_view family = family_of(body.key->text);
       if (family.empty() || family != last_family) ++things;
       last_family = family;
@@ -61,19 +62,25 @@ class Bodies {
       const BodyColor color = keys.color.value_or(BodyColor{chosen, nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
                                       color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by});
+
+      // A body with an error keeps its number.
       const optional<double> mass = form ? mass_of(keys, form->volume, each) : nullopt;
       if (!mass) continue;
       common(keys, *mass, form->volume, body);
+
       if (!body.group) single(body.first, keys, view.place("position"));
       if (body.group && view.given("members") != nullptr)
         members(body, view, keys.velocity);
       else if (body.group && body.count > 0)
         groups_.push_back(&body);
     }
+
     if (diagnostics_.empty()) {
       check_reach(root_, inventory_, scene_, diagnostics_);
       if (!diagnostics_.empty()) return;
     }
+
+    // Groups are placed when all single bodies are in the grid.
     grid_.reserve(n);
     check_overlaps(scene_, singles_, grid_, diagnostics_);
     groups();
@@ -96,13 +103,17 @@ class Bodies {
     const auto fill = [&](auto& values, const auto& value) {
       std::fill_n(values.begin() + entry.first, entry.count, value);
     };
+
     fill(world_.mass, mass);
     fill(world_.radius, volume.reach());
+
+    // Volumes are stored as soon as one is no sphere.
     if (volume.shape != Shape::sphere && world_.volume.empty()) {
       world_.volume.reserve(inventory_.body_count);
       for (const double radius : world_.radius) world_.volume.push_back(Volume::sphere(radius));
     }
     if (!world_.volume.empty()) fill(world_.volume, volume);
+
     fill(world_.restitution, body.restitution.value_or(default_restitution_));
     if (body.impulse.isZero(0)) return;
     if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
@@ -120,6 +131,7 @@ class Bodies {
   void members(const BodyEntry& body, const View& view, const optional<Vec3>& velocity) {
     const Node& list = *view.given("members");
     if (!list.is(Node::Kind::sequence)) return;
+
     if (list.items.size() != body.count) {
       diagnostics_.add(view.place("members"),
                        fmt::format("`members` of {} has {}, and `count` is {}", in_backticks(body.key->text),
@@ -127,6 +139,7 @@ class Bodies {
                        "expected an entry for each ball");
       return;
     }
+
     const Kind& kind = kind_named("placed");
     for (Entity i = 0; i < body.count; ++i) {
       const View entry(&list.items[i], kind, list.items[i].place);
@@ -152,6 +165,7 @@ class Bodies {
     const auto& [min, max] = group.in;
     const optional<Arrange> arrange = group.arrange;
     if (!min || !max || !arrange) return;
+
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
       diagnostics_.add(view.part("in").place("max"),
@@ -159,6 +173,8 @@ class Bodies {
                        "expected min below max on every axis");
       return;
     }
+
+    // Find the places.
     const Placing placing{body.count, body.first, radius, *min, *max, *arrange};
     Random random(scene_.seed, body.key->text + "/position");
     const Placed placed = place(placing, world_, grid_, random);
@@ -173,6 +189,7 @@ class Bodies {
                                                                    : ", close-packed"));
       return;
     }
+
     std::ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
     set_velocities(body, group, view);

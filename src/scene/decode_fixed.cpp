@@ -31,6 +31,8 @@ void add_room(const View& view, const string& name, Scene& scene, Diagnostics& d
     diagnostics.add(view.place("max"), "the room's max." + string(1, letter) + " is not above its min." + letter,
                     "expected min below max on every axis");
   }
+
+  // Each side faces inward.
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
     Vec3 normal = Vec3::Zero();
@@ -74,11 +76,14 @@ void add_obstacle(const View& view, const string& name, Forms& forms, Scene& sce
 vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
   const Node* const list = thing.find("motion");
   if (list == nullptr || !list->is(Node::Kind::sequence)) return {};
+
   vector<MotionWindow> windows;
   for (const Node& node : list->items) {
     if (!node.is(Node::Kind::map)) continue;
     const View view(&node, kind_named("motion"), node.place);
     const auto [from, until, velocity] = filled<MotionKeys>(view);
+
+    // A window has a length, and starts after the one before.
     if (!(from < until))
       diagnostics.add(view.place("until"),
                       fmt::format("`until` is {} but `from` is {}", shortest(until), shortest(from)),
@@ -90,6 +95,7 @@ vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
                                   std::isinf(end) ? "never ends" : fmt::format("ends at {} s", shortest(end))),
                       "expected windows in order that do not overlap, each with `until` except the last");
     }
+
     if (velocity) windows.push_back({from, until, *velocity});
   }
   return legs_of(windows);

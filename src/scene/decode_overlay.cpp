@@ -50,13 +50,17 @@ void check_coloring(const View& body, const Coloring& coloring, const Scene& sce
   if (!coloring.by || !(coloring.min || coloring.max)) return;
   const View view = body.part("color");
   const char* const key = coloring.max ? "max" : "min";
+
   if (coloring.by == ColorQuantity::group) {
     diagnostics.add(view.place(key), fmt::format("`{}` has no meaning for groups", key),
                     "remove it: each ball, body or group has a colour of its own");
     return;
   }
+
+  // The ends of the scale, of which one may come from the scene.
   const ColorScale scale = scale_of(scene, coloring);
   if (scale.min < scale.max) return;
+
   const bool both = coloring.min && coloring.max;
   diagnostics.add(
       view.place(key),

@@ -52,9 +52,11 @@ struct Range {
   bool even = false;       // whole numbers only
 };
 
-/// What stands below a value, by the next step of a path.
+/// What stands below a value, by the next step of a path. From `map` on these are maps.
 enum class Inside : uint8_t {
   nothing,
+  text,     // nothing, and the value holds neither numbers nor names of things
+  counts,   // of a map from indices; it is read before all else
   numbers,  // those of a list, by TypeFacts::components
   values,   // those of a map, by name
   map,      // the keys of a map of kind Field::of
@@ -70,8 +72,6 @@ struct TypeFacts {
   string_view form;
   Inside inside = Inside::nothing;
   string_view components = {};  // separated by |
-  bool whole = false;           // its numbers are whole
-  bool text = false;            // holds neither numbers nor names of things
   string_view other_form = {};  // where the row has `plain`, and of names with Field::of
 };
 const TypeFacts& facts_of(Type type);
@@ -89,10 +89,12 @@ struct Member {
   /// The member of a new struct, as YAML. Empty: absent unless given.
   string (*initial)(const Field& field) = nullptr;
   nlohmann::ordered_json (*json)(const void* settings, const Field& field) = nullptr;
+  /// Field::initial as a tree, of rows without a member, too. Null: none. The table makes it.
+  const Node* initial_node = nullptr;
 };
 
 struct Field {
-  string_view key;
+  string_view key = {};
   Type type = Type::number;
   string_view unit = {};
   Range range = {};
@@ -118,18 +120,22 @@ struct Field {
   /// What may stand in place of a map. For a map: a plain value, that of this key. For the maps of a list: these words,
   /// separated by |.
   string_view plain = {};
-  bool needs_entries = false;  // a list must not be empty
-  bool own = false;            // never taken from Kind::beneath
+  bool own = false;  // never taken from Kind::beneath
   /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
   bool drawn = false;
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).
   Member member = {};
-  // The table finds these (fields.cpp).
-  /// The kind `of` of the map, or of the maps in a list or named map. Null: the value holds none.
+  /// The kind `of` of the map, or of the maps in a list or named map. Null: the value holds none. The table finds it.
   const Kind* held = nullptr;
-  /// `initial` as a tree. Null: none.
-  const Node* initial_node = nullptr;
 };
+
+/// A row with what all rows have.
+constexpr Field row(string_view key, string_view doc, string_view example, Field rest = {}) {
+  rest.key = key;
+  rest.doc = doc;
+  rest.example = example;
+  return rest;
+}
 
 struct Kind {
   string_view name;  // as Field::of has it
@@ -145,6 +151,8 @@ struct Kind {
   string_view any_of = {};
   /// The neighbouring kind that supplies values missing in maps of this kind.
   string_view beneath = {};
+  /// A list of such maps must not be empty.
+  bool needs_entries = false;
 };
 
 const Field* find_field(const Kind& kind, string_view key);

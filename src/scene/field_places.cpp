@@ -44,14 +44,18 @@ void collect(const Kind& kind, const vector<string_view>& steps, vector<Spot>& f
   for (const Field& field : kind.fields) {
     // Defaults are those of each member.
     if (field.type == Type::repeat && !steps.empty() && steps.front() == "defaults") continue;
+
     vector<string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
+
+    // What stands below it.
     const Kind* held = field.held;
     if (held != nullptr && held->also != nullptr) {
       found.push_back({held, held->also, here});
       found.back().steps.push_back(held->also->key);
     }
+
     if (const string_view step = any_step(field); !step.empty()) here.push_back(step);
     if (held != nullptr)
       collect(*held, here, found);
@@ -160,9 +164,8 @@ vector<FieldPlaces> find_places(string_view key) {
   if (!found.empty() || given.size() < 2) return found;
   // A component such as in balls.red.position.x.
   found = find_steps(Steps(given).first(given.size() - 1));
-  std::erase_if(found, [&](const FieldPlaces& row) {
-    return !has_part(facts_of(row.field->type).components, given.back());
-  });
+  std::erase_if(found,
+                [&](const FieldPlaces& row) { return !has_part(facts_of(row.field->type).components, given.back()); });
   return found;
 }
 
@@ -204,6 +207,7 @@ string suggest_place(string_view key) {
     if (held == nullptr) continue;
     return fmt::format("in {}: {}", in_backticks(held->name), suggest_key(given[count], *held));
   }
+
   vector<string_view> known;
   for (const Spot& spot : all_spots()) known.push_back(spot.field->key);
   for (const span<const Kind> family : families()) {
@@ -211,6 +215,7 @@ string suggest_place(string_view key) {
   }
   for (const AbsentWord& word : absent_words())
     for (const string_view name : parts_of(word.words)) known.push_back(name);
+
   const string near = nearest(given.front(), known);
   return near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near));
 }

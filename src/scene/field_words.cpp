@@ -37,7 +37,7 @@ bool contains(const Range& range, double value) {
 }
 
 bool holds_whole_numbers(const Field& field) {
-  return facts_of(field.type).whole;
+  return field.type == Type::whole || field.type == Type::repeat || field.type == Type::pixels;
 }
 
 span<const UnitLimit> unit_limits() {
@@ -147,6 +147,7 @@ string condition_text(const Field& field) {
 
 string described(const Field& field) {
   string text(field.doc);
+
   if (field.type == Type::choice) {
     text += fmt::format(" One of {}.", expected(field));
   } else if (field.range.min == field.range.max) {
@@ -154,10 +155,12 @@ string described(const Field& field) {
   } else if (field.held == nullptr) {
     text += fmt::format(" {}.", capital(expected(field)));
   }
+
   if (!field.initial.empty()) text += fmt::format(" Default: {}.", field.initial);
   vector<string> others;
   for (const string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
   if (!others.empty()) text += fmt::format(" Not with {}.", listed({others.begin(), others.end()}));
+
   if (!field.with.empty()) text += " " + condition_text(field);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;

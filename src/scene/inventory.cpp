@@ -116,7 +116,9 @@ class Census {
     inventory_.body_count = static_cast<Entity>(total);
     inventory_.fixed_count = fixed_count_;
     inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size() + inventory_.strings.size());
+
     for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
+
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
       const Entity first = inventory_.body_count + entry.first;
@@ -125,9 +127,12 @@ class Census {
         inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
       }
     }
+
     for (size_t i = 0; i < inventory_.strings.size(); ++i)
       add(inventory_.strings[i].key->text, {inventory_.body_count + fixed_count_ + static_cast<Entity>(i), 1});
     for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
+
+    // What is repeated no time has a place among the others.
     for (const Empty& none : empty_) {
       const bool last = none.before == inventory_.bodies.size();
       const Entity first = !none.is_body ? inventory_.body_count + static_cast<Entity>(none.before)

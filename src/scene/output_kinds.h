@@ -65,7 +65,7 @@ struct OutputKind {
   /// It depends on appearance and not only on the motion. carom render makes it anew.
   bool draws = false;
 
-  Field row() const;  // in the map `output`
+  Field field() const;  // in the map `output`
   bool asked(const Output& output) const { return member.asked(output); }
   bool is_sampled() const { return member.every != nullptr; }
   double every(const Output& output) const { return member.every(output); }  // s; only if is_sampled()

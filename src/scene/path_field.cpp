@@ -16,10 +16,12 @@ vector<const Field*> fields_along(string_view path) {
   const Kind* kind = &kind_named("scene");
   // The next word is a name or a number, not a key.
   bool name_next = false;
+
   for (size_t i = 0; i <= path.size();) {
     const size_t end = std::min(path.find('.', i), path.size());
     const string_view word = path.substr(i, end - i);
     i = end + 1;
+
     if (name_next) {
       name_next = false;
       kind = kind->also != nullptr && word == kind->also->key ? nullptr : kind;

@@ -32,6 +32,7 @@ class Reach {
       if (entry.count == 1) check_motion(entry);
     }
     for (const StringEntry& string : inventory_.strings) check_places(view_of_string(root_, string), string.key->text);
+
     for (const BodyEntry& body : inventory_.bodies) {
       if (body.count == 0) continue;
       const View view = body_view(root_, body);
@@ -39,9 +40,11 @@ class Reach {
         check_members(body, view);
         continue;
       }
+
       check_places(body.group ? view.part("in") : view, body.key->text);
       check_speed(body, view);
     }
+
     check_pull();
   }
 
@@ -140,6 +143,7 @@ class Reach {
         if (!force.on.empty() && !std::binary_search(force.on.begin(), force.on.end(), i)) continue;
         if (const auto* uniform = std::get_if<UniformForce>(&force.law)) pull += uniform->force.norm() / world_.mass[i];
       }
+
       if (pull <= largest_acceleration) continue;
       diagnostics_.add(root_.find_key("forces")->place,
                        fmt::format("the uniform forces accelerate {} by {} m/s^2", in_backticks(scene_.roster.name(i)),

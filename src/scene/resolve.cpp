@@ -33,10 +33,12 @@ string flow(const View& view, const Overrides& overrides = {}) {
     } else if (const Node* node = view.find(field.key)) {
       text = flow_text(*node);
     }
+
     if (text.empty()) continue;
     if (!out.empty()) out += ", ";
     out += fmt::format("{}: {}", field.key, text);
   }
+
   return "{" + out + "}";
 }
 
@@ -48,6 +50,7 @@ class Resolver {
   string run() {
     const Kind& kind = kind_named("scene");
     const View whole(&root_, kind, Place{});
+
     line("scene", "1");
     line("title", flow_text(*whole.find("title")));
     line("seed", std::to_string(scene_.seed));
@@ -64,12 +67,15 @@ class Resolver {
       if (key.text == "walls") fixed("walls", "wall");
       if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
+
     strings();
     regions();
     forces();
     simulate();
     if (const Node* measures = root_.find("measures"); measures != nullptr && !measures->items.empty())
       line("measures", flow_text(*measures));
+
+    // What pictures show, and the outputs.
     camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
@@ -107,16 +113,20 @@ class Resolver {
     for (size_t i = 0; i < inventory_.bodies.size(); ++i) {
       const BodyEntry& body = inventory_.bodies[i];
       if (body.kind->name != kind) continue;
+
       Overrides overrides;
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
+
       if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
       add_color(each, scene_.roster.bodies[i].color, scene_.roster.bodies[i].mesh, overrides);
       name_copy(scene_.roster.bodies[i].mesh, overrides);
+
       if (!body.group) {
         entry(body.key->text, flow(each, overrides));
         continue;
       }
+
       const bool lists_members = view.find("members") != nullptr;
       // A group's velocity is written once, in the group.
       if (!lists_members) overrides["velocity"] = "";
@@ -124,6 +134,7 @@ class Resolver {
       if (!lists_members) group_overrides["in"] = flow(view.part("in"));
       if (!lists_members && view.find("speed") == nullptr && view.find("velocity") == nullptr)
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
+
       entry(body.key->text, flow(view, group_overrides));
     }
     without_members(key, kind);
@@ -136,12 +147,14 @@ class Resolver {
     for (size_t i = 0; i < map.keys.size(); ++i) {
       if (map.items[i].find_key("repeat") == nullptr) continue;
       const View view(&map.items[i], kind, map.keys[i].place, defaults_for(root_, kind));
+
       Overrides overrides = whole_paths(view);
       if (name == "group") {
         const View each = member_view(root_, view);
         overrides["ball"] = flow(each, whole_paths(each));
         if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in"));
       }
+
       entry(map.keys[i].text, flow(view, overrides));
     }
   }

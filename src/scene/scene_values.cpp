@@ -35,6 +35,7 @@ class Flattener {
     const TypeFacts& facts = facts_of(field.type);
     const auto below = [&](string_view step) { return fmt::format("{}.{}", path, step); };
     const bool is_map = node.is(Node::Kind::map), is_list = node.is(Node::Kind::sequence);
+
     switch (facts.inside) {
       case Inside::map:
         return map(path, node, *field.held);
@@ -42,14 +43,17 @@ class Flattener {
         if (!is_map) break;
         for (size_t i = 0; i < node.items.size(); ++i) map(below(node.keys[i].text), node.items[i], *field.held);
         return;
+
       case Inside::values:
         if (!is_map) break;
         for (size_t i = 0; i < node.items.size(); ++i) leaf(below(node.keys[i].text), node.items[i], {});
         return;
+
       case Inside::list:
         if (!is_list) break;
         for (size_t i = 0; i < node.items.size(); ++i) map(below(std::to_string(i)), node.items[i], *field.held);
         return;
+
       case Inside::numbers: {
         const vector<string_view> names = parts_of(facts.components);
         if (!is_list || node.items.size() != names.size()) break;
@@ -59,6 +63,7 @@ class Flattener {
       default:
         break;
     }
+
     leaf(path, node, field.unit);
   }
 

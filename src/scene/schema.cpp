@@ -93,9 +93,8 @@ Json array_schema(Json each, int count) {
 }
 
 Json numbers_schema(const Field& field) {
-  const TypeFacts& facts = facts_of(field.type);
-  return array_schema(facts.whole ? whole_schema(field.range) : number_schema(limited_range(field)),
-                      static_cast<int>(parts_of(facts.components).size()));
+  return array_schema(holds_whole_numbers(field) ? whole_schema(field.range) : number_schema(limited_range(field)),
+                      static_cast<int>(parts_of(facts_of(field.type).components).size()));
 }
 
 /// Any scalar is a text, whatever type a YAML parser gives it.
@@ -166,8 +165,17 @@ Json choice_schema(const Field& field) {
   return {{"enum", all}};
 }
 
+Json list_schema(const Field& field) {
+  Json entry = reference(field.of);
+  if (!field.plain.empty()) entry = any_of({{"enum", parts_of(field.plain)}}, entry);
+  Json schema = {{"type", "array"}, {"items", std::move(entry)}};
+  if (field.held->needs_entries) schema["minItems"] = 1;
+  return schema;
+}
+
 Json value_schema(const Field& field) {
   switch (field.type) {
+    // Single values.
     case Type::number:
       return number_schema(limited_range(field));
     case Type::whole:
@@ -181,6 +189,8 @@ Json value_schema(const Field& field) {
       return text_schema(field);
     case Type::choice:
       return choice_schema(field);
+
+    // Lists of numbers.
     case Type::vector:
     case Type::extent:
       return numbers_schema(field);
@@ -193,6 +203,8 @@ Json value_schema(const Field& field) {
       return any_of(numbers_schema(field), choice_schema(field));
     case Type::point_or_name:
       return any_of(numbers_schema(field), text_schema(field));
+
+    // Colours and names.
     case Type::color:
       return {{"allOf", Json::array({reference("color")})}};
     case Type::color_or_none:
@@ -206,10 +218,11 @@ Json value_schema(const Field& field) {
               {"items", field.of.empty() ? text_schema(field) : choice_schema(field)},
               {"minItems", 1},
               {"uniqueItems", true}};
-    case Type::part: {
+
+    // Maps, and lists of maps.
+    case Type::part:
       if (field.plain.empty()) return {{"allOf", Json::array({reference(field.of)})}};
       return any_of(reference(field.of), value_schema(*find_field(*field.held, field.plain)));
-    }
     case Type::part_or_flag:
       return any_of({{"type", "boolean"}}, reference(field.of));
     case Type::values:
@@ -218,15 +231,13 @@ Json value_schema(const Field& field) {
       return variables_schema(text_schema(field));
     case Type::repeat:
       return repeat_schema();
+
     case Type::named:
       return named_schema(*field.held);
-    case Type::list: {
-      Json entry = reference(field.of);
-      if (!field.plain.empty()) entry = any_of({{"enum", parts_of(field.plain)}}, entry);
-      Json schema = {{"type", "array"}, {"items", std::move(entry)}};
-      if (field.needs_entries) schema["minItems"] = 1;
-      return schema;
-    }
+    case Type::list:
+      return list_schema(field);
+
+    // Of sweep files.
     case Type::settings:
       return settings_schema();
     case Type::axes:
@@ -275,6 +286,8 @@ Json exclusions(const Kind& kind) {
 Json engine_rule(const Field& field, const Field* part = nullptr) {
   Json when = required({field.key});
   if (!field.initial.empty()) when.update(at(field.key, {{"not", {{"const", json_of_yaml(field.initial)}}}}));
+
+  // In a part, the key or a plain value asks for the engine.
   if (part != nullptr) {
     Json of_part = required({part->key});
     when["type"] = "object";
@@ -283,6 +296,7 @@ Json engine_rule(const Field& field, const Field* part = nullptr) {
     of_part.update(at(part->key, when));
     when = of_part;
   }
+
   const vector<string_view> engines = parts_of(field.engines);
   const Field& engine = *find_field(kind_named("simulate"), "engine");
   Json then = at(engine.key, {{"enum", engines}});
@@ -304,10 +318,12 @@ void add_beneath_rules(const Field& field, Json& rules) {
   for (const Field& own : kind->fields) {
     const Field* below = find_field(kind_named(kind->beneath), own.key);
     if (below == nullptr || !own.range.even || below->range.even) continue;
+
     Json unsuited = required({own.key}), when = required({kind->beneath});
     unsuited["type"] = "object";
     unsuited.update(at(own.key, {{"not", value_schema(own)}}));
     when.update(at(kind->beneath, unsuited));
+
     const Json absent = {{"const", false}};
     Json given = required({own.key});
     given["type"] = "object";
@@ -345,16 +361,21 @@ Json kind_schema(const Kind& kind) {
   Json schema = {{"description", kind.doc}, {"type", "object"}};
   Json properties = Json::object(), rules = Json::array();
   vector<string_view> keys;
+
   for (const Field& field : kind.fields) {
     Json& property = properties[string(field.key)] = field_schema(field);
     if (!kind.defaults.empty() && !field.own && field.type != Type::text) property = or_none(std::move(property));
+
+    // Keys that only some engines accept.
     if (!field.engines.empty() && kind.name == "simulate") rules.push_back(engine_rule(field));
     if (field.type == Type::part && kind.name == "simulate")
       for (const Field& inner : field.held->fields)
         if (!inner.engines.empty()) rules.push_back(engine_rule(inner, &field));
+
     if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(kind, field));
     add_beneath_rules(field, rules);
   }
+
   if (kind.defaults.empty()) {
     for (const auto& need : needs_of(kind)) {
       if (need.size() == 1) {
@@ -364,7 +385,9 @@ Json kind_schema(const Kind& kind) {
       }
     }
   }
+
   if (!kind.any_of.empty()) rules.push_back(one_required(kind, parts_of(kind.any_of)));
+
   schema["properties"] = properties;
   if (!keys.empty()) schema["required"] = keys;
   schema["additionalProperties"] = false;
@@ -422,8 +445,7 @@ void add_part_rules(const Kind& owner, const Field& field, const function<Json(J
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));
-    rules.push_back(
-        {{"if", any_of(has_default(kind, need), whole)}, {"else", each(required({field.key}))}});
+    rules.push_back({{"if", any_of(has_default(kind, need), whole)}, {"else", each(required({field.key}))}});
   }
 }
 
@@ -458,15 +480,19 @@ string json_schema(string_view root_name) {
   const Kind& root = kind_named(root_name);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", fmt::format("carom: {}", root.name)}};
+
   schema.update(kind_schema(root));
   if (Json rules = root_rules(root); !rules.empty()) {
     if (!schema.contains("allOf")) schema["allOf"] = Json::array();
     for (Json& rule : rules) schema["allOf"].push_back(std::move(rule));
   }
+
+  // A definition for each kind.
   vector<const Kind*> held;
   collect(root, held);
   Json definitions = {{"color", color_schema()}};
   for (const Kind* kind : held) definitions[string(kind->name)] = kind_schema(*kind);
+
   if (root_name == "scene") {
     allow_expressions(schema);
     allow_expressions(definitions);
@@ -477,6 +503,7 @@ string json_schema(string_view root_name) {
         {"pattern", "^="},
         {"maxLength", longest_formula + 1}};
   }
+
   schema["definitions"] = std::move(definitions);
   return text_of_json(schema, 2) + "\n";
 }

@@ -24,10 +24,14 @@ SweepRun Sweep::run(size_t number) const {
   run.id = id(number);
   run.values.resize(paths.size());
   for (const SweepValue& value : set_values) run.settings.push_back({value.text, value.where});
+
+  // The combination among those of its block.
   const size_t repeats = std::max<uint64_t>(seeds, 1);
   size_t combination = number / repeats;
   const SweepBlock* block = blocks.data();
   for (; combination >= block->kept.size(); ++block) combination -= block->kept.size();
+
+  // The case of each axis: the last one varies fastest.
   size_t rest = block->kept[combination];
   vector<const SweepCase*> cases(block->axes.size());
   for (size_t a = block->axes.size(); a-- > 0;) {
@@ -35,18 +39,21 @@ SweepRun Sweep::run(size_t number) const {
     cases[a] = &all[rest % all.size()];
     rest /= all.size();
   }
+
   for (const SweepCase* one : cases) {
     for (const auto& [path, value] : one->values) {
       run.values[path] = value.text;
       run.settings.push_back({paths[path] + "=" + value.text, value.where});
     }
   }
+
   if (seeds > 0) {
     // Without repeats the paths contain no seed.
     const string of_run = std::to_string(first_seed.value_or(0) + number % repeats);
     run.values.back() = of_run;
     run.settings.push_back({"seed=" + of_run, file});
   }
+
   return run;
 }
 
@@ -81,15 +88,18 @@ string block_text(const SweepBlock& block, const vector<string>& paths) {
     if (axis.kind == SweepAxis::Kind::zip) zip += columns(axis, paths);
     if (axis.kind == SweepAxis::Kind::list) list += lines(axis, paths);
   }
+
   string out;
   const auto add = [&](string_view key, const string& text) {
     if (!text.empty()) out += fmt::format("    {}:\n{}", key, text);
   };
+
   add("grid", grid);
   add("zip", zip);
   add("list", list);
   out += block.samples;
   if (!block.skip.empty()) out += fmt::format("    skip: {}\n", block.skip);
+
   if (out.empty()) return "  - {}\n";
   out[2] = '-';
   return out;
@@ -104,21 +114,26 @@ string Sweep::resolved(string_view base_name) const {
     const size_t equals = value.text.find('=');
     out += fmt::format("  {}: {}\n", value.text.substr(0, equals), value.text.substr(equals + 1));
   }
+
   if (seed) out += fmt::format("seed: {}\n", *seed);
   if (skip_invalid) out += "skip_invalid: true\n";
   out += "runs:\n";
   for (const SweepBlock& block : blocks) out += block_text(block, paths);
+
   if (seeds > 0) out += fmt::format("repeat: {{seeds: {}, first: {}}}\n", seeds, first_seed.value_or(0));
   if (!only.empty()) {
     string names;
     for (const SweepValue& name : only) names += (names.empty() ? "" : ", ") + in_quotes(name.text);
     out += fmt::format("only: [{}]\n", names);
   }
+
+  // What the comparison shows.
   if (measures.empty() && charts.empty() && !collisions) return out;
   out += "compare:\n";
   if (!measures.empty()) out += "  measures:\n";
   for (const SweepMeasure& measure : measures) out += fmt::format("    - {}\n", in_quotes(measure.name));
   if (collisions) out += "  collisions: true\n";
+
   if (!charts.empty()) out += "  charts:\n";
   for (const SweepChart& chart : charts) {
     out += fmt::format("    - {{x: {}, y: {}", in_quotes(chart.x), in_quotes(chart.y));

@@ -95,6 +95,7 @@ class PathWalk {
   bool to_entry(string_view step) {
     const Kind& kind = *field_->held;
     const Node* entry = nullptr;
+
     if (field_->type == Type::named) {
       // Members stand in the tree as `row.0`, two steps of the path.
       const string family = std::exchange(family_, {});
@@ -110,11 +111,13 @@ class PathWalk {
     } else if (const auto index = parse_index(step); index && *index < node_->items.size()) {
       entry = &node_->items[static_cast<size_t>(*index)];
     }
+
     if (entry == nullptr) {
       vector<string_view> names;
       for (const Key& key : node_->keys) names.push_back(key.text);
       return fail(fmt::format("there is no {} {}", kind.name, in_backticks(step)), suggest_name(step, names));
     }
+
     node_ = entry;
     field_ = nullptr;
     if (kind.also != nullptr && step == kind.also->key)
@@ -139,11 +142,13 @@ class PathWalk {
 ValueAtPath value_at(const Node& root, string_view path) {
   ValueAtPath found;
   PathWalk walk(root);
+
   for (size_t i = 0; i <= path.size();) {
     const size_t end = std::min(path.find('.', i), path.size());
     if (!walk.step(path.substr(i, end - i), found)) return found;
     i = end + 1;
   }
+
   if (walk.at_map()) {
     found.problem = fmt::format("{} holds several values", in_backticks(path));
     found.remedy = "name one of them";

@@ -82,7 +82,7 @@ const Node* View::find(string_view key) const {
 
 const Node* View::find(const Field& field) const {
   const Found found = search(field);
-  return found.node != nullptr || found.is_replaced ? found.node : field.initial_node;
+  return found.node != nullptr || found.is_replaced ? found.node : field.member.initial_node;
 }
 
 optional<double> View::number(string_view key) const {

@@ -18,7 +18,7 @@ SUFFIXES = (".h", ".cpp", ".inc")
 # Folders of src/ whose functions have longer blocks, and those whose files include each other.
 LONG_BLOCKS = {"bench", "commands", "compare", "export", "files", "geometry", "numerics", "overlay", "physics", "raster", "render", "run",
                "scene", "study", "yaml"}
-IN_CIRCLES = {"bench", "commands", "compare", "export", "files", "geometry", "physics", "raster", "render", "run", "scene", "solver",
+IN_CIRCLES = {"bench", "commands", "compare", "export", "files", "geometry", "physics", "raster", "render", "run", "solver",
               "study", "yaml"}
 TYPES = {"class", "struct", "union", "enum", "typedef"}
 CTAGS = ["ctags", "--output-format=json", "--fields=+neKZt", "--kinds-C++=cfgstum", "--langmap=C++:+.inc", "--language-force=C++",

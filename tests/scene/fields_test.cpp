@@ -45,7 +45,7 @@ TEST(Fields, DefaultsAreInTheirRange) {
   for (const Kind& kind : kinds()) {
     for (const Field& field : kind.fields) {
       if (field.initial.empty()) continue;
-      const Node& node = *field.initial_node;
+      const Node& node = *field.member.initial_node;
       if (field.type == Type::number || field.type == Type::whole) {
         ASSERT_TRUE(as_number(&node)) << field.key;
         EXPECT_TRUE(contains(field.range, *as_number(&node))) << field.key;
