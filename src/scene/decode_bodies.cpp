@@ -50,8 +50,7 @@ class Bodies {
     size_t things = 0;
     string_view last_family;
     for (const BodyEntry& body : inventory_.bodies) {
-      const View view = body_view(root_, body);
-      const View each = body.group ? member_view(root_, view) : view;
+      const View &view = body.view, &each = body.each;
       const auto keys = filled<BodyKeys>(each);
       const optional<Form> form = forms_.of(keys, keys.color.has_value());
 
@@ -70,7 +69,7 @@ class Bodies {
 
       if (!body.group) single(body.first, keys, view.place("position"));
       if (body.group && view.given("members") != nullptr)
-        members(body, view, keys.velocity);
+        members(body, keys.velocity);
       else if (body.group && body.count > 0)
         groups_.push_back(&body);
     }
@@ -128,12 +127,12 @@ class Bodies {
   }
 
   /// Places the balls of a group that lists them. `velocity`: of balls without one, in m/s.
-  void members(const BodyEntry& body, const View& view, const optional<Vec3>& velocity) {
-    const Node& list = *view.given("members");
+  void members(const BodyEntry& body, const optional<Vec3>& velocity) {
+    const Node& list = *body.view.given("members");
     if (!list.is(Node::Kind::sequence)) return;
 
     if (list.items.size() != body.count) {
-      diagnostics_.add(view.place("members"),
+      diagnostics_.add(body.view.place("members"),
                        fmt::format("`members` of {} has {}, and `count` is {}", in_backticks(body.key->text),
                                    how_many(list.items.size(), "entry", "entries"), body.count),
                        "expected an entry for each ball");
@@ -157,10 +156,11 @@ class Bodies {
     std::ranges::stable_sort(groups_, [&](const BodyEntry* a, const BodyEntry* b) {
       return world_.radius[a->first] > world_.radius[b->first];
     });
-    for (const BodyEntry* body : groups_) one_group(*body, body_view(root_, *body));
+    for (const BodyEntry* body : groups_) one_group(*body);
   }
 
-  void one_group(const BodyEntry& body, const View& view) {
+  void one_group(const BodyEntry& body) {
+    const View& view = body.view;
     const auto group = filled<GroupKeys>(view);
     const auto& [min, max] = group.in;
     const optional<Arrange> arrange = group.arrange;
@@ -192,10 +192,10 @@ class Bodies {
 
     std::ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
-    set_velocities(body, group, view);
+    set_velocities(body, group);
   }
 
-  void set_velocities(const BodyEntry& body, const GroupKeys& group, const View& view) {
+  void set_velocities(const BodyEntry& body, const GroupKeys& group) {
     Vec3* velocity = scene_.initial.velocity.data() + body.first;
     if (group.speed) {
       Random random(scene_.seed, body.key->text + "/velocity");
@@ -204,8 +204,7 @@ class Bodies {
       }
       return;
     }
-    const optional<Vec3> common_velocity =
-        group.velocity ? group.velocity : filled<BodyKeys>(member_view(root_, view)).velocity;
+    const optional<Vec3> common_velocity = group.velocity ? group.velocity : filled<BodyKeys>(body.each).velocity;
     std::fill_n(velocity, body.count, common_velocity.value_or(Vec3::Zero()));
   }
 

@@ -120,15 +120,16 @@ Vec3 unit(const Vec3& v) {
   return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
 }
 
-void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
+void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   for (const FixedEntry& entry : inventory.fixed) {
-    const View view = fixed_view(root, entry);
+    const View& view = entry.view;
+    const string_view kind = view.kind().name;
     const string& name = entry.key->text;
-    if (entry.kind->name != "room") add_motion(view, entry.first, scene, diagnostics);
-    if (entry.kind->name == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
-    if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);
-    if (entry.kind->name == "wall") add_wall(view, name, scene, diagnostics);
-    if (entry.kind->name == "obstacle") add_obstacle(view, name, forms, scene);
+    if (kind != "room") add_motion(view, entry.first, scene, diagnostics);
+    if (kind == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
+    if (kind == "room") add_room(view, name, scene, diagnostics);
+    if (kind == "wall") add_wall(view, name, scene, diagnostics);
+    if (kind == "obstacle") add_obstacle(view, name, forms, scene);
   }
   if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }

@@ -68,12 +68,11 @@ void check_coloring(const View& body, const Coloring& coloring, const Scene& sce
       both ? "expected min < max" : "expected min < max, both given");
 }
 
-void check_colors(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
+void check_colors(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
   for (size_t i = 0; i < std::min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
     const optional<Coloring>& coloring = scene.roster.bodies[i].coloring;
     if (!coloring) continue;
-    const View view = body_view(root, inventory.bodies[i]);
-    check_coloring(inventory.bodies[i].group ? member_view(root, view) : view, *coloring, scene, diagnostics);
+    check_coloring(inventory.bodies[i].each, *coloring, scene, diagnostics);
   }
 }
 
@@ -88,7 +87,7 @@ void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, 
   overlay.velocity_arrows = lists(whole.find("arrows"), "velocity");
   overlay.force_arrows = lists(whole.find("arrows"), "force");
   overlay.shutter = whole.number("shutter").value_or(0);
-  if (diagnostics.empty()) check_colors(root, inventory, scene, diagnostics);
+  if (diagnostics.empty()) check_colors(inventory, scene, diagnostics);
 }
 
 }  // namespace carom

@@ -85,16 +85,12 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
 /// Finds lengths and checks them.
 class Lengths {
  public:
-  Lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
-      : root_(root),
-        inventory_(inventory),
-        scene_(scene),
-        diagnostics_(diagnostics),
-        bodies_are_good_(diagnostics.empty()) {}
+  Lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
+      : inventory_(inventory), scene_(scene), diagnostics_(diagnostics), bodies_are_good_(diagnostics.empty()) {}
 
   void run() {
     for (size_t i = 0; i < inventory_.strings.size(); ++i)
-      one(scene_.world.strings[i], view_of_string(root_, inventory_.strings[i]), inventory_.strings[i].key->text);
+      one(scene_.world.strings[i], inventory_.strings[i].view, inventory_.strings[i].key->text);
   }
 
  private:
@@ -174,10 +170,9 @@ class Lengths {
     const auto after = std::upper_bound(all.begin(), all.end(), body,
                                         [](Entity e, const BodyEntry& entry) { return e < entry.first; });
     const BodyEntry& entry = *(after - 1);
-    return entry.group ? nullopt : body_view(root_, entry).vector("position");
+    return entry.group ? nullopt : entry.view.vector("position");
   }
 
-  const Node& root_;
   const Inventory& inventory_;
   Scene& scene_;
   Diagnostics& diagnostics_;
@@ -186,18 +181,18 @@ class Lengths {
 
 }  // namespace
 
-void decode_strings(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   scene.world.strings.reserve(inventory.strings.size());
   for (const StringEntry& entry : inventory.strings) {
-    const View view = view_of_string(root, entry);
+    const View& view = entry.view;
     if (!view.flag("visible").value_or(true)) scene.overlay.hidden_strings.push_back(scene.world.strings.size());
     scene.world.strings.push_back(decode_string(view, inventory, diagnostics));
     scene.roster.strings.push_back(entry.key->text);
   }
 }
 
-void decode_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
-  Lengths(root, inventory, scene, diagnostics).run();
+void decode_lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  Lengths(inventory, scene, diagnostics).run();
 }
 
 }  // namespace carom

@@ -120,13 +120,13 @@ struct SceneFile::Impl {
     const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
-    decode_fixed(tree, inventory, forms, scene, diagnostics);
-    if (inventory.fits) decode_strings(tree, inventory, scene, diagnostics);
+    decode_fixed(inventory, forms, scene, diagnostics);
+    if (inventory.fits) decode_strings(inventory, scene, diagnostics);
 
     decode_requests(tree, inventory, options, scene, diagnostics);
     if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
-    if (inventory.fits) decode_lengths(tree, inventory, scene, diagnostics);
+    if (inventory.fits) decode_lengths(inventory, scene, diagnostics);
 
     // What needs the bodies.
     decode_camera(tree, inventory, scene, diagnostics);

@@ -112,11 +112,10 @@ class Resolver {
     heading(key, root_.find(key)->items.empty());
     for (size_t i = 0; i < inventory_.bodies.size(); ++i) {
       const BodyEntry& body = inventory_.bodies[i];
-      if (body.kind->name != kind) continue;
+      if (body.view.kind().name != kind) continue;
 
       Overrides overrides;
-      const View view = body_view(root_, body);
-      const View each = body.group ? member_view(root_, view) : view;
+      const View &view = body.view, &each = body.each;
 
       if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
       add_color(each, scene_.roster.bodies[i].color, scene_.roster.bodies[i].mesh, overrides);
@@ -146,7 +145,7 @@ class Resolver {
     const Kind& kind = kind_named(name);
     for (size_t i = 0; i < map.keys.size(); ++i) {
       if (map.items[i].find_key("repeat") == nullptr) continue;
-      const View view(&map.items[i], kind, map.keys[i].place, defaults_for(root_, kind));
+      const View view = thing_view(root_, map.keys[i], map.items[i], kind);
 
       Overrides overrides = whole_paths(view);
       if (name == "group") {
@@ -173,17 +172,17 @@ class Resolver {
   void fixed(string_view key, string_view kind) {
     heading(key, root_.find(key)->items.empty());
     for (const FixedEntry& thing : inventory_.fixed) {
-      if (thing.kind->name == kind) entry(thing.key->text, fixed_text(thing));
+      if (thing.view.kind().name == kind) entry(thing.key->text, fixed_text(thing));
     }
     without_members(key, kind);
   }
 
   string fixed_text(const FixedEntry& thing) const {
-    const View view = fixed_view(root_, thing);
+    const View& view = thing.view;
     const FixedName& known = scene_.roster.fixed[thing.first];
     Overrides overrides;
     add_color(view, known.color, known.mesh, overrides);
-    if (thing.kind->name == "wall" && view.find("up") == nullptr)
+    if (view.kind().name == "wall" && view.find("up") == nullptr)
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(known.mesh, overrides);
     return flow(view, overrides);
@@ -193,7 +192,7 @@ class Resolver {
     if (root_.find("strings") == nullptr) return;
     heading("strings", root_.find("strings")->items.empty());
     for (size_t i = 0; i < inventory_.strings.size(); ++i) {
-      const View view = view_of_string(root_, inventory_.strings[i]);
+      const View& view = inventory_.strings[i].view;
       Overrides overrides;
       if (view.find("length") == nullptr) overrides["length"] = shortest(scene_.world.strings[i].length);
       entry(inventory_.strings[i].key->text, flow(view, overrides));
@@ -225,7 +224,7 @@ class Resolver {
 
   void room() {
     for (const FixedEntry& thing : inventory_.fixed)
-      if (thing.kind->name == "room") line("room", fixed_text(thing));
+      if (thing.view.kind().name == "room") line("room", fixed_text(thing));
   }
 
   void simulate() {

@@ -134,7 +134,7 @@ class Starter {
   void body(const string& map, const Kind& kind, const Key& key, Node& node) {
     const ptrdiff_t i = take(key.text);
     if (i < 0) return;
-    const View view(&node, kind, key.place, defaults_for(root_, kind));
+    const View view = thing_view(root_, key, node, kind);
     replaces(view, {"position", "velocity", "impulse"}, key.text);
     drop_impulse(view, node, key.text);
     set(node, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
@@ -144,7 +144,7 @@ class Starter {
 
   void group(const Key& key, Node& node) {
     const Kind& kind = kind_named("group");
-    const View view(&node, kind, key.place, defaults_for(root_, kind));
+    const View view = thing_view(root_, key, node, kind);
     const auto name = [&](uint64_t k) { return fmt::format("{}.{}", key.text, k); };
 
     // As many balls as the run has.
