@@ -67,18 +67,18 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
 
   // Its ends.
   if (is_point) string.anchor = as_vector(keys.from).value_or(Vec3::Zero());
-  const optional<Entity> from = is_point ? nullopt : body_at(*keys.from, inventory, diagnostics);
+  const optional<Entity> from = is_point ? optional(no_entity) : body_at(*keys.from, inventory, diagnostics);
   const optional<Entity> to = body_at(*keys.to, inventory, diagnostics);
-  if (!to || (!is_point && !from)) return string;
+  if (!from || !to) return string;
 
-  if (from == to) {
+  if (*from == *to) {
     diagnostics.add(keys.to->place, fmt::format("{} is tied to itself", in_backticks(keys.to->text)),
                     "expected two bodies, or a point and a body");
     return string;
   }
-  // Both directions are the same string.
-  string.body = std::min(*to, from.value_or(*to));
-  if (from) string.other = std::max(*to, *from);
+  // Both directions are the same string. no_entity is the largest number.
+  string.body = std::min(*from, *to);
+  string.other = std::max(*from, *to);
   return string;
 }
 
