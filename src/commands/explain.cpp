@@ -101,7 +101,7 @@ string row_text(const FieldPlaces& row, const Options& options) {
   if (!field.engines.empty()) block.line("engines", fmt::format("{} only", listed(parts_of(field.engines))));
   block.line("stands at", listed(row.paths, row.paths.size()));
 
-  const Kind* held = held_kind(field);
+  const Kind* held = field.held;
   if (held == nullptr) return block.text();
   block.line("keys", holds_map(field) ? "those below" : fmt::format("of each {}, those below", held->name));
   return block.text() + keys_text(*held);
@@ -166,7 +166,7 @@ Json row_json(const FieldPlaces& row) {
           {"beside", text_or_null(field.with)},
           {"engines", parts_of(field.engines)},
           {"paths", row.paths},
-          {"keys", held_kind(field) == nullptr ? Json::array() : keys_json(*held_kind(field))}};
+          {"keys", field.held == nullptr ? Json::array() : keys_json(*field.held)}};
 }
 
 Json kind_json(const Kind& kind) {
@@ -225,7 +225,7 @@ int explain(const Options& options) {
     }
 
     // The kind comes first. A key that is called like its kind shows the kind's keys itself.
-    const bool shown = std::ranges::any_of(rows, [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
+    const bool shown = std::ranges::any_of(rows, [&](const FieldPlaces& row) { return row.field->held == kind; });
     if (kind != nullptr && !shown) {
       texts.push_back(kind_text(*kind, options));
       all.push_back(kind_json(*kind));

@@ -129,7 +129,7 @@ struct Tally {
     if (kind == CollisionKind::rest) return;
     ++(kind == CollisionKind::body_body    ? body_body
        : kind == CollisionKind::body_fixed ? body_fixed
-       : kind == CollisionKind::taut     ? tautened
+       : kind == CollisionKind::taut       ? tautened
                                            : merges);
   }
   /// The same, with its time (s).

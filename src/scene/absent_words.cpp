@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "std.h"
 
 namespace carom {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "scene/value_at.h"
 #include "scene/view.h"
 #include "std.h"
@@ -88,18 +88,25 @@ vector<CaptionPart> parts_of_caption(string_view caption) {
       parts.push_back({CaptionPart::Kind::text, "", at});
     parts.back().text += c;
   };
+
   for (size_t i = 0; i < caption.size(); ++i) {
     const char c = caption[i];
     const bool twice = i + 1 < caption.size() && caption[i + 1] == c;
+
+    // Braces that close nothing.
     if (c == '}' && !twice) {
       parts.push_back({CaptionPart::Kind::unopened, "}", i});
       continue;
     }
+
+    // Text, in which two braces are one.
     if (c != '{' || twice) {
       add(c, i);
       if ((c == '{' || c == '}') && twice) ++i;
       continue;
     }
+
+    // A name, up to the next brace.
     const size_t end = caption.find('}', i);
     if (end == string_view::npos) {
       parts.push_back({CaptionPart::Kind::unclosed, string(caption.substr(i + 1)), i});
@@ -108,6 +115,7 @@ vector<CaptionPart> parts_of_caption(string_view caption) {
     parts.push_back({CaptionPart::Kind::name, string(caption.substr(i + 1, end - i - 1)), i});
     i = end;
   }
+
   return parts;
 }
 

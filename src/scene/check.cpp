@@ -11,6 +11,7 @@
 
 #include "scene/absent_words.h"
 #include "scene/check_values.h"
+#include "scene/fields.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 #include "std.h"
@@ -62,9 +63,9 @@ class Checker : ValueChecker {
     for (const Field& field : kind.fields) {
       if (field.type != Type::part || node.find_key(field.key) != nullptr || defaults == nullptr) continue;
       const Node* part = defaults->find(field.key);
-      if (part == nullptr || !part->is(Node::Kind::map) || kind_named(field.of).defaults.empty()) continue;
+      if (part == nullptr || !part->is(Node::Kind::map) || field.held->defaults.empty()) continue;
       Node whole = *part;
-      needed(whole, defaults_for(root_, kind_named(field.of)), kind_named(field.of), in_backticks(field.key), where);
+      needed(whole, defaults_for(root_, *field.held), *field.held, in_backticks(field.key), where);
     }
   }
 
@@ -158,6 +159,7 @@ class Checker : ValueChecker {
           fmt::format("expected `fit`: {}, the tightest one around the mesh", expected(*find_field(kind, "fit"))));
       return;
     }
+
     string message = fmt::format("{} has no {}", what, in_backticks(field.key));
     string remedy = fmt::format("expected {}: {}", in_backticks(field.key), expected(field));
     for (const string_view key : substitutes(field)) {
@@ -165,6 +167,7 @@ class Checker : ValueChecker {
       message += fmt::format(" and no {}", in_backticks(key));
       remedy += fmt::format("\nor {}: {}", in_backticks(key), expected(other));
     }
+
     diagnostics_.add(where, std::move(message), std::move(remedy));
   }
 
@@ -172,6 +175,8 @@ class Checker : ValueChecker {
   bool decimal_comma(const Key& key, const Node& value, Node& map_node) {
     const auto i = static_cast<size_t>(&key - map_node.keys.data());
     if (i == 0 || !value.is(Node::Kind::null)) return false;
+
+    // The two parts stand side by side, and make a number.
     Node& whole = map_node.items[i - 1];
     const bool joined = whole.place.source == key.place.source &&
                         whole.place.offset + whole.place.length + 1 == key.place.offset;  // the comma
@@ -179,6 +184,7 @@ class Checker : ValueChecker {
     if (!joined || !whole.is(Node::Kind::scalar) || key.text.front() < '0' || key.text.front() > '9' ||
         !parse_number(point))
       return false;
+
     diagnostics_.add({whole.place.source, whole.place.offset, whole.place.length + 1 + key.place.length},
                      fmt::format("`{},{}` has a comma", whole.text, key.text),
                      fmt::format("the decimal point is a point: {}", point));
@@ -192,10 +198,13 @@ class Checker : ValueChecker {
     if (value.is(Node::Kind::null) && gap != string::npos && gap > 0) {
       const string_view head = string_view(key.text).substr(0, gap);
       size_t tail = key.text.find_first_not_of(": ", gap);
+
+      // What follows the colon, without characters that look like one.
       while (const auto found = lookalike_at(key.text, tail)) {
         char32_t code = 0;
         tail += static_cast<size_t>(utf8_length(key.text, tail, code));
       }
+
       const string suggestion = find_field(kind, head) != nullptr || is_name(head) ? string(head) : "key";
       diagnostics_.add(key.place, fmt::format("{} is a key without a value", in_backticks(key.text)),
                        tail >= key.text.size() ? "expected `key: value`"
@@ -203,6 +212,7 @@ class Checker : ValueChecker {
                                                              in_backticks(suggestion + ": " + key.text.substr(tail))));
       return;
     }
+
     const string message = fmt::format("unknown key {} in {}", in_backticks(key.text), what);
     if (!diagnostics_.add_member(key.place, message)) diagnostics_.add(key.place, message, suggest_key(key.text, kind));
   }
@@ -260,13 +270,17 @@ class Checker : ValueChecker {
     if (value.bad || is_good_number(value, field)) return;
     const string name = in_backticks(field.key);
     const string required = "expected " + expected(field);
+    const bool is_scalar = value.is(Node::Kind::scalar), is_map = value.is(Node::Kind::map);
+
     switch (field.type) {
+      // Single values.
       case Type::number:
         number(value, field, name, limited_range(field));
         return;
       case Type::whole:
         whole(value, field, name);
         return;
+
       case Type::flag:
         return flag(value, name, required);
       case Type::file:
@@ -274,41 +288,43 @@ class Checker : ValueChecker {
       case Type::text:
         return text(value, name, required);
       case Type::text_or_flag:
-        return text(value, name,
-                    value.is(Node::Kind::map) ? required + "\na text that begins with a brace needs quotes" : required);
+        return text(value, name, is_map ? required + "\na text that begins with a brace needs quotes" : required);
       case Type::choice:
         return choice(value, field, name);
-      case Type::vector:
-        numbers(value, field, name, 3);
-        return;
+
+      // Lists of numbers.
       case Type::direction:
         return direction(value, field, name, required);
       case Type::pixels:
-        if (value.is(Node::Kind::scalar)) return choice(value, field, name);
-        numbers(value, field, name, 2);
-        return;
+        if (is_scalar) return choice(value, field, name);
+        [[fallthrough]];
+      case Type::point_or_name:
+        if (is_scalar) return;
+        [[fallthrough]];
+      case Type::vector:
       case Type::extent:
-        numbers(value, field, name, 2);
+        numbers(value, field, name);
         return;
+
+      // Colours and names.
       case Type::color:
         return color(value, name);
-      case Type::name:
-        if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
-        return;
-      case Type::point_or_name:
-        if (!value.is(Node::Kind::scalar)) numbers(value, field, name, 3);
-        return;
       case Type::color_or_none:
         return color(value, name, ColorWords::colors_and_none);
       case Type::color_or_part:
-        return value.is(Node::Kind::map) ? part(value, field, key, partial) : color(value, name);
+        return is_map ? part(value, field, key, partial) : color(value, name);
+      case Type::name:
+        if (!is_scalar) wrong_type(value, name, required);
+        return;
       case Type::two_names:
       case Type::names:
         return names(value, field, name, required);
+
+      // Maps, and lists of maps.
       case Type::part_or_flag:
         if (is_flag(value)) return;
-        if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
-        return part(value, field, key, partial);
+        if (!is_map) return wrong_type(value, name, required);
+        [[fallthrough]];
       case Type::part:
         return part(value, field, key, partial);
       case Type::values:
@@ -323,15 +339,18 @@ class Checker : ValueChecker {
         return named(value, field, name);
       case Type::list:
         return list(value, field, name, required);
-      case Type::settings:
-        return settings(value, name, required);
-      case Type::axes:
-        return axes(value, name, required);
-      case Type::spans:
-        return spans(value, field, name, required);
-      case Type::cases:
-        return cases(value, name, required);
+
+      default:
+        return value_of_sweep(value, field, name, required);
     }
+  }
+
+  /// Checks a value of a type that only sweep files have.
+  void value_of_sweep(Node& value, const Field& field, const string& name, const string& required) {
+    if (field.type == Type::settings) settings(value, name, required);
+    if (field.type == Type::axes) axes(value, name, required);
+    if (field.type == Type::spans) spans(value, field, name, required);
+    if (field.type == Type::cases) cases(value, name, required);
   }
 
   static bool is_flag(const Node& value) {
@@ -351,7 +370,7 @@ class Checker : ValueChecker {
   }
 
   void direction(Node& value, const Field& field, const string& name, const string& required) {
-    if (!numbers(value, field, name, 3)) return;
+    if (!numbers(value, field, name)) return;
     bool zero = true;
     for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
     if (zero) refuse(value, name + " has no length", required);
@@ -372,6 +391,7 @@ class Checker : ValueChecker {
       wrong_type(value, name, required + list_of_one(value, field));
     } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
       refuse(value, fmt::format("{} has {}", name, how_many(value.items.size(), "entry", "entries")), required);
+
     } else {
       for (Node& item : value.items) {
         if (!item.is(Node::Kind::scalar))
@@ -379,6 +399,7 @@ class Checker : ValueChecker {
         else if (!field.of.empty())
           choice(item, field, "an entry of " + name);
       }
+
       if (field.type == Type::names) distinct(value, name);
     }
   }
@@ -396,15 +417,16 @@ class Checker : ValueChecker {
       wrong_type(value, name, required + list_of_one(value, field));
       return;
     }
-    if (field.needs_entries && value.items.empty())
+    if (field.held->needs_entries && value.items.empty())
       refuse(value, fmt::format("{} has no entries", name), "expected at least one");
+
     const vector<string_view> words = parts_of(field.plain);
     for (Node& item : value.items) {
       if (words.empty() || !item.is(Node::Kind::scalar))
-        map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+        map(item, *field.held, "this entry of " + name, item.place, false);
       else if (std::ranges::find(words, item.text) == words.end())
         refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
-               fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(kind_named(field.of)))));
+               fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(*field.held))));
     }
   }
 
@@ -418,7 +440,7 @@ class Checker : ValueChecker {
   }
 
   void part(Node& value, const Field& field, const Key& key, bool partial) {
-    const Kind& kind = kind_named(field.of);
+    const Kind& kind = *field.held;
     // `defaults: {ball: ...}` is partial. So is a part inside it, if that part has defaults of its own.
     map(value, kind, in_backticks(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
@@ -466,6 +488,8 @@ class Checker : ValueChecker {
     for (size_t i = 0; i < value.keys.size(); ++i) {
       const string path = in_backticks(value.keys[i].text);
       Node& values = value.items[i];
+
+      // A range, or a list of values.
       if (values.is(Node::Kind::map)) {
         map(values, kind_named("range"), path, value.keys[i].place, false);
       } else if (!values.is(Node::Kind::sequence)) {
@@ -482,7 +506,7 @@ class Checker : ValueChecker {
   void spans(Node& value, const Field& field, const string& name, const string& required) {
     if (!has_entries(value, name, required)) return;
     for (size_t i = 0; i < value.keys.size(); ++i)
-      map(value.items[i], kind_named(field.of), in_backticks(value.keys[i].text), value.keys[i].place, false);
+      map(value.items[i], *field.held, in_backticks(value.keys[i].text), value.keys[i].place, false);
   }
 
   void named(Node& value, const Field& field, const string& name) {
@@ -490,13 +514,16 @@ class Checker : ValueChecker {
       wrong_type(value, name, "expected " + expected(field));
       return;
     }
-    const Kind& kind = kind_named(field.of);
+
+    const Kind& kind = *field.held;
     for (size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
       if (kind.also != nullptr && key.text == kind.also->key) {
         color(value.items[i], in_backticks(key.text));
         continue;
       }
+
+      // A name, or that of a member: `row.0`.
       const string_view family = find_field(kind, "repeat") == nullptr ? "" : family_of(key.text);
       if (!is_name(family.empty() ? key.text : family)) {
         diagnostics_.add(key.place, fmt::format("{} is not a name", in_backticks(key.text)),
@@ -504,6 +531,7 @@ class Checker : ValueChecker {
       } else if (!family.empty()) {
         in_order(key, family, i == 0 ? string_view() : value.keys[i - 1].text);
       }
+
       map(value.items[i], kind, fmt::format("{} {}", kind.name, in_backticks(key.text)), key.place, false);
     }
   }
@@ -549,6 +577,8 @@ string suggest_key(string_view wrong, const Kind& kind) {
   const vector<string_view> keys = keys_of(kind);
   if (const AbsentWord* word = find_absent_word(wrong))
     return fmt::format("{}\nsee {}", word->meaning, commands_of(*word));
+
+  // Other maps that have this key.
   const string known = "expected " + listed(keys);
   vector<string_view> owners;
   vector<string> shown;
@@ -558,8 +588,10 @@ string suggest_key(string_view wrong, const Kind& kind) {
     shown.push_back(other.name == "scene" || other.name == "sweep" ? fmt::format("the {} itself", other.name)
                                                                    : in_backticks(other.name));
   }
+
   for (const string& owner : shown) owners.push_back(owner);
   if (!owners.empty()) return fmt::format("{} is a key of {}\n{}", in_backticks(wrong), listed(owners), known);
+
   const string near = nearest(wrong, keys);
   return near.empty() ? known : fmt::format("did you mean {}?", in_backticks(near));
 }

@@ -2,7 +2,7 @@
 // Checks a tree of nodes against the table of fields.
 // It reports unknown, missing and misplaced keys, wrong types, and numbers out of range.
 
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"

@@ -43,9 +43,11 @@ void ValueChecker::wrong_type(Node& node, const string& name, const string& requ
     case Node::Kind::null:
       refuse(node, name + " has no value", required);
       break;
+
     case Node::Kind::scalar:
       refuse(node, fmt::format("{} is {}", name, in_backticks(node.text)), required);
       break;
+
     case Node::Kind::sequence:
       refuse(node, name + " is a list", required);
       break;
@@ -61,6 +63,7 @@ bool ValueChecker::number(Node& value, const Field& field, const string& name, c
     wrong_type(value, name, "expected " + expected(field));
     return false;
   }
+
   const optional<double> parsed = value.quoted ? nullopt : parse_number(value.text);
   if (!parsed) {
     Complaint complaint = explain_number(value, expected_number(field));
@@ -68,6 +71,8 @@ bool ValueChecker::number(Node& value, const Field& field, const string& name, c
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return false;
   }
+
+  // The range of the field, then the limits of a run.
   if (!contains(field.range, *parsed)) {
     refuse(value, fmt::format("{} is {}", name, value.text),
            *parsed == 0 ? with_fixed_things(field, "expected " + expected(field)) : "expected " + expected(field));
@@ -77,6 +82,7 @@ bool ValueChecker::number(Node& value, const Field& field, const string& name, c
     refuse(value, fmt::format("{} is {}", name, value.text), limit_text(limits, field.unit));
     return false;
   }
+
   return true;
 }
 
@@ -92,25 +98,31 @@ bool ValueChecker::whole(Node& value, const Field& field, const string& name) {
   return number(value, field, name, field.range);
 }
 
-bool ValueChecker::numbers(Node& value, const Field& field, const string& name, size_t count) {
+bool ValueChecker::numbers(Node& value, const Field& field, const string& name) {
+  const size_t count = parts_of(facts_of(field.type).components).size();
   if (!value.is(Node::Kind::sequence)) {
     wrong_type(value, name, "expected " + expected(field));
     return false;
   }
+
   if (value.items.size() != count) {
     refuse(value, wrong_count(name, value.items.size()),
            "expected " + expected(field) +
                (value.items.size() > count ? "\nthe decimal point is a point: 1.5, not 1,5" : ""));
     return false;
   }
+
   bool good = true;
   Field each = field;
   const Range limits = limited_range(field);
-  each.type = field.type == Type::pixels ? Type::whole : Type::number;
+  const bool are_whole = holds_whole_numbers(field);
+  each.type = are_whole ? Type::whole : Type::number;
+
   for (Node& item : value.items) {
     const string part = "a number of " + name;
-    good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part, limits)) && good;
+    good = (are_whole ? whole(item, each, part) : number(item, each, part, limits)) && good;
   }
+
   if (!good) value.bad = true;
   return good;
 }
@@ -121,6 +133,8 @@ void ValueChecker::choice(Node& value, const Field& field, const string& name) {
     wrong_type(value, name, required);
     return;
   }
+
+  // A quoted number is no choice.
   const vector<string_view> all = choices(field);
   for (const string_view one : all) {
     if (value.text != one) continue;
@@ -129,19 +143,20 @@ void ValueChecker::choice(Node& value, const Field& field, const string& name) {
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return;
   }
+
   const string near = nearest(value.text, all);
   refuse(value, fmt::format("{} is {}", name, in_backticks(value.text)),
          near.empty() ? required : fmt::format("did you mean {}?\n{}", in_backticks(near), required));
 }
 
 void ValueChecker::color(Node& value, const string& name, ColorWords words) {
-  static constexpr Field component{.key = "color", .range = {0, 1}};
+  static constexpr Field component{.key = "color", .type = Type::vector, .range = {0, 1}};
   static constexpr Field plain{.key = "color", .type = Type::color},
       or_none{.key = "color", .type = Type::color_or_none};
   const bool may_be_none = words == ColorWords::colors_and_none;
   const string required = "expected " + expected(may_be_none ? or_none : plain);
   if (value.is(Node::Kind::sequence) && value.items.size() == 3) {
-    numbers(value, component, name, 3);
+    numbers(value, component, name);
   } else if (value.is(Node::Kind::sequence)) {
     refuse(value, wrong_count(name, value.items.size()), required);
   } else if (!value.is(Node::Kind::scalar)) {

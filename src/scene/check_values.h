@@ -1,7 +1,7 @@
 #pragma once
 // Checks one value against its row of the table of fields.
 
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
@@ -24,7 +24,8 @@ class ValueChecker {
   /// `limits`: the limits of a run's arithmetic (fields.h), beyond the field's own range.
   bool number(Node& value, const Field& field, const string& name, const Range& limits);
   bool whole(Node& value, const Field& field, const string& name);
-  bool numbers(Node& value, const Field& field, const string& name, size_t count);
+  /// As many as the field's type has components.
+  bool numbers(Node& value, const Field& field, const string& name);
   void choice(Node& value, const Field& field, const string& name);
   void color(Node& value, const string& name, ColorWords words = ColorWords::colors);
 

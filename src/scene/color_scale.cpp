@@ -66,16 +66,19 @@ ColorScale scale_from_scene(const Scene& scene, const Coloring& coloring) {
     least = std::min(least, value);
     greatest = std::max(greatest, value);
   };
+
   switch (coloring.by.value_or(ColorQuantity::group)) {
     case ColorQuantity::speed:
       for_bodies(scene, coloring, [&](Entity i) { note(expected_speed(scene, i)); });
       return {0, rounded_up(greatest)};
+
     case ColorQuantity::kinetic:
       for_bodies(scene, coloring, [&](Entity i) {
         const double speed = expected_speed(scene, i);
         note(0.5 * world.mass[i] * speed * speed);
       });
       return {0, rounded_up(greatest)};
+
     case ColorQuantity::collisions:
       return {0, most_collisions};
     case ColorQuantity::mass:
@@ -87,6 +90,7 @@ ColorScale scale_from_scene(const Scene& scene, const Coloring& coloring) {
     case ColorQuantity::group:
       return {0, 1};
   }
+
   if (!(greatest > 0)) return {0, 1};  // there are no bodies
   return {least < greatest ? to_two_digits(least, Rounding::down) : 0, to_two_digits(greatest, Rounding::up)};
 }

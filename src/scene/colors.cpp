@@ -185,10 +185,13 @@ optional<Color> parse_color(string_view text) {
     if (text.size() != 4) return nullopt;
     return from_rgb((value >> 8) * 0x110000 + ((value >> 4) & 0xF) * 0x1100 + (value & 0xF) * 0x11);
   }
+
+  // A name, in any case of letters.
   string lower(text);
   for (char& c : lower) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   }
+
   const auto* found = std::lower_bound(std::begin(named_colors), std::end(named_colors), lower,
                                        [](const NamedColor& a, const string& b) { return a.name < b; });
   if (found == std::end(named_colors) || found->name != lower) return nullopt;

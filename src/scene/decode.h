@@ -7,7 +7,7 @@
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 #include "scene/forms.h"
-#include "scene/load.h"
+#include "scene/load_options.h"
 #include "scene/view.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
@@ -18,8 +18,8 @@ namespace carom {
 /// One ball, body or group, in the order of the file.
 struct BodyEntry {
   const Key* key;
-  const Node* node;
-  const Kind* kind;
+  View view;
+  View each;  // the ball of a group; else the same
   bool group;
   Entity first = 0;
   uint64_t count = 1;
@@ -28,8 +28,7 @@ struct BodyEntry {
 /// One plane, room, wall or obstacle, in the order of entities.
 struct FixedEntry {
   const Key* key;
-  const Node* node;
-  const Kind* kind;
+  View view;
   Entity first = 0;  // its number among the fixed things
   Entity count = 1;  // six for a room
 };
@@ -40,7 +39,7 @@ inline constexpr double smallest_share = 0x1p-40;
 /// One string, in the order of the file.
 struct StringEntry {
   const Key* key;
-  const Node* node;
+  View view;
 };
 
 /// The named things of a file, in its order, and their numbers.
@@ -69,16 +68,16 @@ struct Inventory {
 /// Numbers all things. Checks that names are unique and that the number of bodies is within `budget`.
 Inventory take_inventory(const Node& root, const Budget& budget, Diagnostics& diagnostics);
 
-void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
+void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
 /// Decodes balls, bodies and groups into world, initial state and roster.
 /// The fixed things and scene.seed must be decoded before.
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
 /// Decodes gravity, combine, pairs and forces.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the strings, all but their lengths. Bodies need not be decoded before.
-void decode_strings(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the lengths of strings, and checks them against the distances of their ends. Bodies must be decoded before.
-void decode_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+void decode_lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the regions, and those of `simulate.stop`. Bodies need not be decoded before.
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.
@@ -122,10 +121,8 @@ Vec3 unit(const Vec3& v);
 /// A key of the scene as a View. The view is empty if the key is absent.
 View scene_part(const Node& root, string_view key);
 
-/// A ball, a body or a group as a View, with the scene's defaults beneath. The same holds for the three below.
-View body_view(const Node& root, const BodyEntry& entry);
+/// A thing of this kind as a View, with the scene's defaults beneath, and the ball of a group.
+View thing_view(const Node& root, const Key& key, const Node& thing, const Kind& kind);
 View member_view(const Node& root, const View& group);
-View fixed_view(const Node& root, const FixedEntry& entry);
-View view_of_string(const Node& root, const StringEntry& entry);
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/grid.h"
 #include "scene/member.h"
 #include "scene/overlaps.h"
@@ -49,10 +50,10 @@ class Bodies {
     size_t things = 0;
     string_view last_family;
     for (const BodyEntry& body : inventory_.bodies) {
-      const View view = body_view(root_, body);
-      const View each = body.group ? member_view(root_, view) : view;
+      const View &view = body.view, &each = body.each;
       const auto keys = filled<BodyKeys>(each);
       const optional<Form> form = forms_.of(keys, keys.color.has_value());
+
       const string_view family = family_of(body.key->text);
       if (family.empty() || family != last_family) ++things;
       last_family = family;
@@ -60,19 +61,25 @@ class Bodies {
       const BodyColor color = keys.color.value_or(BodyColor{chosen, nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
                                       color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by});
+
+      // A body with an error keeps its number.
       const optional<double> mass = form ? mass_of(keys, form->volume, each) : nullopt;
       if (!mass) continue;
       common(keys, *mass, form->volume, body);
+
       if (!body.group) single(body.first, keys, view.place("position"));
       if (body.group && view.given("members") != nullptr)
-        members(body, view, keys.velocity);
+        members(body, keys.velocity);
       else if (body.group && body.count > 0)
         groups_.push_back(&body);
     }
+
     if (diagnostics_.empty()) {
       check_reach(root_, inventory_, scene_, diagnostics_);
       if (!diagnostics_.empty()) return;
     }
+
+    // Groups are placed when all single bodies are in the grid.
     grid_.reserve(n);
     check_overlaps(scene_, singles_, grid_, diagnostics_);
     groups();
@@ -95,13 +102,17 @@ class Bodies {
     const auto fill = [&](auto& values, const auto& value) {
       std::fill_n(values.begin() + entry.first, entry.count, value);
     };
+
     fill(world_.mass, mass);
     fill(world_.radius, volume.reach());
+
+    // Volumes are stored as soon as one is no sphere.
     if (volume.shape != Shape::sphere && world_.volume.empty()) {
       world_.volume.reserve(inventory_.body_count);
       for (const double radius : world_.radius) world_.volume.push_back(Volume::sphere(radius));
     }
     if (!world_.volume.empty()) fill(world_.volume, volume);
+
     fill(world_.restitution, body.restitution.value_or(default_restitution_));
     if (body.impulse.isZero(0)) return;
     if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
@@ -116,16 +127,18 @@ class Bodies {
   }
 
   /// Places the balls of a group that lists them. `velocity`: of balls without one, in m/s.
-  void members(const BodyEntry& body, const View& view, const optional<Vec3>& velocity) {
-    const Node& list = *view.given("members");
+  void members(const BodyEntry& body, const optional<Vec3>& velocity) {
+    const Node& list = *body.view.given("members");
     if (!list.is(Node::Kind::sequence)) return;
+
     if (list.items.size() != body.count) {
-      diagnostics_.add(view.place("members"),
+      diagnostics_.add(body.view.place("members"),
                        fmt::format("`members` of {} has {}, and `count` is {}", in_backticks(body.key->text),
                                    how_many(list.items.size(), "entry", "entries"), body.count),
                        "expected an entry for each ball");
       return;
     }
+
     const Kind& kind = kind_named("placed");
     for (Entity i = 0; i < body.count; ++i) {
       const View entry(&list.items[i], kind, list.items[i].place);
@@ -143,21 +156,25 @@ class Bodies {
     std::ranges::stable_sort(groups_, [&](const BodyEntry* a, const BodyEntry* b) {
       return world_.radius[a->first] > world_.radius[b->first];
     });
-    for (const BodyEntry* body : groups_) one_group(*body, body_view(root_, *body));
+    for (const BodyEntry* body : groups_) one_group(*body);
   }
 
-  void one_group(const BodyEntry& body, const View& view) {
+  void one_group(const BodyEntry& body) {
+    const View& view = body.view;
     const auto group = filled<GroupKeys>(view);
     const auto& [min, max] = group.in;
     const optional<Arrange> arrange = group.arrange;
     if (!min || !max || !arrange) return;
+
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(view.part("in", "in").place("max"),
+      diagnostics_.add(view.part("in").place("max"),
                        fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
                        "expected min below max on every axis");
       return;
     }
+
+    // Find the places.
     const Placing placing{body.count, body.first, radius, *min, *max, *arrange};
     Random random(scene_.seed, body.key->text + "/position");
     const Placed placed = place(placing, world_, grid_, random);
@@ -172,12 +189,13 @@ class Bodies {
                                                                    : ", close-packed"));
       return;
     }
+
     std::ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
-    set_velocities(body, group, view);
+    set_velocities(body, group);
   }
 
-  void set_velocities(const BodyEntry& body, const GroupKeys& group, const View& view) {
+  void set_velocities(const BodyEntry& body, const GroupKeys& group) {
     Vec3* velocity = scene_.initial.velocity.data() + body.first;
     if (group.speed) {
       Random random(scene_.seed, body.key->text + "/velocity");
@@ -186,8 +204,7 @@ class Bodies {
       }
       return;
     }
-    const optional<Vec3> common_velocity =
-        group.velocity ? group.velocity : filled<BodyKeys>(member_view(root_, view)).velocity;
+    const optional<Vec3> common_velocity = group.velocity ? group.velocity : filled<BodyKeys>(body.each).velocity;
     std::fill_n(velocity, body.count, common_velocity.value_or(Vec3::Zero()));
   }
 

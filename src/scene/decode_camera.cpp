@@ -9,6 +9,7 @@
 #include "numerics/polynomial.h"
 #include "physics/center_of_mass.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -37,6 +38,8 @@ optional<double> touches(const array<Cubic, 3>& eye, const array<Cubic, 3>& targ
   array<Cubic, 3> sight{}, across{};  // across: sight x up
   for (size_t i = 0; i < 3; ++i)
     for (size_t power = 0; power < 4; ++power) sight[i][power] = target[i][power] - eye[i][power];
+
+  // The square of the distance of the line of sight from `up`.
   Polynomial distance2;
   distance2.degree = 6;
   for (size_t i = 0; i < 3; ++i) {
@@ -45,12 +48,14 @@ optional<double> touches(const array<Cubic, 3>& eye, const array<Cubic, 3>& targ
       across[i][power] = sight[j][power] * up[static_cast<int>(k)] - sight[k][power] * up[static_cast<int>(j)];
     add_square(distance2, across[i]);
   }
+
   const auto at = [](const array<Cubic, 3>& of, double s) {
     return Vec3(value(of[0], s), value(of[1], s), value(of[2], s));
   };
   const double length = std::max(at(sight, 0).norm(), at(sight, 1).norm());
   // The distance itself from its vector: the polynomial of its square cancels.
   const Roots turning = roots_between(distance2.derivative(), 0, 1);
+
   for (int i = 0; i < turning.count; ++i) {
     const double s = turning.at[static_cast<size_t>(i)];
     if (!(at(across, s).norm() > least_sine * length)) return s;
@@ -133,6 +138,7 @@ class CameraDecoder {
   /// The pieces between the keyframes that `nodes` give.
   void check_between(const vector<Node>& nodes) {
     if (!diagnostics_.empty()) return;
+
     vector<double> at;
     vector<Vec3> eye, target;
     for (const Keyframe& key : plan_.path) {
@@ -140,10 +146,12 @@ class CameraDecoder {
       eye.push_back(key.eye);
       target.push_back(key.target);
     }
+
     const MonotonePath eyes(at, eye), targets(at, target);
     for (size_t i = 0; i + 1 < at.size(); ++i) {
       const optional<double> s = touches(eyes.piece(i), targets.piece(i), unit(plan_.up));
       if (!s) continue;
+
       diagnostics_.add(nodes[i + 1].place,
                        fmt::format("on the way to this keyframe, at {:.4g} s, the camera looks along its up direction",
                                    at[i] + *s * (at[i + 1] - at[i])),

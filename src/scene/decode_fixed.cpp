@@ -7,6 +7,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -30,6 +31,8 @@ void add_room(const View& view, const string& name, Scene& scene, Diagnostics& d
     diagnostics.add(view.place("max"), "the room's max." + string(1, letter) + " is not above its min." + letter,
                     "expected min below max on every axis");
   }
+
+  // Each side faces inward.
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
     Vec3 normal = Vec3::Zero();
@@ -73,11 +76,14 @@ void add_obstacle(const View& view, const string& name, Forms& forms, Scene& sce
 vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
   const Node* const list = thing.find("motion");
   if (list == nullptr || !list->is(Node::Kind::sequence)) return {};
+
   vector<MotionWindow> windows;
   for (const Node& node : list->items) {
     if (!node.is(Node::Kind::map)) continue;
     const View view(&node, kind_named("motion"), node.place);
     const auto [from, until, velocity] = filled<MotionKeys>(view);
+
+    // A window has a length, and starts after the one before.
     if (!(from < until))
       diagnostics.add(view.place("until"),
                       fmt::format("`until` is {} but `from` is {}", shortest(until), shortest(from)),
@@ -89,6 +95,7 @@ vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
                                   std::isinf(end) ? "never ends" : fmt::format("ends at {} s", shortest(end))),
                       "expected windows in order that do not overlap, each with `until` except the last");
     }
+
     if (velocity) windows.push_back({from, until, *velocity});
   }
   return legs_of(windows);
@@ -113,15 +120,16 @@ Vec3 unit(const Vec3& v) {
   return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
 }
 
-void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
+void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   for (const FixedEntry& entry : inventory.fixed) {
-    const View view = fixed_view(root, entry);
+    const View& view = entry.view;
+    const string_view kind = view.kind().name;
     const string& name = entry.key->text;
-    if (entry.kind->name != "room") add_motion(view, entry.first, scene, diagnostics);
-    if (entry.kind->name == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
-    if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);
-    if (entry.kind->name == "wall") add_wall(view, name, scene, diagnostics);
-    if (entry.kind->name == "obstacle") add_obstacle(view, name, forms, scene);
+    if (kind != "room") add_motion(view, entry.first, scene, diagnostics);
+    if (kind == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
+    if (kind == "room") add_room(view, name, scene, diagnostics);
+    if (kind == "wall") add_wall(view, name, scene, diagnostics);
+    if (kind == "obstacle") add_obstacle(view, name, forms, scene);
   }
   if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }

@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -17,9 +18,12 @@ namespace {
 void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const auto [between, value] = filled<PairKeys>(View(&node, kind_named("pair"), node.place));
   if (between == nullptr || between->bad || between->items.size() != 2) return;
+
   const auto a = find_range(between->items[0], inventory, Sought::anything, diagnostics);
   const auto b = find_range(between->items[1], inventory, Sought::anything, diagnostics);
   if (!a || !b || !value) return;
+
+  // Two things that can meet.
   for (const auto& [range, name] : {std::pair(*a, between->items.front()), std::pair(*b, between->items.back())}) {
     if (!inventory.is_string(range)) continue;
     diagnostics.add(name.place, fmt::format("{} is a string: it meets no other thing", in_backticks(name.text)),
@@ -33,11 +37,13 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
                     "expected at least one ball, body or group");
     return;
   }
+
   if (a->first == b->first && a->count == 1 && b->count == 1) {
     diagnostics.add(between->place, fmt::format("{} does not meet itself", in_backticks(between->items[0].text)),
                     "expected two names");
     return;
   }
+
   scene.world.pairs.push_back({a->first, a->count, b->first, b->count, *value});
 }
 

@@ -8,6 +8,7 @@
 #include "scene/caption.h"
 #include "scene/color_scale.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -32,7 +33,7 @@ void check_width(const View& part, optional<double> width, const World& world, D
 optional<Trails> decode_trails(const View& whole, const Inventory& inventory, const World& world,
                                Diagnostics& diagnostics) {
   if (!whole.wants("trails")) return nullopt;
-  const View part = whole.part("trails", "trails");
+  const View part = whole.part("trails");
   const auto keys = filled<TrailKeys>(part);
   check_width(part, keys.width, world, diagnostics);
   optional<vector<Entity>> on = find_bodies(keys.on, inventory, "it has no trail", diagnostics);
@@ -47,15 +48,19 @@ bool lists(const Node* names, string_view name) {
 
 void check_coloring(const View& body, const Coloring& coloring, const Scene& scene, Diagnostics& diagnostics) {
   if (!coloring.by || !(coloring.min || coloring.max)) return;
-  const View view = body.part("color", "coloring");
+  const View view = body.part("color");
   const char* const key = coloring.max ? "max" : "min";
+
   if (coloring.by == ColorQuantity::group) {
     diagnostics.add(view.place(key), fmt::format("`{}` has no meaning for groups", key),
                     "remove it: each ball, body or group has a colour of its own");
     return;
   }
+
+  // The ends of the scale, of which one may come from the scene.
   const ColorScale scale = scale_of(scene, coloring);
   if (scale.min < scale.max) return;
+
   const bool both = coloring.min && coloring.max;
   diagnostics.add(
       view.place(key),
@@ -63,12 +68,11 @@ void check_coloring(const View& body, const Coloring& coloring, const Scene& sce
       both ? "expected min < max" : "expected min < max, both given");
 }
 
-void check_colors(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
+void check_colors(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
   for (size_t i = 0; i < std::min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
     const optional<Coloring>& coloring = scene.roster.bodies[i].coloring;
     if (!coloring) continue;
-    const View view = body_view(root, inventory.bodies[i]);
-    check_coloring(inventory.bodies[i].group ? member_view(root, view) : view, *coloring, scene, diagnostics);
+    check_coloring(inventory.bodies[i].each, *coloring, scene, diagnostics);
   }
 }
 
@@ -83,7 +87,7 @@ void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, 
   overlay.velocity_arrows = lists(whole.find("arrows"), "velocity");
   overlay.force_arrows = lists(whole.find("arrows"), "force");
   overlay.shutter = whole.number("shutter").value_or(0);
-  if (diagnostics.empty()) check_colors(root, inventory, scene, diagnostics);
+  if (diagnostics.empty()) check_colors(inventory, scene, diagnostics);
 }
 
 }  // namespace carom

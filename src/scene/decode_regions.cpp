@@ -7,6 +7,7 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/expand.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -25,6 +26,8 @@ optional<Volume> volume_of(const RegionKeys& region) {
 WorldRegion decode_region(const View& view, const string& name, const Inventory& inventory, Diagnostics& diagnostics) {
   const auto keys = filled<RegionKeys>(view);
   WorldRegion region;
+
+  // Its shape: the side of a plane, or a volume.
   if (keys.plane) {
     region.position = keys.plane->point;
     region.normal = unit(keys.plane->normal);
@@ -38,6 +41,8 @@ WorldRegion decode_region(const View& view, const string& name, const Inventory&
           fmt::format("{} is {} m wide and {} m from the origin", in_backticks(name), shortest(size), shortest(far)),
           "doubles do not resolve it there: bring it nearer, or make it larger");
   }
+
+  // Whom it concerns, and what it does.
   if (auto on = find_bodies(keys.on, inventory, "it enters no region", diagnostics)) region.on = std::move(*on);
   region.removes = keys.action == RegionAction::remove;
   region.stops = keys.action == RegionAction::stop;
@@ -56,11 +61,13 @@ class Regions {
       if (inventory_.names.contains(key.text))
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
                          "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene");
+
       if (regions->items[i].is(Node::Kind::map) && regions->items[i].find_key("repeat") != nullptr) continue;
       const View view(&regions->items[i], kind_named("region"), key.place);
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
       scene_.roster.regions.push_back(key.text);
     }
+
     const Node* stops = scene_part(root_, "simulate").given("stop");
     if (stops == nullptr || !stops->is(Node::Kind::sequence)) return;
     for (const Node& stop : stops->items) stop.is(Node::Kind::map) ? add(stop) : add_word(stop);
@@ -76,15 +83,19 @@ class Regions {
     if (collisions)
       scene_.simulate.stop_collisions = std::min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
+
+    // A region, all members of a repeated one, or one that is repeated no time.
     const vector<string>& names = scene_.roster.regions;
     const vector<EmptyFamily>& empty = scene_.roster.empty;
     bool found = std::ranges::any_of(empty, [&name = region->text](const EmptyFamily& family) {
       return family.of == "regions" && family.name == name;
     });
+
     for (size_t r = 0; r < names.size(); ++r) {
       if (names[r] != region->text && (region->text.empty() || family_of(names[r]) != region->text)) continue;
       scene_.world.regions[r].stops = found = true;
     }
+
     if (found) return;
     const string suggestion = suggest_name(region->text, {names.begin(), names.end()});
     diagnostics_.add(region->place, fmt::format("no region is named {}", in_backticks(region->text)),

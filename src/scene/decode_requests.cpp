@@ -9,7 +9,9 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/engines.h"
+#include "scene/fields.h"
 #include "scene/film_format.h"
+#include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "scene/sheet_layout.h"
@@ -55,11 +57,13 @@ class Requests {
   void lights() {
     const Node* node = root_.find("lights");
     if (node == nullptr || !node->is(Node::Kind::map)) return;
+
     for (size_t i = 0; i < node->keys.size(); ++i) {
       if (node->keys[i].text == "ambient") {
         scene_.ambient = as_color(&node->items[i]);
         continue;
       }
+
       if (node->items[i].find_key("repeat") != nullptr) continue;  // no member
       const View view(&node->items[i], kind_named("light"), node->keys[i].place);
       Light& light = scene_.lights.emplace_back();
@@ -83,15 +87,19 @@ class Requests {
       out.energy.emplace();
       return;
     }
+
     const Key& key = *root_.find_key("output");
     const View view(node, kind_named("output"), key.place);
     fill(&out, view);
-    if (out.frames) check_window(view.part("frames", "frames"), out.frames->from, out.frames->until);
-    if (out.video) check_video(view.part("video", "video"), *out.video);
+
+    // The pictures.
+    if (out.frames) check_window(view.part("frames"), out.frames->from, out.frames->until);
+    if (out.video) check_video(view.part("video"), *out.video);
     if (out.video && !chooses_outputs_ && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
       diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
                        "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
     if (out.sheet) check_sheet(view, *out.sheet);
+
     flights(view);
   }
 
@@ -114,18 +122,20 @@ class Requests {
                        "expected a plain file name that ends in .mp4, .gif or .webp, such as animation.mp4, without "
                        "folders");
     }
+
     if (video.size.width % 2 != 0 || video.size.height % 2 != 0) {
       diagnostics_.add(part.place("size"),
                        fmt::format("a video of {} x {} pixels", video.size.width, video.size.height),
                        "expected an even width and height: its colours (yuv420p) are stored for 2 x 2 pixels");
     }
+
     if (format == FilmFormat::gif) check_gif(part, video);
     if (format) check_limits(part, video, *format);
     check_window(part, video.from, video.until);
   }
 
   void check_sheet(const View& output, SheetOutput& sheet) {
-    const View part = output.part("sheet", "sheet");
+    const View part = output.part("sheet");
     check_window(part, sheet.from, sheet.until);
     if (chooses_outputs_ || !diagnostics_.empty()) return;
     const Output& out = scene_.output;
@@ -138,6 +148,7 @@ class Requests {
     const FilmLimits limits = limits_of(format);
     const Size size = video.size;
     const string film = fmt::format("{} of {} x {} pixels", film_name(format), size.width, size.height);
+
     if (std::max(size.width, size.height) > limits.longest_side)
       diagnostics_.add(part.place("size"), film,
                        fmt::format("expected at most {} pixels a side, the limit of this format, or a `file` ending in "
@@ -147,6 +158,7 @@ class Requests {
       diagnostics_.add(part.place("size"), film,
                        "expected fewer pixels, such as [16384, 16128]: ffmpeg takes (width + 128) x (height + 128) up "
                        "to 268435455");
+
     if (format != FilmFormat::gif && (video.fps < limits.lowest_fps || video.fps > limits.highest_fps))
       diagnostics_.add(part.place("fps"),
                        fmt::format("{} of {} pictures a second", film_name(format), shortest(video.fps)),
@@ -203,16 +215,18 @@ class Requests {
     const Output& out = scene_.output;
     const View view(root_.find("output"), kind_named("output"),
                     root_.find_key("output") ? root_.find_key("output")->place : Place{});
+
     const auto refuse = [&](Place place, double figure, string_view what, uint64_t limit, string_view change) {
       diagnostics_.add(place, fmt::format("the run would write {:.15g} {}; the limit is {}", figure, what, limit),
                        fmt::format("expected {}, or --force to allow it", change));
     };
+
+    // Rows and the like.
     const double bodies = inventory_.fits ? inventory_.body_count : 0;
     for (const Excess& excess : excesses(out, scene_.simulate.duration, bodies, budget_)) {
       const OutputKind& kind = *excess.kind;
       const bool unsaid = view.own() == nullptr;
-      refuse(unsaid ? scene_part(root_, "simulate").place("duration")
-                    : view.part(kind.name, kind.name).place(kind.spacing),
+      refuse(unsaid ? scene_part(root_, "simulate").place("duration") : view.part(kind.name).place(kind.spacing),
              excess.figure, excess.what, excess.limit,
              unsaid ? "`output: {trajectory: {every: ...}}` with a longer time between rows"
                     : fmt::format("a {} `{}`, a shorter duration or fewer bodies",
@@ -228,18 +242,20 @@ class Requests {
         largest = key;
       }
     };
+
     if (out.frames) add(count(*out.frames), "frames");
     const bool shared = out.frames && out.video && out.video->speed == 1 &&
                         static_cast<const PictureOutput&>(*out.frames) == *out.video &&
                         std::remainder(out.video->from * out.video->fps, 1) == 0;
     if (out.video && !shared) add(count(*out.video), "video");
     if (out.sheet) add(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
+
     if (total > static_cast<double>(budget_.frames)) {
       const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
       const bool slow = largest == "video" && out.video->speed < 1;
       const bool too_slow = slow && most * out.video->speed <= static_cast<double>(budget_.frames);
-      refuse(key == nullptr ? view.where() : view.part(largest, largest).place(too_slow ? "speed" : "fps"), total,
-             "pictures", budget_.frames,
+      refuse(key == nullptr ? view.where() : view.part(largest).place(too_slow ? "speed" : "fps"), total, "pictures",
+             budget_.frames,
              slow ? "a higher `speed`, a lower `fps` or a shorter duration" : "a lower `fps` or a shorter duration");
     }
   }
@@ -268,12 +284,14 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
   if (!steps) return;
   const bool many = *steps > static_cast<double>(budget.steps);
   if (!many && *steps * bodies <= static_cast<double>(budget.body_steps)) return;
+
   const View simulate = scene_part(root, "simulate");
   const bool said = simulate.given("step") != nullptr;
   const Key* forces = root.find_key("forces");
   const string figure = many ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
                              : fmt::format("{:.4g} time steps for {}; the limit is {} in all", *steps,
                                            how_many(scene.world.body_count(), "body", "bodies"), budget.body_steps);
+
   diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
                   fmt::format("the run would take {}", figure),
                   said ? "expected a longer `step` or a shorter duration, or --force to allow it"

@@ -33,6 +33,7 @@ optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnosti
                     string(good_end));
     return nullopt;
   }
+
   if (range->first >= inventory.body_count) {
     diagnostics.add(
         name.place,
@@ -40,6 +41,7 @@ optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnosti
         fmt::format("{}; a fixed end is a point: `from: [x, y, z]`", good_end));
     return nullopt;
   }
+
   if (range->count > 1) {
     diagnostics.add(
         name.place,
@@ -47,6 +49,7 @@ optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnosti
         fmt::format("expected one of them, such as {0}.0; for a string to each `repeat`, and '{0}.{{i}}'", name.text));
     return nullopt;
   }
+
   return range->first;
 }
 
@@ -57,47 +60,49 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
   string.body = no_entity;
   string.restitution = keys.restitution;
   string.rod = keys.rod;
+
   const bool good = keys.from != nullptr && keys.to != nullptr && !keys.from->bad && !keys.to->bad;
   const bool is_point = keys.from != nullptr && keys.from->is(Node::Kind::sequence);
   if (!good) return string;
+
+  // Its ends.
   if (is_point) string.anchor = as_vector(keys.from).value_or(Vec3::Zero());
-  const optional<Entity> from = is_point ? nullopt : body_at(*keys.from, inventory, diagnostics);
+  const optional<Entity> from = is_point ? optional(no_entity) : body_at(*keys.from, inventory, diagnostics);
   const optional<Entity> to = body_at(*keys.to, inventory, diagnostics);
-  if (!to || (!is_point && !from)) return string;
-  if (from == to) {
+  if (!from || !to) return string;
+
+  if (*from == *to) {
     diagnostics.add(keys.to->place, fmt::format("{} is tied to itself", in_backticks(keys.to->text)),
                     "expected two bodies, or a point and a body");
     return string;
   }
-  // Both directions are the same string.
-  string.body = std::min(*to, from.value_or(*to));
-  if (from) string.other = std::max(*to, *from);
+  // Both directions are the same string. no_entity is the largest number.
+  string.body = std::min(*from, *to);
+  string.other = std::max(*from, *to);
   return string;
 }
 
 /// Finds lengths and checks them.
 class Lengths {
  public:
-  Lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
-      : root_(root),
-        inventory_(inventory),
-        scene_(scene),
-        diagnostics_(diagnostics),
-        bodies_are_good_(diagnostics.empty()) {}
+  Lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
+      : inventory_(inventory), scene_(scene), diagnostics_(diagnostics), bodies_are_good_(diagnostics.empty()) {}
 
   void run() {
     for (size_t i = 0; i < inventory_.strings.size(); ++i)
-      one(scene_.world.strings[i], view_of_string(root_, inventory_.strings[i]), inventory_.strings[i].key->text);
+      one(scene_.world.strings[i], inventory_.strings[i].view, inventory_.strings[i].key->text);
   }
 
  private:
   void one(String& string, const View& view, const std::string& name) {
     if (string.body == no_entity) return;
+
     const optional<Vec3> a = position_of(string.body);
     const optional<Vec3> b = string.other == no_entity ? string.anchor : position_of(string.other);
     const optional<double> given = view.number("length");
     string.length = given.value_or(0);
     if (!a || !b || (view.given("length") != nullptr && !given)) return;
+
     if (!given && scene_.made_from.start) {
       diagnostics_.add(
           view.where(),
@@ -105,6 +110,7 @@ class Lengths {
           "expected `length`: that of scene.yaml in the folder of the former run");
       return;
     }
+
     const double distance = (*a - *b).norm();
     const double far = std::max(a->cwiseAbs().maxCoeff(), b->cwiseAbs().maxCoeff());
     if (!given && distance == 0) {
@@ -112,6 +118,7 @@ class Lengths {
                        "expected `length`: a number above 0 in m");
       return;
     }
+
     string.length = given.value_or(distance);
     const double length = string.length;
     if (length < smallest_share * far) {
@@ -121,6 +128,8 @@ class Lengths {
           "doubles do not resolve it there: bring it nearer, or make it longer");
       return;
     }
+
+    // The length against the distance of the ends.
     const double off = std::fabs(distance - length) / (far + length);
     if (off <= rounding()) {
       // The resolved scene has this length and no `start`: it must be understood alike.
@@ -161,10 +170,9 @@ class Lengths {
     const auto after = std::upper_bound(all.begin(), all.end(), body,
                                         [](Entity e, const BodyEntry& entry) { return e < entry.first; });
     const BodyEntry& entry = *(after - 1);
-    return entry.group ? nullopt : body_view(root_, entry).vector("position");
+    return entry.group ? nullopt : entry.view.vector("position");
   }
 
-  const Node& root_;
   const Inventory& inventory_;
   Scene& scene_;
   Diagnostics& diagnostics_;
@@ -173,18 +181,18 @@ class Lengths {
 
 }  // namespace
 
-void decode_strings(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   scene.world.strings.reserve(inventory.strings.size());
   for (const StringEntry& entry : inventory.strings) {
-    const View view = view_of_string(root, entry);
+    const View& view = entry.view;
     if (!view.flag("visible").value_or(true)) scene.overlay.hidden_strings.push_back(scene.world.strings.size());
     scene.world.strings.push_back(decode_string(view, inventory, diagnostics));
     scene.roster.strings.push_back(entry.key->text);
   }
 }
 
-void decode_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
-  Lengths(root, inventory, scene, diagnostics).run();
+void decode_lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  Lengths(inventory, scene, diagnostics).run();
 }
 
 }  // namespace carom

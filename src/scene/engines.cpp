@@ -8,7 +8,7 @@
 
 #include "physics/force.h"
 #include "physics/world.h"
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -24,9 +24,11 @@ void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
         {"engine",
          fmt::format("under {} paths have no closed form, which `engine: exact` follows", open_force_text(*open)),
          "expected `engine: stepped`, or `auto`"});
+
   if (simulate.contact.merge && !world.strings.empty())
     lacks.push_back({"contact", "`contact: merge` is for parabolas and linear drag, not for `strings`",
                      "expected `contact: bounce`"});
+
   if (const Force* bending = bending_force(world); bending != nullptr && simulate.contact.merge)
     lacks.push_back(
         {"contact",
@@ -50,14 +52,19 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   const auto lack = [&](const char* at, const char* what, const char* instead) {
     lacks.push_back({at, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead)});
   };
+
+  // Settings.
   if (simulate.contact.merge) lack("contact", "`contact: merge`", "`engine: exact`");
   if (simulate.tolerance) lack("tolerance", "`tolerance`", "`step`");
+
+  // Things.
   if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
   if (!world.strings.empty()) lack("strings", "strings", "`engine: exact`");
   if (world.moves()) lack("engine", "fixed things that move", "`engine: exact`");
   if (std::ranges::any_of(world.regions, [](const WorldRegion& region) { return region.removes; }))
     lack("regions", "regions with `action: remove`", "`engine: exact`");
+
   if (!world.forces.empty())
     lack("forces", "forces other than gravity",
          varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");

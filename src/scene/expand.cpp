@@ -46,32 +46,17 @@ size_t count_values(const Node& node) {
 /// Whether values of this field hold neither numbers nor names of things.
 bool is_text(const Field& field) {
   if (field.range.min == field.range.max) return true;  // the version of the format
-  switch (field.type) {
-    case Type::flag:
-    case Type::text:
-    case Type::text_or_flag:
-    case Type::file:
-    case Type::values:  // `let` itself
-    case Type::texts:
-    case Type::repeat:
-      return true;
-    case Type::choice: {
-      const vector<string_view> all = choices(field);
-      return std::ranges::none_of(all, [](string_view one) { return parse_number(one).has_value(); });
-    }
-    default:
-      return false;
-  }
+  const Inside inside = facts_of(field.type).inside;
+  if (inside == Inside::text || inside == Inside::counts || inside == Inside::values) return true;
+  if (field.type != Type::choice) return false;
+  const vector<string_view> all = choices(field);
+  return std::ranges::none_of(all, [](string_view one) { return parse_number(one).has_value(); });
 }
 
 /// The last step of the path of a number in a list of them.
 string step_of(const Field& field, size_t i) {
-  constexpr string_view axes[] = {"x", "y", "z"}, sides[] = {"width", "height"};
-  const bool is_point =
-      field.type == Type::vector || field.type == Type::direction || field.type == Type::point_or_name;
-  if (is_point && i < 3) return string(axes[i]);
-  if ((field.type == Type::extent || field.type == Type::pixels) && i < 2) return string(sides[i]);
-  return std::to_string(i);
+  const vector<string_view> components = parts_of(facts_of(field.type).components);
+  return i < components.size() ? string(components[i]) : std::to_string(i);
 }
 
 /// The parts of a path before and after the number of a member: "bodies.bricks" and ".mass" of "bodies.bricks.3.mass".
@@ -120,10 +105,10 @@ class Expander {
   }
 
   void value(Node& node, const Field& field, const string& path) {
-    if (field.type == Type::named) return named(node, kind_named(field.of), path);
-    if (field.type == Type::list) return list(node, kind_named(field.of), path);
+    if (field.type == Type::named) return named(node, *field.held, path);
+    if (field.type == Type::list) return list(node, *field.held, path);
     if (node.is(Node::Kind::map)) {
-      if (holds_map(field)) map(node, kind_named(field.of), path);
+      if (holds_map(field)) map(node, *field.held, path);
       return;
     }
     scalar(node, path);
@@ -153,16 +138,18 @@ class Expander {
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? root.find(field.key) : nullptr;
       if (things == nullptr || !things->is(Node::Kind::map)) continue;
-      const Kind& kind = kind_named(field.of);
+
+      const Kind& kind = *field.held;
       for (size_t i = 0; i < things->keys.size(); ++i) {
         const string_view family = family_of(things->keys[i].text);
         const string path =
             fmt::format("{}.{}", field.key, family.empty() ? string_view(things->keys[i].text) : family);
         note_defaults_of(things->items[i], kind, path);
+
+        // A part may have defaults of its own: the ball of a group.
         for (const Field& part : kind.fields)
           if (part.type == Type::part && things->items[i].find(part.key) != nullptr)
-            note_defaults_of(*things->items[i].find(part.key), kind_named(part.of),
-                             fmt::format("{}.{}", path, part.key));
+            note_defaults_of(*things->items[i].find(part.key), *part.held, fmt::format("{}.{}", path, part.key));
       }
     }
   }
@@ -187,6 +174,7 @@ class Expander {
       return;
     }
     note(path, node);
+
     if (mode_ == Mode::evaluate && ++evaluated_ > most_expressions) {
       if (evaluated_ == most_expressions + 1)
         diagnostics_.add(node.place, fmt::format("more than {} expressions", most_expressions),
@@ -194,6 +182,7 @@ class Expander {
       node.bad = true;
       return;
     }
+
     optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
     if (!slot) return;
     if (mode_ == Mode::evaluate)
@@ -208,6 +197,7 @@ class Expander {
 
   void named(Node& node, const Kind& kind, const string& path) {
     if (!node.is(Node::Kind::map)) return;
+
     bool repeats = false;
     for (size_t i = 0; i < node.keys.size(); ++i) {
       if (kind.also != nullptr && node.keys[i].text == kind.also->key)
@@ -217,12 +207,15 @@ class Expander {
       else
         map(node.items[i], kind, path + "." + node.keys[i].text);
     }
+
     if (!repeats) return;
     Node whole = std::move(node);
     vector<Node> made;
     node = Node{};
     node.kind = whole.kind;
     node.place = whole.place;
+
+    // Members take the place of the thing that they repeat.
     for (size_t i = 0; i < whole.keys.size(); ++i) {
       const Key& key = whole.keys[i];
       made.clear();
@@ -232,6 +225,7 @@ class Expander {
         node.items.push_back(std::move(whole.items[i]));
         continue;
       }
+
       for (size_t k = 0; k < made.size(); ++k) {
         node.keys.push_back({fmt::format("{}.{}", key.text, k), key.place});
         node.items.push_back(std::move(made[k]));
@@ -251,6 +245,7 @@ class Expander {
       } else {
         map(item, kind, fmt::format("{}.{}", path, made.size()));
       }
+
       made.push_back(std::move(item));
     }
     node.items = std::move(made);
@@ -261,6 +256,7 @@ class Expander {
     const size_t errors = diagnostics_.added(), before = numbers_.names.size(), first = made.size();
     note_repeat(path, *thing.find(repeat_key));
     const optional<Counts> counts = read_counts(*thing.find(repeat_key), where);
+
     bool good = counts && counts->members > 0;
     if (good) {
       for (const string& name : counts->names) numbers_.add(name, 0);
@@ -272,6 +268,8 @@ class Expander {
       numbers_.known.resize(before);
     }
     if (good) return true;
+
+    // It stays as it is, and nothing reads its expressions.
     made.resize(first);
     mode_ = Mode::mark;
     map(thing, kind, path);
@@ -288,17 +286,23 @@ class Expander {
   bool make(Node& thing, const Counts& counts, const Kind& kind, const string& path, vector<Node>& made) {
     const auto at = thing.find_key(repeat_key) - thing.keys.data();
     const Place where = thing.keys[static_cast<size_t>(at)].place;
+
+    // The template is the thing without `repeat`.
     Node pattern = thing;
     pattern.keys.erase(pattern.keys.begin() + at);
     pattern.items.erase(pattern.items.begin() + at);
+
     slots_.clear();
     mode_ = Mode::collect;
     map(pattern, kind, path);
     mode_ = Mode::evaluate;
+
+    // What its members cost.
     const size_t count_of_values = count_values(pattern);
     double work = 0;
     for (const Slot& slot : slots_) work += static_cast<double>(slot.length()) * counts.members;
     const double values = values_ + static_cast<double>(count_of_values) * counts.members;
+
     if (values > most_values || work_ + work > most_work) {
       diagnostics_.add(where,
                        values > most_values ? fmt::format("with these members the scene has {} values; the limit is {}",
@@ -307,6 +311,7 @@ class Expander {
                        "expected a smaller `repeat`; many balls of one kind are a group: `groups`");
       return false;
     }
+
     work_ += work;
     values_ = values;
     made.reserve(made.size() + static_cast<size_t>(counts.members));
@@ -317,11 +322,14 @@ class Expander {
     const size_t indices = counts.names.size(), first = numbers_.names.size() - indices;
     for (uint64_t member = 0; member < static_cast<uint64_t>(counts.members); ++member) {
       uint64_t rest = member;
+
+      // The indices of this member: the last one varies fastest.
       for (size_t k = indices; k-- > 0;) {
         const auto count = static_cast<uint64_t>(counts.counts[k]);
         numbers_.values[first + k] = static_cast<double>(rest % count);
         rest /= count;
       }
+
       for (Slot& slot : slots_)
         if (!slot.fill(numbers_, diagnostics_)) return false;
       made.push_back(pattern);
@@ -337,9 +345,11 @@ class Expander {
       optional<Slot> slot = Slot::of(node, numbers_, diagnostics_);
       if (!slot || !slot->fill(numbers_, diagnostics_)) return nullopt;
     }
+
     const bool is_number = node.is(Node::Kind::scalar) && !node.quoted;
     const optional<double> value = is_number ? parse_number(node.text) : nullopt;
     if (value && *value >= 0 && std::floor(*value) == *value) return value;
+
     node.bad = true;
     if (diagnostics_.added() == errors)
       diagnostics_.add(place,
@@ -355,12 +365,14 @@ class Expander {
   optional<Counts> read_counts(Node& node, Place where) {
     Counts counts;
     bool good = true;
+
     if (node.is(Node::Kind::map)) {
       if (node.items.empty() || node.items.size() > most_indices) {
         diagnostics_.add(node.place, fmt::format("`repeat` has {} indices", node.items.size()),
                          fmt::format("expected 1 to {}, such as {{i: 6, j: 4}}", most_indices));
         return nullopt;
       }
+
       for (size_t i = 0; i < node.keys.size(); ++i) {
         good = check_index(node.keys[i], node.keys[i].place, node) && good;
         const optional<double> count = read_count(node.items[i], in_backticks(node.keys[i].text));
@@ -369,12 +381,14 @@ class Expander {
         counts.counts.push_back(count.value_or(0));
         counts.members *= counts.counts.back();
       }
+
     } else {
       good = check_index({"i", {}}, node.place, node);
       const optional<double> count = read_count(node, "`repeat`");
       good = good && count;
       counts = {{"i"}, {count.value_or(0)}, count.value_or(0)};
     }
+
     if (!good) return nullopt;
     if (budget_.enforced && counts.members > static_cast<double>(budget_.bodies)) {
       diagnostics_.add(place_of_repeat(node, where),
@@ -382,6 +396,8 @@ class Expander {
                        "expected a smaller `repeat`");
       return nullopt;
     }
+
+    // Nothing reads the indices of a thing without members.
     if (counts.members == 0) {
       const Place place = node.place;
       node = Node{};
@@ -410,6 +426,7 @@ class Expander {
     } else if (is_formula_word(key.text)) {
       diagnostics_.add(where, fmt::format("{} is a {} of expressions", shown, key.text == "pi" ? "number" : "function"),
                        "expected another name for the index");
+
     } else if (numbers_.has(key.text)) {
       diagnostics_.add(
           where, fmt::format("the index {} is a name of `let`, too", shown),
@@ -461,7 +478,7 @@ void write_out(Node& part, const Kind& kind) {
   for (const Field& field : kind.fields) {
     if (field.type != Type::part || !part.is(Node::Kind::map)) continue;
     Node* value = part.find(field.key);
-    if (value != nullptr && value->is(Node::Kind::map)) write_out(*value, kind_named(field.of));
+    if (value != nullptr && value->is(Node::Kind::map)) write_out(*value, *field.held);
     if (field.plain.empty() || value == nullptr || !value->is(Node::Kind::scalar)) continue;
     Node whole;
     whole.kind = Node::Kind::map;

@@ -25,9 +25,18 @@ struct Spot {
   vector<string_view> steps;
 };
 
-/// Whether its value is a map from names or paths to maps.
-bool has_names(const Field& field) {
-  return field.type == Type::named || field.type == Type::axes || field.type == Type::spans;
+/// The step below a value of this field that a query may omit. Empty: none.
+string_view any_step(const Field& field) {
+  switch (facts_of(field.type).inside) {
+    case Inside::values:
+    case Inside::named:
+    case Inside::paths:
+      return any_name;
+    case Inside::list:
+      return any_entry;
+    default:
+      return {};
+  }
 }
 
 /// Collects every place of every key of a map of `kind`, in the order of the table. `steps`: the path of the map.
@@ -35,22 +44,23 @@ void collect(const Kind& kind, const vector<string_view>& steps, vector<Spot>& f
   for (const Field& field : kind.fields) {
     // Defaults are those of each member.
     if (field.type == Type::repeat && !steps.empty() && steps.front() == "defaults") continue;
+
     vector<string_view> here = steps;
     here.push_back(field.key);
     found.push_back({&kind, &field, here});
-    if (field.type == Type::values || field.type == Type::texts) {
-      here.push_back(any_name);
-      found.push_back({&kind, &field, here});
-    }
-    const Kind* held = held_kind(field);
-    if (held == nullptr) continue;
-    if (field.type == Type::named && held->also != nullptr) {
+
+    // What stands below it.
+    const Kind* held = field.held;
+    if (held != nullptr && held->also != nullptr) {
       found.push_back({held, held->also, here});
       found.back().steps.push_back(held->also->key);
     }
-    if (has_names(field)) here.push_back(any_name);
-    if (field.type == Type::list) here.push_back(any_entry);
-    collect(*held, here, found);
+
+    if (const string_view step = any_step(field); !step.empty()) here.push_back(step);
+    if (held != nullptr)
+      collect(*held, here, found);
+    else if (facts_of(field.type).inside == Inside::values)
+      found.push_back({&kind, &field, here});
   }
 }
 
@@ -146,13 +156,6 @@ vector<FieldPlaces> find_steps(Steps given) {
   return found;
 }
 
-/// Whether `step` is a component of a list of numbers.
-bool is_component(string_view step, Type type) {
-  if (type == Type::vector || type == Type::direction || type == Type::point_or_name)
-    return step == "x" || step == "y" || step == "z";
-  return (type == Type::extent || type == Type::pixels) && (step == "width" || step == "height");
-}
-
 }  // namespace
 
 vector<FieldPlaces> find_places(string_view key) {
@@ -161,7 +164,8 @@ vector<FieldPlaces> find_places(string_view key) {
   if (!found.empty() || given.size() < 2) return found;
   // A component such as in balls.red.position.x.
   found = find_steps(Steps(given).first(given.size() - 1));
-  std::erase_if(found, [&](const FieldPlaces& row) { return !is_component(given.back(), row.field->type); });
+  std::erase_if(found,
+                [&](const FieldPlaces& row) { return !has_part(facts_of(row.field->type).components, given.back()); });
   return found;
 }
 
@@ -177,7 +181,7 @@ vector<string> settable_paths() {
   vector<Spot> spots;
   collect(families().front().front(), {}, spots);
   std::erase_if(spots, [](const Spot& spot) {
-    return held_kind(*spot.field) != nullptr ||
+    return spot.field->held != nullptr ||
            std::ranges::any_of(spot.steps, [](auto step) { return step == any_name || step == any_entry; });
   });
   return texts_of(spots);
@@ -186,21 +190,12 @@ vector<string> settable_paths() {
 vector<string> paths_of(const Kind& kind) {
   vector<string> paths;
   for (const Spot& spot : all_spots()) {
-    if (held_kind(*spot.field) != &kind) continue;
+    if (spot.field->held != &kind) continue;
     string path = path_text(spot.steps);
-    if (has_names(*spot.field)) path += fmt::format(".{}", any_name);
-    if (spot.field->type == Type::list) path += fmt::format(".{}", any_entry);
+    if (const string_view step = any_step(*spot.field); !step.empty()) path += fmt::format(".{}", step);
     paths.push_back(std::move(path));
   }
   return paths;
-}
-
-const Kind* find_kind(string_view name) {
-  for (const span<const Kind> family : families()) {
-    for (const Kind& kind : family)
-      if (kind.name == name) return &kind;
-  }
-  return nullptr;
 }
 
 string suggest_place(string_view key) {
@@ -208,10 +203,11 @@ string suggest_place(string_view key) {
   // The longest valid start of the path determines the kind that lacks the next step.
   for (size_t count = given.size() - 1; count > 0; --count) {
     const vector<FieldPlaces> found = find_steps(Steps(given).first(count));
-    const Kind* held = found.empty() ? nullptr : held_kind(*found.front().field);
+    const Kind* held = found.empty() ? nullptr : found.front().field->held;
     if (held == nullptr) continue;
     return fmt::format("in {}: {}", in_backticks(held->name), suggest_key(given[count], *held));
   }
+
   vector<string_view> known;
   for (const Spot& spot : all_spots()) known.push_back(spot.field->key);
   for (const span<const Kind> family : families()) {
@@ -219,6 +215,7 @@ string suggest_place(string_view key) {
   }
   for (const AbsentWord& word : absent_words())
     for (const string_view name : parts_of(word.words)) known.push_back(name);
+
   const string near = nearest(given.front(), known);
   return near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near));
 }

@@ -28,9 +28,6 @@ vector<string> settable_paths();
 /// The places in a file of maps of this kind: "balls.NAME", "defaults.ball".
 vector<string> paths_of(const Kind& kind);
 
-/// The kind with this name, else null.
-const Kind* find_kind(string_view name);
-
 /// A suggestion for an unknown key: "did you mean `x`?", or empty.
 string suggest_place(string_view key);
 

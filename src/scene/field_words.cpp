@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "std.h"
 
 namespace carom {
@@ -25,6 +25,11 @@ string plain(double value) {
 }
 
 }  // namespace
+
+const Field* find_field(const Kind& kind, string_view key) {
+  const auto found = std::ranges::find(kind.fields, key, &Field::key);
+  return found == kind.fields.end() ? nullptr : &*found;
+}
 
 bool contains(const Range& range, double value) {
   return (range.above_min ? value > range.min : value >= range.min) &&
@@ -47,7 +52,7 @@ span<const UnitLimit> unit_limits() {
 
 Range limited_range(const Field& field) {
   Range range = field.range;
-  if (field.type == Type::whole || field.type == Type::pixels || field.type == Type::direction) return range;
+  if (holds_whole_numbers(field) || field.type == Type::direction) return range;
   for (const UnitLimit& limit : unit_limits()) {
     if (limit.unit != field.unit) continue;
     range.max = std::min(range.max, limit.largest);
@@ -86,6 +91,11 @@ vector<string_view> parts_of(string_view text) {
     i = end + 1;
   }
   return out;
+}
+
+bool has_part(string_view text, string_view part) {
+  const vector<string_view> parts = parts_of(text);
+  return std::ranges::find(parts, part) != parts.end();
 }
 
 vector<string_view> rivals(const Field& field) {
@@ -137,40 +147,32 @@ string condition_text(const Field& field) {
 
 string described(const Field& field) {
   string text(field.doc);
+
   if (field.type == Type::choice) {
     text += fmt::format(" One of {}.", expected(field));
   } else if (field.range.min == field.range.max) {
     text += fmt::format(" Always {}.", field.range.min);
-  } else if (held_kind(field) == nullptr) {
+  } else if (field.held == nullptr) {
     text += fmt::format(" {}.", capital(expected(field)));
   }
+
   if (!field.initial.empty()) text += fmt::format(" Default: {}.", field.initial);
   vector<string> others;
   for (const string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
   if (!others.empty()) text += fmt::format(" Not with {}.", listed({others.begin(), others.end()}));
+
   if (!field.with.empty()) text += " " + condition_text(field);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;
 }
 
-const Kind* held_kind(const Field& field) {
-  switch (field.type) {
-    case Type::part:
-    case Type::part_or_flag:
-    case Type::color_or_part:
-    case Type::named:
-    case Type::list:
-    case Type::spans:
-      return &kind_named(field.of);
-    case Type::axes:
-      return &kind_named("range");
-    default:
-      return nullptr;
-  }
+bool holds_entries(const Field& field) {
+  const Inside inside = facts_of(field.type).inside;
+  return inside == Inside::named || inside == Inside::list;
 }
 
 bool holds_map(const Field& field) {
-  return field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::color_or_part;
+  return facts_of(field.type).inside == Inside::map;
 }
 
 string listed(const vector<string_view>& words) {
@@ -183,75 +185,16 @@ string listed(const vector<string_view>& words) {
 }
 
 string expected(const Field& field) {
+  const TypeFacts& facts = facts_of(field.type);
   const string range = describe(field.range);
-  const string limits = range.empty() ? "" : " " + range;
-  const string unit = field.unit.empty() ? "" : fmt::format(" in {}", field.unit);
-  switch (field.type) {
-    case Type::number:
-      return fmt::format("a number{}{}", limits, unit);
-    case Type::whole:
-      return field.range.min == field.range.max
-                 ? range
-                 : fmt::format("{} whole number{}", field.range.even ? "an even" : "a", limits);
-    case Type::flag:
-      return "true or false";
-    case Type::text:
-      return "a text";
-    case Type::text_or_flag:
-      return "true, false or a text";
-    case Type::choice:
-      return listed(choices(field));
-    case Type::vector:
-      return fmt::format("[x, y, z], three numbers{}{}", limits, unit);
-    case Type::direction:
-      return "[x, y, z], three numbers, not all zero";
-    case Type::extent:
-      return fmt::format("[width, height], two numbers{}{}", limits, unit);
-    case Type::pixels:
-      return fmt::format("[width, height], two {}whole numbers{}{}, or {}", field.range.even ? "even " : "", limits,
-                         unit, listed(choices(field)));
-    case Type::color:
-      return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
-    case Type::color_or_none:
-      return "none or a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
-    case Type::color_or_part:
-      return "a colour (a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1), or a map of keys";
-    case Type::file:
-      return "the path of a file, relative to the folder of the scene";
-    case Type::name:
-      return "a name";
-    case Type::point_or_name:
-      return fmt::format("[x, y, z], three numbers{}{}, or a name", limits, unit);
-    case Type::two_names:
-      return "[name, name]";
-    case Type::names:
-      return field.of.empty() ? fmt::format("a list of names, such as {}", field.example)
-                              : fmt::format("a list of {}", listed(choices(field)));
-    case Type::part:
-      return field.plain.empty() ? "a map of keys" : fmt::format("a map of keys, or a value of `{}`", field.plain);
-    case Type::part_or_flag:
-      return "true, false or a map of keys";
-    case Type::values:
-      return "a map from names to numbers, such as {r: 0.05}";
-    case Type::texts:
-      return fmt::format("a map from names to texts, such as {}", field.example);
-    case Type::repeat:
-      return "a whole number of at least 0, or a map from names of indices to such numbers, such as {i: 6, j: 4}";
-    case Type::named:
-      return "a map from names to entries";
-    case Type::list:
-      return field.plain.empty() ? "a list" : fmt::format("a list of maps, or {}", listed(parts_of(field.plain)));
-    case Type::settings:
-      return "a map from paths to values, such as {balls.red.mass: 2}";
-    case Type::axes:
-      return "a map from paths to lists or ranges, such as {balls.red.mass: [1, 2]} or {balls.red.mass: {from: 1, to: "
-             "2, count: 3}}";
-    case Type::spans:
-      return "a map from paths to ranges, such as {balls.red.mass: {from: 1, to: 2}}";
-    case Type::cases:
-      return "a list of maps from paths to values, such as [{balls.red.mass: 2}]";
-  }
-  return {};
+  if (field.range.min == field.range.max) return range;
+  const bool is_other = field.type == Type::names ? !field.of.empty() : !field.plain.empty();
+  return fmt::format(fmt::runtime(is_other ? facts.other_form : facts.form),
+                     fmt::arg("limits", range.empty() ? "" : " " + range),
+                     fmt::arg("unit", field.unit.empty() ? "" : fmt::format(" in {}", field.unit)),
+                     fmt::arg("an", field.range.even ? "an even" : "a"),
+                     fmt::arg("even", field.range.even ? "even " : ""), fmt::arg("choices", listed(choices(field))),
+                     fmt::arg("plain", listed(parts_of(field.plain))), fmt::arg("example", field.example));
 }
 
 }  // namespace carom

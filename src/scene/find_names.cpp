@@ -31,6 +31,7 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
     const auto it =
         std::ranges::find_if(inventory.bodies, [&](const BodyEntry& b) { return b.group && b.key->text == group; });
     const optional<uint64_t> member = parse_index(string_view(name.text).substr(dot + 1));
+
     if (it != inventory.bodies.end()) {
       if (member && *member < it->count) return Inventory::Range{it->first + static_cast<Entity>(*member), 1};
       diagnostics.add(
@@ -40,6 +41,8 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
       return nullopt;
     }
   }
+
+  // A member of a repeated thing.
   if (const auto family = inventory.families.find(string(family_of(name.text))); family != inventory.families.end()) {
     const Entity count = members_of(inventory, family->first);
     if (count == 0 && !diagnostics.empty()) return nullopt;  // perhaps its `repeat` is wrong
@@ -50,6 +53,8 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
         count == 0 ? "its `repeat` is 0" : fmt::format("expected {0}.0 to {0}.{1}", family->first, count - 1));
     return nullopt;
   }
+
+  // Nothing has this name: list what has one.
   const string message = fmt::format("nothing is named {}", in_backticks(name.text));
   if (diagnostics.add_member(name.place, message)) return nullopt;
   vector<string> all;
@@ -58,6 +63,7 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
     const string_view shown = family.empty() ? string_view(thing) : family;
     if (all.empty() || all.back() != shown) all.emplace_back(shown);
   };
+
   for (const BodyEntry& body : inventory.bodies) add(body.key->text);
   const bool bodies_alone = sought == Sought::bodies;
   for (const FixedEntry& fixed : inventory.fixed) {
@@ -67,9 +73,11 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
       if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
     }
   }
+
   const string suggestion = suggest_name(name.text, {all.begin(), all.end()});
   const string kinds = bodies_alone ? "expected a ball, body, group or member (gas.3)"
                                     : "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min";
+
   diagnostics.add(name.place, message,
                   suggestion.starts_with("did") ? suggestion
                   : suggestion.empty()          ? kinds
@@ -81,12 +89,14 @@ optional<vector<Entity>> find_bodies(const Node* on, const Inventory& inventory,
                                      Diagnostics& diagnostics) {
   if (on == nullptr) return vector<Entity>{};
   if (on->bad) return nullopt;
+
   vector<Entity> bodies;
   bool good = true;
   for (const Node& item : on->items) {
     const auto range = find_range(item, inventory, Sought::bodies, diagnostics);
     good = good && range;
     if (!range) continue;
+
     if (range->first >= inventory.body_count && range->count > 0) {
       diagnostics.add(item.place, fmt::format("{} is {}: {}", in_backticks(item.text), inventory.word_for(*range), use),
                       "expected balls, bodies, groups or members (gas.3)");
@@ -95,6 +105,7 @@ optional<vector<Entity>> find_bodies(const Node* on, const Inventory& inventory,
     }
     for (Entity i = 0; i < range->count; ++i) bodies.push_back(range->first + i);
   }
+
   std::ranges::sort(bodies);
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return good && !bodies.empty() ? optional(std::move(bodies)) : nullopt;

@@ -44,9 +44,10 @@ string quoted_list(const vector<string_view>& keys) {
 
 string value_text(const Field& field) {
   if (field.type == Type::choice) return quoted_list(choices(field));
-  const Kind* held = held_kind(field);
+  const Kind* held = field.held;
   if (held == nullptr) return expected(field);
   const string link = fmt::format("[{}](#{})", held->name, held->name);
+
   switch (field.type) {
     case Type::part:
       return "a map: " + link;
@@ -54,6 +55,7 @@ string value_text(const Field& field) {
       return "`true`, `false` or a map: " + link;
     case Type::color_or_part:
       return "a colour (a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1) or a map: " + link;
+
     case Type::named:
       return "by name: " + link;
     case Type::list:
@@ -87,12 +89,15 @@ string section(const Kind& kind, bool is_file) {
     if (!kind.any_of.empty()) text += fmt::format(" One of {} is needed.", quoted_list(parts_of(kind.any_of)));
     text += "\n\n";
   }
+
+  // A row for each key.
   text += "| key | value | default | example | meaning |\n| --- | --- | --- | --- | --- |\n";
   const auto row = [&](const Field& field, string_view more) {
     const string_view bold = !need_with(kind, field).empty() ? "**" : "";
     text += fmt::format("| {}`{}`{} | {} | {} | {} | {}{} |\n", bold, field.key, bold, value_text(field),
                         code(field.initial), code(field.example), meaning(field), more);
   };
+
   for (const Field& field : kind.fields) row(field, "");
   if (kind.also != nullptr) row(*kind.also, " Stands among the names.");
   return text + "\n";
@@ -105,9 +110,12 @@ string limits() {
       "## Limits\n\n"
       "The limits keep energies, distances and their powers within the range of doubles.\n\n"
       "| unit | smallest, if it must be above 0 | largest |\n| --- | --- | --- |\n";
+
   for (const UnitLimit& limit : unit_limits())
     text +=
         fmt::format("| {} | {:g} | {:g} |\n", limit.unit.empty() ? "none" : limit.unit, limit.smallest, limit.largest);
+
+  // Of scenes and runs.
   text += fmt::format(
       "\nThe smallest size is the smallest radius, height or edge of a body, an obstacle or a wall. Nothing lies "
       "farther\n"

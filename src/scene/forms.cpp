@@ -105,6 +105,7 @@ optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
   if (vertices == nullptr) return nullopt;
   const auto key = std::pair(path_of(mesh), shape);
   if (const auto known = fits_.find(key); known != fits_.end()) return known->second;
+
   optional<Fit> tight;
   try {
     tight = tightest(shape, *vertices);
@@ -114,6 +115,7 @@ optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
                                  shape_names[static_cast<size_t>(shape)]),
                      "expected a mesh with width, height and depth");
   }
+
   return fits_.emplace(key, tight).first->second;
 }
 
@@ -122,6 +124,7 @@ const vector<Vec3>* Forms::points(const Node& mesh) {
   const auto [entry, is_new] = points_.try_emplace(path);
   if (!is_new) return entry->second.empty() ? nullptr : &entry->second;
   order_.push_back(path);
+
   const auto refuse = [&](const string& what) {
     const TextRemedy parts = fault_and_remedy(what);
     diagnostics_.add(place_of(mesh),
@@ -129,6 +132,8 @@ const vector<Vec3>* Forms::points(const Node& mesh) {
                      parts.remedy.empty() ? "expected a file of triangles with finite vertices" : parts.remedy);
     return nullptr;
   };
+
+  // Read the file.
   if (!options_.mesh_points) return refuse("there is no reader of meshes here");
   vector<Vec3> vertices;
   try {
@@ -136,10 +141,12 @@ const vector<Vec3>* Forms::points(const Node& mesh) {
   } catch (const std::runtime_error& error) {
     return refuse(error.what());
   }
+
   if (vertices.empty()) return refuse("it has no vertices");
   if (!std::ranges::all_of(vertices, [](const Vec3& v) { return (v * 4).allFinite(); })) {
     return refuse("it has a vertex that is not finite");
   }
+
   for (Vec3& vertex : vertices) {
     for (int k = 0; k < 3; ++k) vertex[k] = as_written(vertex[k]);
   }

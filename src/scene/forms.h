@@ -7,7 +7,7 @@
 #include "geometry/fit.h"
 #include "physics/volume.h"
 #include "scene/keys.h"
-#include "scene/load.h"
+#include "scene/load_options.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/diagnostics.h"

@@ -139,12 +139,14 @@ vector<BodyGrid::Overlap> BodyGrid::all_overlaps(const Member& body, double rela
   const auto look = [&](uint32_t i) {
     if (const auto overlap = overlap_with(members_[i].member, body, relative)) all.push_back(*overlap);
   };
+
   for (uint32_t l = 0; l < levels_.size(); ++l) {
     const Cells cells = cells_about(levels_[l], body);
     if (cells.count > static_cast<double>(levels_[l].members.size())) {
       for (const uint32_t i : levels_[l].members) look(i);
       continue;
     }
+
     each_bucket(l, cells, [&](size_t at) {
       for (uint32_t i = heads_[at]; i != none; i = members_[i].next) look(i);
       return true;

@@ -41,6 +41,7 @@ bool is_open_range(const string& grid) {
 
 string grid_text(const string& base, const vector<string>& grids, const SweepOptions& options) {
   string grid, over;
+
   for (const string& word : grids) {
     const GridWord one = grid_word(word);
     if (one.is_open())
@@ -52,6 +53,7 @@ string grid_text(const string& base, const vector<string>& grids, const SweepOpt
     else
       grid += fmt::format("  {}: [{}]\n", one.path, one.values);
   }
+
   string text = fmt::format("sweep: 1\nbase: {}\n", in_quotes(base));
   if (!grid.empty()) text += "grid:\n" + grid;
   if (options.random) text += fmt::format("random: {}\n", *options.random);

@@ -4,6 +4,7 @@
 
 #include "scene/check.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -39,7 +40,7 @@ class Census {
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
       body.first = static_cast<Entity>(total);
-      if (body.group) body.count = filled<GroupKeys>(body_view(root_, body)).count;
+      if (body.group) body.count = filled<GroupKeys>(body.view).count;
       total = body.count > most_bodies || total + body.count > most_bodies ? most_bodies + 1 : total + body.count;
       if (most == nullptr || body.count > most->count) most = &body;
     }
@@ -69,7 +70,9 @@ class Census {
         empty_.push_back({&node.keys[i], inventory_.bodies.size(), true});
         continue;
       }
-      inventory_.bodies.push_back({&node.keys[i], &node.items[i], &kind, kind.name == "group"});
+      const View view = thing_view(root_, node.keys[i], node.items[i], kind);
+      const bool group = kind.name == "group";
+      inventory_.bodies.push_back({&node.keys[i], view, group ? member_view(root_, view) : view, group});
     }
   }
 
@@ -84,15 +87,16 @@ class Census {
       return;
     }
     const Entity count = kind.name == "room" ? 6 : 1;
-    inventory_.fixed.push_back({&key, &node, &kind, fixed_count_, count});
+    inventory_.fixed.push_back({&key, thing_view(root_, key, node, kind), fixed_count_, count});
     fixed_count_ += count;
   }
 
   void add_strings(const Node& node) {
     if (!node.is(Node::Kind::map)) return;
+    const Kind& kind = kind_named("string");
     for (size_t i = 0; i < node.keys.size(); ++i) {
       if (claim_thing(node.keys[i], node.items[i]))
-        inventory_.strings.push_back({&node.keys[i], &node.items[i]});
+        inventory_.strings.push_back({&node.keys[i], thing_view(root_, node.keys[i], node.items[i], kind)});
       else
         empty_.push_back({&node.keys[i], fixed_count_ + inventory_.strings.size(), false});
     }
@@ -103,7 +107,7 @@ class Census {
     if (total <= limit) return;
     inventory_.fits = false;
     const bool by_group = most->group;
-    const View view = body_view(root_, *most);
+    const View& view = most->view;
     const string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : std::to_string(total);
     diagnostics_.add(by_group ? view.place("count") : most->key->place,
                      fmt::format("the scene has {} bodies; the limit is {}", figure, limit),
@@ -115,7 +119,9 @@ class Census {
     inventory_.body_count = static_cast<Entity>(total);
     inventory_.fixed_count = fixed_count_;
     inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size() + inventory_.strings.size());
+
     for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
+
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
       const Entity first = inventory_.body_count + entry.first;
@@ -124,9 +130,12 @@ class Census {
         inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
       }
     }
+
     for (size_t i = 0; i < inventory_.strings.size(); ++i)
       add(inventory_.strings[i].key->text, {inventory_.body_count + fixed_count_ + static_cast<Entity>(i), 1});
     for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
+
+    // What is repeated no time has a place among the others.
     for (const Empty& none : empty_) {
       const bool last = none.before == inventory_.bodies.size();
       const Entity first = !none.is_body ? inventory_.body_count + static_cast<Entity>(none.before)
@@ -171,22 +180,13 @@ View scene_part(const Node& root, string_view key) {
   return View(node, kind_named(key), name == nullptr ? Place{} : name->place);
 }
 
-View body_view(const Node& root, const BodyEntry& entry) {
-  return View(entry.node, *entry.kind, entry.key->place, defaults_for(root, *entry.kind));
+View thing_view(const Node& root, const Key& key, const Node& thing, const Kind& kind) {
+  return View(&thing, kind, key.place, defaults_for(root, kind));
 }
 
 View member_view(const Node& root, const View& group) {
   const Kind& kind = kind_named("member");
   return View(group.given("ball"), kind, group.place("ball"), defaults_for(root, kind));
-}
-
-View view_of_string(const Node& root, const StringEntry& entry) {
-  const Kind& kind = kind_named("string");
-  return View(entry.node, kind, entry.key->place, defaults_for(root, kind));
-}
-
-View fixed_view(const Node& root, const FixedEntry& entry) {
-  return View(entry.node, *entry.kind, entry.key->place, defaults_for(root, *entry.kind));
 }
 
 }  // namespace carom

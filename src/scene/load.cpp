@@ -12,6 +12,7 @@
 #include "scene/decode.h"
 #include "scene/expand.h"
 #include "scene/expressions.h"
+#include "scene/fields.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -36,7 +37,10 @@ void check_length(const Inventory& inventory, const Scene& scene, const Key* sta
                            fmt::format("with the places of its bodies the scene has {} bytes; the limit is {}",
                                        scene.resolved.size(), max_source_bytes),
                            "expected fewer bodies");
+
   if (inventory.families.empty()) return;
+
+  // The first repeated thing.
   optional<Place> where;
   const auto look = [&](const auto& entries) {
     for (size_t i = 0; i < entries.size() && !where; ++i)
@@ -45,6 +49,7 @@ void check_length(const Inventory& inventory, const Scene& scene, const Key* sta
   look(inventory.bodies);
   look(inventory.fixed);
   look(inventory.strings);
+
   diagnostics.add(
       where.value_or(Place{}),
       fmt::format("with its members the scene has {} bytes; the limit is {}", scene.resolved.size(), max_source_bytes),
@@ -65,17 +70,20 @@ struct SceneFile::Impl {
     if (read_source(path, sources[0], parsing) && check_text(sources[0], 0, parsing)) {
       tree = parse_document(sources, 0, 0, parsing);
     }
+
     if (!tree) stop_if_wrong(parsing, options);
     if (!tree->is(Node::Kind::map)) {
       parsing.add(tree->place, tree->is(Node::Kind::null) ? "this file holds no scene" : "this is not a scene",
                   "expected a map of keys, such as `scene: 1`");
       stop_if_wrong(parsing, options);
     }
+
     if (tree->find("scene") == nullptr && tree->find("sweep") != nullptr) {
       parsing.add(tree->find_key("sweep")->place, "this is a sweep, not a scene",
                   fmt::format("run it by `carom sweep {}`", path));
       stop_if_wrong(parsing, options);
     }
+
     root = std::move(*tree);
     write_out(root, kind_named("scene"));
   }
@@ -97,32 +105,42 @@ struct SceneFile::Impl {
   Scene resolve(Node& tree, Diagnostics& diagnostics) const {
     const string folder = folder_of(path);
     Scene scene;
+
     scene.made_from.expressions = expand(tree, options.budget, diagnostics);
     check_scene(tree, folder, diagnostics);
     apply_start(tree, folder, options, scene.made_from, diagnostics);
+
     scene.file = path;
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
     scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
     scene.roster.empty = empty_families(tree);
+
+    // The world.
     const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
-    decode_fixed(tree, inventory, forms, scene, diagnostics);
-    if (inventory.fits) decode_strings(tree, inventory, scene, diagnostics);
+    decode_fixed(inventory, forms, scene, diagnostics);
+    if (inventory.fits) decode_strings(inventory, scene, diagnostics);
+
     decode_requests(tree, inventory, options, scene, diagnostics);
     if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
-    if (inventory.fits) decode_lengths(tree, inventory, scene, diagnostics);
+    if (inventory.fits) decode_lengths(inventory, scene, diagnostics);
+
+    // What needs the bodies.
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);
     take_measures(tree, scene, diagnostics);
     if (diagnostics.empty() && options.budget.enforced) check_steps(tree, scene, options.budget, diagnostics);
+
     stop_if_wrong(diagnostics, options);
+
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
     scene.requested = scene.output;
     scene.resolved = resolved_text(tree, inventory, scene, folder);
+
     check_length(inventory, scene, tree.find_key("start"), diagnostics);
     stop_if_wrong(diagnostics, options);
     return scene;
@@ -133,7 +151,7 @@ struct SceneFile::Impl {
     vector<EmptyFamily> families;
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? tree.find(field.key) : nullptr;
-      if (things == nullptr || !things->is(Node::Kind::map) || !find_field(kind_named(field.of), "repeat")) continue;
+      if (things == nullptr || !things->is(Node::Kind::map) || !find_field(*field.held, "repeat")) continue;
       for (size_t i = 0; i < things->keys.size(); ++i)
         if (things->items[i].is(Node::Kind::map) && things->items[i].find_key("repeat") != nullptr)
           families.push_back({field.key, things->keys[i].text});
@@ -146,13 +164,16 @@ struct SceneFile::Impl {
     if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
       for (size_t i = 0; i < let->items.size(); ++i)
         if (const auto number = parse_number(let->items[i].text)) scene.measures.numbers[let->keys[i].text] = *number;
+
     const Node* measures = tree.find("measures");
     if (measures == nullptr || !measures->is(Node::Kind::map)) return;
     for (size_t i = 0; i < measures->items.size(); ++i)
       if (!measures->items[i].bad) scene.measures.own.push_back({measures->keys[i].text, measures->items[i].text});
+
     if (!diagnostics.empty() || !options.measure_fault) return;
     for (size_t i = 0; i < measures->items.size(); ++i) {
       const auto [fault, span] = options.measure_fault(scene, scene.measures.own[i]);
+
       const size_t remedy = std::min(fault.find("; "), fault.size());
       const Node& node = measures->items[i];
       if (!fault.empty())

@@ -81,7 +81,7 @@ bool take(const View& view, const Field& field, Color& value) {
 bool take(const View& view, const Field& field, BodyColor& value) {
   const Node* node = view.find(field);
   if (node == nullptr || !node->is(Node::Kind::map)) return put(as_color(node), value.plain);
-  if (!node->bad) value.by = filled<Coloring>(view.part(field.key, field.of));
+  if (!node->bad) value.by = filled<Coloring>(view.part(field));
   return !node->bad;
 }
 
@@ -117,7 +117,7 @@ Json json_value(const Field&, const Color& value) {
 }
 
 Json json_value(const Field& field, const BodyColor& value) {
-  return value.by ? json_of(kind_named(field.of), &*value.by) : json_value(field, value.plain);
+  return value.by ? json_of(*field.held, &*value.by) : json_value(field, value.plain);
 }
 
 string yaml_of(double value) {

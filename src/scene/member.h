@@ -6,7 +6,7 @@
 
 #include "numerics/vec3.h"
 #include "scene/colors.h"
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "scene/keys.h"
 #include "scene/output.h"
 #include "scene/view.h"
@@ -14,6 +14,11 @@
 #include "yaml/value_json.h"
 
 namespace carom {
+
+/// Fills a struct from a map. Members without a value keep theirs. `settings`: the struct of the view's kind.
+void fill(void* settings, const View& view);
+/// The struct's members as JSON, in the order of the kind's keys.
+nlohmann::ordered_json json_of(const Kind& kind, const void* settings);
 
 // Reading. Each returns false if the map has no value or a bad one.
 // Then the member keeps its value, but an optional one becomes empty.
@@ -64,10 +69,12 @@ bool take_any(const View& view, const Field& field, T& value) {
     const bool good = take_any(view, field, inner);
     value = good ? optional(inner) : nullopt;
     return good;
+
   } else if constexpr (is_settings<T>) {
     if (!view.wants(field.key)) return false;
-    fill(&value, view.part(field.key, field.of));
+    fill(&value, view.part(field));
     return true;
+
   } else if constexpr (std::is_enum_v<T>) {
     const optional<size_t> choice = choice_of(view, field);
     if (choice) value = static_cast<T>(*choice);
@@ -82,9 +89,10 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
   if constexpr (is_optional<T>) {
     return value ? json_any(field, *value) : nlohmann::ordered_json();
   } else if constexpr (is_settings<T>) {
-    return json_of(kind_named(field.of), &value);
+    return json_of(*field.held, &value);
   } else if constexpr (std::is_enum_v<T>) {
     return string(choices(field)[static_cast<size_t>(value)]);
+
   } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T> || std::is_pointer_v<T>) {
     if constexpr (std::is_same_v<T, string>)
       return value;
@@ -101,10 +109,12 @@ string yaml_any(const Field& field, const T& value) {
     return value ? yaml_any(field, *value) : "";
   } else if constexpr (std::is_pointer_v<T>) {
     return "";
+
   } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec3> || std::is_same_v<T, Color>) {
     return yaml_of(value);
   } else if constexpr (std::is_same_v<T, string>) {
     return value;
+
   } else {
     const nlohmann::ordered_json json = json_any(field, value);
     if (json.is_string()) return json.get<string>();
@@ -128,6 +138,39 @@ inline constexpr Member fills = {
 /// The same without a fixed default: it depends on other keys, or absence has a meaning of its own.
 template <typename Owner, auto pointer>
 inline constexpr Member fills_if_given = {fills<Owner, pointer>.fill, nullptr, fills<Owner, pointer>.json};
+
+/// The type of the values that fill a T.
+template <typename T>
+constexpr Type type_of() {
+  if constexpr (is_optional<T>) return type_of<typename T::value_type>();
+  if constexpr (std::is_same_v<T, uint64_t> || std::is_same_v<T, int>) return Type::whole;
+  if constexpr (std::is_same_v<T, bool>) return Type::flag;
+  if constexpr (std::is_same_v<T, string>) return Type::text;
+  if constexpr (std::is_same_v<T, Vec3>) return Type::vector;
+  if constexpr (std::is_same_v<T, Rectangle>) return Type::extent;
+  if constexpr (std::is_same_v<T, Size>) return Type::pixels;
+  if constexpr (std::is_same_v<T, Color>) return Type::color;
+  if constexpr (std::is_same_v<T, BodyColor>) return Type::color_or_part;
+  if constexpr (std::is_enum_v<T>) return Type::choice;
+  if constexpr (is_settings<T>) return Type::part;
+  return Type::number;
+}
+
+/// A row whose key fills the member of an Owner. The member's type is that of the key, unless `rest` has another.
+template <typename Owner, auto pointer>
+constexpr Field row(string_view key, string_view doc, string_view example, Field rest = {}) {
+  rest.member = fills<Owner, pointer>;
+  if (rest.type == Type::number) rest.type = type_of<std::remove_cvref_t<decltype(Owner{}.*pointer)>>();
+  return row(key, doc, example, rest);
+}
+
+/// The same without a fixed default.
+template <typename Owner, auto pointer>
+constexpr Field row_if_given(string_view key, string_view doc, string_view example, Field rest = {}) {
+  Field field = row<Owner, pointer>(key, doc, example, rest);
+  field.member.initial = nullptr;
+  return field;
+}
 
 /// A new struct, filled from a map.
 template <typename Settings>

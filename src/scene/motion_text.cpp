@@ -9,6 +9,7 @@
 #include "physics/force.h"
 #include "scene/engines.h"
 #include "scene/fields.h"
+#include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/value_json.h"
@@ -24,14 +25,18 @@ class MotionText {
     simulate();
     const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
                  combine, pairs, regions, strings] = scene_.world;
+
     line("gravity", gravity, "combine", static_cast<int>(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
       line("pair", a_first, a_count, b_first, b_count, value);
+
     for (size_t i = 0; i < mass.size(); ++i) {
       line("body", mass[i], radius[i], restitution[i], scene_.initial.position[i], scene_.initial.velocity[i]);
       if (!volume.empty()) line("volume", volume[i]);
       if (!impulse.empty()) line("impulse", impulse[i]);
     }
+
+    // Fixed things.
     for (const auto& [point, normal, own] : planes) line("plane", point, normal, own);
     for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
       line("wall", center, normal, right, up, half_width, half_height, own);
@@ -39,6 +44,7 @@ class MotionText {
     for (size_t fixed = 0; fixed < motions.size(); ++fixed)
       for (const auto& [from, velocity, start, start_low] : motions[fixed])
         line("motion", fixed, from, velocity, start, start_low);
+
     for (const Force& force : forces) write(force);
     for (const WorldRegion& region : regions) write(region);
     for (const auto& [body, other, anchor, length, own, rod] : strings)

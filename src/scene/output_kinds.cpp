@@ -21,40 +21,40 @@ constexpr Range image_side{16, 16384};
 
 // clang-format off
 constexpr Field trajectory_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between rows.", .example = "0.01", .title = "Time between rows", .member = fills<TrajectoryOutput, &TrajectoryOutput::every>},
-    {.key = "layout", .type = Type::choice, .of = "long|wide", .doc = "long: a row for each body and time; wide: a row for each time.", .example = "wide", .member = fills<TrajectoryOutput, &TrajectoryOutput::wide>},
+    row<TrajectoryOutput, &TrajectoryOutput::every>("every", "Time between rows.", "0.01", {.unit = "s", .range = above_0, .title = "Time between rows"}),
+    row<TrajectoryOutput, &TrajectoryOutput::wide>("layout", "long: a row for each body and time; wide: a row for each time.", "wide", {.type = Type::choice, .of = "long|wide"}),
 };
 
 constexpr Field energy_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between rows.", .example = "0.01", .title = "Time between rows", .member = fills<EnergyOutput, &EnergyOutput::every>},
+    row<EnergyOutput, &EnergyOutput::every>("every", "Time between rows.", "0.01", {.unit = "s", .range = above_0, .title = "Time between rows"}),
 };
 
 constexpr Field contacts_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between rows.", .example = "0.1", .title = "Time between rows", .member = fills<ContactsOutput, &ContactsOutput::every>},
+    row<ContactsOutput, &ContactsOutput::every>("every", "Time between rows.", "0.1", {.unit = "s", .range = above_0, .title = "Time between rows"}),
 };
 
 constexpr Field vtk_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between files.", .example = "0.1", .title = "Time between files", .member = fills<VtkOutput, &VtkOutput::every>},
+    row<VtkOutput, &VtkOutput::every>("every", "Time between files.", "0.1", {.unit = "s", .range = above_0, .title = "Time between files"}),
 };
 
 constexpr Field xyz_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between frames.", .example = "0.1", .title = "Time between frames", .member = fills<XyzOutput, &XyzOutput::every>},
+    row<XyzOutput, &XyzOutput::every>("every", "Time between frames.", "0.1", {.unit = "s", .range = above_0, .title = "Time between frames"}),
 };
 
 constexpr Field gltf_fields[] = {
-    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Keyframes a second; one more at the end.", .example = "24", .title = "Keyframes a second", .member = fills<GltfOutput, &GltfOutput::fps>},
+    row<GltfOutput, &GltfOutput::fps>("fps", "Keyframes a second; one more at the end.", "24", {.unit = "1/s", .range = above_0, .title = "Keyframes a second"}),
 };
 
-constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
-constexpr Field film_fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second. A GIF can have 50, 25, 20 or another 100/n. Left out, its rate is the highest of these up to that of frames.", .example = "25", .title = "Pictures a second"};
-constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
+constexpr Field fps = row("fps", "Pictures a second.", "25", {.unit = "1/s", .range = above_0, .title = "Pictures a second"});
+constexpr Field film_fps = row("fps", "Pictures a second. A GIF can have 50, 25, 20 or another 100/n. Left out, its rate is the highest of these up to that of frames.", "25", {.unit = "1/s", .range = above_0, .title = "Pictures a second"});
+constexpr Field size = row("size", "Width and height of a picture.", "[640, 360]", {.type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .title = "Width and height"});
 // A film stores colours for blocks of 2 x 2 pixels.
-constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .of = size_names, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
-constexpr Field samples{.key = "samples", .type = Type::choice, .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
-constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before this time.", .example = "0.5", .title = "Start", .own = true};
+constexpr Field film_size = row("size", "Width and height of a picture, both even.", "[640, 360]", {.type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .of = size_names, .title = "Width and height"});
+constexpr Field samples = row("samples", "Samples a pixel, against jagged edges.", "8", {.type = Type::choice, .of = "1|2|4|8"});
+constexpr Field from = row("from", "No picture before this time.", "0.5", {.unit = "s", .range = from_0, .title = "Start", .own = true});
 // The windows are not shared: a window of frames/ is often a single picture.
-constexpr Field film_from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the first picture.", .example = "0.5", .title = "Start", .own = true};
-constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End", .own = true};
+constexpr Field film_from = row("from", "Time of the first picture.", "0.5", {.unit = "s", .range = from_0, .title = "Start", .own = true});
+constexpr Field until = row("until", "No picture after this time. Default: the duration.", "1.5", {.unit = "s", .range = from_0, .title = "End", .own = true});
 
 constexpr Field frames_fields[] = {
     with(fps, fills<FramesOutput, &FramesOutput::fps>),
@@ -65,23 +65,22 @@ constexpr Field frames_fields[] = {
 };
 
 constexpr Field video_fields[] = {
-    {.key = "file", .type = Type::text, .doc = "Name of the file, ending in .mp4 (H.264), .gif or .webp.", .example = "break.mp4",
-     .pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)", .member = fills<VideoOutput, &VideoOutput::file>},
+    row<VideoOutput, &VideoOutput::file>("file", "Name of the file, ending in .mp4 (H.264), .gif or .webp.", "break.mp4", {.pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)"}),
     with(film_fps, fills<VideoOutput, &VideoOutput::fps>),
     with(film_size, fills<VideoOutput, &VideoOutput::size>),
-    {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst. Not of a GIF; quality 100 to 0 of a WebP.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
+    row<VideoOutput, &VideoOutput::crf>("crf", "0: largest and best, 51: smallest and worst. Not of a GIF; quality 100 to 0 of a WebP.", "23", {.range = {0, 51}, .title = "Constant rate factor"}),
     with(samples, fills<VideoOutput, &VideoOutput::samples>),
     with(film_from, fills<VideoOutput, &VideoOutput::from>),
     with(until, fills<VideoOutput, &VideoOutput::until>),
-    {.key = "speed", .type = Type::number, .range = {1e-6, 1e6}, .doc = "Seconds of motion a second of film; 0.125 is eightfold slow motion.", .example = "0.125", .title = "Seconds of motion a second of film", .member = fills<VideoOutput, &VideoOutput::speed>},
+    row<VideoOutput, &VideoOutput::speed>("speed", "Seconds of motion a second of film; 0.125 is eightfold slow motion.", "0.125", {.range = {1e-6, 1e6}, .title = "Seconds of motion a second of film"}),
 };
 
 constexpr Field sheet_fields[] = {
-    {.key = "columns", .type = Type::whole, .range = {1, 100}, .doc = "Pictures side by side.", .example = "5", .member = fills<SheetOutput, &SheetOutput::columns>},
-    {.key = "rows", .type = Type::whole, .range = {1, 100}, .doc = "Pictures one below another.", .example = "2", .member = fills<SheetOutput, &SheetOutput::rows>},
-    {.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of the whole sheet. Default: by the columns and the shape of frames, else of video, at most 1920 wide.", .example = "1080p", .title = "Width and height", .member = fills_if_given<SheetOutput, &SheetOutput::size>},
-    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the first picture.", .example = "0.5", .title = "Start", .member = fills<SheetOutput, &SheetOutput::from>},
-    {.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the last picture. Default: the duration.", .example = "1.5", .title = "End", .member = fills<SheetOutput, &SheetOutput::until>},
+    row<SheetOutput, &SheetOutput::columns>("columns", "Pictures side by side.", "5", {.range = {1, 100}}),
+    row<SheetOutput, &SheetOutput::rows>("rows", "Pictures one below another.", "2", {.range = {1, 100}}),
+    row_if_given<SheetOutput, &SheetOutput::size>("size", "Width and height of the whole sheet. Default: by the columns and the shape of frames, else of video, at most 1920 wide.", "1080p", {.unit = "pixels", .range = image_side, .of = size_names, .title = "Width and height"}),
+    row<SheetOutput, &SheetOutput::from>("from", "Time of the first picture.", "0.5", {.unit = "s", .range = from_0, .title = "Start"}),
+    row<SheetOutput, &SheetOutput::until>("until", "Time of the last picture. Default: the duration.", "1.5", {.unit = "s", .range = from_0, .title = "End"}),
 };
 // clang-format on
 
@@ -278,8 +277,21 @@ bool FileSeries::has(string_view name) const {
   return std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+Field OutputKind::field() const {
+  const bool is_flag = keys.empty();
+  return {.key = name,
+          .type = is_flag ? Type::flag : Type::part_or_flag,
+          .of = is_flag ? string_view() : name,
+          .doc = doc,
+          .example = example,
+          .member = member.key};
+}
+
 nlohmann::ordered_json OutputKind::settings(const Output& output) const {
-  return member.key.json(&output, *find_field(kind_named("output"), name));
+  const Kind map{name, "", keys_doc, keys};
+  Field whole = field();
+  whole.held = &map;
+  return member.key.json(&output, whole);
 }
 
 bool OutputKind::has_file(string_view file) const {

@@ -2,7 +2,7 @@
 // The table of outputs: one row for each, with all but how it is written. That is in export/writer.cpp.
 #include <nlohmann/json_fwd.hpp>
 
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "scene/output.h"
 #include "std.h"
 
@@ -65,6 +65,7 @@ struct OutputKind {
   /// It depends on appearance and not only on the motion. carom render makes it anew.
   bool draws = false;
 
+  Field field() const;  // in the map `output`
   bool asked(const Output& output) const { return member.asked(output); }
   bool is_sampled() const { return member.every != nullptr; }
   double every(const Output& output) const { return member.every(output); }  // s; only if is_sampled()

@@ -109,20 +109,25 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
   const auto member = [&](Entity body) {
     return BodyGrid::Member{scene.initial.position[body], world.radius[body], body};
   };
+
   const vector<SingleBody> by_number = singles;
   const auto place_of = [&](Entity body) {
     return std::lower_bound(by_number.begin(), by_number.end(), body,
                             [](const SingleBody& single, Entity e) { return single.body < e; })
         ->position;
   };
+
+  // Large bodies first, which makes the grid's searches cheap.
   std::ranges::stable_sort(
       singles, [&](const SingleBody& a, const SingleBody& b) { return world.radius[a.body] > world.radius[b.body]; });
   Overlaps found(scene, diagnostics);
+
   for (const SingleBody& single : singles) {
     if (const auto first = grid.find_overlap(member(single.body), rounding_of_places)) {
       const bool too_many = found.size() > max_overlaps_kept;
       vector<BodyGrid::Overlap> all{*first};
       if (!too_many) all = grid.all_overlaps(member(single.body), rounding_of_places);
+
       std::set<Entity> others;
       for (const BodyGrid::Overlap& overlap : all) {
         if (!others.insert(overlap.entity).second) continue;
@@ -130,6 +135,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
         const Entity later = std::max(overlap.entity, single.body), other = std::min(overlap.entity, single.body);
         found.add({later, other, overlap.depth, is_later ? single.position : place_of(later)});
       }
+
       if (too_many) continue;
     }
     grid.insert(member(single.body));
@@ -145,9 +151,11 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
     members.push_back(
         {obstacle.center, obstacle.volume.reach(), world.body_count() + surfaces + static_cast<Entity>(i)});
   }
+
   std::ranges::stable_sort(members,
                            [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
   for (const BodyGrid::Member& obstacle : members) obstacles.insert(obstacle);
+
   for (const SingleBody& single : singles) {
     if (const auto overlap = obstacles.find_overlap(member(single.body), rounding_of_places)) {
       found.add({single.body, overlap->entity, overlap->depth, single.position});

@@ -16,10 +16,12 @@ vector<const Field*> fields_along(string_view path) {
   const Kind* kind = &kind_named("scene");
   // The next word is a name or a number, not a key.
   bool name_next = false;
+
   for (size_t i = 0; i <= path.size();) {
     const size_t end = std::min(path.find('.', i), path.size());
     const string_view word = path.substr(i, end - i);
     i = end + 1;
+
     if (name_next) {
       name_next = false;
       kind = kind->also != nullptr && word == kind->also->key ? nullptr : kind;
@@ -27,8 +29,8 @@ vector<const Field*> fields_along(string_view path) {
       const Field* field = find_field(*kind, word);
       if (field == nullptr) return {};
       fields.push_back(field);
-      name_next = field->type == Type::named || field->type == Type::list;
-      kind = name_next || holds_map(*field) ? &kind_named(field->of) : nullptr;
+      name_next = holds_entries(*field);
+      kind = field->held;
     }
   }
   return fields;

@@ -87,10 +87,12 @@ struct Hexagonal {
                  layers > 1 && rows[1] > 0 ? spacing / (2 * root3) + (rows[1] - 1) * spacing * root3 / 2 : 0.0);
     const double in_y = (layers - 1) * spacing * std::sqrt(2.0 / 3);
     const Vec3 start((edge.x() - in_x) / 2, (edge.y() - in_y) / 2, (edge.z() - in_z) / 2);
+
     for (int64_t j = 0; j < static_cast<int64_t>(layers); ++j) {
       const int odd = static_cast<int>(j & 1);
       for (int64_t k = 0; k < static_cast<int64_t>(rows[odd]); ++k) {
         const int half = shifted(j, k);
+
         for (int64_t i = 0; i < static_cast<int64_t>(columns[half]); ++i) {
           const Vec3 site((static_cast<double>(i) + 0.5 * half) * spacing,
                           static_cast<double>(j) * spacing * std::sqrt(2.0 / 3),
@@ -128,13 +130,16 @@ class Placer {
         static_cast<double>(p_.count) * (4.0 / 3 * 3.14159265358979324) * p_.radius * p_.radius * p_.radius;
     // Random sequential addition saturates at 0.384.
     if (balls > 0.36 * volume && p_.count > 8) return {};
+
     const Vec3 low = p_.min.array() + p_.radius;
     const Vec3 free = (edge_.array() - 2 * p_.radius).max(0.0);
     uint64_t tries = 10'000 + 40 * p_.count;
+
     BodyGrid grid;
     grid.reserve(p_.count);
     Placed placed;
     placed.centers.reserve(p_.count);
+
     const auto draw = [&](Random& random) {
       // One call a statement, because the compiler chooses the order of evaluation inside an expression.
       Vec3 center;
@@ -146,12 +151,14 @@ class Placer {
     Random ahead = random_;
     array<Vec3, far> coming;
     for (Vec3& center : coming) center = draw(ahead);
+
     for (uint64_t next = 0; placed.centers.size() < p_.count; ++next) {
       if (tries-- == 0) return {};
       const Vec3 center = draw(random_);
       coming[next % far] = draw(ahead);
       grid.prefetch({coming[next % far], p_.radius, p_.first}, BodyGrid::Prefetch::cells);
       grid.prefetch({coming[(next + near) % far], p_.radius, p_.first}, BodyGrid::Prefetch::members);
+
       if (grid.find_overlap({center, p_.radius, p_.first}) || !is_free(center)) continue;
       grid.insert({center, p_.radius, p_.first});
       placed.centers.push_back(center);

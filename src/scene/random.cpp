@@ -42,6 +42,8 @@ double Random::normal() {
     has_spare_ = false;
     return spare_;
   }
+
+  // The polar method makes two numbers at once.
   for (;;) {
     const double u = 2 * uniform() - 1;
     const double v = 2 * uniform() - 1;

@@ -7,6 +7,7 @@
 #include "physics/bounds.h"
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/fields.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/values.h"
@@ -27,33 +28,35 @@ class Reach {
 
   void check() {
     for (const FixedEntry& entry : inventory_.fixed) {
-      check_places(fixed_view(root_, entry), entry.key->text);
+      check_places(entry.view, entry.key->text);
       if (entry.count == 1) check_motion(entry);
     }
-    for (const StringEntry& string : inventory_.strings) check_places(view_of_string(root_, string), string.key->text);
+    for (const StringEntry& string : inventory_.strings) check_places(string.view, string.key->text);
+
     for (const BodyEntry& body : inventory_.bodies) {
       if (body.count == 0) continue;
-      const View view = body_view(root_, body);
+      const View& view = body.view;
       if (body.group && view.given("members") != nullptr) {
-        check_members(body, view);
+        check_members(body);
         continue;
       }
-      check_places(body.group ? view.part("in", "in") : view, body.key->text);
-      check_speed(body, view);
+
+      check_places(body.group ? view.part("in") : view, body.key->text);
+      check_speed(body);
     }
+
     check_pull();
   }
 
  private:
   /// Checks a group that lists its balls.
-  void check_members(const BodyEntry& body, const View& view) {
-    const View each = member_view(root_, view);
-    const Node& list = *view.given("members");
+  void check_members(const BodyEntry& body) {
+    const Node& list = *body.view.given("members");
     for (size_t i = 0; i < list.items.size(); ++i) {
       const View entry(&list.items[i], kind_named("placed"), list.items[i].place);
       const string name = fmt::format("{}.{}", body.key->text, i);
       check_places(entry, name);
-      const View& giver = entry.given("velocity") == nullptr ? each : entry;
+      const View& giver = entry.given("velocity") == nullptr ? body.each : entry;
       check_speed(name, giver.vector("velocity").value_or(Vec3::Zero()).norm() + kick_of(body).norm(),
                   giver.place("velocity"));
     }
@@ -80,8 +83,8 @@ class Reach {
     double farthest = fixed_position(world_, e, {end, 0}).cwiseAbs().maxCoeff();
     for (const MotionLeg& leg : world_.legs(e))
       if (leg.from < end) farthest = std::max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
-    check_length(farthest, fixed_view(root_, entry).place("motion"), "{} goes as far as {} m from the origin",
-                 entry.key->text, "move it less far");
+    check_length(farthest, entry.view.place("motion"), "{} goes as far as {} m from the origin", entry.key->text,
+                 "move it less far");
   }
 
   static double largest_number(const Node& node) {
@@ -104,8 +107,8 @@ class Reach {
     return world_.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world_.impulse[body.first] / world_.mass[body.first]);
   }
 
-  void check_speed(const BodyEntry& body, const View& view) {
-    const View each = body.group ? member_view(root_, view) : view;
+  void check_speed(const BodyEntry& body) {
+    const View &view = body.view, &each = body.each;
     const optional<double> deviation = body.group ? view.number("speed") : nullopt;
     const bool common = body.group && view.given("velocity") != nullptr;
     const Vec3 velocity = (common ? view : each).vector("velocity").value_or(Vec3::Zero());
@@ -139,6 +142,7 @@ class Reach {
         if (!force.on.empty() && !std::binary_search(force.on.begin(), force.on.end(), i)) continue;
         if (const auto* uniform = std::get_if<UniformForce>(&force.law)) pull += uniform->force.norm() / world_.mass[i];
       }
+
       if (pull <= largest_acceleration) continue;
       diagnostics_.add(root_.find_key("forces")->place,
                        fmt::format("the uniform forces accelerate {} by {} m/s^2", in_backticks(scene_.roster.name(i)),

@@ -11,6 +11,7 @@
 #include "scene/check.h"
 #include "scene/colors.h"
 #include "scene/engines.h"
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -32,10 +33,12 @@ string flow(const View& view, const Overrides& overrides = {}) {
     } else if (const Node* node = view.find(field.key)) {
       text = flow_text(*node);
     }
+
     if (text.empty()) continue;
     if (!out.empty()) out += ", ";
     out += fmt::format("{}: {}", field.key, text);
   }
+
   return "{" + out + "}";
 }
 
@@ -47,6 +50,7 @@ class Resolver {
   string run() {
     const Kind& kind = kind_named("scene");
     const View whole(&root_, kind, Place{});
+
     line("scene", "1");
     line("title", flow_text(*whole.find("title")));
     line("seed", std::to_string(scene_.seed));
@@ -63,12 +67,15 @@ class Resolver {
       if (key.text == "walls") fixed("walls", "wall");
       if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
+
     strings();
     regions();
     forces();
     simulate();
     if (const Node* measures = root_.find("measures"); measures != nullptr && !measures->items.empty())
       line("measures", flow_text(*measures));
+
+    // What pictures show, and the outputs.
     camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
@@ -105,24 +112,28 @@ class Resolver {
     heading(key, root_.find(key)->items.empty());
     for (size_t i = 0; i < inventory_.bodies.size(); ++i) {
       const BodyEntry& body = inventory_.bodies[i];
-      if (body.kind->name != kind) continue;
+      if (body.view.kind().name != kind) continue;
+
       Overrides overrides;
-      const View view = body_view(root_, body);
-      const View each = body.group ? member_view(root_, view) : view;
+      const View &view = body.view, &each = body.each;
+
       if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
       add_color(each, scene_.roster.bodies[i].color, scene_.roster.bodies[i].mesh, overrides);
       name_copy(scene_.roster.bodies[i].mesh, overrides);
+
       if (!body.group) {
         entry(body.key->text, flow(each, overrides));
         continue;
       }
+
       const bool lists_members = view.find("members") != nullptr;
       // A group's velocity is written once, in the group.
       if (!lists_members) overrides["velocity"] = "";
       Overrides group_overrides{{"ball", flow(each, overrides)}};
-      if (!lists_members) group_overrides["in"] = flow(view.part("in", "in"));
+      if (!lists_members) group_overrides["in"] = flow(view.part("in"));
       if (!lists_members && view.find("speed") == nullptr && view.find("velocity") == nullptr)
         group_overrides["velocity"] = flow_text(*each.find("velocity"));
+
       entry(body.key->text, flow(view, group_overrides));
     }
     without_members(key, kind);
@@ -134,13 +145,15 @@ class Resolver {
     const Kind& kind = kind_named(name);
     for (size_t i = 0; i < map.keys.size(); ++i) {
       if (map.items[i].find_key("repeat") == nullptr) continue;
-      const View view(&map.items[i], kind, map.keys[i].place, defaults_for(root_, kind));
+      const View view = thing_view(root_, map.keys[i], map.items[i], kind);
+
       Overrides overrides = whole_paths(view);
       if (name == "group") {
         const View each = member_view(root_, view);
         overrides["ball"] = flow(each, whole_paths(each));
-        if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in", "in"));
+        if (view.find("members") == nullptr) overrides["in"] = flow(view.part("in"));
       }
+
       entry(map.keys[i].text, flow(view, overrides));
     }
   }
@@ -159,17 +172,17 @@ class Resolver {
   void fixed(string_view key, string_view kind) {
     heading(key, root_.find(key)->items.empty());
     for (const FixedEntry& thing : inventory_.fixed) {
-      if (thing.kind->name == kind) entry(thing.key->text, fixed_text(thing));
+      if (thing.view.kind().name == kind) entry(thing.key->text, fixed_text(thing));
     }
     without_members(key, kind);
   }
 
   string fixed_text(const FixedEntry& thing) const {
-    const View view = fixed_view(root_, thing);
+    const View& view = thing.view;
     const FixedName& known = scene_.roster.fixed[thing.first];
     Overrides overrides;
     add_color(view, known.color, known.mesh, overrides);
-    if (thing.kind->name == "wall" && view.find("up") == nullptr)
+    if (view.kind().name == "wall" && view.find("up") == nullptr)
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(known.mesh, overrides);
     return flow(view, overrides);
@@ -179,7 +192,7 @@ class Resolver {
     if (root_.find("strings") == nullptr) return;
     heading("strings", root_.find("strings")->items.empty());
     for (size_t i = 0; i < inventory_.strings.size(); ++i) {
-      const View view = view_of_string(root_, inventory_.strings[i]);
+      const View& view = inventory_.strings[i].view;
       Overrides overrides;
       if (view.find("length") == nullptr) overrides["length"] = shortest(scene_.world.strings[i].length);
       entry(inventory_.strings[i].key->text, flow(view, overrides));
@@ -211,7 +224,7 @@ class Resolver {
 
   void room() {
     for (const FixedEntry& thing : inventory_.fixed)
-      if (thing.kind->name == "room") line("room", fixed_text(thing));
+      if (thing.view.kind().name == "room") line("room", fixed_text(thing));
   }
 
   void simulate() {
@@ -219,7 +232,7 @@ class Resolver {
     Overrides overrides;
     if (scene_.simulate.engine == Engine::book && view.find("step") == nullptr)
       overrides["step"] = shortest(*scene_.simulate.step);
-    overrides["contact"] = flow(view.part("contact", "contact"));
+    overrides["contact"] = flow(view.part("contact"));
     line("simulate", flow(view, overrides));
   }
 
@@ -248,7 +261,7 @@ class Resolver {
     const Overlay& overlay = scene_.overlay;
     const View whole(&root_, kind_named("scene"), Place{});
     if (!overlay.caption.empty()) line("caption", in_quotes(overlay.caption));
-    if (overlay.trails) line("trails", flow(whole.part("trails", "trails")));
+    if (overlay.trails) line("trails", flow(whole.part("trails")));
     if (overlay.flash) line("flash", "true");
     if (const Node* arrows = root_.find("arrows")) line("arrows", flow_text(*arrows));
     if (const Node* shutter = root_.find("shutter")) line("shutter", flow_text(*shutter));
@@ -271,7 +284,7 @@ class Resolver {
   }
 
   string output_text(const View& view, const OutputKind& kind) const {
-    const View part = view.part(kind.name, kind.name);
+    const View part = view.part(kind.name);
     Overrides overrides;
     // Decoding may give a GIF another rate than that of frames.
     if (kind.name == "video" && part.number("fps") != scene_.output.video->fps)

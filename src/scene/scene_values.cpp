@@ -2,6 +2,8 @@
 // It reads the text itself and not a decoded Scene, so that values keep their paths and places.
 #include "scene/scene_values.h"
 
+#include <fmt/format.h>
+
 #include "scene/fields.h"
 #include "scene/load.h"
 #include "std.h"
@@ -30,45 +32,39 @@ class Flattener {
 
  private:
   void value(const string& path, const Node& node, const Field& field) {
-    switch (field.type) {
-      case Type::part:
-      case Type::part_or_flag:
-      case Type::color_or_part:
-        return map(path, node, kind_named(field.of));
-      case Type::named:
-        if (!node.is(Node::Kind::map)) return leaf(path, node, {});
-        for (size_t i = 0; i < node.items.size(); ++i)
-          map(path + "." + node.keys[i].text, node.items[i], kind_named(field.of));
-        return;
-      case Type::values:
-      case Type::texts:
-        if (!node.is(Node::Kind::map)) return leaf(path, node, {});
-        for (size_t i = 0; i < node.items.size(); ++i) leaf(path + "." + node.keys[i].text, node.items[i], {});
-        return;
-      case Type::list:
-        if (!node.is(Node::Kind::sequence)) return leaf(path, node, {});
-        for (size_t i = 0; i < node.items.size(); ++i) {
-          const string entry = path + "." + std::to_string(i);
-          node.items[i].is(Node::Kind::scalar) ? leaf(entry, node.items[i], {})
-                                               : map(entry, node.items[i], kind_named(field.of));
-        }
-        return;
-      case Type::vector:
-      case Type::direction:
-      case Type::point_or_name:
-        return numbers(path, node, field, array<string_view, 3>{"x", "y", "z"});
-      case Type::extent:
-      case Type::pixels:
-        return numbers(path, node, field, array<string_view, 2>{"width", "height"});
-      default:
-        return leaf(path, node, field.unit);
-    }
-  }
+    const TypeFacts& facts = facts_of(field.type);
+    const auto below = [&](string_view step) { return fmt::format("{}.{}", path, step); };
+    const bool is_map = node.is(Node::Kind::map), is_list = node.is(Node::Kind::sequence);
 
-  template <size_t Size>
-  void numbers(const string& path, const Node& node, const Field& field, const array<string_view, Size>& names) {
-    if (!node.is(Node::Kind::sequence) || node.items.size() != Size) return leaf(path, node, field.unit);
-    for (size_t i = 0; i < Size; ++i) leaf(path + "." + string(names[i]), node.items[i], field.unit);
+    switch (facts.inside) {
+      case Inside::map:
+        return map(path, node, *field.held);
+      case Inside::named:
+        if (!is_map) break;
+        for (size_t i = 0; i < node.items.size(); ++i) map(below(node.keys[i].text), node.items[i], *field.held);
+        return;
+
+      case Inside::values:
+        if (!is_map) break;
+        for (size_t i = 0; i < node.items.size(); ++i) leaf(below(node.keys[i].text), node.items[i], {});
+        return;
+
+      case Inside::list:
+        if (!is_list) break;
+        for (size_t i = 0; i < node.items.size(); ++i) map(below(std::to_string(i)), node.items[i], *field.held);
+        return;
+
+      case Inside::numbers: {
+        const vector<string_view> names = parts_of(facts.components);
+        if (!is_list || node.items.size() != names.size()) break;
+        for (size_t i = 0; i < names.size(); ++i) leaf(below(names[i]), node.items[i], field.unit);
+        return;
+      }
+      default:
+        break;
+    }
+
+    leaf(path, node, field.unit);
   }
 
   void leaf(const string& path, const Node& node, string_view unit) {

@@ -38,6 +38,10 @@ Json required(const vector<string_view>& keys) {
   return {{"required", keys}};
 }
 
+Json any_of(Json first, Json second) {
+  return {{"anyOf", Json::array({std::move(first), std::move(second)})}};
+}
+
 /// The value below `key` matches `schema`.
 Json at(string_view key, Json schema) {
   return {{"properties", {{string(key), std::move(schema)}}}};
@@ -88,6 +92,11 @@ Json array_schema(Json each, int count) {
   return {{"type", "array"}, {"items", std::move(each)}, {"minItems", count}, {"maxItems", count}};
 }
 
+Json numbers_schema(const Field& field) {
+  return array_schema(holds_whole_numbers(field) ? whole_schema(field.range) : number_schema(limited_range(field)),
+                      static_cast<int>(parts_of(facts_of(field.type).components).size()));
+}
+
 /// Any scalar is a text, whatever type a YAML parser gives it.
 Json text_schema(const Field& field) {
   if (!field.pattern.empty()) return {{"type", "string"}, {"pattern", field.pattern}};
@@ -133,7 +142,7 @@ Json settings_schema() {
 
 Json axis_schema(const Kind& range) {
   const Json values = {{"type", "array"}, {"items", {{"not", {{"type", "null"}}}}}, {"minItems", 1}};
-  return {{"anyOf", Json::array({values, reference(range.name)})}};
+  return any_of(values, reference(range.name));
 }
 
 /// A map from names in expressions to numbers.
@@ -147,7 +156,7 @@ Json repeat_schema() {
   Json indices = variables_schema(whole_schema({0, infinity}));
   indices["minProperties"] = 1;
   indices["maxProperties"] = 8;
-  return {{"anyOf", Json::array({whole_schema({0, infinity}), indices})}};
+  return any_of(whole_schema({0, infinity}), indices);
 }
 
 Json choice_schema(const Field& field) {
@@ -156,8 +165,17 @@ Json choice_schema(const Field& field) {
   return {{"enum", all}};
 }
 
+Json list_schema(const Field& field) {
+  Json entry = reference(field.of);
+  if (!field.plain.empty()) entry = any_of({{"enum", parts_of(field.plain)}}, entry);
+  Json schema = {{"type", "array"}, {"items", std::move(entry)}};
+  if (field.held->needs_entries) schema["minItems"] = 1;
+  return schema;
+}
+
 Json value_schema(const Field& field) {
   switch (field.type) {
+    // Single values.
     case Type::number:
       return number_schema(limited_range(field));
     case Type::whole:
@@ -171,25 +189,28 @@ Json value_schema(const Field& field) {
       return text_schema(field);
     case Type::choice:
       return choice_schema(field);
+
+    // Lists of numbers.
     case Type::vector:
-      return array_schema(number_schema(limited_range(field)), 3);
+    case Type::extent:
+      return numbers_schema(field);
     case Type::direction: {
-      Json schema = array_schema(number_schema(limited_range(field)), 3);
+      Json schema = numbers_schema(field);
       schema["not"] = {{"items", {{"const", 0}}}};
       return schema;
     }
-    case Type::extent:
-      return array_schema(number_schema(limited_range(field)), 2);
     case Type::pixels:
-      return {{"anyOf", Json::array({array_schema(whole_schema(field.range), 2), choice_schema(field)})}};
+      return any_of(numbers_schema(field), choice_schema(field));
+    case Type::point_or_name:
+      return any_of(numbers_schema(field), text_schema(field));
+
+    // Colours and names.
     case Type::color:
       return {{"allOf", Json::array({reference("color")})}};
     case Type::color_or_none:
-      return {{"anyOf", Json::array({reference("color"), {{"const", "none"}}})}};
+      return any_of(reference("color"), cancelled());
     case Type::color_or_part:
-      return {{"anyOf", Json::array({reference("color"), reference(field.of)})}};
-    case Type::point_or_name:
-      return {{"anyOf", Json::array({array_schema(number_schema(limited_range(field)), 3), text_schema(field)})}};
+      return any_of(reference("color"), reference(field.of));
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
@@ -197,32 +218,30 @@ Json value_schema(const Field& field) {
               {"items", field.of.empty() ? text_schema(field) : choice_schema(field)},
               {"minItems", 1},
               {"uniqueItems", true}};
-    case Type::part: {
+
+    // Maps, and lists of maps.
+    case Type::part:
       if (field.plain.empty()) return {{"allOf", Json::array({reference(field.of)})}};
-      const Field& plain = *find_field(kind_named(field.of), field.plain);
-      return {{"anyOf", Json::array({reference(field.of), value_schema(plain)})}};
-    }
+      return any_of(reference(field.of), value_schema(*find_field(*field.held, field.plain)));
     case Type::part_or_flag:
-      return {{"anyOf", Json::array({{{"type", "boolean"}}, reference(field.of)})}};
+      return any_of({{"type", "boolean"}}, reference(field.of));
     case Type::values:
       return variables_schema(number_schema(field.range));
     case Type::texts:
       return variables_schema(text_schema(field));
     case Type::repeat:
       return repeat_schema();
+
     case Type::named:
-      return named_schema(kind_named(field.of));
-    case Type::list: {
-      Json entry = reference(field.of);
-      if (!field.plain.empty()) entry = {{"anyOf", Json::array({{{"enum", parts_of(field.plain)}}, entry})}};
-      Json schema = {{"type", "array"}, {"items", std::move(entry)}};
-      if (field.needs_entries) schema["minItems"] = 1;
-      return schema;
-    }
+      return named_schema(*field.held);
+    case Type::list:
+      return list_schema(field);
+
+    // Of sweep files.
     case Type::settings:
       return settings_schema();
     case Type::axes:
-      return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", axis_schema(*held_kind(field))}};
+      return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", axis_schema(*field.held)}};
     case Type::spans:
       return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", reference(field.of)}};
     case Type::cases:
@@ -267,14 +286,17 @@ Json exclusions(const Kind& kind) {
 Json engine_rule(const Field& field, const Field* part = nullptr) {
   Json when = required({field.key});
   if (!field.initial.empty()) when.update(at(field.key, {{"not", {{"const", json_of_yaml(field.initial)}}}}));
+
+  // In a part, the key or a plain value asks for the engine.
   if (part != nullptr) {
     Json of_part = required({part->key});
     when["type"] = "object";
     if (part->plain == field.key)
-      when = {{"anyOf", Json::array({when, {{"type", "string"}, {"not", {{"const", json_of_yaml(field.initial)}}}}})}};
+      when = any_of(when, {{"type", "string"}, {"not", {{"const", json_of_yaml(field.initial)}}}});
     of_part.update(at(part->key, when));
     when = of_part;
   }
+
   const vector<string_view> engines = parts_of(field.engines);
   const Field& engine = *find_field(kind_named("simulate"), "engine");
   Json then = at(engine.key, {{"enum", engines}});
@@ -291,19 +313,21 @@ Json beside_rule(const Kind& kind, const Field& field) {
 
 /// Kind::beneath: if a value of the map beneath is invalid in the map that would inherit it, that map needs its own.
 void add_beneath_rules(const Field& field, Json& rules) {
-  const Kind* kind = held_kind(field);
+  const Kind* kind = field.held;
   if (kind == nullptr || kind->beneath.empty()) return;
   for (const Field& own : kind->fields) {
     const Field* below = find_field(kind_named(kind->beneath), own.key);
     if (below == nullptr || !own.range.even || below->range.even) continue;
+
     Json unsuited = required({own.key}), when = required({kind->beneath});
     unsuited["type"] = "object";
     unsuited.update(at(own.key, {{"not", value_schema(own)}}));
     when.update(at(kind->beneath, unsuited));
+
     const Json absent = {{"const", false}};
     Json given = required({own.key});
     given["type"] = "object";
-    rules.push_back({{"if", when}, {"then", at(field.key, {{"anyOf", Json::array({absent, given})}})}});
+    rules.push_back({{"if", when}, {"then", at(field.key, any_of(absent, given))}});
   }
 }
 
@@ -337,16 +361,21 @@ Json kind_schema(const Kind& kind) {
   Json schema = {{"description", kind.doc}, {"type", "object"}};
   Json properties = Json::object(), rules = Json::array();
   vector<string_view> keys;
+
   for (const Field& field : kind.fields) {
     Json& property = properties[string(field.key)] = field_schema(field);
     if (!kind.defaults.empty() && !field.own && field.type != Type::text) property = or_none(std::move(property));
+
+    // Keys that only some engines accept.
     if (!field.engines.empty() && kind.name == "simulate") rules.push_back(engine_rule(field));
     if (field.type == Type::part && kind.name == "simulate")
-      for (const Field& inner : kind_named(field.of).fields)
+      for (const Field& inner : field.held->fields)
         if (!inner.engines.empty()) rules.push_back(engine_rule(inner, &field));
+
     if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(kind, field));
     add_beneath_rules(field, rules);
   }
+
   if (kind.defaults.empty()) {
     for (const auto& need : needs_of(kind)) {
       if (need.size() == 1) {
@@ -356,7 +385,9 @@ Json kind_schema(const Kind& kind) {
       }
     }
   }
+
   if (!kind.any_of.empty()) rules.push_back(one_required(kind, parts_of(kind.any_of)));
+
   schema["properties"] = properties;
   if (!keys.empty()) schema["required"] = keys;
   schema["additionalProperties"] = false;
@@ -376,7 +407,7 @@ Json has_default(const Kind& kind, const vector<string_view>& keys) {
 
 /// A part that need not be there where the defaults of its own kind have all that it needs (add_part_rules).
 bool is_part_with_defaults(const Field& field) {
-  return field.type == Type::part && !kind_named(field.of).defaults.empty();
+  return field.type == Type::part && !field.held->defaults.empty();
 }
 
 /// Adds the required keys of a kind that has defaults. `each` wraps a schema of one map into one of the root.
@@ -402,7 +433,7 @@ void add_rules(const Kind& kind, const function<Json(Json)>& each, Json& rules) 
 
 /// A part with defaults of its own. It stands in the map of `owner`, or comes complete from the owner's defaults.
 void add_part_rules(const Kind& owner, const Field& field, const function<Json(Json)>& each, Json& rules) {
-  const Kind& kind = kind_named(field.of);
+  const Kind& kind = *field.held;
   add_rules(
       kind, [&](Json schema) { return each(at(field.key, std::move(schema))); }, rules);
   for (const auto& need : needs_of(kind)) {
@@ -414,8 +445,7 @@ void add_part_rules(const Kind& owner, const Field& field, const function<Json(J
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));
-    rules.push_back(
-        {{"if", {{"anyOf", Json::array({has_default(kind, need), whole})}}}, {"else", each(required({field.key}))}});
+    rules.push_back({{"if", any_of(has_default(kind, need), whole)}, {"else", each(required({field.key}))}});
   }
 }
 
@@ -423,8 +453,8 @@ Json root_rules(const Kind& root) {
   Json rules = Json::array();
   if (find_field(root, "defaults") == nullptr) return rules;
   for (const Field& field : root.fields) {
-    if (field.type != Type::named || kind_named(field.of).defaults.empty()) continue;
-    const Kind& kind = kind_named(field.of);
+    if (field.type != Type::named || field.held->defaults.empty()) continue;
+    const Kind& kind = *field.held;
     const auto each = [&](Json schema) { return at(field.key, {{"additionalProperties", std::move(schema)}}); };
     add_rules(kind, each, rules);
     for (const Field& part : kind.fields) {
@@ -437,7 +467,7 @@ Json root_rules(const Kind& root) {
 /// Collects the kinds that a map of `kind` can hold, each once, in order.
 void collect(const Kind& kind, vector<const Kind*>& found) {
   for (const Field& field : kind.fields) {
-    const Kind* held = held_kind(field);
+    const Kind* held = field.held;
     if (held == nullptr || std::ranges::find(found, held) != found.end()) continue;
     found.push_back(held);
     collect(*held, found);
@@ -450,15 +480,19 @@ string json_schema(string_view root_name) {
   const Kind& root = kind_named(root_name);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", fmt::format("carom: {}", root.name)}};
+
   schema.update(kind_schema(root));
   if (Json rules = root_rules(root); !rules.empty()) {
     if (!schema.contains("allOf")) schema["allOf"] = Json::array();
     for (Json& rule : rules) schema["allOf"].push_back(std::move(rule));
   }
+
+  // A definition for each kind.
   vector<const Kind*> held;
   collect(root, held);
   Json definitions = {{"color", color_schema()}};
   for (const Kind* kind : held) definitions[string(kind->name)] = kind_schema(*kind);
+
   if (root_name == "scene") {
     allow_expressions(schema);
     allow_expressions(definitions);
@@ -469,6 +503,7 @@ string json_schema(string_view root_name) {
         {"pattern", "^="},
         {"maxLength", longest_formula + 1}};
   }
+
   schema["definitions"] = std::move(definitions);
   return text_of_json(schema, 2) + "\n";
 }

@@ -95,6 +95,7 @@ class Walk {
       node_->kind = Node::Kind::map;
       node_->place = place;
     }
+
     const Field* field = find_field(*kind_, step.text);
     if (field == nullptr) {
       return refuse(step,
@@ -102,6 +103,8 @@ class Walk {
                                 kind_->name == "scene" ? "the scene" : in_backticks(kind_->name)),
                     suggest_key(step.text, *kind_));
     }
+
+    // Take the place of rivals, and stand in the map.
     for (const string_view rival : rivals(*field)) replace(rival, *field);
     Node* child = node_->find(field->key);
     if (child == nullptr) {
@@ -116,9 +119,10 @@ class Walk {
         if (key.text == field->key) key.place = step.place;
       }
     }
+
     node_ = child;
     field_ = field;
-    kind_ = holds_map(*field) ? &kind_named(field->of) : nullptr;
+    kind_ = holds_map(*field) ? field->held : nullptr;
     return true;
   }
 
@@ -151,17 +155,22 @@ class Walk {
     if (defaults != nullptr && defaults != node_) {
       if (const Node* node = defaults->find(field.key)) return *node;
     }
-    return field.initial.empty() ? Node{} : initial_node(field);
+    return field.initial.empty() ? Node{} : *field.member.initial_node;
   }
 
   /// A step to a part of a value of field_.
   bool into_value(const Step& step) {
-    switch (field_->type) {
-      case Type::named:
+    const TypeFacts& facts = facts_of(field_->type);
+    switch (facts.inside) {
+      case Inside::named:
         return into_named(step);
-      case Type::values:
-      case Type::texts:
-      case Type::repeat: {
+      case Inside::list:
+        return into_list(step);
+      case Inside::numbers:
+        return into_numbers(step, parts_of(facts.components));
+
+      case Inside::values:
+      case Inside::counts: {
         Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
         if (child == nullptr)
           return refuse_name(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)));
@@ -169,29 +178,23 @@ class Walk {
         done_ = true;
         return true;
       }
-      case Type::list: {
-        const optional<uint64_t> i = parse_index(step.text);
-        if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
-          const size_t count = node_->items.size();
-          return refuse(step, fmt::format("{} has no entry {}", in_backticks(before_), in_backticks(step.text)),
-                        count == 0   ? fmt::format("it has none: set all of {}", in_backticks(before_))
-                        : count == 1 ? "its only entry is 0"
-                                     : fmt::format("its entries are 0 to {}", count - 1));
-        }
-        node_ = &node_->items[static_cast<size_t>(*i)];
-        kind_ = &kind_named(field_->of);
-        return true;
-      }
-      case Type::vector:
-      case Type::direction:
-      case Type::point_or_name:
-        return into_numbers(step, {"x", "y", "z"});
-      case Type::extent:
-      case Type::pixels:
-        return into_numbers(step, {"width", "height"});
       default:
         return refuse(step, fmt::format("{} has no parts", in_backticks(before_)), "end the path before it");
     }
+  }
+
+  bool into_list(const Step& step) {
+    const optional<uint64_t> i = parse_index(step.text);
+    if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
+      const size_t count = node_->items.size();
+      return refuse(step, fmt::format("{} has no entry {}", in_backticks(before_), in_backticks(step.text)),
+                    count == 0   ? fmt::format("it has none: set all of {}", in_backticks(before_))
+                    : count == 1 ? "its only entry is 0"
+                                 : fmt::format("its entries are 0 to {}", count - 1));
+    }
+    node_ = &node_->items[static_cast<size_t>(*i)];
+    kind_ = field_->held;
+    return true;
   }
 
   bool refuse_name(const Step& step, string message) {
@@ -216,16 +219,18 @@ class Walk {
   }
 
   bool into_named(const Step& step) {
-    const Kind& kind = kind_named(field_->of);
+    const Kind& kind = *field_->held;
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
     const string family = family_;
     if (child == nullptr) child = member(step);
+
     if (child == nullptr && !family_.empty()) return true;
     if (child == nullptr && !family.empty())
       return refuse(step, fmt::format("{} has no member {}", in_backticks(family), in_backticks(step.text)),
                     fmt::format("its members are {}.0 and so on", family));
     if (child == nullptr)
       return refuse_name(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)));
+
     node_ = child;
     if (kind.also != nullptr && step.text == kind.also->key) {
       done_ = true;
@@ -275,8 +280,10 @@ void apply_setting(Node& root, vector<Source>& sources, uint32_t index, Diagnost
                     "expected path=value, such as simulate.duration=2");
     return;
   }
+
   const Place value_place{index, static_cast<uint32_t>(std::min(equals + 1, text.size())), 1};
   if (!check_text(sources[index], index, diagnostics)) return;
+
   optional<Node> value;
   if (text.compare(equals + 1, 1, "#") == 0) {
     // In a file an unquoted # begins a comment. Here it can only begin a colour.
@@ -287,11 +294,13 @@ void apply_setting(Node& root, vector<Source>& sources, uint32_t index, Diagnost
   } else {
     value = parse_document(sources, index, equals + 1, diagnostics);
   }
+
   if (!value) return;
   if (value->is(Node::Kind::null)) {
     diagnostics.add(value_place, "there is no value", "expected path=value");
     return;
   }
+
   const vector<Step> steps = split_path(string_view(text).substr(0, equals), index);
   Walk walk(root, diagnostics);
   for (size_t i = 0; i < steps.size(); ++i) {

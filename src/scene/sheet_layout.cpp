@@ -42,11 +42,13 @@ SheetLayout layout_of(const SheetOutput& sheet, Size shape) {
 optional<SheetProblem> problem_of(const SheetOutput& sheet, Size shape) {
   const SheetLayout layout = layout_of(sheet, shape);
   const string sheet_text = fmt::format("a contact sheet of {} x {} pictures", sheet.columns, sheet.rows);
+
   if (sheet.size && std::min(layout.width, layout.height) < least_side)
     return SheetProblem{fmt::format("{} in {} x {} pixels: each would have {} x {}", sheet_text, layout.total_width,
                                     layout.total_height, layout.width, layout.height),
                         fmt::format("expected a `size` of at least [{}, {}], or fewer columns or rows",
                                     with_gaps(sheet.columns, least_side), with_gaps(sheet.rows, least_side))};
+
   if (layout.total_height <= most_pixels && layout.total_width * layout.total_height <= most_pixels) return nullopt;
   return SheetProblem{
       fmt::format("{} would have {} x {} pixels", sheet_text, layout.total_width, layout.total_height),

@@ -11,6 +11,7 @@
 #include "scene/check.h"
 #include "scene/decode.h"
 #include "scene/expand.h"
+#include "scene/fields.h"
 #include "scene/former_state.h"
 #include "scene/keys.h"
 #include "scene/member.h"
@@ -83,9 +84,11 @@ class Starter {
 
   void run() {
     if (Node* start = root_.find("start")) set(*start, "at", number_node(former_.state.time, place_));
+
     each("balls", [&](const Key& key, Node& node) { body("balls", kind_named("ball"), key, node); });
     each("bodies", [&](const Key& key, Node& node) { body("bodies", kind_named("body"), key, node); });
     each("groups", [&](const Key& key, Node& node) { group(key, node); });
+
     if (!gone_.empty())
       diagnostics_.add(place_,
                        fmt::format("at {} s of the run {} {} gone: merged into another body, or removed by a region",
@@ -95,6 +98,7 @@ class Starter {
       diagnostics_.add(place_, "the run has none of the bodies of this scene",
                        former_.names.empty() ? "expected a run with bodies"
                                              : "bodies match by their names; the run has " + names_text(former_.names));
+
     note();
   }
 
@@ -130,7 +134,7 @@ class Starter {
   void body(const string& map, const Kind& kind, const Key& key, Node& node) {
     const ptrdiff_t i = take(key.text);
     if (i < 0) return;
-    const View view(&node, kind, key.place, defaults_for(root_, kind));
+    const View view = thing_view(root_, key, node, kind);
     replaces(view, {"position", "velocity", "impulse"}, key.text);
     drop_impulse(view, node, key.text);
     set(node, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
@@ -140,13 +144,16 @@ class Starter {
 
   void group(const Key& key, Node& node) {
     const Kind& kind = kind_named("group");
-    const View view(&node, kind, key.place, defaults_for(root_, kind));
+    const View view = thing_view(root_, key, node, kind);
     const auto name = [&](uint64_t k) { return fmt::format("{}.{}", key.text, k); };
+
+    // As many balls as the run has.
     const uint64_t count = filled<GroupKeys>(view).count;
     uint64_t there = 0;
     while (numbers_.contains(name(there))) ++there;
     if (count == 0) return;
     if (there == 0) return own_.push_back(key.text);
+
     if (there != count) {
       diagnostics_.add(view.place("count"),
                        fmt::format("{} has {}, and the run has {}", in_backticks(key.text), balls(count), there),
@@ -154,11 +161,14 @@ class Starter {
       for (uint64_t k = 0; k < there; ++k) used_[numbers_.at(name(k))] = true;
       return;
     }
+
+    // Each ball where it is in the run.
     replaces(view, {"in", "arrange", "speed", "velocity", "members"}, key.text);
     Node members;
     members.kind = Node::Kind::sequence;
     members.place = place_;
     members.items.reserve(count);
+
     for (uint64_t k = 0; k < count; ++k) {
       const ptrdiff_t i = take(name(k));
       if (i < 0) continue;
@@ -168,6 +178,7 @@ class Starter {
       set(member, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
       set(member, "velocity", vector_node(former_.state.velocity[static_cast<size_t>(i)], place_));
     }
+
     if (members.items.size() < count) return;
     // The ball may be that of the defaults.
     if (const Node* ball = view.given("ball"); ball != nullptr && ball->is(Node::Kind::map)) {
@@ -177,6 +188,7 @@ class Starter {
       drop_impulse(each_ball, own, key.text);
       set(node, "ball", std::move(own));
     }
+
     for (const string_view rule : {"in", "arrange", "speed", "velocity"}) remove(node, rule);
     set(node, "members", std::move(members));
     forget("groups." + key.text, {"in", "arrange", "speed", "velocity", "members", "ball.velocity", "ball.impulse"});
@@ -221,14 +233,17 @@ class Starter {
     vector<string> left;
     for (size_t i = 0; i < used_.size(); ++i)
       if (!used_[i] && !is_gone(i)) left.push_back(former_.names[i]);
+
     const auto say = [&](string text) { made_from_.notes.push_back(std::move(text)); };
     if (!own_.empty())
       say(fmt::format("start: the run has no {}, which {} where this scene places {}", names_text(own_),
                       own_.size() == 1 ? "begins" : "begin", own_.size() == 1 ? "it" : "them"));
     if (!left.empty()) say(fmt::format("start: this scene has no {}, which the run has", names_text(left)));
+
     if (!kicked_.empty())
       say(fmt::format("start: the impulse of {} is not applied again: the velocities of the run contain it",
                       names_text(kicked_)));
+
     if (former_.has_merged)
       say("start: bodies of the run had merged by then; masses and sizes are those of this scene");
     if (!former_.doubt.empty()) say("start: the run is doubtful: " + former_.doubt);
@@ -270,24 +285,29 @@ void apply_start(Node& root, const string& folder, const LoadOptions& options, M
                  Diagnostics& diagnostics) {
   const Node* node = root.find("start");
   if (node == nullptr || node->bad || !node->is(Node::Kind::map)) return;
+
   const View view = scene_part(root, "start");
   const auto keys = filled<StartKeys>(view);
   if (!keys.run || (view.given("at") != nullptr && !keys.at)) return;
+
   const auto refuse = [&](const StartError& error) {
     const string_view key = error.of_time && keys.at ? "at" : "run";
     diagnostics.add(view.place(key),
                     fmt::format("the run {} cannot be used: {}", in_backticks(*keys.run), error.what()), error.remedy);
   };
+
   StartedFrom from;
   from.run = *keys.run;
   from.folder = beneath(folder, *keys.run);
   if (!options.former_state) return refuse({"there is no reader of runs here", "expected a scene without `start`"});
+
   optional<FormerState> former;
   try {
     former = options.former_state(from.folder, keys.at);
   } catch (const StartError& error) {
     return refuse(error);
   }
+
   from.at = former->state.time;
   from.file = former->file;
   from.sha256 = former->sha256;

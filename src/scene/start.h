@@ -1,7 +1,7 @@
 #pragma once
 // `start`: bodies begin as a former run had them.
 
-#include "scene/load.h"
+#include "scene/load_options.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"

@@ -30,6 +30,8 @@ SweepRun Sweep::run(size_t number) const {
   size_t combination = number / repeats;
   const SweepBlock* block = blocks.data();
   for (; combination >= block->kept.size(); ++block) combination -= block->kept.size();
+
+  // The case of each axis: the last one varies fastest.
   size_t rest = block->kept[combination];
   vector<const SweepCase*> cases(block->axes.size());
   for (size_t a = block->axes.size(); a-- > 0;) {
@@ -51,6 +53,7 @@ SweepRun Sweep::run(size_t number) const {
     run.values.back() = of_run;
     run.settings.push_back({"seed=" + of_run, file});
   }
+
   return run;
 }
 
@@ -90,6 +93,7 @@ string block_text(const SweepBlock& block, const vector<string>& paths) {
   const auto add = [&](string_view key, const string& text) {
     if (!text.empty()) out += fmt::format("    {}:\n{}", key, text);
   };
+
   add("grid", grid);
   add("zip", zip);
   add("list", list);
@@ -123,6 +127,7 @@ string Sweep::resolved(string_view base_name) const {
     out += fmt::format("only: [{}]\n", names);
   }
 
+  // What the comparison shows.
   if (measures.empty() && charts.empty() && !collisions) return out;
   out += "compare:\n";
   if (!measures.empty()) out += "  measures:\n";

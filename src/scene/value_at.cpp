@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/check.h"
+#include "scene/fields.h"
 #include "scene/scene_values.h"
 #include "scene/view.h"
 #include "std.h"
@@ -58,11 +59,11 @@ class PathWalk {
   }
 
   bool to_part(const Field& field, bool absent) {
-    const Kind& kind = kind_named(field.of);
+    const Kind& kind = *field.held;
     const bool needs = std::ranges::any_of(kind.fields, [](const Field& f) { return f.needed; });
     const bool wanted = field.type == Type::part_or_flag ? view_->wants(field.key) : field.type == Type::part && !needs;
     if (absent && !wanted) return fail(fmt::format("this scene has no {}", in_backticks(field.key)));
-    const View part = view_->part(field.key, field.of);
+    const View part = view_->part(field);
     // A ball of a group has the defaults of balls. Of other parts, View::part knows the layers.
     view_ = kind.defaults.empty() ? part : View(node_, kind, part.where(), defaults_for(root_, kind));
     return true;
@@ -92,8 +93,9 @@ class PathWalk {
   }
 
   bool to_entry(string_view step) {
-    const Kind& kind = kind_named(field_->of);
+    const Kind& kind = *field_->held;
     const Node* entry = nullptr;
+
     if (field_->type == Type::named) {
       // Members stand in the tree as `row.0`, two steps of the path.
       const string family = std::exchange(family_, {});
@@ -109,11 +111,13 @@ class PathWalk {
     } else if (const auto index = parse_index(step); index && *index < node_->items.size()) {
       entry = &node_->items[static_cast<size_t>(*index)];
     }
+
     if (entry == nullptr) {
       vector<string_view> names;
       for (const Key& key : node_->keys) names.push_back(key.text);
       return fail(fmt::format("there is no {} {}", kind.name, in_backticks(step)), suggest_name(step, names));
     }
+
     node_ = entry;
     field_ = nullptr;
     if (kind.also != nullptr && step == kind.also->key)
@@ -138,11 +142,13 @@ class PathWalk {
 ValueAtPath value_at(const Node& root, string_view path) {
   ValueAtPath found;
   PathWalk walk(root);
+
   for (size_t i = 0; i <= path.size();) {
     const size_t end = std::min(path.find('.', i), path.size());
     if (!walk.step(path.substr(i, end - i), found)) return found;
     i = end + 1;
   }
+
   if (walk.at_map()) {
     found.problem = fmt::format("{} holds several values", in_backticks(path));
     found.remedy = "name one of them";

@@ -1,46 +1,19 @@
 // Looks a key up in the layers of a View: own map, defaults, table.
 // A layer that holds a rival of the key ends the search, because the rival replaces the key.
-// The table's defaults are parsed once, at first use.
 #include "scene/view.h"
-
-#include <map>
 
 #include "scene/colors.h"
 #include "std.h"
-#include "yaml/diagnostics.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
-
-/// Parses every default of the table, each once.
-std::map<string_view, Node> parse_initials() {
-  std::map<string_view, Node> nodes;
-  vector<Source> sources(1);
-  Diagnostics diagnostics(sources);
-  const auto parse = [&](const Field& field) {
-    if (field.initial.empty() || nodes.contains(field.initial)) return;
-    sources[0].text = field.initial;
-    if (optional<Node> node = parse_document(sources, 0, 0, diagnostics))
-      nodes.emplace(field.initial, std::move(*node));
-  };
-  for (const span<const Kind> family : families()) {
-    for (const Kind& kind : family)
-      for (const Field& field : kind.fields) parse(field);
-  }
-  return nodes;
-}
 
 bool usable(const Node* node, Node::Kind kind) {
   return node != nullptr && !node->bad && node->is(kind);
 }
 
 }  // namespace
-
-const Node& initial_node(const Field& field) {
-  static const std::map<string_view, Node> nodes = parse_initials();
-  return nodes.at(field.initial);
-}
 
 optional<double> as_number(const Node* node) {
   return usable(node, Node::Kind::scalar) ? parse_number(node->text) : nullopt;
@@ -109,7 +82,7 @@ const Node* View::find(string_view key) const {
 
 const Node* View::find(const Field& field) const {
   const Found found = search(field);
-  return found.node != nullptr || found.is_replaced || field.initial.empty() ? found.node : &initial_node(field);
+  return found.node != nullptr || found.is_replaced ? found.node : field.member.initial_node;
 }
 
 optional<double> View::number(string_view key) const {
@@ -133,11 +106,14 @@ optional<string> View::text(string_view key) const {
   return as_text(find(key));
 }
 
-View View::part(string_view key, string_view name) const {
-  const Kind& kind = kind_named(name);
-  const Key* at = own_ == nullptr ? nullptr : own_->find_key(key);
-  const Node* beneath = kind.beneath.empty() ? nullptr : given(kind.beneath);
-  return View(given(key), kind, at == nullptr ? where_ : at->place,
+View View::part(string_view key) const {
+  return part(*find_field(*kind_, key));
+}
+
+View View::part(const Field& field) const {
+  const Key* at = own_ == nullptr ? nullptr : own_->find_key(field.key);
+  const Node* beneath = field.held->beneath.empty() ? nullptr : given(field.held->beneath);
+  return View(given(field), *field.held, at == nullptr ? where_ : at->place,
               beneath != nullptr && beneath->is(Node::Kind::map) ? beneath : nullptr);
 }
 

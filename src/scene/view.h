@@ -3,7 +3,7 @@
 
 #include "numerics/vec3.h"
 #include "scene/colors.h"
-#include "scene/fields.h"
+#include "scene/field.h"
 #include "std.h"
 #include "yaml/document.h"
 
@@ -35,7 +35,8 @@ class View {
   optional<Color> color(string_view key) const;
 
   /// A nested map. Its defaults are ignored, and the map of its kind's `beneath` lies below it.
-  View part(string_view key, string_view kind) const;
+  View part(string_view key) const;
+  View part(const Field& field) const;
   /// Whether the key requests its object: the value is a map or true.
   bool wants(string_view key) const;
 
@@ -58,9 +59,6 @@ class View {
   Place where_;
   const Node* defaults_;
 };
-
-/// The node of a Field::initial.
-const Node& initial_node(const Field& field);
 
 optional<double> as_number(const Node* node);
 optional<uint64_t> as_whole(const Node* node);

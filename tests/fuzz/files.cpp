@@ -10,6 +10,7 @@
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
 #include "physics/world.h"
+#include "render/mesh.h"
 #include "render/mesh_reply.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "scene/sweep.h"
 #include "std.h"
+#include "yaml/letters.h"
 #include "yaml/source.h"
 
 namespace carom::fuzz {

@@ -1,7 +1,6 @@
 // flights.bin has the paths of a run to the last bit, in few bytes, and may be read from any time on.
 #include <fcntl.h>
 
-
 #include "bench/state_hash.h"
 #include "export/export_testing.h"
 #include "export/flights_file.h"

@@ -35,7 +35,7 @@ TEST(Fields, EveryRowIsComplete) {
 
       for (const string_view key : parts_of(field.spared_by)) EXPECT_NE(find_field(kind, key), nullptr) << key;
       if (holds_map(field) || field.type == Type::named || field.type == Type::list) {
-        EXPECT_EQ(kind_named(field.of).name, field.of);
+        EXPECT_EQ(field.held->name, field.of);
       }
       if (field.type == Type::choice) {
         EXPECT_GE(choices(field).size(), 1u);
@@ -48,7 +48,7 @@ TEST(Fields, DefaultsAreInTheirRange) {
   for (const Kind& kind : kinds()) {
     for (const Field& field : kind.fields) {
       if (field.initial.empty()) continue;
-      const Node& node = initial_node(field);
+      const Node& node = *field.member.initial_node;
 
       if (field.type == Type::number || field.type == Type::whole) {
         ASSERT_TRUE(as_number(&node)) << field.key;

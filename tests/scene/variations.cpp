@@ -86,7 +86,7 @@ class Varying {
   }
 
   void inside(Json& value, const Field& field, const string& path) {
-    const Kind* kind = held_kind(field);
+    const Kind* kind = field.held;
     if (kind == nullptr) return;
 
     const Json kept = value;
