@@ -16,11 +16,6 @@ import tempfile
 
 MOST_LINES, MOST_IN_A_ROW, MOST_MEMBERS = 80, 14, 20
 SUFFIXES = (".h", ".cpp", ".inc")
-# Folders of src/ whose functions have longer blocks, and those whose files include each other.
-LONG_BLOCKS = set()
-IN_CIRCLES = set()
-# The same of tests/.
-TEST_LONG_BLOCKS = set()
 TYPES = {"class", "struct", "union", "enum", "typedef"}
 CTAGS = ["ctags", "--output-format=json", "--fields=+neKZt", "--kinds-C++=cfgstum", "--langmap=C++:+.inc", "--language-force=C++",
          "-f", "-", "-L", "-"]
@@ -46,16 +41,14 @@ def longest_block(lines):
     return longest
 
 
-def function_faults(functions, root, spared):
-    """In the spared folders the lines in a row do not count."""
+def function_faults(functions):
     texts = {}
     for tag in functions:
         lines = texts.setdefault(tag["path"], pathlib.Path(tag["path"]).read_text().splitlines())
         body = lines[tag["line"] - 1 : tag["end"]]
         if len(body) > MOST_LINES:
             yield f"{tag['path']}: {tag['full']} has {len(body)} lines"
-        folder = re.sub(rf".*/{root}/", "", tag["path"]).split("/")[0]
-        if (row := longest_block(body)) > MOST_IN_A_ROW and folder not in spared:
+        if (row := longest_block(body)) > MOST_IN_A_ROW:
             yield f"{tag['path']}:{tag['line']}: {tag['full']} has {row} lines in a row"
 
 
@@ -91,8 +84,8 @@ def scattered_classes(declared):
             yield f"{name} is in {' '.join(sorted(paths))}"
 
 
-def circles(root, spared):
-    """Files of one folder that include each other, a .h and its .cpp as one; none of the spared folders."""
+def circles(root):
+    """Files of one folder that include each other, a .h and its .cpp as one."""
     root = pathlib.Path(root)
     includes = collections.defaultdict(set)
     for path in sorted(root.rglob("*")):
@@ -113,21 +106,16 @@ def circles(root, spared):
             ahead += news
         reached[name] = found
     rings = {tuple(sorted(other for other in found if name in reached.get(other, ()))) for name, found in reached.items()}
-    return [f"{' '.join(ring)} include each other" for ring in sorted(rings) if ring and ring[0].split("/")[0] not in spared]
+    return [f"{' '.join(ring)} include each other" for ring in sorted(rings) if ring]
 
 
 def faults(root):
     declared = list(tags(root))
-    functions = [tag for tag in declared if tag["kind"] == "function" and "end" in tag]
-
-    if pathlib.Path(root).name == "tests":
-        yield from function_faults(functions, "tests", TEST_LONG_BLOCKS)
-        yield from circles(root, ())
-    else:
-        yield from function_faults(functions, "src", LONG_BLOCKS)
+    yield from function_faults([tag for tag in declared if tag["kind"] == "function" and "end" in tag])
+    yield from circles(root)
+    if pathlib.Path(root).name != "tests":
         yield from type_faults(declared)
         yield from scattered_classes(declared)
-        yield from circles(root, IN_CIRCLES)
 
 
 def planted(folder):
